@@ -45,6 +45,8 @@ inline constexpr std::uint32_t kMaxTextureSide = 16384;
 [[nodiscard]] Texture with_opacity(Texture colour, const Texture& opacity);
 /// Whether any texel is less than half opaque.
 [[nodiscard]] bool has_holes(const Texture& texture);
+/// The sRGB byte nearest to a linear value (IEC 61966-2-1). Equal on every machine.
+[[nodiscard]] std::uint8_t nearest_srgb_byte(float linear);
 /// Mean linear colour of texels that are at least half opaque; white without such texels.
 [[nodiscard]] glm::vec3 mean_colour(const Texture& texture);
 

@@ -1,37 +1,32 @@
 // SPDX-License-Identifier: MIT
 #include "runtime/tiles/tiles.h"
 
-#include "grammar/base/contract.h"
 #include "grammar/base/hash.h"
-#include "runtime/base/workers.h"
 #include "runtime/export/export.h"
+#include "runtime/export/tile_document.h"
 #include "runtime/forest/instance_meshes.h"
-#include "runtime/meshing/looks.h"
 #include "runtime/meshing/texture.h"
 #include "runtime/pipeline/hero_levels.h"
+#include "runtime/tiles/impl/box_corners.h"
 #include "runtime/tiles/impl/canopy.h"
 #include "runtime/tiles/impl/geodesy.h"
 #include "runtime/tiles/impl/ground_patch.h"
-#include "runtime/tiles/impl/tile_document.h"
+#include "runtime/tiles/impl/tileset.h"
 
 #include <fmt/format.h>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
-#include <glm/matrix.hpp>
-#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <map>
-#include <set>
+#include <new>
 #include <utility>
 
 namespace lsys {
 
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 constexpr std::uint32_t kSubtreeLevels = 4;                // levels per tileset file
 constexpr std::uint64_t kPictureHash = 0x6C616E6473636170; // initial state of the hash
@@ -39,16 +34,6 @@ constexpr double kMinTileTrees = 4.0; // mean number in a tile that is not divid
 constexpr double kGroundError = 0.05; // m, tolerated error of the ground in every tile
 // Mean colour of the ground without a picture, as in make_terrain_mesh().
 constexpr glm::dvec3 kGroundColour(0.055, 0.07, 0.025);
-
-std::string bytes_of(const std::function<Outcome<void>(const ByteSink&)>& write) {
-    std::string bytes;
-    const Outcome<void> done = write([&bytes](std::string_view piece) {
-        bytes += piece;
-        return true;
-    });
-    LSYS_CHECK(done.ok(), bytes.size()); // writers stop only at limits that a tile cannot reach
-    return bytes;
-}
 
 /// The name of a species as part of a path: letters, digits, `-` and `_`.
 std::string path_part(const std::string& name) {
@@ -72,19 +57,15 @@ std::uint64_t morton_code(std::uint32_t column, std::uint32_t row) {
     return number;
 }
 
-std::uint8_t srgb_byte(double linear) {
-    // The byte whose linear value is nearest. A table, because std::pow differs between machines.
-    static const std::array<float, 255> between_bytes = [] {
-        std::array<float, 255> between{};
-        for (std::size_t i = 0; i < between.size(); ++i) {
-            between[i] = 0.5F * (linear_of_srgb(static_cast<float>(i) / 255.0F) +
-                                 linear_of_srgb(static_cast<float>(i + 1) / 255.0F));
-        }
-        return between;
-    }();
-    const auto at =
-        std::lower_bound(between_bytes.begin(), between_bytes.end(), static_cast<float>(linear));
-    return static_cast<std::uint8_t>(at - between_bytes.begin());
+/// Cells along the side of a surface: the least power of two whose error is at most half of
+/// `tree_error`, or kGroundError if that is more; at most kCanopyCells.
+std::uint32_t patch_cells(const Terrain& terrain, double side, double tree_error) {
+    const double allowed = std::max(0.5 * tree_error, kGroundError);
+    std::uint32_t cells = kCanopyCells;
+    while (cells > 1 && terrain.mesh_error(2.0 * side / cells) <= allowed) {
+        cells /= 2;
+    }
+    return cells;
 }
 
 /// Widens the box of a tile by a point of its frame with +Y up.
@@ -121,13 +102,13 @@ struct TileForest::State {
     std::vector<std::vector<MeshDocument>> models; // by level and hero
     std::vector<std::vector<Bounds>> hero_bounds;  // by level and hero
     std::vector<TileFile> files;
-    std::map<std::string, std::string> ground_pictures; // path by name in a document
+    std::string ground_picture; // its path relative to a tile; empty: none
 
     std::vector<std::uint64_t> order_keys; // morton_code() of the trees in order
     std::vector<std::uint32_t> order;      // trees by morton_code()
     std::vector<std::size_t> hero_of_tree; // by tree
     std::vector<Canopy> canopies;          // by level without trees
-    double tallest = 0.0;                  // m
+    double largest_extent = 0.0;           // m, of a tree, at least its height
     glm::dvec3 ground_colour = kGroundColour;
 
     [[nodiscard]] std::size_t kind_of(std::uint16_t species, std::uint32_t stage) const {
@@ -157,8 +138,6 @@ struct TileForest::State {
     [[nodiscard]] Outcome<void> make_models(const Project& project);
     void make_ground();
     [[nodiscard]] ExportInfo info_of(const std::string& name) const;
-    [[nodiscard]] Json
-    gltf_of(const Mesh& mesh, const std::string& name, std::string& buffer) const;
     [[nodiscard]] std::vector<PictureFile> pictures_of(const Mesh& mesh) const;
     [[nodiscard]] MeshDocument
     model_of(const Mesh& mesh, const std::string& name, std::string& buffer);
@@ -225,7 +204,8 @@ void TileForest::State::find_heroes() {
         const std::size_t hero =
             hero_of_instance[first_instance[kind] + expander.root_instance(tree)];
         hero_of_tree.push_back(hero);
-        tallest = std::max(tallest, static_cast<double>(tree.scale * heroes[hero].extent()));
+        largest_extent =
+            std::max(largest_extent, static_cast<double>(tree.scale * heroes[hero].extent()));
     }
 }
 
@@ -293,25 +273,12 @@ void TileForest::State::plan_levels() {
         level.has_trees = up == 0 || (levels[number + 1].has_trees &&
                                       level.trees <= static_cast<double>(kMaxTileTrees) &&
                                       level.trees * coarsest_triangles <= budget);
-        const auto plan_ground = [&](double other_error) {
-            std::uint32_t& count = cells[number];
-            // The coarsest grid whose error is at most half of `other_error`, or kGroundError if that
-            // is more.
-            for (count = kCanopyCells; count > 1; count /= 2) {
-                const double coarser = grown.terrain->mesh_error(2.0 * level.side / count);
-                if (coarser > std::max(0.5 * other_error, kGroundError)) {
-                    break;
-                }
-            }
-            ground_errors[number] = grown.terrain->mesh_error(level.side / count);
-            error = std::max({error, other_error, ground_errors[number]});
-        };
         if (!level.has_trees) {
             // A canopy may be off by the height of a tree, and its colours by half a cell.
             cells[number] = kCanopyCells;
             ground_errors[number] = grown.terrain->mesh_error(level.side / kCanopyCells);
-            error =
-                std::max({error, tallest, ground_errors[number], level.side / kCanopyCells / 2.0});
+            error = std::max(
+                {error, largest_extent, ground_errors[number], level.side / kCanopyCells / 2.0});
             level.error = error;
             continue;
         }
@@ -330,7 +297,9 @@ void TileForest::State::plan_levels() {
             level.triangles += chain[k].triangles;
             tree_error = std::max(tree_error, static_cast<double>(chain[k].error * max_scales[i]));
         }
-        plan_ground(tree_error);
+        cells[number] = patch_cells(*grown.terrain, level.side, tree_error);
+        ground_errors[number] = grown.terrain->mesh_error(level.side / cells[number]);
+        error = std::max({error, tree_error, ground_errors[number]});
         level.triangles /= std::max<std::size_t>(heroes.size(), 1);
         level.error = error;
     }
@@ -347,25 +316,12 @@ ExportInfo TileForest::State::info_of(const std::string& name) const {
     return info;
 }
 
-/// The document of a mesh, with a buffer and pictures beside it; appends the buffer to `buffer`.
-Json TileForest::State::gltf_of(const Mesh& mesh,
-                                const std::string& name,
-                                std::string& buffer) const {
-    const ExportInfo info = info_of(name);
-    const Skeleton none;
-    Json json = Json::parse(bytes_of([&](const ByteSink& sink) {
-        return export_mesh(mesh, none, ExportFormat::Gltf, info, sink);
-    }));
-    buffer +=
-        bytes_of([&](const ByteSink& sink) { return write_gltf_buffer(mesh, none, info, sink); });
-    buffer.resize((buffer.size() + 7) / 8 * 8, '\0');
-    return json;
-}
-
 std::vector<PictureFile> TileForest::State::pictures_of(const Mesh& mesh) const {
     Outcome<std::vector<PictureFile>> pictures =
         make_picture_files(mesh, ExportFormat::Gltf, info_of(""));
-    LSYS_CHECK(pictures.ok(), mesh.materials.size());
+    if (!pictures) {
+        throw std::bad_alloc(); // its only stop
+    }
     return std::move(pictures.value());
 }
 
@@ -383,12 +339,13 @@ std::string TileForest::State::picture_path(const std::string& bytes) {
 /// The document of a mesh, whose pictures become shared files; appends its buffer to `buffer`.
 MeshDocument
 TileForest::State::model_of(const Mesh& mesh, const std::string& name, std::string& buffer) {
-    MeshDocument document;
+    MeshDocument document = make_mesh_document(mesh, info_of(name));
     document.offset = buffer.size();
-    document.json = gltf_of(mesh, name, buffer);
+    buffer += std::exchange(document.data, {});
+    buffer.resize((buffer.size() + 7) / 8 * 8, '\0');
     for (const PictureFile& picture : pictures_of(mesh)) {
         const std::string path = "../../" + picture_path(picture.bytes);
-        for (Json& image : document.json["images"]) {
+        for (auto& image : document.json["images"]) {
             if (image["uri"] == picture.name) {
                 image = {{"uri", path}};
             }
@@ -445,8 +402,8 @@ Outcome<void> TileForest::State::make_models(const Project& project) {
 /// Makes the pictures of the ground, and the canopies.
 void TileForest::State::make_ground() {
     std::vector<Crown> crowns;
-    for (const Hero& hero : heroes) {
-        crowns.push_back(crown_of(hero.meshes[detail[finest()][crowns.size()]]));
+    for (std::size_t i = 0; i < heroes.size(); ++i) {
+        crowns.push_back(crown_of(heroes[i].meshes[detail[finest()][i]]));
     }
     if (grown.ground.colour != nullptr) {
         ground_colour = glm::dvec3(mean_colour(*grown.ground.colour));
@@ -462,9 +419,7 @@ void TileForest::State::make_ground() {
         material.picture = grown.ground.colour;
         sample.materials.push_back(material);
         sample.parts.push_back({0, 0, 3});
-        for (const PictureFile& picture : pictures_of(sample)) {
-            ground_pictures[picture.name] = "../../" + picture_path(picture.bytes);
-        }
+        ground_picture = "../../" + picture_path(pictures_of(sample).front().bytes);
     }
     if (first_tree_level == 0) {
         return;
@@ -503,7 +458,7 @@ MeshDocument TileForest::State::ground_of(const TileId& tile,
     };
     // Max vertical distance between this surface and that of a neighbour of the next coarser level.
     plan.skirt = ground_errors[tile.level] + ground_errors[tile.level - std::min(tile.level, 1U)];
-    plan.skirt = std::max(plan.skirt, level.has_trees ? 0.0 : tallest) + level.side / 1000.0;
+    plan.skirt = std::max(plan.skirt, level.has_trees ? 0.0 : largest_extent) + level.side / 1000.0;
     Texture colours;
     const GroundPictures& pictures = grown.ground;
     if (level.has_trees) {
@@ -541,7 +496,7 @@ MeshDocument TileForest::State::ground_of(const TileId& tile,
             const glm::dvec3 colour = glm::mix(ground_colour, crowns.colour, crowns.cover);
             std::uint8_t* const texel = &colours.texels[4 * (std::size_t{row} * kSide + column)];
             for (int i = 0; i < 3; ++i) {
-                texel[i] = srgb_byte(colour[i]);
+                texel[i] = nearest_srgb_byte(static_cast<float>(colour[i]));
             }
             texel[3] = 255;
             const auto texel_centre = [](std::uint32_t at) {
@@ -557,22 +512,12 @@ MeshDocument TileForest::State::ground_of(const TileId& tile,
     for (const glm::vec3& position : mesh.positions) {
         widen(content, position);
     }
-    MeshDocument document;
-    document.json = gltf_of(mesh, level.has_trees ? "ground" : "forest", document.data);
-    if (document.json.contains("images")) {
-        for (Json& image : document.json["images"]) {
-            if (level.has_trees) {
-                image["uri"] = ground_pictures.at(image["uri"].get<std::string>());
-            } else { // a picture of this tile alone
-                const std::string png = pictures_of(mesh).front().bytes;
-                const std::size_t view = document.json["bufferViews"].size();
-                document.json["bufferViews"].push_back({{"buffer", 0},
-                                                        {"byteOffset", document.data.size()},
-                                                        {"byteLength", png.size()}});
-                document.data += png;
-                image = {{"bufferView", view}, {"mimeType", "image/png"}};
-            }
-        }
+    MeshDocument document =
+        make_mesh_document(mesh, info_of(level.has_trees ? "ground" : "forest"));
+    if (!level.has_trees) {
+        embed_picture(0, pictures_of(mesh).front().bytes, document);
+    } else if (pictures.colour != nullptr) {
+        document.json["images"][0]["uri"] = ground_picture;
     }
     return document;
 }
@@ -621,13 +566,9 @@ void TileForest::State::add_trees(const TileId& tile,
                               tree.age};
         groups[hero].push_back(placed);
         const Bounds& box = hero_bounds[tile.level][hero];
-        for (unsigned corner = 0; corner < 8; ++corner) {
-            const glm::vec3 point((corner & 1U) != 0 ? box.high.x : box.low.x,
-                                  (corner & 2U) != 0 ? box.high.y : box.low.y,
-                                  (corner & 4U) != 0 ? box.high.z : box.low.z);
+        for_each_corner(box.low, box.high, [&](const glm::vec3& point) {
             widen(content, placed.translation + placed.scale * (placed.rotation * point));
-        }
-        ++content.trees;
+        });
     }
     for (const auto& [hero, trees] : groups) {
         document.add_trees(models[tile.level][hero], trees);
@@ -653,145 +594,14 @@ TileContent TileForest::content(const TileId& tile) const {
     return content;
 }
 
-namespace {
-
-/// A box along the axes of a frame.
-struct Box {
-    glm::dvec3 low{std::numeric_limits<double>::infinity()};
-    glm::dvec3 high{-std::numeric_limits<double>::infinity()};
-
-    void add(const glm::dvec3& point) {
-        low = glm::min(low, point);
-        high = glm::max(high, point);
-    }
-};
-
-/// `value` rounded to a multiple of 2^-20, about a micrometre, for a tileset.
-double rounded(double value) {
-    constexpr double kSteps = 1 << 20;
-    return std::floor(value * kSteps + 0.5) / kSteps;
-}
-
-/// The matrix in column-major order. Axes are rounded to 12 decimals, which moves a point by less
-/// than 1e-12 of the diameter of the Earth.
-Json json_of(const glm::dmat4& matrix) {
-    Json numbers = Json::array();
-    for (int column = 0; column < 4; ++column) {
-        for (int row = 0; row < 4; ++row) {
-            constexpr double kSteps = 1e12;
-            const double value = matrix[column][row];
-            numbers.push_back(column == 3 ? rounded(value)
-                                          : std::floor(value * kSteps + 0.5) / kSteps + 0.0);
-        }
-    }
-    return numbers;
-}
-
-Json json_of(const Box& box) {
-    const glm::dvec3 middle = 0.5 * (box.low + box.high);
-    // One millimetre larger, because numbers of tiles and tilesets are rounded.
-    const glm::dvec3 half = 0.5 * (box.high - box.low) + glm::dvec3(1e-3);
-    return {rounded(middle.x),
-            rounded(middle.y),
-            rounded(middle.z),
-            rounded(half.x),
-            0.0,
-            0.0,
-            0.0,
-            rounded(half.y),
-            0.0,
-            0.0,
-            0.0,
-            rounded(half.z)};
-}
-
-std::string tileset_path(const TileId& tile) {
-    return tile.level == 0 ? "tileset.json"
-                           : fmt::format("{}/{}/{}.json", tile.level, tile.column, tile.row);
-}
-
-} // namespace
-
 std::vector<TileFile>
 TileForest::tilesets(const std::vector<std::vector<TileContent>>& contents) const {
-    const State& state = *state_;
-    std::vector<TileFile> files;
-    struct Node {
-        glm::dmat4 frame{1.0};
-        Box box;   // of the tile and all below it, in its frame
-        Json json; // without a transform
-    };
-    std::vector<std::map<std::pair<std::uint32_t, std::uint32_t>, const TileContent*>> places(
-        contents.size());
+    TilesetPlan plan{state_->options.generator, state_->square.width, {}, contents, {}};
     for (std::uint32_t level = 0; level < contents.size(); ++level) {
-        const std::vector<TileId> ids = tiles(level);
-        LSYS_CHECK(ids.size() == contents[level].size(), level);
-        for (std::size_t i = 0; i < ids.size(); ++i) {
-            places[level][{ids[i].row, ids[i].column}] = &contents[level][i];
-        }
+        plan.levels.push_back({state_->levels[level].error, tiles(level)});
     }
-    const auto write = [&](const TileId& tile, const Node& node, bool is_root) {
-        Json root = node.json;
-        if (is_root) {
-            root["transform"] = json_of(node.frame);
-        }
-        Json tileset;
-        tileset["asset"] = {{"version", "1.1"},
-                            {"extras", {{"generator", state.options.generator}}}};
-        tileset["geometricError"] =
-            rounded(is_root ? state.square.width : state.levels[tile.level].error);
-        tileset["root"] = std::move(root);
-        files.push_back({tileset_path(tile), tileset.dump() + "\n"});
-    };
-    // `from`: level of the root tile of the tileset file that lists the tile, for relative paths.
-    const std::function<Node(const TileId&, std::uint32_t)> visit =
-        [&](const TileId& tile, std::uint32_t from) -> Node {
-        Node node;
-        node.frame = state.frame_of(tile);
-        const TileContent& content = *places[tile.level].at({tile.row, tile.column});
-        node.box.add({content.low[0], content.low[1], content.low[2]});
-        node.box.add({content.high[0], content.high[1], content.high[2]});
-        const bool is_file = tile.level % kSubtreeLevels == 0;
-        const std::uint32_t own_from = is_file ? tile.level : from;
-        const glm::dmat4 to_node = inverse_of_frame(node.frame);
-        Json children = Json::array();
-        for (std::uint32_t i = 0; i < 4 && tile.level + 1 < contents.size(); ++i) {
-            const TileId below{tile.level + 1, 2 * tile.column + (i & 1U), 2 * tile.row + i / 2};
-            if (!places[below.level].contains({below.row, below.column})) {
-                continue;
-            }
-            Node child = visit(below, own_from);
-            const glm::dmat4 transform = to_node * child.frame;
-            for (unsigned corner = 0; corner < 8; ++corner) {
-                const glm::dvec4 point((corner & 1U) != 0 ? child.box.high.x : child.box.low.x,
-                                       (corner & 2U) != 0 ? child.box.high.y : child.box.low.y,
-                                       (corner & 4U) != 0 ? child.box.high.z : child.box.low.z,
-                                       1.0);
-                node.box.add(glm::dvec3(transform * point));
-            }
-            child.json["transform"] = json_of(transform);
-            children.push_back(std::move(child.json));
-        }
-        const double error = state.levels[tile.level].error;
-        const std::string to_root = own_from == 0 ? "" : "../../";
-        node.json["boundingVolume"]["box"] = json_of(node.box);
-        node.json["geometricError"] = rounded(error);
-        node.json["refine"] = "REPLACE";
-        node.json["content"]["uri"] = to_root + path_of(tile);
-        if (!children.empty()) {
-            node.json["children"] = std::move(children);
-        }
-        if (is_file) {
-            write(tile, node, tile.level == 0);
-            const std::string parent_to_root = from == 0 ? "" : "../../";
-            node.json = {{"boundingVolume", {{"box", json_of(node.box)}}},
-                         {"geometricError", rounded(error)},
-                         {"content", {{"uri", parent_to_root + tileset_path(tile)}}}};
-        }
-        return node;
-    };
-    visit({}, 0);
-    return files;
+    plan.frame_of = [this](const TileId& tile) { return state_->frame_of(tile); };
+    return make_tilesets(plan);
 }
 
 Outcome<TileForest> make_tile_forest(const Scene& scene,

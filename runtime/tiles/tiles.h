@@ -14,7 +14,6 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -56,7 +55,7 @@ struct TileId {
 /// One level of the quadtree.
 struct TileLevel {
     double side = 0.0;           // m
-    double error = 0.0;          // m, of its tiles against the forest; 0 for the finest level
+    double error = 0.0;          // m, upper bound of the distance between its tiles and the forest
     bool has_trees = false;      // single trees, else one surface of ground and crowns
     double trees = 0.0;          // mean number in a tile
     std::uint64_t triangles = 0; // mean number per tree
@@ -70,10 +69,9 @@ struct TileFile {
 
 /// The contents of a tile: a GLB, and its box in the frame of the tile.
 struct TileContent {
-    std::string bytes;           // empty: there is nothing in the tile
+    std::string bytes;
     std::array<double, 3> low{}; // m; east, north, up
     std::array<double, 3> high{};
-    std::uint64_t trees = 0; // number of single trees
 };
 
 class TileForest {

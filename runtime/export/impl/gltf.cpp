@@ -2,6 +2,7 @@
 // glTF 2.0 (Khronos, ISO/IEC 12113:2022): as GLB, and as JSON with the buffer in it as base64 or in
 // a file beside it. A plant is one mesh with a primitive for each part; parts that differ only in
 // colour share one primitive. glTF is in metres and +Y up by definition.
+#include "grammar/base/contract.h"
 #include "runtime/export/impl/export_outcome.h"
 #include "runtime/export/impl/formats.h"
 #include "runtime/export/impl/gltf_collision.h"
@@ -11,6 +12,7 @@
 #include "runtime/export/impl/json_writer.h"
 #include "runtime/export/impl/pictures.h"
 #include "runtime/export/impl/text.h"
+#include "runtime/export/tile_document.h"
 
 #include <fmt/format.h>
 
@@ -366,6 +368,28 @@ Outcome<void> write(const ExportJob& job, bool binary, PieceWriter& out) {
 }
 
 } // namespace
+
+MeshDocument make_mesh_document(const Mesh& mesh, const ExportInfo& info) {
+    const Skeleton none;
+    const ExportJob job{mesh, none, info};
+    const Outcome<Contents> planned = plan(job);
+    LSYS_CHECK(planned.ok(), mesh.positions.size());
+    const Contents& contents = planned.value();
+    MeshDocument document;
+    document.json = nlohmann::ordered_json::parse(json_document([&](JsonWriter& json) {
+        json.object();
+        Document(job, contents, json).write();
+        json.end();
+    }));
+    document.decoded_bytes = contents.streams.decoded_bytes;
+    document.data.reserve(contents.streams.bytes);
+    write_gltf_streams(
+        contents.plant(job), contents.streams, [&document](std::span<const std::byte> bytes) {
+            document.data.append(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+            return true;
+        });
+    return document;
+}
 
 Outcome<void> write_gltf(const ExportJob& job, PieceWriter& out) {
     return write(job, false, out);

@@ -4,10 +4,10 @@
 #include "grammar/base/contract.h"
 #include "runtime/export/impl/export_outcome.h"
 #include "runtime/export/impl/formats.h"
+#include "runtime/export/impl/gltf_join.h"
 #include "runtime/export/impl/gltf_parts.h"
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <cstring>
@@ -19,9 +19,7 @@ namespace lsys {
 
 namespace {
 
-using Json = nlohmann::ordered_json;
-
-constexpr const char* kMeshopt = "EXT_meshopt_compression";
+using Json = GltfJson;
 
 std::size_t aligned(std::size_t bytes) {
     return (bytes + 3) / 4 * 4;
@@ -44,11 +42,6 @@ GlbFile parse_glb(const std::string& bytes) {
             data < bytes.size() ? bytes.substr(data) : std::string()};
 }
 
-/// Takes the array `list` out of `document`; empty if there is none.
-Json take_list(Json& document, const char* list) {
-    return document.contains(list) ? std::move(document[list]) : Json::array();
-}
-
 /// The document and the buffer of the joined file.
 class JoinedFile {
 public:
@@ -69,43 +62,26 @@ public:
                 holder["bufferView"] = view_number(views, file.data, holder["bufferView"]);
             }
         };
-        const std::vector<std::size_t> images =
-            add_images(take_list(file.document, "images"), views, file.data);
-        const std::vector<std::size_t> samplers =
-            add_missing("samplers", take_list(file.document, "samplers"), [](Json&) {});
-        const std::vector<std::size_t> textures =
-            add_missing("textures", take_list(file.document, "textures"), [&](Json& texture) {
-                renumber(texture, "source", images);
-                renumber(texture, "sampler", samplers);
-            });
-        const std::vector<std::size_t> materials =
-            add_materials(take_list(file.document, "materials"), level, [&](Json& material) {
-                Json& surface = material["pbrMetallicRoughness"];
-                if (surface.contains("baseColorTexture")) {
-                    renumber(surface["baseColorTexture"], "index", textures);
-                }
-                if (material.contains("normalTexture")) {
-                    renumber(material["normalTexture"], "index", textures);
-                }
-            });
-        const std::size_t accessors = count_of("accessors");
+        const GltfNumbers images = add_images(take_list(file.document, "images"), views, file.data);
+        const GltfNumbers samplers = add_missing(
+            file_.document, "samplers", take_list(file.document, "samplers"), [](Json&) {});
+        const GltfNumbers textures =
+            add_missing(file_.document, "textures", take_list(file.document, "textures"),
+                        [&](Json& texture) { renumber_texture(texture, images, samplers); });
+        const GltfNumbers materials =
+            add_materials(take_list(file.document, "materials"), level, textures);
+        const std::size_t accessors = count_of(file_.document, "accessors");
         for (Json& accessor : take_list(file.document, "accessors")) {
             take_view(accessor);
             file_.document["accessors"].push_back(std::move(accessor));
         }
-        const std::size_t meshes = count_of("meshes");
+        const std::size_t meshes = count_of(file_.document, "meshes");
         for (Json& mesh : take_list(file.document, "meshes")) {
             mesh["name"] = level_name(mesh["name"], level);
-            for (Json& primitive : mesh["primitives"]) {
-                for (auto& [name, accessor] : primitive["attributes"].items()) {
-                    accessor = accessor.get<std::size_t>() + accessors;
-                }
-                primitive["indices"] = primitive["indices"].get<std::size_t>() + accessors;
-                renumber(primitive, "material", materials);
-            }
+            renumber_mesh(mesh, accessors, materials);
             file_.document["meshes"].push_back(std::move(mesh));
         }
-        const std::size_t nodes = count_of("nodes");
+        const std::size_t nodes = count_of(file_.document, "nodes");
         for (Json& node : take_list(file.document, "nodes")) {
             if (node.contains("name")) {
                 node["name"] = level_name(node["name"], level);
@@ -123,17 +99,10 @@ public:
         }
         for (const char* const list : {"extensionsUsed", "extensionsRequired"}) {
             for (const Json& name : take_list(file.document, list)) {
-                use_extension(list, name.get<std::string>());
+                use_extension(file_.document, list, name.get<std::string>());
             }
         }
         return nodes;
-    }
-
-    void use_extension(const char* list, const std::string& name) {
-        Json& used = file_.document[list];
-        if (std::find(used.begin(), used.end(), name) == used.end()) {
-            used.push_back(name);
-        }
     }
 
     [[nodiscard]] Json& document() { return file_.document; }
@@ -149,16 +118,6 @@ private:
     static std::string level_name(const Json& name, std::size_t level) {
         return fmt::format("{}_LOD{}", name.get<std::string>(), level);
     }
-    static void
-    renumber(Json& holder, const char* key, const std::vector<std::size_t>& new_numbers) {
-        if (holder.contains(key)) {
-            holder[key] = new_numbers[holder[key].get<std::size_t>()];
-        }
-    }
-    [[nodiscard]] std::size_t count_of(const char* list) {
-        return file_.document.contains(list) ? file_.document[list].size() : 0;
-    }
-
     static std::string_view bytes_of(const Json& view, const std::string& data) {
         return std::string_view(data).substr(view.value("byteOffset", std::size_t{0}),
                                              view["byteLength"].get<std::size_t>());
@@ -167,48 +126,29 @@ private:
     /// The new number of a view of another file; the first call for a view appends its bytes.
     std::size_t view_number(const Json& views, const std::string& data, const Json& old) {
         const auto [found, is_new] =
-            views_.emplace(old.get<std::size_t>(), count_of("bufferViews"));
+            views_.emplace(old.get<std::size_t>(), count_of(file_.document, "bufferViews"));
         if (is_new) {
             Json view = views[found->first];
-            Json* stored = &view;
-            if (view.contains("extensions") && view["extensions"].contains(kMeshopt)) {
-                stored = &view["extensions"][kMeshopt];
+            Json& stored = stored_part(view);
+            if (&stored != &view) {
                 decoded_bytes_ = aligned(decoded_bytes_);
                 view["byteOffset"] = decoded_bytes_;
                 decoded_bytes_ += view["byteLength"].get<std::size_t>();
             }
-            const std::string_view bytes = bytes_of(*stored, data);
+            const std::string_view bytes = bytes_of(stored, data);
             file_.data.resize(aligned(file_.data.size()), '\0');
-            (*stored)["byteOffset"] = file_.data.size();
+            stored["byteOffset"] = file_.data.size();
             file_.data += bytes;
             file_.document["bufferViews"].push_back(std::move(view));
         }
         return found->second;
     }
 
-    /// Adds the items that `list` does not have yet, after `adapt` has set their references.
-    /// Returns the new numbers of all items.
-    template <typename Adapt>
-    std::vector<std::size_t> add_missing(const char* list, Json items, const Adapt& adapt) {
-        std::vector<std::size_t> numbers;
-        for (Json& item : items) {
-            adapt(item);
-            Json& there = file_.document[list];
-            const auto found = std::find(there.begin(), there.end(), item);
-            numbers.push_back(static_cast<std::size_t>(found - there.begin()));
-            if (found == there.end()) {
-                there.push_back(std::move(item));
-            }
-        }
-        return numbers;
-    }
-
     /// Like add_missing(); a material that differs from an earlier one of the same name is renamed.
-    template <typename Adapt>
-    std::vector<std::size_t> add_materials(Json items, std::size_t level, const Adapt& adapt) {
+    GltfNumbers add_materials(Json items, std::size_t level, const GltfNumbers& textures) {
         Json& there = file_.document["materials"];
         for (Json& item : items) {
-            adapt(item);
+            renumber_material(item, textures);
             const std::string name = item["name"];
             const auto looks_same = [&](const Json& other) {
                 Json renamed = other;
@@ -223,11 +163,11 @@ private:
                 item["name"] = level_name(item["name"], level);
             }
         }
-        return add_missing("materials", std::move(items), [](Json&) {});
+        return add_missing(file_.document, "materials", std::move(items), [](Json&) {});
     }
 
-    std::vector<std::size_t> add_images(Json images, const Json& views, const std::string& data) {
-        std::vector<std::size_t> numbers;
+    GltfNumbers add_images(Json images, const Json& views, const std::string& data) {
+        GltfNumbers numbers;
         for (Json& image : images) {
             const std::string_view bytes =
                 bytes_of(views[image["bufferView"].get<std::size_t>()], data);
@@ -284,7 +224,7 @@ Outcome<void> write_gltf_levels(const ExportJob& job, bool binary, PieceWriter& 
     }
     coverages.push_back(0);
     if (!coarser.empty()) {
-        joined.use_extension("extensionsUsed", "MSFT_lod");
+        use_extension(joined.document(), "extensionsUsed", "MSFT_lod");
         Json& node = joined.document()["nodes"][0];
         node["extensions"]["MSFT_lod"]["ids"] = std::move(ids);
         node["extras"]["MSFT_screencoverage"] = std::move(coverages);

@@ -149,9 +149,18 @@ bool put_gltf_file(const GltfFile& file, PieceWriter& out) {
             });
         }
         json.end();
-        if (file.decoded_bytes > 0) {
-            json.object().member("byteLength", file.decoded_bytes).object("extensions");
-            json.object("EXT_meshopt_compression").member("fallback", true).end().end().end();
+        for (const GltfOtherBuffer& other : file.others) {
+            json.object().member("byteLength", other.bytes).member("uri", other.uri).end();
+        }
+        const auto put_fallback = [&json](std::uint64_t decoded_bytes) {
+            if (decoded_bytes > 0) {
+                json.object().member("byteLength", decoded_bytes).object("extensions");
+                json.object("EXT_meshopt_compression").member("fallback", true).end().end().end();
+            }
+        };
+        put_fallback(file.decoded_bytes);
+        for (const GltfOtherBuffer& other : file.others) {
+            put_fallback(other.decoded_bytes);
         }
         json.end().end();
     };

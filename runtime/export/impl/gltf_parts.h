@@ -64,6 +64,12 @@ void put_images(JsonWriter& json,
 
 /// Receives the next bytes of a buffer; returns false to stop.
 using GltfSink = std::function<bool(std::span<const std::byte>)>;
+/// A buffer in a file of its own.
+struct GltfOtherBuffer {
+    std::string uri; // percent-encoded
+    std::uint64_t bytes = 0;
+    std::uint64_t decoded_bytes = 0; // as GltfFile::decoded_bytes
+};
 /// The contents of a file.
 struct GltfFile {
     bool binary = false; // GLB
@@ -74,9 +80,11 @@ struct GltfFile {
     std::function<void(const GltfSink&)> put_data;
     /// Name of the file that holds the buffer; empty: this file holds it.
     std::string data_name = {};
-    /// Size of buffer 1, the fallback buffer of EXT_meshopt_compression: it holds the decoded items
-    /// and is not stored. 0: there is none.
+    /// Size of the fallback buffer of EXT_meshopt_compression: it holds the decoded items and is not
+    /// stored. 0: there is none. Its number follows those of buffer 0 and of `others`.
     std::uint64_t decoded_bytes = 0;
+    std::vector<GltfOtherBuffer> others =
+        {}; // buffers 1, 2, ...; their fallbacks are last, in order
 };
 /// Returns false, without writing anything, if a GLB would be too large.
 [[nodiscard]] bool put_gltf_file(const GltfFile& file, PieceWriter& out);

@@ -36,7 +36,4 @@ private:
     std::map<std::shared_ptr<const Texture>, LinearTexture> files_;
 };
 
-/// The sRGB byte nearest to a linear value (IEC 61966-2-1).
-[[nodiscard]] std::uint8_t nearest_srgb_byte(float linear);
-
 } // namespace lsys

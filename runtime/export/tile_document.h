@@ -5,6 +5,9 @@
 // (EXT_instance_features, EXT_structural_metadata).
 #pragma once
 
+#include "runtime/export/export.h"
+#include "runtime/meshing/mesh.h"
+
 #include <glm/gtc/quaternion.hpp>
 #include <glm/vec3.hpp>
 #include <nlohmann/json.hpp>
@@ -17,14 +20,22 @@
 
 namespace lsys {
 
-/// A glTF document of one mesh, and the place of its buffer.
+/// A glTF document of one mesh without its member `buffers`, and the place of its buffer.
 struct MeshDocument {
-    nlohmann::ordered_json json;  // of export_mesh(), with one stored buffer
-    std::string data;             // the buffer, if it goes into the tile
-    std::string uri;              // else the file with the buffer, relative to the tile
-    std::uint64_t file_bytes = 0; // size of this file
-    std::uint64_t offset = 0;     // of the buffer in the file
+    nlohmann::ordered_json json;     // buffer 0 is `data`, buffer 1 its fallback
+    std::string data;                // the buffer; empty if it is in the file `uri`
+    std::uint64_t decoded_bytes = 0; // of the fallback; 0: there is none
+    std::string uri;                 // percent-encoded, relative to the tile; empty: none
+    std::uint64_t file_bytes = 0;    // size of this file
+    std::uint64_t offset = 0;        // of the buffer in the file
 };
+/// The document of a mesh at rest. Pictures are files beside it, those of make_picture_files() for
+/// ExportFormat::Gltf and `info`. Precondition: the mesh has triangles, a few million at most;
+/// `info` has a `buffer_name`, and no motion, film, levels or variants. Throws std::bad_alloc.
+[[nodiscard]] MeshDocument make_mesh_document(const Mesh& mesh, const ExportInfo& info);
+/// Stores a picture in the buffer of the document, in place of the file that image `number` names.
+/// Precondition: the buffer is `data`.
+void embed_picture(std::size_t number, const std::string& png, MeshDocument& document);
 
 /// A tree of a tile, with its transform from the coordinates of its hero.
 struct TileTree {
@@ -52,13 +63,10 @@ public:
 private:
     using Json = nlohmann::ordered_json;
 
-    /// A stored buffer, and the buffer of decoded items of EXT_meshopt_compression that belongs to it
-    /// (the fallback, which is not stored).
     struct Buffer {
         std::string uri; // empty: the buffer of the GLB
         std::uint64_t bytes = 0;
-        std::uint64_t decoded_bytes = 0; // of the fallback; 0: there is none
-        std::size_t fallback = 0;        // its index in the document, if it exists
+        std::uint64_t decoded_bytes = 0; // of its fallback; 0: there is none
     };
     /// A mesh with quantised positions, which are low + step * item.
     struct DrawnMesh {
@@ -76,13 +84,14 @@ private:
     /// Reserves `bytes` bytes of decoded items in the fallback of a buffer; returns their offset.
     std::uint64_t reserve_decoded(std::size_t buffer, std::uint64_t bytes);
     std::size_t add_view(std::string_view bytes);
-    std::size_t add_packed_view(const std::string& items, std::size_t stride);
+    std::size_t add_packed_view(const std::string& items, std::uint32_t stride);
+    void add_node(Json node);
     std::size_t add_accessor(
         std::size_t view, std::uint64_t offset, int component, const char* type, std::size_t count);
     void put_groups();
     void put_table(const std::vector<std::string>& species);
-    void put_buffers();
-    void use_extension(const std::string& name, bool required);
+    /// Replaces the buffers of compressed views by their fallbacks.
+    void point_to_fallbacks();
 
     Json json_;
     std::string data_; // of the GLB

@@ -1,23 +1,23 @@
 // SPDX-License-Identifier: MIT
-#include "runtime/tiles/impl/tile_document.h"
+#include "runtime/export/tile_document.h"
 
 #include "grammar/base/contract.h"
+#include "runtime/export/impl/gltf_items.h"
+#include "runtime/export/impl/gltf_join.h"
+#include "runtime/export/impl/gltf_parts.h"
+#include "runtime/export/impl/piece_writer.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstring>
-#include <meshoptimizer.h>
 #include <utility>
 
 namespace lsys {
 
 namespace {
 
-constexpr const char* kMeshopt = "EXT_meshopt_compression";
 constexpr std::size_t kAlignment = 8; // of buffer views, required for EXT_structural_metadata
-constexpr int kShort = 5122;
-constexpr int kFloat = 5126;
 
 std::uint64_t aligned(std::uint64_t bytes) {
     return (bytes + kAlignment - 1) / kAlignment * kAlignment;
@@ -52,25 +52,26 @@ std::array<std::int16_t, 4> rotation_item(const glm::quat& rotation) {
     return {part(rotation.x), part(rotation.y), part(rotation.z), part(rotation.w)};
 }
 
+void use_required(GltfJson& document, const char* name) {
+    use_extension(document, "extensionsUsed", name);
+    use_extension(document, "extensionsRequired", name);
+}
+
 } // namespace
+
+void embed_picture(std::size_t number, const std::string& png, MeshDocument& document) {
+    GltfJson& views = document.json["bufferViews"];
+    document.json["images"][number] = {{"bufferView", views.size()}, {"mimeType", "image/png"}};
+    document.data.resize(aligned(document.data.size()), '\0');
+    views.push_back(
+        {{"buffer", 0}, {"byteOffset", document.data.size()}, {"byteLength", png.size()}});
+    document.data += png;
+}
 
 TileDocument::TileDocument(const std::string& generator) : buffers_(1) {
     json_["asset"] = {{"version", "2.0"}, {"generator", generator}};
     json_["scene"] = 0;
     json_["scenes"][0]["nodes"] = Json::array();
-}
-
-void TileDocument::use_extension(const std::string& name, bool required) {
-    const auto add = [&](const char* list) {
-        Json& names = json_[list];
-        if (std::find(names.begin(), names.end(), name) == names.end()) {
-            names.push_back(name);
-        }
-    };
-    add("extensionsUsed");
-    if (required) {
-        add("extensionsRequired");
-    }
 }
 
 std::size_t TileDocument::add_buffer(const MeshDocument& part) {
@@ -92,7 +93,7 @@ std::uint64_t TileDocument::reserve_decoded(std::size_t buffer, std::uint64_t by
 }
 
 TileDocument::DrawnMesh TileDocument::add_mesh(const MeshDocument& part) {
-    const Json& from = part.json;
+    Json from = part.json;
     const std::size_t buffer = add_buffer(part);
     std::uint64_t shift = part.offset;
     if (part.uri.empty()) {
@@ -100,84 +101,43 @@ TileDocument::DrawnMesh TileDocument::add_mesh(const MeshDocument& part) {
         shift = data_.size();
         data_ += part.data;
     }
-    const auto list = [&](const char* name) {
-        return from.contains(name) ? from[name] : Json::array();
-    };
-    const auto count_of = [&](const char* name) {
-        return json_.contains(name) ? json_[name].size() : 0;
-    };
-    /// Adds the items that are not there yet, with their references renumbered; returns the index of
-    /// each item.
-    const auto add_missing = [&](const char* name, const auto& renumber) {
-        std::vector<std::size_t> numbers;
-        for (Json& item : list(name)) {
-            renumber(item);
-            Json& there = json_[name];
-            const auto found = std::find(there.begin(), there.end(), item);
-            numbers.push_back(static_cast<std::size_t>(found - there.begin()));
-            if (found == there.end()) {
-                there.push_back(std::move(item));
-            }
-        }
-        return numbers;
-    };
-    const auto renumber = [](Json& holder, const char* key, const auto& numbers) {
-        if (holder.contains(key)) {
-            holder[key] = numbers[holder[key].template get<std::size_t>()];
-        }
-    };
-
-    const std::size_t first_view = count_of("bufferViews");
+    const std::size_t first_view = count_of(json_, "bufferViews");
     const std::uint64_t decoded =
-        from["buffers"].size() > 1
-            ? reserve_decoded(buffer, from["buffers"][1]["byteLength"].get<std::uint64_t>())
-            : 0;
-    // Fallbacks get their indices in put_buffers(); until then a view has the index of its stored
-    // buffer.
-    for (Json& view : list("bufferViews")) {
-        Json* stored = &view;
-        if (view.contains("extensions") && view["extensions"].contains(kMeshopt)) {
-            stored = &view["extensions"][kMeshopt];
+        part.decoded_bytes != 0 ? reserve_decoded(buffer, part.decoded_bytes) : 0;
+    // Fallbacks get their numbers in point_to_fallbacks(); until then a compressed view has the
+    // number of its stored buffer.
+    for (Json& view : take_list(from, "bufferViews")) {
+        Json& stored = stored_part(view);
+        if (&stored != &view) {
             view["buffer"] = buffer;
             view["byteOffset"] = view.value("byteOffset", std::uint64_t{0}) + decoded;
         }
-        (*stored)["buffer"] = buffer;
-        (*stored)["byteOffset"] = stored->value("byteOffset", std::uint64_t{0}) + shift;
+        stored["buffer"] = buffer;
+        stored["byteOffset"] = stored.value("byteOffset", std::uint64_t{0}) + shift;
         json_["bufferViews"].push_back(std::move(view));
     }
-    const std::vector<std::size_t> images = add_missing("images", [&](Json& image) {
-        if (image.contains("bufferView")) {
-            image["bufferView"] = image["bufferView"].get<std::size_t>() + first_view;
+    const auto move_view = [first_view](Json& holder) {
+        if (holder.contains("bufferView")) {
+            holder["bufferView"] = holder["bufferView"].get<std::size_t>() + first_view;
         }
-    });
-    const std::vector<std::size_t> samplers = add_missing("samplers", [](Json&) {});
-    const std::vector<std::size_t> textures = add_missing("textures", [&](Json& texture) {
-        renumber(texture, "source", images);
-        renumber(texture, "sampler", samplers);
-    });
-    const std::vector<std::size_t> materials = add_missing("materials", [&](Json& material) {
-        Json& surface = material["pbrMetallicRoughness"];
-        if (surface.contains("baseColorTexture")) {
-            renumber(surface["baseColorTexture"], "index", textures);
-        }
-        if (material.contains("normalTexture")) {
-            renumber(material["normalTexture"], "index", textures);
-        }
-    });
-    const std::size_t first_accessor = count_of("accessors");
-    for (Json& accessor : list("accessors")) {
-        accessor["bufferView"] = accessor["bufferView"].get<std::size_t>() + first_view;
+    };
+    const GltfNumbers images = add_missing(json_, "images", take_list(from, "images"), move_view);
+    const GltfNumbers samplers =
+        add_missing(json_, "samplers", take_list(from, "samplers"), [](Json&) {});
+    const GltfNumbers textures =
+        add_missing(json_, "textures", take_list(from, "textures"),
+                    [&](Json& texture) { renumber_texture(texture, images, samplers); });
+    const GltfNumbers materials =
+        add_missing(json_, "materials", take_list(from, "materials"),
+                    [&](Json& material) { renumber_material(material, textures); });
+    const std::size_t first_accessor = count_of(json_, "accessors");
+    for (Json& accessor : take_list(from, "accessors")) {
+        move_view(accessor);
         json_["accessors"].push_back(std::move(accessor));
     }
-    Json mesh = from["meshes"][0];
-    for (Json& primitive : mesh["primitives"]) {
-        for (auto& [name, accessor] : primitive["attributes"].items()) {
-            accessor = accessor.get<std::size_t>() + first_accessor;
-        }
-        primitive["indices"] = primitive["indices"].get<std::size_t>() + first_accessor;
-        renumber(primitive, "material", materials);
-    }
-    DrawnMesh drawn{count_of("meshes")};
+    DrawnMesh drawn{count_of(json_, "meshes")};
+    Json& mesh = from["meshes"][0];
+    renumber_mesh(mesh, first_accessor, materials);
     json_["meshes"].push_back(std::move(mesh));
     for (const Json& node : from["nodes"]) {
         if (node.contains("mesh") && node.contains("scale")) { // decodes quantised positions
@@ -186,20 +146,25 @@ TileDocument::DrawnMesh TileDocument::add_mesh(const MeshDocument& part) {
             drawn.step = node["scale"][0].get<float>();
         }
     }
-    for (const Json& name : list("extensionsUsed")) {
-        const Json required = list("extensionsRequired");
-        use_extension(name, std::find(required.begin(), required.end(), name) != required.end());
+    for (const char* const list : {"extensionsUsed", "extensionsRequired"}) {
+        for (const Json& name : take_list(from, list)) {
+            use_extension(json_, list, name.get<std::string>());
+        }
     }
     return drawn;
 }
 
+void TileDocument::add_node(Json node) {
+    json_["scenes"][0]["nodes"].push_back(count_of(json_, "nodes"));
+    json_["nodes"].push_back(std::move(node));
+}
+
 void TileDocument::add_surface(const MeshDocument& surface) {
     const DrawnMesh drawn = add_mesh(surface);
-    json_["scenes"][0]["nodes"].push_back(json_.contains("nodes") ? json_["nodes"].size() : 0);
-    json_["nodes"].push_back({{"name", surface.json["meshes"][0]["name"]},
-                              {"mesh", drawn.number},
-                              {"translation", {drawn.low.x, drawn.low.y, drawn.low.z}},
-                              {"scale", {drawn.step, drawn.step, drawn.step}}});
+    add_node({{"name", surface.json["meshes"][0]["name"]},
+              {"mesh", drawn.number},
+              {"translation", {drawn.low.x, drawn.low.y, drawn.low.z}},
+              {"scale", {drawn.step, drawn.step, drawn.step}}});
 }
 
 void TileDocument::add_trees(const MeshDocument& hero, const std::vector<TileTree>& trees) {
@@ -214,24 +179,18 @@ std::size_t TileDocument::add_view(std::string_view bytes) {
     return json_["bufferViews"].size() - 1;
 }
 
-std::size_t TileDocument::add_packed_view(const std::string& items, std::size_t stride) {
-    const std::size_t count = items.size() / stride;
-    std::string packed(meshopt_encodeVertexBufferBound(count, stride), '\0');
-    packed.resize(meshopt_encodeVertexBuffer(reinterpret_cast<unsigned char*>(packed.data()),
-                                             packed.size(), items.data(), count, stride));
-    LSYS_CHECK(!packed.empty(), count, stride);
-    const std::size_t view = add_view(packed);
+std::size_t TileDocument::add_packed_view(const std::string& items, std::uint32_t stride) {
+    const GltfBuffer packed = compress_items(std::as_bytes(std::span(items)), stride);
+    const std::size_t view =
+        add_view({reinterpret_cast<const char*>(packed.data()), packed.size()});
     Json& stored = json_["bufferViews"][view];
-    Json extension = {{"buffer", 0},
-                      {"byteOffset", stored["byteOffset"]},
-                      {"byteLength", packed.size()},
-                      {"byteStride", stride},
-                      {"count", count},
-                      {"mode", "ATTRIBUTES"}};
+    Json extension = {
+        {"buffer", 0},          {"byteOffset", stored["byteOffset"]}, {"byteLength", packed.size()},
+        {"byteStride", stride}, {"count", items.size() / stride},     {"mode", "ATTRIBUTES"}};
     stored["byteOffset"] = reserve_decoded(0, items.size());
     stored["byteLength"] = items.size();
     stored["extensions"][kMeshopt] = std::move(extension);
-    use_extension(kMeshopt, true);
+    use_required(json_, kMeshopt);
     return view;
 }
 
@@ -246,8 +205,8 @@ std::size_t TileDocument::add_accessor(
 }
 
 void TileDocument::put_groups() {
-    constexpr std::size_t kVector = 3 * sizeof(float);
-    constexpr std::size_t kRotation = 4 * sizeof(std::int16_t);
+    constexpr std::uint32_t kVector = 3 * sizeof(float);
+    constexpr std::uint32_t kRotation = 4 * sizeof(std::int16_t);
     std::string translations;
     std::string rotations;
     std::string scales;
@@ -275,23 +234,22 @@ void TileDocument::put_groups() {
         const std::size_t count = group.trees.size();
         Json attributes;
         attributes["TRANSLATION"] =
-            add_accessor(translation_view, kVector * first, kFloat, "VEC3", count);
+            add_accessor(translation_view, kVector * first, kGltfFloat, "VEC3", count);
         attributes["ROTATION"] =
-            add_accessor(rotation_view, kRotation * first, kShort, "VEC4", count);
+            add_accessor(rotation_view, kRotation * first, kGltfSignedShort, "VEC4", count);
         json_["accessors"].back()["normalized"] = true;
-        attributes["SCALE"] = add_accessor(scale_view, kVector * first, kFloat, "VEC3", count);
+        attributes["SCALE"] = add_accessor(scale_view, kVector * first, kGltfFloat, "VEC3", count);
         attributes["_FEATURE_ID_0"] =
-            add_accessor(id_view, sizeof(float) * first, kFloat, "SCALAR", count);
+            add_accessor(id_view, sizeof(float) * first, kGltfFloat, "SCALAR", count);
         Json node{{"mesh", group.mesh.number}};
         node["extensions"]["EXT_mesh_gpu_instancing"]["attributes"] = std::move(attributes);
         node["extensions"]["EXT_instance_features"]["featureIds"][0] = {
             {"featureCount", count}, {"attribute", 0}, {"propertyTable", 0}};
-        json_["scenes"][0]["nodes"].push_back(json_.contains("nodes") ? json_["nodes"].size() : 0);
-        json_["nodes"].push_back(std::move(node));
+        add_node(std::move(node));
         first += count;
     }
-    use_extension("EXT_mesh_gpu_instancing", true);
-    use_extension("EXT_instance_features", false);
+    use_required(json_, "EXT_mesh_gpu_instancing");
+    use_extension(json_, "extensionsUsed", "EXT_instance_features");
 }
 
 void TileDocument::put_table(const std::vector<std::string>& species) {
@@ -340,29 +298,19 @@ void TileDocument::put_table(const std::vector<std::string>& species) {
     Json& extension = json_["extensions"]["EXT_structural_metadata"];
     extension["schema"] = std::move(schema);
     extension["propertyTables"].push_back(std::move(table));
-    use_extension("EXT_structural_metadata", false);
+    use_extension(json_, "extensionsUsed", "EXT_structural_metadata");
 }
 
-void TileDocument::put_buffers() {
-    data_.resize(aligned(data_.size()), '\0');
-    buffers_.front().bytes = data_.size();
-    Json& list = json_["buffers"];
+void TileDocument::point_to_fallbacks() {
+    std::vector<std::size_t> fallbacks; // by buffer
+    std::size_t next = buffers_.size();
     for (const Buffer& buffer : buffers_) {
-        list.push_back({{"byteLength", buffer.bytes}});
-        if (!buffer.uri.empty()) {
-            list.back()["uri"] = buffer.uri;
-        }
-    }
-    for (Buffer& buffer : buffers_) {
-        if (buffer.decoded_bytes != 0) {
-            buffer.fallback = list.size();
-            list.push_back({{"byteLength", buffer.decoded_bytes}});
-            list.back()["extensions"][kMeshopt]["fallback"] = true;
-        }
+        fallbacks.push_back(next);
+        next += buffer.decoded_bytes != 0 ? 1U : 0U;
     }
     for (Json& view : json_["bufferViews"]) {
-        if (view.contains("extensions")) {
-            view["buffer"] = buffers_[view["buffer"].get<std::size_t>()].fallback;
+        if (&stored_part(view) != &view) {
+            view["buffer"] = fallbacks[view["buffer"].get<std::size_t>()];
         }
     }
 }
@@ -372,27 +320,31 @@ std::string TileDocument::write(const std::vector<std::string>& species) {
         put_groups();
         put_table(species);
     }
-    put_buffers();
-    std::string text = json_.dump();
-    text.resize((text.size() + 3) / 4 * 4, ' ');
-    const auto append_word = [](std::string& to, std::size_t value) {
-        const auto word = static_cast<std::uint32_t>(value);
-        for (unsigned shift = 0; shift < 32; shift += 8) {
-            to += static_cast<char>(word >> shift & 0xFFU);
-        }
+    point_to_fallbacks();
+    data_.resize(aligned(data_.size()), '\0');
+    GltfFile file;
+    file.binary = true;
+    file.data_bytes = data_.size();
+    file.decoded_bytes = buffers_.front().decoded_bytes;
+    for (std::size_t i = 1; i < buffers_.size(); ++i) {
+        file.others.push_back({buffers_[i].uri, buffers_[i].bytes, buffers_[i].decoded_bytes});
+    }
+    // Formatted once for both passes of a GLB.
+    std::string members = json_.dump();
+    members = members.substr(1, members.size() - 2);
+    file.put_members = [&members](JsonWriter& json) { json.literal(members); };
+    file.put_data = [this](const GltfSink& sink) {
+        static_cast<void>(sink(std::as_bytes(std::span(data_))));
     };
-    constexpr std::size_t kHeader = 12;
-    constexpr std::size_t kChunkHeader = 8;
-    std::string file = "glTF";
-    append_word(file, 2);
-    append_word(file, kHeader + 2 * kChunkHeader + text.size() + data_.size());
-    append_word(file, text.size());
-    file += "JSON";
-    file += text;
-    append_word(file, data_.size());
-    file += std::string_view("BIN\0", 4);
-    file += data_;
-    return file;
+    std::string bytes;
+    PieceWriter out([&bytes](std::string_view piece) {
+        bytes += piece;
+        return true;
+    });
+    const bool is_written = put_gltf_file(file, out);
+    LSYS_CHECK(is_written, data_.size());
+    static_cast<void>(out.finish());
+    return bytes;
 }
 
 } // namespace lsys
