@@ -18,7 +18,8 @@ inline constexpr std::size_t kPieceBytes = std::size_t{256} << 10;
 
 class PieceWriter {
 public:
-    explicit PieceWriter(const ByteSink& sink);
+    explicit PieceWriter(const ByteSink& sink); // `sink` must live as long
+    explicit PieceWriter(ByteSink&&) = delete;
 
     /// Room for the next bytes, at most `bytes`. The caller writes them and calls used() with their
     /// end.

@@ -337,10 +337,11 @@ std::string TileDocument::write(const std::vector<std::string>& species) {
         static_cast<void>(sink(std::as_bytes(std::span(data_))));
     };
     std::string bytes;
-    PieceWriter out([&bytes](std::string_view piece) {
+    const ByteSink append = [&bytes](std::string_view piece) {
         bytes += piece;
         return true;
-    });
+    };
+    PieceWriter out(append);
     const bool is_written = put_gltf_file(file, out);
     LSYS_CHECK(is_written, data_.size());
     static_cast<void>(out.finish());
