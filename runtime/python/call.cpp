@@ -1,9 +1,17 @@
 // SPDX-License-Identifier: MIT
 #include "runtime/python/call.h"
 
+#include <unistd.h>
+
 namespace lsys_python {
 
 namespace {
+
+/// The thread kept by CallThread::give_back(). Never destroyed: the process may end in any state.
+std::unique_ptr<CallThread>& kept_thread() {
+    static auto* const kept = new std::unique_ptr<CallThread>;
+    return *kept;
+}
 
 /// Exceptions of the module, defined in lsys/__init__.py's errors.py.
 py::object error_class(lsys::Status status) {
@@ -77,6 +85,57 @@ void wait_for_end_if_ending() {
 #endif
     if (is_ending || Py_IsInitialized() == 0) {
         wait_for_end();
+    }
+}
+
+CallThread::CallThread() : process_(::getpid()), thread_([this] { do_calls(); }) {}
+
+CallThread::~CallThread() {
+    {
+        const std::lock_guard<std::mutex> lock(mutex_);
+        ends_ = true;
+    }
+    changed_.notify_all();
+    thread_.join();
+}
+
+std::unique_ptr<CallThread> CallThread::take() {
+    std::unique_ptr<CallThread> thread = std::move(kept_thread());
+    if (thread != nullptr && thread->process_ != ::getpid()) {
+        static_cast<void>(thread.release()); // its thread cannot be joined here
+    }
+    return thread != nullptr ? std::move(thread) : std::make_unique<CallThread>();
+}
+
+void CallThread::give_back(std::unique_ptr<CallThread> thread) {
+    kept_thread() = std::move(thread);
+}
+
+void CallThread::start(std::function<void()> work) {
+    {
+        const std::lock_guard<std::mutex> lock(mutex_);
+        work_ = std::move(work);
+    }
+    changed_.notify_all();
+}
+
+bool CallThread::wait_for(std::chrono::milliseconds time) {
+    std::unique_lock<std::mutex> lock(mutex_);
+    return changed_.wait_for(lock, time, [this] { return !work_; });
+}
+
+void CallThread::do_calls() {
+    std::unique_lock<std::mutex> lock(mutex_);
+    for (;;) {
+        changed_.wait(lock, [this] { return ends_ || work_; });
+        if (!work_) {
+            return;
+        }
+        lock.unlock();
+        work_();
+        lock.lock();
+        work_ = nullptr;
+        changed_.notify_all();
     }
 }
 

@@ -9,17 +9,20 @@
 #include <cstdint>
 #include <cxxabi.h>
 #include <exception>
+#include <functional>
 #include <lsys/export.h>
 #include <lsys/grammar.h>
 #include <lsys/outcome.h>
 #include <lsys/plant.h>
 #include <lsys/project.h>
 #include <map>
+#include <memory>
 #include <mutex>
 #include <optional>
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
 #include <string>
+#include <sys/types.h>
 #include <thread>
 #include <utility>
 
@@ -106,6 +109,39 @@ private:
     PyThreadState* state_;
 };
 
+/// A thread that does the calls of Python's main thread, one after the other. It is kept between calls:
+/// a new thread would first have to get its memory from the system, about 0.7 ms a call.
+class CallThread {
+public:
+    CallThread();
+    /// Waits for the end of its call.
+    ~CallThread();
+    CallThread(const CallThread&) = delete;
+    CallThread& operator=(const CallThread&) = delete;
+
+    /// The thread of earlier calls; a new one if there is none, if a call is in progress (a handler of
+    /// a signal makes another), or if the process is a fork, in which the thread does not exist.
+    /// Main thread only.
+    static std::unique_ptr<CallThread> take();
+    /// Keeps a thread that does nothing for later calls. Main thread only.
+    static void give_back(std::unique_ptr<CallThread> thread);
+
+    /// Starts `work`, which throws nothing.
+    void start(std::function<void()> work);
+    /// Waits for the end of the work, at most for `time`; false: it has not ended.
+    bool wait_for(std::chrono::milliseconds time);
+
+private:
+    void do_calls();
+
+    std::mutex mutex_;
+    std::condition_variable changed_;
+    std::function<void()> work_; // empty: none
+    bool ends_ = false;
+    pid_t process_;
+    std::thread thread_;
+};
+
 /// Runs `work(project)` without the lock of the interpreter. If called on the main thread of Python,
 /// another thread does the work, while the main thread handles Ctrl-C.
 template <typename Work>
@@ -140,34 +176,25 @@ auto run(const CallOptions& options, const Work& work) {
     std::optional<Result> result;
     std::exception_ptr thrown;
     std::exception_ptr interrupt; // KeyboardInterrupt
-    std::mutex mutex;
-    std::condition_variable ended;
-    bool is_done = false;
+    std::unique_ptr<CallThread> thread = CallThread::take();
     {
         const py::gil_scoped_release unlocked;
-        std::thread worker([&] {
+        thread->start([&] {
             try {
                 result.emplace(work(project));
             } catch (...) {
                 thrown = std::current_exception();
             }
-            const std::lock_guard<std::mutex> lock(mutex);
-            is_done = true;
-            ended.notify_one();
         });
-        std::unique_lock<std::mutex> lock(mutex);
-        while (!ended.wait_for(lock, std::chrono::milliseconds(50), [&] { return is_done; })) {
-            lock.unlock();
+        while (!thread->wait_for(std::chrono::milliseconds(50))) {
             const py::gil_scoped_acquire locked;
             if (!interrupt && PyErr_CheckSignals() != 0) {
                 cancelled.store(true);
                 interrupt = std::make_exception_ptr(py::error_already_set());
             }
-            lock.lock();
         }
-        lock.unlock();
-        worker.join();
     }
+    CallThread::give_back(std::move(thread));
     if (interrupt) {
         std::rethrow_exception(interrupt);
     }

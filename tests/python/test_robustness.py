@@ -163,6 +163,24 @@ class Crashes(unittest.TestCase):
             with self.subTest(work):
                 self.run_and_end(f"{setup} threading.Thread(target={work}, daemon=True).start(); time.sleep(0.3)")
 
+    def test_call_in_a_signal_handler(self):
+        self.run_and_end(
+            "import lsys, os, signal\n"
+            f"inner = lsys.compile(text={TREE!r}); outer = lsys.compile(text={ENDLESS!r}); lengths = []\n"
+            "signal.signal(signal.SIGALRM, lambda *_: lengths.append(len(inner.derive())))\n"
+            "signal.setitimer(signal.ITIMER_REAL, 0.2)\n"
+            "outer.derive(18)\n"
+            "while not lengths: pass\n"
+            "assert lengths[0] == len(inner.derive())\n")
+
+    def test_fork(self):
+        self.run_and_end(
+            "import lsys, os\n"
+            f"g = lsys.compile(text={TREE!r}); length = len(g.derive()); child = os.fork()\n"
+            "same = len(g.derive()) == length\n"
+            "if child == 0: os._exit(0 if same else 1)\n"
+            "assert same and os.waitpid(child, 0)[1] == 0\n")
+
     def test_exit_with_values(self):
         self.run_and_end(f"import lsys; w = lsys.compile(text={ENDLESS!r}).derive(9); c = w.codes; i = iter(w); next(i)")
 
