@@ -153,17 +153,17 @@ private:
         }
     }
 
-    /// An open polygon of a word.
-    struct Open {
+    /// A polygon of a word whose `{` has been read and whose `}` has not.
+    struct OpenPolygon {
         std::size_t begin = 0;      // index of its `{`
         std::uint32_t vertices = 0; // number of `.` in the polygon
-        std::uint32_t moves = 0;
-        bool may_grow = false; // some module in it is rewritten
+        std::uint32_t moves = 0;    // number of its modules with TurtleInfo::AddsCorners
+        bool may_grow = false;      // some module in it is rewritten
     };
 
     void check_word(const ProgramWord& word, const char* where, bool may_be_inside) {
         const bool may_nest = program_.settings.turtle != TurtleProfile::Carey;
-        std::vector<Open> open;
+        std::vector<OpenPolygon> open;        // innermost last
         bool nesting_reported = false;        // one message per word
         std::optional<std::size_t> first_end; // the first `}` without its `{`
         std::size_t opened = 0;
@@ -184,13 +184,13 @@ private:
                     first_end = first_end.value_or(i);
                     continue;
                 }
-                const Open ended = open.back();
+                const OpenPolygon ended = open.back();
                 open.pop_back();
                 if (!ended.may_grow) {
                     check_size(word, ended.begin, i, ended.vertices, ended.moves);
                 }
             } else if (!open.empty()) {
-                Open& inner = open.back();
+                OpenPolygon& inner = open.back();
                 inner.vertices += symbol.turtle == TurtleOperation::PolygonVertex ? 1U : 0U;
                 inner.moves += info(symbol.turtle).has(TurtleInfo::AddsCorners) ? 1U : 0U;
                 inner.may_grow =
@@ -214,7 +214,7 @@ private:
     /// reported one.
     bool report_nesting(const ProgramWord& word,
                         std::size_t index,
-                        const std::vector<Open>& open,
+                        const std::vector<OpenPolygon>& open,
                         bool may_be_inside) {
         if (!open.empty()) {
             Diagnostic& diagnostic = add(DiagnosticCode::NestedPolygon, word, index,
