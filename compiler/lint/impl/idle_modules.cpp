@@ -110,14 +110,14 @@ void check_idle_modules(const CheckInput& input, ModuleUse& use, Diagnostics& di
             fmt::format("module {} is never rewritten and never drawn", quoted(name)));
         diagnostic.label = "stays in the word and does nothing";
         const Synonym* const synonym = find_synonym(SynonymKind::Module, name);
-        const bool is_houdini = name.size() == 1 &&
-                                std::string_view("JKM").find(name[0]) != std::string_view::npos &&
-                                input.program.settings.turtle != TurtleProfile::Houdini;
+        const bool is_houdini_object =
+            name.size() == 1 && std::string_view("JKM").find(name[0]) != std::string_view::npos &&
+            input.program.settings.turtle != TurtleProfile::Houdini;
         if (synonym != nullptr) {
             diagnostic.help.push_back(help_for(*synonym, name));
             add_fix(diagnostic, fmt::format("write `{}`", synonym->spelling), span,
                     std::string(synonym->spelling), false);
-        } else if (is_houdini) {
+        } else if (is_houdini_object) {
             diagnostic.help.push_back(
                 fmt::format("{} of Houdini draws an object with `#set turtle houdini;` alone; "
                             "otherwise bind one: `#object {} {};`",
@@ -130,7 +130,7 @@ void check_idle_modules(const CheckInput& input, ModuleUse& use, Diagnostics& di
             diagnostic.fixes.push_back(std::move(fix));
         }
         const std::string_view text = input.sources.text(span);
-        const bool is_explained = synonym != nullptr || is_houdini;
+        const bool is_explained = synonym != nullptr || is_houdini_object;
         diagnostic.help.push_back(
             is_explained
                 ? fmt::format("if it is to do nothing, declare it with `#module {};`", text)
