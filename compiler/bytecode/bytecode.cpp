@@ -132,7 +132,7 @@ const BytecodeAxiom* axiom_with(const Bytecode& bytecode, std::uint32_t index) {
     return found == bytecode.axioms.end() ? nullptr : &*found;
 }
 
-ProductionId writer_of(const Bytecode& bytecode, std::uint32_t index) {
+ProductionId production_with(const Bytecode& bytecode, std::uint32_t index) {
     LSYS_CHECK(index < bytecode.template_codes.size(), index);
     if (axiom_with(bytecode, index) != nullptr) {
         return kNoProduction;
@@ -150,7 +150,8 @@ std::optional<Site> place_of(const Bytecode& bytecode, std::uint32_t index) {
     const std::uint32_t site =
         axiom != nullptr
             ? axiom->site
-            : bytecode.productions[static_cast<std::size_t>(writer_of(bytecode, index))].name_site;
+            : bytecode.productions[static_cast<std::size_t>(production_with(bytecode, index))]
+                  .name_site;
     const auto after =
         std::upper_bound(bytecode.template_places.begin(), bytecode.template_places.end(), index,
                          [](std::uint32_t at, const PlaceRun& run) { return at < run.first; });

@@ -294,7 +294,7 @@ struct Bytecode {
 [[nodiscard]] const BytecodeAxiom* axiom_with(const Bytecode& bytecode, std::uint32_t index);
 /// The production whose successor holds template_codes[index]; kNoProduction for an axiom.
 /// Precondition: index < template_codes.size().
-[[nodiscard]] ProductionId writer_of(const Bytecode& bytecode, std::uint32_t index);
+[[nodiscard]] ProductionId production_with(const Bytecode& bytecode, std::uint32_t index);
 /// The place of the module of template_codes[index] with its arguments, if known.
 /// Precondition: index < template_codes.size().
 [[nodiscard]] std::optional<Site> place_of(const Bytecode& bytecode, std::uint32_t index);

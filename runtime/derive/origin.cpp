@@ -11,7 +11,7 @@ namespace lsys {
 namespace {
 
 std::string place_text(const Bytecode& bytecode, std::uint32_t index) {
-    const ProductionId writer = writer_of(bytecode, index);
+    const ProductionId writer = production_with(bytecode, index);
     std::string text = "from ";
     text += writer == kNoProduction ? std::string("the axiom")
                                     : bytecode.productions[static_cast<std::size_t>(writer)].name;

@@ -33,7 +33,7 @@ TraceOrigin origin_in_grammar(const Bytecode& bytecode, const Origin& origin) {
     TraceOrigin found;
     found.generation = origin.generation;
     if (origin.place != kNone) {
-        found.production = writer_of(bytecode, origin.place);
+        found.production = production_with(bytecode, origin.place);
         found.place = place_of(bytecode, origin.place);
     }
     return found;

@@ -40,7 +40,7 @@ enum class TurtleFaultKind : std::uint8_t {
     ColourOutOfRange, // below 0 or above 65,535: clamped
     RgbOutOfRange,    // a part below 0 or above 1: clamped
 };
-inline constexpr std::size_t kTurtleFaultKinds = 12;
+inline constexpr std::size_t kTurtleFaultKindCount = 12;
 inline constexpr std::uint64_t kMaxSkeletonItems = 0xFFFFFFF0u;
 inline constexpr std::uint32_t kMinSides = 3;
 inline constexpr std::uint32_t kMaxSides = 64;
@@ -55,7 +55,7 @@ struct TurtleFault {
 struct DrawingEnd {
     std::optional<Stop> stop;          // none: the drawing is complete, or may go on
     std::optional<RuntimeError> error; // a production of `#interpret` that cannot be applied
-    std::array<TurtleFault, kTurtleFaultKinds> faults{};
+    std::array<TurtleFault, kTurtleFaultKindCount> faults{};
 };
 
 /// Position and state of the turtle between two modules.

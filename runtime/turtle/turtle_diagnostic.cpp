@@ -77,13 +77,13 @@ void note_writer(Code code, const Bytecode& bytecode, Diagnostic& diagnostic) {
     std::optional<std::uint32_t> found;
     for (std::uint32_t i = 0; i < bytecode.template_codes.size(); ++i) {
         if (bytecode.symbol_of(bytecode.template_codes[i]) == bytecode.symbol_of(code)) {
-            if (found && writer_of(bytecode, i) != writer_of(bytecode, *found)) {
+            if (found && production_with(bytecode, i) != production_with(bytecode, *found)) {
                 return;
             }
             found = found.value_or(i);
         }
     }
-    const ProductionId writer = found ? writer_of(bytecode, *found) : kNoProduction;
+    const ProductionId writer = found ? production_with(bytecode, *found) : kNoProduction;
     const std::optional<Site> site = found ? place_of(bytecode, *found) : std::nullopt;
     if (writer == kNoProduction || !site) {
         return;
@@ -108,8 +108,9 @@ void note_writer(Code code, const Bytecode& bytecode, Diagnostic& diagnostic) {
 
 } // namespace
 
-std::vector<Diagnostic> turtle_diagnostics(const std::array<TurtleFault, kTurtleFaultKinds>& faults,
-                                           const Bytecode& bytecode) {
+std::vector<Diagnostic>
+turtle_diagnostics(const std::array<TurtleFault, kTurtleFaultKindCount>& faults,
+                   const Bytecode& bytecode) {
     std::vector<Diagnostic> diagnostics;
     for (std::size_t i = 0; i < faults.size(); ++i) {
         const TurtleFault& fault = faults[i];

@@ -15,7 +15,7 @@ namespace lsys {
 /// One diagnostic for each kind of fault that occurred, with the number of faults and the first
 /// module: an error if it ends the drawing, else a warning.
 [[nodiscard]] std::vector<Diagnostic>
-turtle_diagnostics(const std::array<TurtleFault, kTurtleFaultKinds>& faults,
+turtle_diagnostics(const std::array<TurtleFault, kTurtleFaultKindCount>& faults,
                    const Bytecode& bytecode);
 
 /// The error that `what`, such as "the skeleton", does not fit into `max_bytes`.

@@ -189,10 +189,10 @@ TEST_CASE("places of modules are checked") {
 
 TEST_CASE("the production that wrote a module and the place of the module are found") {
     const Bytecode bytecode = test::small_bytecode();
-    CHECK(writer_of(bytecode, 2) == kNoProduction);
-    CHECK(writer_of(bytecode, 3) == ProductionId{0});
-    CHECK(writer_of(bytecode, 6) == ProductionId{0});
-    CHECK(writer_of(bytecode, 7) == ProductionId{1});
+    CHECK(production_with(bytecode, 2) == kNoProduction);
+    CHECK(production_with(bytecode, 3) == ProductionId{0});
+    CHECK(production_with(bytecode, 6) == ProductionId{0});
+    CHECK(production_with(bytecode, 7) == ProductionId{1});
     const std::optional<Site> place = place_of(bytecode, 2);
     REQUIRE(place);
     CHECK(place->span == SourceSpan{FileId{0}, 48, 54});

@@ -171,7 +171,7 @@ std::vector<std::string> placed(const test::Compiled& c) {
     const Bytecode& b = *c.outcome.bytecode;
     std::vector<std::string> all;
     for (std::uint32_t i = 0; i < b.template_codes.size(); ++i) {
-        const ProductionId writer = writer_of(b, i);
+        const ProductionId writer = production_with(b, i);
         const std::optional<Site> place = place_of(b, i);
         REQUIRE(place);
         const SourceFile& file = c.sources.file(place->span.file);

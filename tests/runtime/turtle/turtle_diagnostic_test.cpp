@@ -16,7 +16,7 @@ using test::BytecodeBuilder;
 
 /// The only diagnostic of `count` faults of `kind`.
 Diagnostic diagnostic_of(TurtleFaultKind kind, std::uint64_t count) {
-    std::array<TurtleFault, kTurtleFaultKinds> faults{};
+    std::array<TurtleFault, kTurtleFaultKindCount> faults{};
     faults[static_cast<std::size_t>(kind)].count = count;
     const std::vector<Diagnostic> all =
         turtle_diagnostics(faults, BytecodeBuilder().axiom("F[F").build());

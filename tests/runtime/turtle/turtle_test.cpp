@@ -20,7 +20,7 @@ using test::BytecodeBuilder;
 struct Drawing {
     std::optional<Stop> status;
     Skeleton skeleton;
-    std::array<TurtleFault, kTurtleFaultKinds> faults{};
+    std::array<TurtleFault, kTurtleFaultKindCount> faults{};
 
     [[nodiscard]] const TurtleFault& fault(TurtleFaultKind kind) const {
         return faults[static_cast<std::size_t>(kind)];
