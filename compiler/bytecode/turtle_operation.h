@@ -29,8 +29,9 @@ inline constexpr std::uint32_t kTurtleOperationCount = kCountOf<TurtleOperation>
 enum class DrawnKind : std::uint8_t { Nothing, Segment, Object, Polygon };
 
 /// Frequent actions that the turtle's loop over a word runs inline, without calling execute(). Yaw,
-/// Pitch and Roll turn by an angle and are inline if the angle is constant.
-enum class QuickAction : std::uint8_t { None, Nothing, Yaw, Pitch, Roll, Forward, Save, Restore };
+/// Pitch and Roll turn by an angle and are inline if the angle is constant. NoEffect: the module is
+/// skipped. None: execute() is called.
+enum class QuickAction : std::uint8_t { None, NoEffect, Yaw, Pitch, Roll, Forward, Save, Restore };
 
 struct TurtleInfo {
     enum Trait : std::uint16_t {

@@ -60,7 +60,7 @@ void Turtle::State::run_some(std::span<const C> codes,
         parameters += action.stored;
         if (cut == 0) {
             switch (action.quick) {
-            case QuickAction::Nothing:
+            case QuickAction::NoEffect:
                 continue;
             case QuickAction::Yaw:
                 yaw(pose, action.turn);

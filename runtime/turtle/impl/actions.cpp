@@ -14,7 +14,7 @@ constexpr double kHalfDegree = std::numbers::pi / 360.0;
 constexpr bool is_consistent(TurtleOperation operation) {
     const TurtleInfo& row = info(operation);
     return (row.quick != QuickAction::Forward || row.drawn == DrawnKind::Segment) &&
-           (row.quick != QuickAction::Nothing || row.drawn == DrawnKind::Nothing) &&
+           (row.quick != QuickAction::NoEffect || row.drawn == DrawnKind::Nothing) &&
            (!row.has(TurtleInfo::Inverse) || turns(operation)) &&
            (!row.has(TurtleInfo::HasNoLength) || row.drawn == DrawnKind::Object);
 }
