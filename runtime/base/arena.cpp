@@ -34,14 +34,15 @@ Arena::~Arena() {
 
 Arena::Arena(Arena&& other) noexcept
     : data_(std::exchange(other.data_, nullptr)), capacity_(std::exchange(other.capacity_, 0)),
-      used_(std::exchange(other.used_, 0)), advised_(std::exchange(other.advised_, 0)) {}
+      max_reserved_(std::exchange(other.max_reserved_, 0)),
+      advised_(std::exchange(other.advised_, 0)) {}
 
 Arena& Arena::operator=(Arena&& other) noexcept {
     if (this != &other) {
         release();
         data_ = std::exchange(other.data_, nullptr);
         capacity_ = std::exchange(other.capacity_, 0);
-        used_ = std::exchange(other.used_, 0);
+        max_reserved_ = std::exchange(other.max_reserved_, 0);
         advised_ = std::exchange(other.advised_, 0);
     }
     return *this;
@@ -53,7 +54,7 @@ void Arena::release() {
     }
     data_ = nullptr;
     capacity_ = 0;
-    used_ = 0;
+    max_reserved_ = 0;
     advised_ = 0;
 }
 
@@ -81,11 +82,11 @@ bool Arena::reserve(std::size_t bytes) {
             return false;
         }
     }
-    if (bytes > used_) {
-        if (!platform::commit_memory(data_ + used_, bytes - used_)) {
+    if (bytes > max_reserved_) {
+        if (!platform::commit_memory(data_ + max_reserved_, bytes - max_reserved_)) {
             return false;
         }
-        used_ = bytes;
+        max_reserved_ = bytes;
     }
     advise();
     return true;
@@ -96,8 +97,8 @@ void Arena::advise() {
     if (capacity_ <= kMaxSmallArena) {
         return;
     }
-    const std::size_t rest = used_ % kHugePage;
-    const std::size_t end = used_ - rest + (rest >= kMinHugePageUse ? kHugePage : 0);
+    const std::size_t rest = max_reserved_ % kHugePage;
+    const std::size_t end = max_reserved_ - rest + (rest >= kMinHugePageUse ? kHugePage : 0);
     if (end > advised_) {
         platform::advise_huge_pages(data_ + advised_, end - advised_);
         advised_ = end;

@@ -36,15 +36,15 @@ public:
         return reinterpret_cast<const T*>(data_);
     }
     [[nodiscard]] std::size_t capacity() const { return capacity_; }
-    /// The largest number of bytes ever reserved: an upper bound of the memory in use.
-    [[nodiscard]] std::size_t used() const { return used_; }
+    /// The largest number of bytes reserved since release(): an upper bound of the memory in use.
+    [[nodiscard]] std::size_t max_reserved() const { return max_reserved_; }
 
 private:
     void advise();
 
     std::byte* data_ = nullptr;
     std::size_t capacity_ = 0;
-    std::size_t used_ = 0;
+    std::size_t max_reserved_ = 0;
     std::size_t advised_ = 0; // bytes from data_ on for which huge pages were requested
 };
 

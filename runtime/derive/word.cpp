@@ -46,7 +46,8 @@ std::uint64_t Word::held_bytes_after(std::uint64_t module_count,
                                      std::uint64_t parameter_count) const {
     // An arena that is too small is released before it grows.
     const auto held = [](const Arena& arena, std::uint64_t bytes) {
-        return bytes > arena.capacity() ? bytes : std::max<std::uint64_t>(arena.used(), bytes);
+        return bytes > arena.capacity() ? bytes
+                                        : std::max<std::uint64_t>(arena.max_reserved(), bytes);
     };
     const std::uint64_t codes = held(codes_, bytes_with_slack(module_count, code_width_));
     const std::uint64_t parameters =

@@ -55,7 +55,7 @@ public:
     }
     /// Bytes obtained from the system.
     [[nodiscard]] std::uint64_t held_bytes() const {
-        return codes_.used() + parameters_.used() + origins_.used();
+        return codes_.max_reserved() + parameters_.max_reserved() + origins_.max_reserved();
     }
     /// held_bytes() after resize() to these sizes; saturates.
     [[nodiscard]] std::uint64_t held_bytes_after(std::uint64_t module_count,

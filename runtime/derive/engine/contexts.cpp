@@ -30,7 +30,7 @@ ContextTables::ContextTables(const Plan& plan) : has_structure_(plan.has_structu
 
 std::uint64_t ContextTables::held_bytes() const {
     return roles_.size() + left_.held_bytes() + next_.held_bytes() + jump_.held_bytes() +
-           offsets_.used();
+           offsets_.max_reserved();
 }
 
 std::uint64_t ContextTables::held_bytes_after(const Word& word) const {
@@ -42,7 +42,7 @@ std::uint64_t ContextTables::held_bytes_after(const Word& word) const {
         bytes += needs_right_ ? std::max(next_.held_bytes(), table) : 0;
         bytes += needs_jump_ ? std::max(jump_.held_bytes(), table) : 0;
     }
-    return bytes + std::max<std::uint64_t>(offsets_.used(), count / kOffsetStride * 8 + 8);
+    return bytes + std::max<std::uint64_t>(offsets_.max_reserved(), count / kOffsetStride * 8 + 8);
 }
 
 bool ContextTables::prepare(const Plan& plan, const Word& word) {

@@ -48,7 +48,7 @@ public:
             arena_.as<std::uint32_t>()[at] = static_cast<std::uint32_t>(index);
         }
     }
-    [[nodiscard]] std::uint64_t held_bytes() const { return arena_.used(); }
+    [[nodiscard]] std::uint64_t held_bytes() const { return arena_.max_reserved(); }
 
 private:
     Arena arena_;

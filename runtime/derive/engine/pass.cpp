@@ -46,7 +46,7 @@ Passes::Passes(const Plan& plan, const DeriveOptions& options)
     : plan_(plan), options_(options), workers_(options.threads), contexts_(plan) {}
 
 std::uint64_t Passes::held_bytes() const {
-    return contexts_.held_bytes() + records_.used() + chunks_.capacity() * sizeof(Chunk) +
+    return contexts_.held_bytes() + records_.max_reserved() + chunks_.capacity() * sizeof(Chunk) +
            census_.capacity() * sizeof(std::uint64_t);
 }
 

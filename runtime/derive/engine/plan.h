@@ -42,8 +42,8 @@ struct alignas(64) Entry {
     std::uint32_t first_code = 0; // index in the pool
     std::uint32_t code_count = 0;
     std::uint32_t parameter_count = 0;
-    /// General: the index in Plan::batch_programs(), or kNone for evaluate(). Else, if there are
-    /// more than kEntryTerms parameters, the index of the first one in Plan::terms().
+    /// If `general`: index in Plan::batch_programs(); kNone: evaluate() computes the parameters.
+    /// Otherwise, with more than kEntryTerms parameters: index of the first one in Plan::terms().
     std::uint32_t terms_or_program = 0;
     std::uint32_t candidate = kNone; // kNone: a copy of the module
     std::uint32_t first_place = 0;   // of the successor in Bytecode::template_codes
