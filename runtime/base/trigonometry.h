@@ -52,17 +52,17 @@ struct SineCosine {
     }
     const bool is_steep = height > x;
     double t = is_steep ? x / height : height / x;
-    double times = 1.0; // atan(t) = 2 atan(t / (1 + sqrt(1 + t^2)))
+    double factor = 1.0; // atan(t) = 2 atan(t / (1 + sqrt(1 + t^2)))
     for (int i = 0; i < 2; ++i) {
         t /= 1.0 + std::sqrt(1.0 + t * t);
-        times *= 2.0;
+        factor *= 2.0;
     }
     const double square = t * t; // at most 0.04
     double sum = 0.0;
     for (int n = 23; n >= 1; n -= 2) { // Taylor series
         sum = 1.0 / n - square * sum;
     }
-    const double angle = times * t * sum;
+    const double angle = factor * t * sum;
     return std::copysign(is_steep ? 0.5 * std::numbers::pi - angle : angle, y);
 }
 

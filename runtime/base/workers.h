@@ -9,8 +9,8 @@
 
 namespace lsys {
 
-/// Own threads instead of oneTBB: this team is ready in microseconds and many words derive in
-/// milliseconds, while oneTBB's arenas take one to two milliseconds before their first task.
+/// A team of threads. It replaces oneTBB, whose arenas take one to two milliseconds before their
+/// first task: this team is ready in microseconds, and many words derive in milliseconds.
 class Workers {
 public:
     /// `threads` 0: as many as the machine has. No thread is started before it is needed. Builds
