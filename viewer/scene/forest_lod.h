@@ -66,11 +66,11 @@ struct BlendRange {
 };
 
 /// An impostor of a tree or of a cell.
-struct DrawEntry {
+struct ImpostorEntry {
     std::uint32_t index = 0;
     BlendRange range;
 
-    friend bool operator==(const DrawEntry&, const DrawEntry&) = default;
+    friend bool operator==(const ImpostorEntry&, const ImpostorEntry&) = default;
 };
 
 /// A branch: slot in the pool and weight of blending, packed as shaders/branch.vert.glsl reads
@@ -109,8 +109,8 @@ struct DrawLists {
     std::vector<BranchEntry> branches; // grouped by run
     std::vector<BranchRun> runs;
     // In `trees` and `clusters`, entries with the whole blend range precede blended ones.
-    std::vector<DrawEntry> trees;    // impostors; index: see ForestLod::lod_tree()
-    std::vector<DrawEntry> clusters; // index: cell
+    std::vector<ImpostorEntry> trees;    // impostors; index: see ForestLod::lod_tree()
+    std::vector<ImpostorEntry> clusters; // index: cell
     std::array<std::uint32_t, kTreeLevels> trees_of_level{}; // count of trees with branches in view
     std::uint64_t far_trees = 0;                             // trees in `trees` without branches
     std::uint64_t clustered_trees = 0; // trees of `clusters`, without those in `trees`
@@ -256,7 +256,7 @@ private:
     std::vector<std::uint32_t> first_mesh_; // by form
     DrawLists lists_;
     std::vector<Candidate> candidates_;
-    std::vector<DrawEntry> far_;
+    std::vector<ImpostorEntry> far_;
     std::vector<BranchEntry> visible_branches_;
     std::vector<PoolBranch> made_branches_;
     std::vector<VisibleTree> visible_trees_; // owners of visible_branches_

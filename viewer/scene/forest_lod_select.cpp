@@ -103,9 +103,9 @@ ForestLod::select(const Frustum& frustum, const LodOptions& options, GroundHoriz
     list_branches(frustum, options);
     lists_.far_trees += far_.size();
     lists_.trees.insert(lists_.trees.end(), far_.begin(), far_.end());
-    for (std::vector<DrawEntry>* list : {&lists_.trees, &lists_.clusters}) {
+    for (std::vector<ImpostorEntry>* list : {&lists_.trees, &lists_.clusters}) {
         std::stable_partition(list->begin(), list->end(),
-                              [](const DrawEntry& each) { return each.range.is_whole(); });
+                              [](const ImpostorEntry& each) { return each.range.is_whole(); });
     }
     return lists_;
 }

@@ -33,7 +33,7 @@ std::vector<DrawnTree> drawn_by(ForestLod& lod, const Camera& camera) {
             add(lod.pool().branches()[lists.branches[i].slot()].tree, run.level);
         }
     }
-    for (const DrawEntry& tree : lists.trees) {
+    for (const ImpostorEntry& tree : lists.trees) {
         add(tree.index, kTreeLevels);
     }
     std::sort(drawn.begin(), drawn.end());

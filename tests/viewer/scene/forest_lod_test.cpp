@@ -86,11 +86,11 @@ TEST_CASE("every pixel of a tree in view is drawn by exactly one LOD band") {
                 ranges[tree].push_back({0.0F, weight});
             }
         }
-        for (const DrawEntry& tree : lists.trees) {
+        for (const ImpostorEntry& tree : lists.trees) {
             ranges[tree.index].push_back(tree.range);
         }
         std::uint64_t clustered = 0;
-        for (const DrawEntry& cluster : lists.clusters) {
+        for (const ImpostorEntry& cluster : lists.clusters) {
             const ForestCell& cell = lod.cells()[cluster.index];
             clustered += cluster.range.is_whole() ? cell.count : 0;
             for (std::uint32_t i = 0; i < cell.count; ++i) {
@@ -156,7 +156,7 @@ TEST_CASE("a tree that comes nearer blends from one LOD band to the next") {
                 static_cast<float>(branch.steps()) / static_cast<float>(BranchEntry::kBlendSteps);
         }
         float horizon = 0.0F;
-        for (const DrawEntry& cluster : lists.clusters) {
+        for (const ImpostorEntry& cluster : lists.clusters) {
             horizon +=
                 (cluster.range.high - cluster.range.low) / static_cast<float>(lod.cells().size());
         }

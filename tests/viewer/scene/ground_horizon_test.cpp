@@ -134,10 +134,10 @@ TEST_CASE("only trees behind the ground are omitted") {
         hidden += some.occluded;
         std::set<std::uint32_t> left;
         const auto collect = [&](const DrawLists& lists, const auto& take) {
-            for (const DrawEntry& tree : lists.trees) {
+            for (const ImpostorEntry& tree : lists.trees) {
                 take(tree.index);
             }
-            for (const DrawEntry& cluster : lists.clusters) {
+            for (const ImpostorEntry& cluster : lists.clusters) {
                 const ForestCell& cell = lod.cells()[cluster.index];
                 for (std::uint32_t t = cell.first; t < cell.first + cell.count; ++t) {
                     take(t);

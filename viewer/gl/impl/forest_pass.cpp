@@ -65,8 +65,10 @@ double seconds_since(Clock::time_point start) {
 ForestPass::ForestPass(Device& device)
     : device_(&device), buffers_(device), impostors_(device), terrain_(device),
       quads_(make_vertex_array(device)), quad_trees_(device) {
-    glVertexArrayAttribIFormat(quads_.name(), 0, 1, GL_UNSIGNED_INT, offsetof(DrawEntry, index));
-    glVertexArrayAttribFormat(quads_.name(), 1, 2, GL_FLOAT, GL_FALSE, offsetof(DrawEntry, range));
+    glVertexArrayAttribIFormat(quads_.name(), 0, 1, GL_UNSIGNED_INT,
+                               offsetof(ImpostorEntry, index));
+    glVertexArrayAttribFormat(quads_.name(), 1, 2, GL_FLOAT, GL_FALSE,
+                              offsetof(ImpostorEntry, range));
     for (const GLuint attribute : {0U, 1U}) {
         glEnableVertexArrayAttrib(quads_.name(), attribute);
         glVertexArrayAttribBinding(quads_.name(), attribute, 0);
@@ -207,7 +209,7 @@ void ForestPass::prepare(const Frame& frame) {
     buffers_.upload_commands(*lists_);
 }
 
-void ForestPass::draw_impostors(std::span<const DrawEntry> trees, FrameStats& stats) {
+void ForestPass::draw_impostors(std::span<const ImpostorEntry> trees, FrameStats& stats) {
     if (trees.empty()) {
         return;
     }
@@ -217,7 +219,7 @@ void ForestPass::draw_impostors(std::span<const DrawEntry> trees, FrameStats& st
     glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
     const auto whole = static_cast<std::size_t>(
         std::partition_point(trees.begin(), trees.end(),
-                             [](const DrawEntry& tree) { return tree.range.is_whole(); }) -
+                             [](const ImpostorEntry& tree) { return tree.range.is_whole(); }) -
         trees.begin());
     stats.draws += draw_quads(programs().impostor_depth, 0, whole);
     stats.draws += draw_quads(programs().blending_impostor_depth, whole, trees.size() - whole);
@@ -235,7 +237,7 @@ ForestPass::draw_quads(const ProgramObject& program, std::size_t first, std::siz
     if (count == 0) {
         return 0;
     }
-    glVertexArrayVertexBuffer(quads_.name(), 0, quad_trees_.name(), 0, sizeof(DrawEntry));
+    glVertexArrayVertexBuffer(quads_.name(), 0, quad_trees_.name(), 0, sizeof(ImpostorEntry));
     glUseProgram(program.name());
     glBindTextureUnit(kAlbedos, impostors_.albedos());
     glBindTextureUnit(kNormals, impostors_.normals());
@@ -249,7 +251,7 @@ ForestPass::draw_quads(const ProgramObject& program, std::size_t first, std::siz
 void ForestPass::draw_shadows(const glm::mat4& shadow_from_world, ForestFrameStats& stats) {
     std::vector<std::uint32_t> numbers;
     lod_->find_within(casters_of(shadow_from_world, bounds().low.y, bounds().high.y), numbers);
-    std::vector<DrawEntry> trees;
+    std::vector<ImpostorEntry> trees;
     trees.reserve(numbers.size());
     for (const std::uint32_t number : numbers) {
         trees.push_back({number, {}});
@@ -257,7 +259,7 @@ void ForestPass::draw_shadows(const glm::mat4& shadow_from_world, ForestFrameSta
     buffers_.bind_storage();
     glDisable(GL_CULL_FACE);
     if (!trees.empty()) {
-        quad_trees_.fill(std::span<const DrawEntry>(trees));
+        quad_trees_.fill(std::span<const ImpostorEntry>(trees));
         stats.shadow.draws += draw_quads(programs().impostor_shadow, 0, trees.size());
         stats.shadow.triangles += 2 * trees.size();
     }
@@ -350,15 +352,17 @@ void ForestPass::draw_picked(MaterialTextures& textures) {
                                (blends ? picks.blending_cut_out : picks.cut_out).name(), blends);
     }
     glDisable(GL_CULL_FACE);
-    const auto draw_impostors = [&](std::span<const DrawEntry> entries, PickedKind kind) {
+    const auto draw_impostors = [&](std::span<const ImpostorEntry> entries, PickedKind kind) {
         if (entries.empty()) {
             return;
         }
         quad_trees_.fill(entries);
-        const auto whole = static_cast<std::size_t>(
-            std::partition_point(entries.begin(), entries.end(),
-                                 [](const DrawEntry& entry) { return entry.range.is_whole(); }) -
-            entries.begin());
+        const auto whole =
+            static_cast<std::size_t>(std::partition_point(entries.begin(), entries.end(),
+                                                          [](const ImpostorEntry& entry) {
+                                                              return entry.range.is_whole();
+                                                          }) -
+                                     entries.begin());
         use(picks.impostor, kind);
         draw_quads(picks.impostor, 0, whole);
         use(picks.blending_impostor, kind);

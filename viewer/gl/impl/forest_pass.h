@@ -70,7 +70,7 @@ private:
     [[nodiscard]] const ForestPrograms& programs() const { return programs_[is_windy_ ? 1 : 0]; }
     void draw_branches(const BranchPrograms& programs, bool blends, FrameStats& stats);
     /// Draws impostors of trees or clusters.
-    void draw_impostors(std::span<const DrawEntry> trees, FrameStats& stats);
+    void draw_impostors(std::span<const ImpostorEntry> trees, FrameStats& stats);
     /// Draws quads of quad_trees_; returns the count of draw calls.
     std::uint64_t draw_quads(const ProgramObject& program, std::size_t first, std::size_t count);
 
