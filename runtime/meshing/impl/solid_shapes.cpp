@@ -19,7 +19,7 @@ double nearest_ball(const SolidShape& cone, double along, double across) {
     if (std::abs(cone.taper) >= 1.0) { // the ball at one end contains the other
         return cone.taper > 0.0 ? 0.0 : cone.length;
     }
-    return std::clamp(along - across * cone.foot, 0.0, cone.length);
+    return std::clamp(along - across * cone.ball_shift, 0.0, cone.length);
 }
 
 /// The distance of a point from a triangle. The nearest point of a triangle is on a side that faces
@@ -63,7 +63,7 @@ make_cone(const glm::dvec3& base, double base_radius, const glm::dvec3& tip, dou
         cone.axis = (tip - base) / cone.length;
         cone.taper = (base_radius - tip_radius) / cone.length;
         if (std::abs(cone.taper) < 1.0) {
-            cone.foot = cone.taper / std::sqrt(1.0 - cone.taper * cone.taper);
+            cone.ball_shift = cone.taper / std::sqrt(1.0 - cone.taper * cone.taper);
         }
     }
     return cone;

@@ -24,10 +24,12 @@ struct SolidShape {
     ItemColour palette = 0;
     std::uint32_t segment = kNoSegment; // the segment that carries the shape
     // Members of a cone:
-    glm::dvec3 axis{};       // unit length
-    double length = 0.0;     // of the axis; 0: a ball
-    double taper = 0.0;      // loss of radius per length
-    double foot = 0.0;       // distance along the axis from a point to its nearest ball, per radius
+    glm::dvec3 axis{};   // unit length
+    double length = 0.0; // of the axis; 0: a ball
+    double taper = 0.0;  // loss of radius per length
+    /// Distance along the axis, towards the base, from the projection of a point on the axis to the
+    /// ball nearest to the point, per distance of the point from the axis.
+    double ball_shift = 0.0;
     double min_radius = 0.0; // radius at the thin end
     /// Members of a triangle: its plane, with corners[0] as origin, and its sides in this plane,
     /// counter-clockwise.

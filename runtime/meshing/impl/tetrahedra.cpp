@@ -39,8 +39,8 @@ constexpr double kBaseCells = 0.25;
 /// Triangles between vertices on a curved surface lie within the solid. Therefore the surface of
 /// cones is moved outwards by kChord * cell^2 / radius, which keeps their volume.
 constexpr double kChord = 0.031;
-/// Bound of the change of a distance per metre.
-constexpr double kSlope = 1.02;
+/// Lipschitz bound of the distance from the surface: its max change per metre.
+constexpr double kLipschitz = 1.02;
 /// Size of a tetrahedron of generation k, k modulo 3, relative to k = 0: 2^(-k / 3).
 constexpr std::array<double, 3> kSteps{1.0, 0.7937005259840998, 0.6299605249474366};
 /// Min distance of a vertex from the ends of its edge, per length: no triangle shrinks to a line.
@@ -258,7 +258,7 @@ private:
             middles_.emplace(key, at_middle);
         }
         const double distance = above_ground(at_middle.distance, middle);
-        if (std::abs(distance) > kSlope * reach) {
+        if (std::abs(distance) > kLipschitz * reach) {
             return;
         }
         const double size = at_middle.size;
@@ -276,7 +276,8 @@ private:
             const Size& at = probes_[i - first];
             // A shape matters for the size of cells only if its cells may be the smallest somewhere in
             // this tetrahedron. Among many leaves, only the nearest ones matter.
-            const bool may_be_nearest = at.distance <= at_middle.distance + 2.0 * kSlope * reach;
+            const bool may_be_nearest =
+                at.distance <= at_middle.distance + 2.0 * kLipschitz * reach;
             const bool may_be_smallest = at.size <= size + 2.0 * kMaxGrowth * reach;
             if (may_be_nearest || (may_be_smallest && at.size - kMaxGrowth * reach < next)) {
                 near_.push_back(near_[i]);
@@ -344,7 +345,7 @@ private:
         }
         nearest_.clear();
         for (std::size_t i = 0; i < near.size(); ++i) {
-            if (probes_[i].distance <= nearest + 2.0 * kSlope * reach) {
+            if (probes_[i].distance <= nearest + 2.0 * kLipschitz * reach) {
                 nearest_.push_back(near[i]);
             }
         }

@@ -51,7 +51,7 @@ struct Accepted {
 class PoissonBlock {
 public:
     PoissonBlock(const PlacementOptions& options, const CellGrid& grid)
-        : options_(options), grid_(grid), squared_(options.spacing * options.spacing) {}
+        : options_(options), grid_(grid), squared_spacing_(options.spacing * options.spacing) {}
 
     /// Decides on all candidates of `cells`.
     void decide(const CellRange& cells);
@@ -69,7 +69,7 @@ private:
     [[nodiscard]] bool are_rivals(std::uint32_t a, std::uint32_t b) const {
         const double dx = static_cast<double>(places_[a].x) - static_cast<double>(places_[b].x);
         const double dz = static_cast<double>(places_[a].y) - static_cast<double>(places_[b].y);
-        return dx * dx + dz * dz < squared_;
+        return dx * dx + dz * dz < squared_spacing_;
     }
     /// Index in accepted_at_ of the quarter that `candidate` lies in.
     [[nodiscard]] std::size_t quarter_of(std::uint32_t candidate) const {
@@ -82,7 +82,7 @@ private:
 
     const PlacementOptions& options_;
     const CellGrid& grid_;
-    double squared_; // square of the spacing
+    double squared_spacing_;
     CellRange cells_;
     std::vector<glm::vec2> places_;
     std::vector<std::uint32_t> ranks_;
@@ -177,7 +177,8 @@ void PoissonBlock::decide_one(std::uint32_t candidate) {
         for (std::int64_t j = 0; j <= 2 * kNeighbourQuarters; ++j) {
             const double dx = static_cast<double>(row[j].x) - x;
             const double dz = static_cast<double>(row[j].z) - z;
-            rejected = std::min(rejected, dx * dx + dz * dz < squared_ ? row[j].round : kUndecided);
+            rejected = std::min(rejected,
+                                dx * dx + dz * dz < squared_spacing_ ? row[j].round : kUndecided);
         }
     }
     rejected_in_[candidate] = static_cast<std::uint8_t>(rejected);

@@ -29,7 +29,7 @@ bool fits(const PlacementSpecies& species, float height, float slope) {
 TreeMaker::TreeMaker(const PlacementOptions& options, const Terrain& terrain)
     : options_(options), terrain_(terrain) {
     for (const PlacementSpecies& species : options.species) {
-        shares_ += species.share;
+        total_share_ += species.share;
         has_limits_ = has_limits_ || !lives_everywhere(species);
         has_steepest_ = has_steepest_ || !std::isinf(species.steepest);
     }
@@ -38,7 +38,7 @@ TreeMaker::TreeMaker(const PlacementOptions& options, const Terrain& terrain)
 std::uint32_t TreeMaker::choose_species(std::uint32_t word, float x, float height, float z) const {
     const std::vector<PlacementSpecies>& species = options_.species;
     const float slope = has_steepest_ ? terrain_.slope(x, z) : 0.0F;
-    double shares = shares_;
+    double shares = total_share_;
     if (has_limits_) {
         shares = 0.0;
         for (const PlacementSpecies& each : species) {

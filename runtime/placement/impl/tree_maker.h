@@ -43,8 +43,8 @@ private:
 
     const PlacementOptions& options_;
     const Terrain& terrain_;
-    double shares_ = 0.0;
-    bool has_limits_ = false; // some species cannot live everywhere
+    double total_share_ = 0.0; // of all species
+    bool has_limits_ = false;  // some species cannot live everywhere
     bool has_steepest_ = false;
 };
 

@@ -33,10 +33,11 @@ double angle_of(double y, double x) {
 glm::dvec3 earth_fixed(const GeoPlace& place) {
     const auto [sin_lat, cos_lat] = sine_cosine(place.latitude * kDegree);
     const auto [sin_lon, cos_lon] = sine_cosine(place.longitude * kDegree);
-    const double normal = kA / std::sqrt(1.0 - kE2 * sin_lat * sin_lat);
-    return {(normal + place.height) * cos_lat * cos_lon,
-            (normal + place.height) * cos_lat * sin_lon,
-            (normal * (1.0 - kE2) + place.height) * sin_lat};
+    // Radius of curvature in the prime vertical, m.
+    const double prime_vertical = kA / std::sqrt(1.0 - kE2 * sin_lat * sin_lat);
+    return {(prime_vertical + place.height) * cos_lat * cos_lon,
+            (prime_vertical + place.height) * cos_lat * sin_lon,
+            (prime_vertical * (1.0 - kE2) + place.height) * sin_lat};
 }
 
 GeoPlace along_geodesic(const GeoPlace& start, double east, double north, double distance) {

@@ -85,7 +85,7 @@ double volume_by_cubes(const Skeleton& skeleton, double min_radius, double side,
 
 /// The square of the distance of a point from a triangle: the minimum over a lattice of points of
 /// the triangle.
-double square_from(const std::array<glm::dvec3, 3>& corners, const glm::dvec3& point) {
+double squared_distance(const std::array<glm::dvec3, 3>& corners, const glm::dvec3& point) {
     constexpr int kSteps = 24;
     double min_square = std::numeric_limits<double>::max();
     for (int i = 0; i <= kSteps; ++i) {
@@ -293,21 +293,22 @@ TEST_CASE("solids of triangles of any shape and size have the volume counted in 
     const Mesh mesh = meshed(skeleton, options);
     check_closed(mesh, 1);
     CHECK(crossings(mesh) == 0);
-    // square_from() uses lattice points at most 0.03 from any point of the triangle, which changes
+    // squared_distance() uses lattice points at most 0.03 from any point of the triangle, which changes
     // distances near 0.1 by at most 0.005.
     const double side = 0.025;
     std::uint64_t cubes = 0;
     for (double x = -0.2; x < 1.6; x += side) {
         for (double y = -0.2; y < 1.4; y += side) {
             for (double z = -0.6; z < 1.2; z += side) {
-                cubes += std::any_of(triangles.begin(), triangles.end(),
-                                     [&](const std::array<glm::vec3, 3>& t) {
-                                         return square_from({glm::dvec3(t[0]), glm::dvec3(t[1]),
+                cubes +=
+                    std::any_of(triangles.begin(), triangles.end(),
+                                [&](const std::array<glm::vec3, 3>& t) {
+                                    return squared_distance({glm::dvec3(t[0]), glm::dvec3(t[1]),
                                                              glm::dvec3(t[2])},
                                                             {x, y, z}) <= 0.01;
-                                     })
-                             ? 1U
-                             : 0U;
+                                })
+                        ? 1U
+                        : 0U;
             }
         }
     }
