@@ -53,10 +53,11 @@ window.draw = async (url, azimuth, elevation, seconds) => {
   const { center: centre, radius } = box.getBoundingSphere(new THREE.Sphere());
   const extent = box.getSize(new THREE.Vector3());
   const isDrawing = extent.z < 0.05 * Math.max(extent.x, extent.y);
-  const around = radians(azimuth ?? (isDrawing ? 0 : 35));
-  const above = radians(elevation ?? (isDrawing ? 0 : 10));
+  const azimuthRadians = radians(azimuth ?? (isDrawing ? 0 : 35));
+  const elevationRadians = radians(elevation ?? (isDrawing ? 0 : 10));
   const camera = frame(box, new THREE.Vector3(
-    Math.sin(around) * Math.cos(above), Math.sin(above), Math.cos(around) * Math.cos(above)));
+    Math.sin(azimuthRadians) * Math.cos(elevationRadians), Math.sin(elevationRadians),
+    Math.cos(azimuthRadians) * Math.cos(elevationRadians)));
 
   scene.add(new THREE.HemisphereLight(0xffffff, 0x8a8478, 1.7));
   const sun = new THREE.DirectionalLight(0xfff4e0, 2.8);

@@ -14,10 +14,11 @@ import sys
 import urllib.parse
 
 INSTANCING = "EXT_mesh_gpu_instancing"
-WIDTHS = {"SCALAR": 1, "VEC2": 2, "VEC3": 3, "VEC4": 4}
-CODES = {5120: "b", 5121: "B", 5122: "h", 5123: "H", 5125: "I", 5126: "f"}
-#: Largest value of a normalised integer.
-UNITS = {5120: 127, 5121: 255, 5122: 32767, 5123: 65535}
+COMPONENT_COUNTS = {"SCALAR": 1, "VEC2": 2, "VEC3": 3, "VEC4": 4}
+#: Type codes of the module array by component type.
+TYPE_CODES = {5120: "b", 5121: "B", 5122: "h", 5123: "H", 5125: "I", 5126: "f"}
+#: The integer that stands for 1 in normalised components, by component type.
+MAX_INTEGERS = {5120: 127, 5121: 255, 5122: 32767, 5123: 65535}
 IDENTITY = ((0.0, 0.0, 0.0), (0.0, 0.0, 0.0, 1.0), (1.0, 1.0, 1.0))
 
 
@@ -148,12 +149,12 @@ class Gltf:
     def read_accessor(self, number):
         accessor = self.item("accessors", number)
         kind = accessor.get("componentType")
-        if kind not in CODES or accessor.get("type") not in WIDTHS:
+        if kind not in TYPE_CODES or accessor.get("type") not in COMPONENT_COUNTS:
             raise GltfError(f"accessor {number} has a type that is not read here")
         if "sparse" in accessor or "bufferView" not in accessor:
             raise GltfError(f"accessor {number} is sparse")
-        width = WIDTHS[accessor["type"]]
-        values = array.array(CODES[kind])
+        width = COMPONENT_COUNTS[accessor["type"]]
+        values = array.array(TYPE_CODES[kind])
         data, stride = self.view(accessor["bufferView"])
         size = width * values.itemsize
         begin, count = accessor.get("byteOffset", 0), accessor["count"]
@@ -169,8 +170,8 @@ class Gltf:
             values.frombytes(packed)
         if sys.byteorder != "little":
             values.byteswap()
-        if accessor.get("normalized") and kind in UNITS:
-            unit = UNITS[kind]
+        if accessor.get("normalized") and kind in MAX_INTEGERS:
+            unit = MAX_INTEGERS[kind]
             values = array.array("f", (max(-1.0, value / unit) for value in values))
         return values, width
 
