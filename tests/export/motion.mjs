@@ -21,7 +21,7 @@ export function posedVertices(three, gltf, time) {
     const mixer = new three.AnimationMixer(gltf.scene);
     const action = mixer.clipAction(gltf.animations[0]);
     action.setLoop(three.LoopOnce);
-    action.clampWhenFinished = true; // the last key is not the first one again
+    action.clampWhenFinished = true; // shows the last key at the end, not the first again
     action.play();
     mixer.setTime(time);
     gltf.scene.updateMatrixWorld(true);
@@ -47,7 +47,7 @@ export function shownCorners(three, gltf, time) {
     const mixer = new three.AnimationMixer(gltf.scene);
     const action = mixer.clipAction(gltf.animations[0]);
     action.setLoop(three.LoopOnce);
-    action.clampWhenFinished = true; // the last key is not the first one again
+    action.clampWhenFinished = true; // shows the last key at the end, not the first again
     action.play();
     mixer.setTime(time);
     gltf.scene.updateMatrixWorld(true);

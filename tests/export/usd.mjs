@@ -21,7 +21,7 @@ export function posedCorners(three, group, time) {
     const mixer = new three.AnimationMixer(group);
     const action = mixer.clipAction(group.animations[0]);
     action.setLoop(three.LoopOnce);
-    action.clampWhenFinished = true; // the last key is not the first one again
+    action.clampWhenFinished = true; // shows the last key at the end, not the first again
     action.play();
     mixer.setTime(time);
     group.updateMatrixWorld(true);
