@@ -18,7 +18,7 @@ import numpy as np
 import lsys
 
 LSC, ROOT = map(os.path.abspath, sys.argv[1:3])
-MOST_MODULES = 300_000
+MAX_MODULES = 300_000
 LEAST_GRAMMARS = 300
 NO_PARENT = 2**32 - 1
 
@@ -39,7 +39,7 @@ def grammars():
 
 def run_lsc(*arguments):
     """Status and output of a run."""
-    done = subprocess.run([LSC, *arguments, "-q", "--max-modules", str(MOST_MODULES)], capture_output=True,
+    done = subprocess.run([LSC, *arguments, "-q", "--max-modules", str(MAX_MODULES)], capture_output=True,
                           stdin=subprocess.DEVNULL, check=False)
     return done.returncode, done.stdout
 
@@ -89,13 +89,13 @@ class Equality(unittest.TestCase):
                     continue
                 with self.subTest(os.path.relpath(path, ROOT)):
                     grammar = lsys.compile(path)
-                    word = grammar.derive(max_modules=MOST_MODULES)
+                    word = grammar.derive(max_modules=MAX_MODULES)
                     self.assertEqual(str(word) + "\n", expected.decode())
                     words += 1
                     status, expected = run_lsc("dump", "--stage", "skeleton", path)
                     if status != 0:
                         continue
-                    plant = grammar.grow(max_modules=MOST_MODULES)
+                    plant = grammar.grow(max_modules=MAX_MODULES)
                     self.compare_skeleton(plant.segments, expected.decode())
                     skeletons += 1
                     if run_lsc("export", path, "-o", ply)[0] == 0:

@@ -363,7 +363,7 @@ private:
         repair_probabilities();
         decompose_some();
         interpret_some();
-        cut_some();
+        insert_cuts();
         add_materials();
         add_ignored();
         add_settings();
@@ -432,7 +432,7 @@ private:
     }
 
     // Inserts a `%` in some places.
-    void cut_some() {
+    void insert_cuts() {
         if (!random_.percent(22)) {
             return;
         }

@@ -17,36 +17,37 @@
 namespace lsys::analysis {
 namespace {
 
-struct Laid {
+struct CompiledConditions {
     std::vector<std::uint32_t> instructions;
     std::vector<ConditionView> views;
 };
 
 /// The instructions of conditions on the formals x and y, each followed by Test and End.
-Laid lay(const std::vector<std::string>& conditions) {
+CompiledConditions compile_conditions(const std::vector<std::string>& conditions) {
     const test::NameTable names{{"x", 0}, {"y", 1}};
     const test::NameTable globals{{"c", 0}};
     std::uint32_t draws = 0;
     bool uses_steps = false;
-    Laid laid;
+    CompiledConditions compiled;
     for (const std::string& text : conditions) {
         const test::Instructions condition =
             test::compile_expression(text, {names, globals, draws, uses_steps});
-        laid.views.push_back({static_cast<std::uint32_t>(laid.instructions.size()), 0});
-        laid.instructions.insert(laid.instructions.end(), condition.begin(), condition.end());
-        laid.instructions.push_back(encode(Opcode::Test, 0));
-        laid.instructions.push_back(encode(Opcode::End, 0));
+        compiled.views.push_back({static_cast<std::uint32_t>(compiled.instructions.size()), 0});
+        compiled.instructions.insert(compiled.instructions.end(), condition.begin(),
+                                     condition.end());
+        compiled.instructions.push_back(encode(Opcode::Test, 0));
+        compiled.instructions.push_back(encode(Opcode::End, 0));
     }
-    return laid;
+    return compiled;
 }
 
-std::optional<ConditionGrid> grid_of(const Laid& laid, std::uint32_t formals) {
+std::optional<ConditionGrid> grid_of(const CompiledConditions& compiled, std::uint32_t formals) {
     const std::vector<KnownValue> unknown(formals);
-    return make_condition_grid(laid.instructions, laid.views, unknown, {}, 10'000);
+    return make_condition_grid(compiled.instructions, compiled.views, unknown, {}, 10'000);
 }
 
 std::optional<ConditionGrid> grid_of(const std::string& condition, std::uint32_t formals) {
-    return grid_of(lay({condition}), formals);
+    return grid_of(compile_conditions({condition}), formals);
 }
 
 std::vector<float> lows(const GridAxis& axis) {
@@ -157,12 +158,13 @@ TEST_CASE("a deeper right operand, computed first, gives the same splits and val
     for (const bool falling : {false, true}) {
         std::vector<std::vector<float>> cuts;
         for (const bool swapped : {false, true}) {
-            Laid laid{side(swapped, falling), {{0, 0}}};
-            laid.instructions.insert(laid.instructions.end(), {op(Opcode::Test), op(Opcode::End)});
+            CompiledConditions compiled{side(swapped, falling), {{0, 0}}};
+            compiled.instructions.insert(compiled.instructions.end(),
+                                         {op(Opcode::Test), op(Opcode::End)});
             const std::vector<KnownValue> two{{2.0F, true}};
-            CHECK(Evaluator().run(laid.instructions, 0, {two, {}, {}}).value ==
+            CHECK(Evaluator().run(compiled.instructions, 0, {two, {}, {}}).value ==
                   (falling ? -3.0F : 3.0F));
-            const auto grid = grid_of(laid, 1);
+            const auto grid = grid_of(compiled, 1);
             REQUIRE(grid);
             cuts.push_back(lows(grid->axes.at(0)));
         }
@@ -172,9 +174,9 @@ TEST_CASE("a deeper right operand, computed first, gives the same splits and val
 }
 
 TEST_CASE("known parameters are constants") {
-    const Laid laid = lay({"x < y"});
+    const CompiledConditions compiled = compile_conditions({"x < y"});
     const std::vector<KnownValue> values{{}, {5.0F, true}};
-    const auto grid = make_condition_grid(laid.instructions, laid.views, values, {}, 100);
+    const auto grid = make_condition_grid(compiled.instructions, compiled.views, values, {}, 100);
     REQUIRE(grid);
     REQUIRE(grid->axes.size() == 1);
     CHECK(lows(grid->axes[0]) == std::vector<float>{kLowest, 5.0F});
@@ -186,7 +188,7 @@ TEST_CASE("a grid that would be too large is not made") {
         conditions.push_back("x == " + std::to_string(i));
         conditions.push_back("y == " + std::to_string(i));
     }
-    CHECK(!grid_of(lay(conditions), 2));
+    CHECK(!grid_of(compile_conditions(conditions), 2));
 }
 
 // --- every condition has the same truth value in a whole cell
@@ -236,14 +238,15 @@ TEST_CASE("a condition has one truth value in each cell and in each order of com
     int grids = 0;
     for (int round = 0; round < 300; ++round) {
         const std::uint32_t formals = 1 + random() % 2;
-        const Laid laid = lay({random_condition(random, formals, 2)});
-        const std::optional<ConditionGrid> grid = grid_of(laid, formals);
+        const CompiledConditions compiled =
+            compile_conditions({random_condition(random, formals, 2)});
+        const std::optional<ConditionGrid> grid = grid_of(compiled, formals);
         if (!grid) {
             continue;
         }
         ++grids;
         const auto holds = [&](const std::vector<KnownValue>& values) {
-            const KnownValue value = evaluator.run(laid.instructions, 0, {values, {}, {}});
+            const KnownValue value = evaluator.run(compiled.instructions, 0, {values, {}, {}});
             REQUIRE(value.known);
             return value.value != 0.0F;
         };

@@ -37,7 +37,7 @@ TEST_CASE("backslashes and drives are of Windows") {
     CHECK(name_of_path("a\\b/c\\d.lsys") == (is_windows ? "d.lsys" : "c\\d.lsys"));
 }
 
-TEST_CASE("a path of a text has the same text") {
+TEST_CASE("a path made from a text converts back to the same text") {
     const std::filesystem::path named = u8"\u00E4hre/\u9EA6.lsys";
     CHECK(path_of("\xC3\xA4hre/\xE9\xBA\xA6.lsys") == named);
     CHECK(path_text(path_of("\xC3\xA4hre/\xE9\xBA\xA6.lsys")) == "\xC3\xA4hre/\xE9\xBA\xA6.lsys");
