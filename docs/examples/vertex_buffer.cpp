@@ -26,7 +26,7 @@ int main(int count, char** arguments) {
         std::cerr << mesh.messages().text();
         return 1;
     }
-    // A renderer would map these two buffers of the GPU.
+    // In a renderer these two are mapped buffers of the GPU.
     std::vector<Vertex> vertices(mesh->positions().size());
     std::vector<std::uint32_t> indices(mesh->index_count());
     if (vertices.empty()) {

@@ -95,15 +95,16 @@ export_variants(const ExportCommand& command, ExportFormat format, const OutputC
     const Project& project = context.project;
     const VariantValues& values = *command.variants;
     const auto grow = [&](std::size_t number, Grammar& grammar, Plant& plant) {
-        ExportCommand one = command;
-        one.grammar.definitions.push_back({values.name, values.values[number]});
-        const ExitStatus status =
-            take_once(load_grammar(one.file, one.grammar, project), grammar, console, shown);
+        ExportCommand variant = command;
+        variant.grammar.definitions.push_back({values.name, values.values[number]});
+        const ExitStatus status = take_once(load_grammar(variant.file, variant.grammar, project),
+                                            grammar, console, shown);
         if (status != ExitStatus::Ok) {
             return status;
         }
         grammar.program.reset();
-        return take_once(grow_plant(plant_options(one), grammar, project), plant, console, shown);
+        return take_once(grow_plant(plant_options(variant), grammar, project), plant, console,
+                         shown);
     };
     PlantFileReport report;
     Plant first;

@@ -78,8 +78,8 @@ ExitStatus run_command(const TraceCommand& command, const Console& console) {
     }
     const TraceFormat format = command.format.value_or(
         command.messages.format == MessageFormat::Json ? TraceFormat::Json : TraceFormat::Text);
-    // `auto` is decided by standard error, but the text goes to standard output, which may be a
-    // pipe.
+    // ColourMode::Auto depends on whether standard error is a terminal. The text goes to standard
+    // output, which may be a pipe, so it has colours only on request.
     const bool colour = command.messages.colour == ColourMode::Always;
     const std::string text = format == TraceFormat::Json ? trace_json(trace, grammar)
                                                          : trace_text(trace, grammar, colour);

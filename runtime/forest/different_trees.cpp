@@ -147,7 +147,7 @@ std::uint64_t count_different(std::vector<TreeLook>& looks) {
     return count;
 }
 
-/// Moments of the instances of a cache.
+/// Moments of the instances of each cache.
 using MomentsOfCaches = std::map<const InstanceCache*, std::vector<Moments>>;
 
 std::vector<Moments> moments_of(const InstanceCache& cache) {

@@ -31,7 +31,8 @@ public:
 
 private:
     const Forest& forest_;
-    std::vector<std::vector<std::uint64_t>> first_; // by species and stage
+    /// Number of the first instance of each cache, by species and stage.
+    std::vector<std::vector<std::uint64_t>> first_;
     std::uint64_t count_ = 0;
 };
 

@@ -53,10 +53,10 @@ bool drop_variety_notes(const SceneSpecies& species,
     Diagnostics left;
     bool found = false;
     for (const Diagnostic& diagnostic : diagnostics.all()) {
-        const bool is_note = diagnostic.code == DiagnosticCode::NoVariety;
-        found = found || is_note;
-        if (!is_note || (species.cache.heroes != 1 && is_wanted &&
-                         noted.emplace(path, diagnostic.span.begin).second)) {
+        const bool is_variety_note = diagnostic.code == DiagnosticCode::NoVariety;
+        found = found || is_variety_note;
+        if (!is_variety_note || (species.cache.heroes != 1 && is_wanted &&
+                                 noted.emplace(path, diagnostic.span.begin).second)) {
             left.add(diagnostic);
         }
     }

@@ -19,9 +19,10 @@
 namespace lsys {
 
 struct ForestLods {
-    Forest forest;                                   // a species per level: "pine LOD2", ...
-    std::vector<std::vector<InstanceMeshes>> meshes; // by species and stage, as of mesh_forest()
-    glm::vec3 viewpoint{};                           // m, the origin of distances
+    Forest forest; // a species per level: "pine LOD2", ...
+    /// By species and stage, like the result of mesh_forest().
+    std::vector<std::vector<InstanceMeshes>> meshes;
+    glm::vec3 viewpoint{}; // m, the origin of distances
 };
 
 /// Gives each tree the coarsest level whose DetailLevel::pixels its size on screen does not exceed,

@@ -75,7 +75,7 @@ struct InstancingGoal {
     friend bool operator==(const InstancingGoal&, const InstancingGoal&) = default;
 };
 
-/// Values that the scene or command line sets; choose_instancing() keeps them.
+/// Whether the scene or command line sets a value; choose_instancing() keeps values that are set.
 struct WrittenInstancing {
     bool heroes = false;
     bool rho = false;

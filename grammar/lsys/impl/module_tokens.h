@@ -30,7 +30,7 @@ void report_foreign_symbol(ParseSession& session, char symbol);
 bool is_after_likely_comment(ParseSession& session);
 /// Reports one or more `)` without `(`; returns their handling.
 StrayHandling report_extra_parenthesis(ParseSession& session);
-/// Whether the current `;` is a module of another program, `;(0.9)`; reports it.
+/// Whether the current `;` sets the colour in cpfg and L-Py, as in `;(0.9)`; reports it.
 bool is_colour_symbol(ParseSession& session);
 
 /// Reports control characters in a text whose characters are modules; `text` includes the quotes.

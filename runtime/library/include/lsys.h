@@ -276,7 +276,7 @@ typedef struct lsys_tree {
     float position[3]; /* m, of the start of the turtle */
     float yaw;         /* radians about +Y */
     float scale;
-    uint32_t number; /* draws the branches of the tree */
+    uint32_t number; /* determines the branches of the tree */
     uint16_t species;
     uint16_t age; /* years; 0: the last stage of its species */
 } lsys_tree;

@@ -87,7 +87,7 @@ std::uint64_t size_of(DWORD high, DWORD low) {
 }
 
 /// Opens a file or folder to read its attributes.
-HANDLE open_for_facts(const std::string& path) {
+HANDLE open_for_attributes(const std::string& path) {
     return ::CreateFileW(wide_text(path).c_str(), FILE_READ_ATTRIBUTES,
                          FILE_SHARE_READ | FILE_SHARE_WRITE | FILE_SHARE_DELETE, nullptr,
                          OPEN_EXISTING, FILE_FLAG_BACKUP_SEMANTICS, nullptr);
@@ -141,7 +141,7 @@ Reason facts_of(const File& file, FileFacts& facts) {
 }
 
 FileFacts facts_of(const std::string& path) {
-    const HANDLE handle = open_for_facts(path);
+    const HANDLE handle = open_for_attributes(path);
     if (handle == INVALID_HANDLE_VALUE) {
         return {};
     }
@@ -175,7 +175,7 @@ Reason check_writable(const std::string& path) {
 }
 
 Reason resolve_links(const std::string& path, std::string& real) {
-    const HANDLE handle = open_for_facts(path);
+    const HANDLE handle = open_for_attributes(path);
     if (handle == INVALID_HANDLE_VALUE) {
         return last_reason();
     }
@@ -259,7 +259,7 @@ std::uint64_t random_bits() {
 }
 
 FileStamp stamp_of(const std::string& path) {
-    const HANDLE handle = open_for_facts(path);
+    const HANDLE handle = open_for_attributes(path);
     if (handle == INVALID_HANDLE_VALUE) {
         return {};
     }
