@@ -47,8 +47,8 @@ int main(int count, char** arguments) {
     }
     const lsys::Instances& instances = *made;
 
-    // One vertex buffer and one index buffer for all meshes. In a renderer they are mapped buffers of
-    // the GPU.
+    // One vertex buffer and one index buffer for all meshes. In a renderer they are mapped buffers
+    // of the GPU.
     std::vector<Vertex> vertices;
     std::vector<std::uint32_t> indices;
     std::vector<std::uint32_t> base_vertex;

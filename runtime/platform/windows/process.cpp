@@ -73,8 +73,8 @@ std::uint64_t process_id() {
 }
 
 bool prepare_standard_streams() {
-    // Closed streams stay closed: Windows gives their descriptors to no other file. Open streams become
-    // binary: text mode would write CR LF for each LF and end input at Ctrl-Z.
+    // Closed streams stay closed: Windows gives their descriptors to no other file. Open streams
+    // become binary: text mode would write CR LF for each LF and end input at Ctrl-Z.
     for (std::FILE* const stream : {stdin, stdout, stderr}) {
         const int descriptor = ::_fileno(stream);
         if (descriptor >= 0) {

@@ -293,8 +293,8 @@ TEST_CASE("solids of triangles of any shape and size have the volume counted in 
     const Mesh mesh = meshed(skeleton, options);
     check_closed(mesh, 1);
     CHECK(crossings(mesh) == 0);
-    // squared_distance() uses lattice points at most 0.03 from any point of the triangle, which changes
-    // distances near 0.1 by at most 0.005.
+    // squared_distance() uses lattice points at most 0.03 from any point of the triangle, which
+    // changes distances near 0.1 by at most 0.005.
     const double side = 0.025;
     std::uint64_t cubes = 0;
     for (double x = -0.2; x < 1.6; x += side) {
