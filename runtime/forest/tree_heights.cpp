@@ -185,42 +185,68 @@ void scale_cache(double factor, const StemMaterial& material, InstanceCache& cac
     }
 }
 
+TreeSizer::TreeSizer(std::span<const double> heights, const Forest& forest)
+    : heights_(heights.begin(), heights.end()), forest_(forest), tables_(heights.size()) {
+    for (std::size_t s = 0; s < tables_.size(); ++s) {
+        if (heights[s] != 0.0) {
+            tables_[s] = make_height_table(forest.species[s].stages.back().cache);
+        }
+    }
+}
+
+std::optional<std::uint16_t> TreeSizer::size(std::span<Tree> trees) const {
+    std::optional<std::uint16_t> flat;
+    Measures measures(forest_, tables_);
+    for (Tree& tree : trees) {
+        if (heights_[tree.species] == 0.0) {
+            continue;
+        }
+        const std::optional<double> height = measures.height_of(tree);
+        if (!height) {
+            continue;
+        }
+        if (*height == 0.0) {
+            flat = std::min(flat.value_or(tree.species), tree.species);
+            continue;
+        }
+        tree.scale =
+            static_cast<float>(static_cast<double>(tree.scale) * heights_[tree.species] / *height);
+    }
+    return flat;
+}
+
+double TreeSizer::max_factor(std::uint16_t species) const {
+    if (heights_[species] == 0.0) {
+        return 1.0;
+    }
+    double factor = 1.0; // of trees that draw nothing
+    for (const std::optional<double>& height : tables_[species].whole) {
+        if (height && *height > tables_[species].min_height) {
+            factor = std::max(factor, heights_[species] / *height);
+        }
+    }
+    return factor;
+}
+
 std::optional<std::uint16_t>
 size_trees(std::span<const double> heights, std::uint32_t threads, Forest& forest) {
-    std::vector<HeightTable> tables(forest.species.size());
-    for (std::size_t s = 0; s < tables.size(); ++s) {
-        if (heights[s] != 0.0) {
-            tables[s] = make_height_table(forest.species[s].stages.back().cache);
-        }
-    }
-    constexpr std::uint32_t kNoSpecies = ~std::uint32_t{0};
-    std::vector<std::uint32_t> flat_species(pieces_of(forest), kNoSpecies);
+    const TreeSizer sizer(heights, forest);
+    std::vector<std::optional<std::uint16_t>> flat(pieces_of(forest)); // by piece
     Workers workers(threads);
-    workers.for_each(flat_species.size(), [&](std::uint64_t piece) {
-        Measures measures(forest, tables);
-        for (std::uint64_t i = piece * kTreesPerPiece;
-             i < std::min<std::uint64_t>(forest.trees.size(), (piece + 1) * kTreesPerPiece); ++i) {
-            Tree& tree = forest.trees[i];
-            if (heights[tree.species] == 0.0) {
-                continue;
-            }
-            const std::optional<double> height = measures.height_of(tree);
-            if (!height) {
-                continue;
-            }
-            if (*height == 0.0) {
-                flat_species[piece] = std::min<std::uint32_t>(flat_species[piece], tree.species);
-                continue;
-            }
-            tree.scale = static_cast<float>(static_cast<double>(tree.scale) *
-                                            heights[tree.species] / *height);
-        }
+    workers.for_each(flat.size(), [&](std::uint64_t piece) {
+        const std::uint64_t begin = piece * kTreesPerPiece;
+        flat[piece] =
+            sizer.size(std::span(forest.trees)
+                           .subspan(begin, std::min<std::uint64_t>(kTreesPerPiece,
+                                                                   forest.trees.size() - begin)));
     });
-    const auto first = std::min_element(flat_species.begin(), flat_species.end());
-    if (first == flat_species.end() || *first == kNoSpecies) {
-        return std::nullopt;
+    std::optional<std::uint16_t> first;
+    for (const std::optional<std::uint16_t>& each : flat) {
+        if (each && (!first || *each < *first)) {
+            first = each;
+        }
     }
-    return static_cast<std::uint16_t>(*first);
+    return first;
 }
 
 double tallest_tree(const Forest& forest, std::uint32_t threads) {

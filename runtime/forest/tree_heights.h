@@ -55,10 +55,29 @@ private:
 /// Scales the skeleton, entries and exits of a cache, with masses and springs as in scale_plant().
 void scale_cache(double factor, const StemMaterial& material, InstanceCache& cache);
 
-/// Multiplies the scale of every tree of species s by heights[s] / (height of the tree at scale 1), so
-/// that a tree is scale * heights[s] metres high. Younger trees use the height of the last stage of
-/// their species. Scales stay if heights[s] is 0, and for trees that are flat or draw nothing. Returns
-/// the first species with a flat tree, or nullopt. 0 threads: as many as the machine has.
+/// Gives trees their heights: multiplies the scale of every tree of species s by heights[s] / (height
+/// of the tree at scale 1), so that a tree is scale * heights[s] metres high. Younger trees use the
+/// height of the last stage of their species. Scales stay if heights[s] is 0, and for trees that are
+/// flat or draw nothing.
+class TreeSizer {
+public:
+    /// Precondition: `forest` outlives the sizer; its trees are not used. heights[s]: of species s.
+    TreeSizer(std::span<const double> heights, const Forest& forest);
+
+    /// Returns the first species with a flat tree, or nullopt. May be called from several threads.
+    [[nodiscard]] std::optional<std::uint16_t> size(std::span<Tree> trees) const;
+    /// The largest factor that size() multiplies the scale of a tree by. Precondition: the trees of
+    /// the species are whole plants (rho 0).
+    [[nodiscard]] double max_factor(std::uint16_t species) const;
+
+private:
+    std::vector<double> heights_;
+    const Forest& forest_;
+    std::vector<HeightTable> tables_; // by species; empty if its height is 0
+};
+
+/// Gives all trees of a forest their heights, as TreeSizer. Returns the first species with a flat
+/// tree, or nullopt. 0 threads: as many as the machine has.
 [[nodiscard]] std::optional<std::uint16_t>
 size_trees(std::span<const double> heights, std::uint32_t threads, Forest& forest);
 

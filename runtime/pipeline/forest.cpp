@@ -568,13 +568,29 @@ mesh_forest(const GrownForest& grown, const MeshOptions& options, const Project&
     return step.done(std::move(meshes));
 }
 
-Outcome<void> size_forest(const Scene& scene, const Project& project, GrownForest& grown) {
-    Step step(project);
+PlacementOptions
+placement_options(const Scene& scene, const Project& project, const GrownForest& grown) {
+    PlacementOptions options = scene.placement;
+    options.threads = project.threads;
+    if (grown.density_map) {
+        options.density_map = &*grown.density_map;
+        options.map_region = scene.terrain.region;
+    }
+    return options;
+}
+
+std::vector<double> unit_heights(const Scene& scene, const GrownForest& grown) {
     std::vector<double> heights;
     for (std::size_t s = 0; s < grown.forest.species.size(); ++s) {
         const bool draws_height = scene.placement.species[s].max_height > 0.0F;
         heights.push_back(draws_height ? 1.0 : static_cast<double>(grown.forest.species[s].height));
     }
+    return heights;
+}
+
+Outcome<void> size_forest(const Scene& scene, const Project& project, GrownForest& grown) {
+    Step step(project);
+    const std::vector<double> heights = unit_heights(scene, grown);
     if (std::all_of(heights.begin(), heights.end(), [](double each) { return each == 0.0; })) {
         return step.done();
     }
@@ -588,12 +604,7 @@ Outcome<void> size_forest(const Scene& scene, const Project& project, GrownFores
 Outcome<void> place_forest(const Scene& scene, const Project& project, GrownForest& grown) {
     Step step(project);
     const Stopwatch placing;
-    PlacementOptions options = scene.placement;
-    options.threads = project.threads;
-    if (grown.density_map) {
-        options.density_map = &*grown.density_map;
-        options.map_region = scene.terrain.region;
-    }
+    const PlacementOptions options = placement_options(scene, project, grown);
     Result<Placement> placed = place_trees(options, *grown.terrain);
     if (!placed) {
         return step.fail(fmt::format("placement: {}", placed.error().message));

@@ -76,6 +76,12 @@ struct PreviousForest {
 [[nodiscard]] Outcome<GrownForest>
 grow_species(const LoadedScene& loaded, const Project& project, const PreviousForest& previous);
 
+/// The options of the placement of `grown`, which must outlive them.
+[[nodiscard]] PlacementOptions
+placement_options(const Scene& scene, const Project& project, const GrownForest& grown);
+/// By species: the height in m of a tree at scale 1 after TreeSizer; 0: as drawn.
+[[nodiscard]] std::vector<double> unit_heights(const Scene& scene, const GrownForest& grown);
+
 /// Scales placed trees to their heights: a random height in the range `height` of the species, else
 /// `#set height` times the scale of the tree. Call it once per placement.
 [[nodiscard]] Outcome<void>

@@ -101,6 +101,10 @@ struct Placement {
     PlacementReport report;
 };
 
+/// The expected number of places in the region, without the limits of altitude and slope of species;
+/// an upper estimate for PoissonDisk and PoissonCells. Errors: an invalid option, with its name.
+[[nodiscard]] Result<double> expected_places(const PlacementOptions& options);
+
 /// Places trees within the region, at terrain.height() of their x and z. Time is linear in the number
 /// of places. Errors: an invalid option, with its name; more than kMaxTrees expected trees, checked
 /// before memory is allocated; a region whose cells have numbers beyond 32 bits.

@@ -67,6 +67,11 @@ float wrapped(double cells) {
     return static_cast<float>(cells - kPeriod * std::floor(cells / kPeriod));
 }
 
+/// Part of the range of its pixels that a bicubic surface rises above them, at most. The weights of
+/// Catmull-Rom sum up to 1 and their absolute values to 1.25^2 = 1.5625, so positive weights sum up to
+/// at most 1.28125.
+constexpr double kOvershoot = 0.28125;
+
 } // namespace
 
 Result<Terrain> Terrain::flat(const Region& region, double altitude) {
@@ -168,6 +173,21 @@ float Terrain::height(float x, float z) const {
     return static_cast<float>(exact_height(static_cast<double>(x), static_cast<double>(z)));
 }
 
+std::array<double, 2> Terrain::altitudes() const {
+    if (map_) {
+        const auto [least, most] = std::minmax_element(map_->values.begin(), map_->values.end());
+        const double a = base_ + map_scale_ * *least;
+        const double b = base_ + map_scale_ * *most;
+        const double over = filter_ == HeightFilter::Bicubic ? kOvershoot * std::abs(a - b) : 0.0;
+        return {std::min(a, b) - over, std::max(a, b) + over};
+    }
+    double reach = 0.0;
+    for (const Octave& octave : octaves_) {
+        reach += octave.amplitude;
+    }
+    return {base_ - reach, base_ + reach};
+}
+
 double Terrain::mesh_error(double cell) const {
     // A triangle with legs of `cell` along the axes is off by at most cell^2 / 8 times
     // |f_xx| + 2 |f_xz| + |f_zz|.
@@ -201,7 +221,7 @@ double Terrain::mesh_error(double cell) const {
     const double part = cell / pixel;
     // Between pixels a bilinear surface has creases, whose error is linear in the cell.
     const double bent = bend * std::max(part, part * part) / 2.0;
-    const double range = filter_ == HeightFilter::Bicubic ? 1.25 : 1.0; // it may overshoot
+    const double range = filter_ == HeightFilter::Bicubic ? 1.0 + 2.0 * kOvershoot : 1.0;
     return std::abs(map_scale_) * std::min(bent, range * static_cast<double>(*high - *low));
 }
 

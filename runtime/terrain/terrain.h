@@ -62,6 +62,8 @@ public:
     [[nodiscard]] const Region& region() const { return region_; }
     /// Height in m at (x, z) in m. The same on every machine; finite within kMaxCoordinate.
     [[nodiscard]] float height(float x, float z) const;
+    /// The ground is nowhere below the first and nowhere above the second of these heights in m.
+    [[nodiscard]] std::array<double, 2> altitudes() const;
     /// Unit normal, by finite differences over slope_step(), which stay within a height map.
     [[nodiscard]] glm::vec3 normal(float x, float z) const;
     /// Rise over run, by the finite differences of normal(): 0 is level, 1 is 45 degrees.

@@ -2,8 +2,9 @@
 // TileForest: a forest as 3D Tiles 1.1 (OGC 22-025r4), a quadtree over the ground of the scene. Near
 // tiles hold the ground and the trees as instances of whole heroes; coarser tiles hold fewer
 // triangles per tree; tiles with too many trees hold one surface of ground and crowns. Meshes of
-// heroes are files that all tiles share. A tile depends only on the forest and its place, so tiles
-// can be made in any order. Made by make_tile_forest(); used by `lsc tiles`.
+// heroes are files that all tiles share. A tile and a tileset depend only on the scene and their
+// place, so they can be made in any order, by any process. Made by make_tile_forest(); used by
+// `lsc tiles`.
 #pragma once
 
 #include "grammar/base/outcome.h"
@@ -30,6 +31,7 @@ struct GeoPlace {
 
 inline constexpr std::uint32_t kMaxTileLevel = 24;
 inline constexpr std::uint64_t kTileTriangles = 2'000'000;
+inline constexpr double kTileError = 0.02; // m
 /// Max number of trees of a tile that shows single trees.
 inline constexpr std::uint64_t kMaxTileTrees = 16'384;
 
@@ -38,6 +40,7 @@ struct TileOptions {
     /// coordinates of its own.
     std::optional<GeoPlace> origin;
     std::uint64_t triangles = kTileTriangles; // max per tile with the mean number of trees
+    double error = kTileError;                // m, of the trees of the nearest tiles
     MeshOptions mesh;
     std::string generator; // the program and its version
 };
@@ -67,11 +70,9 @@ struct TileFile {
     std::string bytes;
 };
 
-/// The contents of a tile: a GLB, and its box in the frame of the tile.
 struct TileContent {
-    std::string bytes;
-    std::array<double, 3> low{}; // m; east, north, up
-    std::array<double, 3> high{};
+    std::string bytes;       // a GLB
+    std::uint64_t trees = 0; // that it shows one by one
 };
 
 class TileForest {
@@ -84,32 +85,37 @@ public:
     [[nodiscard]] const std::vector<TileLevel>& levels() const;
     /// The files that tiles share.
     [[nodiscard]] const std::vector<TileFile>& files() const;
-    /// The tiles of a level that overlap the ground, row by row.
+    /// Whether the forest has this tile. Any numbers are allowed.
+    [[nodiscard]] bool has_tile(const TileId& tile) const;
+    /// The tiles of a level, row by row.
     [[nodiscard]] std::vector<TileId> tiles(std::uint32_t level) const;
-    /// Makes a tile. May be called from several threads. Throws std::bad_alloc.
+    /// Makes a tile. Precondition: has_tile(). May be called from several threads. Throws
+    /// std::bad_alloc.
     [[nodiscard]] TileContent content(const TileId& tile) const;
-    /// The tilesets, as files: "tileset.json" and one for each subtree of kSubtreeLevels levels.
-    /// contents[level]: the contents of tiles(level), in the same order; their bytes are not read.
-    [[nodiscard]] std::vector<TileFile>
-    tilesets(const std::vector<std::vector<TileContent>>& contents) const;
-    /// The path of the content of a tile: "3/5/2.glb".
-    [[nodiscard]] static std::string path_of(const TileId& tile);
+    /// Makes the tileset with a tile as its root, a JSON document that lists its tiles and names the
+    /// tilesets below them. Precondition: has_tile() and has_tileset(). May be called from several
+    /// threads.
+    [[nodiscard]] std::string tileset(const TileId& root) const;
+    /// Whether tiles of the level are roots of a tileset.
+    [[nodiscard]] static bool has_tileset(std::uint32_t level);
+    /// The path of the content of a tile, "3/5/2.glb", and that of its tileset, "4/7/1.json" or
+    /// "tileset.json".
+    [[nodiscard]] static std::string content_path(const TileId& tile);
+    [[nodiscard]] static std::string tileset_path(const TileId& root);
 
 private:
-    friend Outcome<TileForest> make_tile_forest(const Scene& scene,
-                                                GrownForest grown,
-                                                const TileOptions& options,
-                                                const Project& project);
+    friend Outcome<TileForest>
+    make_tile_forest(LoadedScene loaded, const TileOptions& options, const Project& project);
     struct State;
     explicit TileForest(std::unique_ptr<State> state);
     std::unique_ptr<State> state_;
 };
 
-/// Plans the tiles of a forest whose trees are placed, and makes the shared files. Precondition:
-/// `grown` has been grown with rho 0. Stops for the reasons of mesh_forest(); Failed: nothing to draw.
-[[nodiscard]] Outcome<TileForest> make_tile_forest(const Scene& scene,
-                                                   GrownForest grown,
-                                                   const TileOptions& options,
-                                                   const Project& project);
+/// Grows the heroes of a scene, plans its tiles, and makes the files that they share. A scene whose
+/// placement is not on an unbounded grid, or that is painted, is placed as a whole; the trees of
+/// others are placed when their tile is made. Precondition: the scene has rho 0. Stops for the
+/// reasons of grow_species(), place_forest() and mesh_forest().
+[[nodiscard]] Outcome<TileForest>
+make_tile_forest(LoadedScene loaded, const TileOptions& options, const Project& project);
 
 } // namespace lsys

@@ -114,9 +114,8 @@ Result<void> check_map(const PlacementOptions& options) {
     return options.map_region ? check_region(*options.map_region) : Result<void>();
 }
 
-/// The expected number of trees, or the error. Limits of altitude and slope of the species are
-/// ignored.
-Result<double> expected_trees(const PlacementOptions& options) {
+/// The result of expected_places(), whose region and species have been checked.
+Result<double> count_places(const PlacementOptions& options) {
     const auto check = [](const Bound& bound) -> Result<void> {
         if (!within(bound)) {
             return Error{fmt::format("the {} of the placement is {}; it must be from {} to {}",
@@ -179,7 +178,7 @@ Result<double> expected_trees(const PlacementOptions& options) {
 
 } // namespace
 
-Result<double> check_placement(const PlacementOptions& options) {
+Result<double> expected_places(const PlacementOptions& options) {
     if (const Result<void> checked = check_region(options.region); !checked) {
         return checked.error();
     }
@@ -190,11 +189,12 @@ Result<double> check_placement(const PlacementOptions& options) {
     if (const Result<void> checked = check_species(options); !checked) {
         return checked.error();
     }
-    Result<double> trees = expected_trees(options);
-    if (!trees) {
-        return trees.error();
-    }
-    if (trees.value() > static_cast<double>(kMaxTrees)) {
+    return count_places(options);
+}
+
+Result<double> check_placement(const PlacementOptions& options) {
+    Result<double> trees = expected_places(options);
+    if (trees && trees.value() > static_cast<double>(kMaxTrees)) {
         return Error{fmt::format("about {:.0f} trees; one placement has at most {}", trees.value(),
                                  kMaxTrees)};
     }

@@ -107,6 +107,20 @@ void TreeMaker::make(std::uint32_t number, float x, float z, TreeChunk& chunk) c
     chunk.trees.push_back(tree);
 }
 
+void TreeMaker::shares_at(float x, float z, std::span<double> shares) const {
+    const float height = has_limits_ ? terrain_.height(x, z) : 0.0F;
+    const float slope = has_steepest_ ? terrain_.slope(x, z) : 0.0F;
+    double sum = 0.0;
+    for (std::size_t i = 0; i < shares.size(); ++i) {
+        const PlacementSpecies& species = options_.species[i];
+        shares[i] = !has_limits_ || fits(species, height, slope) ? species.share : 0.0;
+        sum += shares[i];
+    }
+    for (double& share : shares) {
+        share = sum > 0.0 ? share / sum : 0.0;
+    }
+}
+
 bool TreeMaker::can_live(std::uint16_t species, float x, float z) const {
     const PlacementSpecies& kind = options_.species[species];
     return !has_limits_ || lives_everywhere(kind) ||

@@ -8,6 +8,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <span>
 #include <vector>
 
 namespace lsys {
@@ -27,6 +28,8 @@ public:
     void make(std::uint32_t number, float x, float z, TreeChunk& chunk) const;
     /// Whether `species` can live at a place.
     [[nodiscard]] bool can_live(std::uint16_t species, float x, float z) const;
+    /// Sets shares[s] to the probability that a place has a tree of species s.
+    void shares_at(float x, float z, std::span<double> shares) const;
     /// The tree `number` of a known species, without position. Sets the age as for all methods
     /// except Domination.
     [[nodiscard]] Tree appearance_of(std::uint32_t number, std::uint16_t species) const;

@@ -7,11 +7,14 @@ namespace lsys {
 
 namespace {
 
-/// `base` to the power of `exponent`. std::pow differs between machines.
-double power(double base, std::uint64_t exponent) {
-    double result = 1.0;
-    for (; exponent != 0; exponent /= 2) {
-        result *= exponent % 2 != 0 ? base : 1.0;
+/// `base` to the power of `exponent`, between whole exponents linear. std::pow differs between
+/// machines.
+double power(double base, double exponent) {
+    auto whole = static_cast<std::uint64_t>(exponent);
+    const double rest = exponent - static_cast<double>(whole);
+    double result = 1.0 + rest * (base - 1.0);
+    for (; whole != 0; whole /= 2) {
+        result *= whole % 2 != 0 ? base : 1.0;
         base *= base;
     }
     return result;
@@ -19,16 +22,39 @@ double power(double base, std::uint64_t exponent) {
 
 } // namespace
 
+void CrownSums::add(const CrownSums& other, double weight) {
+    trees += weight * other.trees;
+    area += weight * other.area;
+    volume += weight * other.volume;
+    colour += weight * other.colour;
+}
+
+CrownSums sums_of(const Crown& crown, double scale) {
+    const double area = crown.area * scale * scale;
+    return {1.0, area, area * crown.height * scale, area * crown.colour};
+}
+
+CanopyPoint canopy_point(const CrownSums& sums, double ground) {
+    CanopyPoint point;
+    if (sums.area > 0.0) {
+        const double cover_of_tree = sums.area / sums.trees / ground;
+        point.cover = 1.0 - power(std::max(0.0, 1.0 - cover_of_tree), sums.trees);
+        point.height = point.cover * sums.volume / sums.area;
+        point.colour = sums.colour / sums.area;
+    }
+    return point;
+}
+
 Canopy::Canopy(std::uint32_t side, double cell)
     : side_(side), cell_(cell), cells_(std::size_t{side} * side) {}
 
 void Canopy::add(std::uint32_t column, std::uint32_t row, const Crown& crown, double scale) {
     Cell& cell = cells_[std::size_t{row} * side_ + column];
-    const double area = crown.area * scale * scale;
+    const CrownSums tree = sums_of(crown, scale);
     ++cell.trees;
-    cell.area += static_cast<float>(area);
-    cell.volume += static_cast<float>(area * crown.height * scale);
-    cell.colour += glm::vec3(area * crown.colour);
+    cell.area += static_cast<float>(tree.area);
+    cell.volume += static_cast<float>(tree.volume);
+    cell.colour += glm::vec3(tree.colour);
 }
 
 Canopy Canopy::coarser() const {
@@ -47,34 +73,20 @@ Canopy Canopy::coarser() const {
 }
 
 CanopyPoint Canopy::at_corner(std::int64_t column, std::int64_t row) const {
-    std::uint64_t trees = 0;
-    double area = 0.0;
-    double volume = 0.0;
-    glm::dvec3 colour(0.0);
+    CrownSums sums;
     std::uint32_t count = 0;
     for (std::int64_t z = std::max<std::int64_t>(row - 1, 0); z <= row && z < side_; ++z) {
         for (std::int64_t x = std::max<std::int64_t>(column - 1, 0); x <= column && x < side_;
              ++x) {
             const Cell& cell =
                 cells_[static_cast<std::size_t>(z) * side_ + static_cast<std::size_t>(x)];
-            trees += cell.trees;
-            area += static_cast<double>(cell.area);
-            volume += static_cast<double>(cell.volume);
-            colour += glm::dvec3(cell.colour);
+            sums.add({static_cast<double>(cell.trees), static_cast<double>(cell.area),
+                      static_cast<double>(cell.volume), glm::dvec3(cell.colour)},
+                     1.0);
             ++count;
         }
     }
-    CanopyPoint point;
-    if (area > 0.0) {
-        // Expected cover if each tree stands anywhere in the cells, independently of the others. Its
-        // mean is the same for cells of any size: 1 - exp(-area of crowns / area of ground) for a
-        // Poisson process.
-        const double cover_of_tree = area / static_cast<double>(trees) / (count * cell_ * cell_);
-        point.cover = 1.0 - power(std::max(0.0, 1.0 - cover_of_tree), trees);
-        point.height = point.cover * volume / area;
-        point.colour = colour / area;
-    }
-    return point;
+    return canopy_point(sums, count * cell_ * cell_);
 }
 
 } // namespace lsys

@@ -14,7 +14,8 @@
 
 namespace lsys {
 
-inline constexpr std::uint32_t kCanopyCells = 64; // along a side of a tile
+inline constexpr std::uint32_t kCanopyLevels = 6; // a cell is a tile of a deeper level
+inline constexpr std::uint32_t kCanopyCells = 1U << kCanopyLevels; // along a side of a tile
 
 /// The crowns over a place, as means of its surroundings.
 struct CanopyPoint {
@@ -23,7 +24,23 @@ struct CanopyPoint {
     glm::dvec3 colour{0.0}; // linear, of the crowns
 };
 
-/// The cells of one level.
+/// Crowns of trees, added up.
+struct CrownSums {
+    double trees = 0.0;     // expected numbers need not be whole
+    double area = 0.0;      // m2, overlaps counted twice
+    double volume = 0.0;    // m3, area times height
+    glm::dvec3 colour{0.0}; // area times colour
+
+    void add(const CrownSums& other, double weight);
+};
+/// A tree of the given scale.
+[[nodiscard]] CrownSums sums_of(const Crown& crown, double scale);
+/// The means of crowns on `ground` m2. The cover is the expected one if each tree stands anywhere on
+/// the ground, independently of the others: 1 - (1 - area of a crown / ground)^trees, in the limit
+/// 1 - exp(-area / ground). So its mean is the same for cells of any size.
+[[nodiscard]] CanopyPoint canopy_point(const CrownSums& sums, double ground);
+
+/// The cells of one level, with trees that have been counted.
 class Canopy {
 public:
     /// `side`: number of cells along X and Z. `cell`: m.

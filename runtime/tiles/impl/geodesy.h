@@ -27,6 +27,8 @@ public:
     /// the tileset has the scene's coordinates, turned to +Z up.
     explicit GroundFrame(const std::optional<GeoPlace>& origin) : origin_(origin) {}
 
+    /// Whether the ground follows the ellipsoid.
+    [[nodiscard]] bool is_curved() const { return origin_.has_value(); }
     /// The point (x, y, z) of the scene.
     [[nodiscard]] glm::dvec3 place(double x, double y, double z) const;
     /// Axes east, north and up at (x, 0, z), and this point. Local coordinates of a tile are in such

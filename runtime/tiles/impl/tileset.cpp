@@ -1,17 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "runtime/tiles/impl/tileset.h"
 
-#include "grammar/base/contract.h"
-#include "runtime/tiles/impl/box_corners.h"
 #include "runtime/tiles/impl/geodesy.h"
 
-#include <fmt/format.h>
-#include <glm/common.hpp>
 #include <nlohmann/json.hpp>
 
 #include <cmath>
-#include <limits>
-#include <map>
 #include <utility>
 
 namespace lsys {
@@ -19,17 +13,6 @@ namespace lsys {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-/// A box along the axes of a frame.
-struct Box {
-    glm::dvec3 low{std::numeric_limits<double>::infinity()};
-    glm::dvec3 high{-std::numeric_limits<double>::infinity()};
-
-    void add(const glm::dvec3& point) {
-        low = glm::min(low, point);
-        high = glm::max(high, point);
-    }
-};
 
 /// `value` rounded to a multiple of 2^-20, about a micrometre, for a tileset.
 double rounded(double value) {
@@ -52,7 +35,7 @@ Json json_of(const glm::dmat4& matrix) {
     return numbers;
 }
 
-Json json_of(const Box& box) {
+Json json_of(const TileBox& box) {
     const glm::dvec3 middle = 0.5 * (box.low + box.high);
     // One millimetre larger, because numbers of tiles and tilesets are rounded.
     const glm::dvec3 half = 0.5 * (box.high - box.low) + glm::dvec3(1e-3);
@@ -70,113 +53,65 @@ Json json_of(const Box& box) {
             rounded(half.z)};
 }
 
-std::string tileset_path(const TileId& tile) {
-    return tile.level == 0 ? "tileset.json"
-                           : fmt::format("{}/{}/{}.json", tile.level, tile.column, tile.row);
-}
-
 class TilesetWriter {
 public:
-    explicit TilesetWriter(const TilesetPlan& plan) : plan_(plan), contents_(plan.levels.size()) {
-        for (std::size_t level = 0; level < plan.levels.size(); ++level) {
-            const std::vector<TileId>& tiles = plan.levels[level].tiles;
-            LSYS_CHECK(tiles.size() == plan.contents[level].size(), level);
-            for (std::size_t i = 0; i < tiles.size(); ++i) {
-                contents_[level][{tiles[i].column, tiles[i].row}] = &plan.contents[level][i];
-            }
-        }
-    }
+    TilesetWriter(const TilesetPlan& plan, const TileId& root) : plan_(plan), root_(root) {}
 
-    std::vector<TileFile> write() {
-        visit({}, 0);
-        return std::move(files_);
+    std::string write() {
+        Json node = node_of(root_);
+        if (root_.level == 0) {
+            node["transform"] = json_of(plan_.boxes.frame_of(root_));
+        }
+        Json tileset;
+        tileset["asset"] = {{"version", "1.1"}, {"extras", {{"generator", plan_.generator}}}};
+        // Of the root: the error if nothing is shown.
+        tileset["geometricError"] =
+            rounded(root_.level == 0 ? plan_.grid.square().width : plan_.levels[root_.level].error);
+        tileset["root"] = std::move(node);
+        return tileset.dump() + "\n";
     }
 
 private:
-    struct Node {
-        glm::dmat4 frame{1.0};
-        Box box;   // of the tile and all below it, in its frame
-        Json json; // without a transform
-    };
-
-    /// Makes the node of a tile and the files of the tilesets below it. `from`: level of the root
-    /// tile of the tileset file that lists the tile, for relative paths.
-    Node visit(const TileId& tile, std::uint32_t from) {
-        Node node;
-        node.frame = plan_.frame_of(tile);
-        const TileContent& content = *contents_[tile.level].at({tile.column, tile.row});
-        node.box.add({content.low[0], content.low[1], content.low[2]});
-        node.box.add({content.high[0], content.high[1], content.high[2]});
-        const bool is_file = tile.level % kSubtreeLevels == 0;
-        Json children = visit_children(tile, is_file ? tile.level : from, node);
-        const double error = plan_.levels[tile.level].error;
-        const bool is_in_folder = is_file ? tile.level != 0 : from != 0;
-        node.json["boundingVolume"]["box"] = json_of(node.box);
-        node.json["geometricError"] = rounded(error);
-        node.json["refine"] = "REPLACE";
-        node.json["content"]["uri"] = relative(TileForest::path_of(tile), is_in_folder);
-        if (!children.empty()) {
-            node.json["children"] = std::move(children);
+    /// A tile that the tileset lists, with those below it, without a transform.
+    Json node_of(const TileId& tile) {
+        Json node = reference(tile, TileForest::content_path(tile));
+        node["refine"] = "REPLACE";
+        Json children = Json::array();
+        for (std::uint32_t i = 0; i < 4; ++i) {
+            const TileId below{tile.level + 1, 2 * tile.column + (i & 1U), 2 * tile.row + i / 2};
+            if (below.level >= plan_.levels.size() || !plan_.grid.has_ground(below)) {
+                continue;
+            }
+            Json child = TileForest::has_tileset(below.level)
+                             ? reference(below, TileForest::tileset_path(below))
+                             : node_of(below);
+            child["transform"] =
+                json_of(inverse_of_frame(plan_.boxes.frame_of(tile)) * plan_.boxes.frame_of(below));
+            children.push_back(std::move(child));
         }
-        if (is_file) {
-            write_file(tile, node);
-            node.json = {{"boundingVolume", {{"box", json_of(node.box)}}},
-                         {"geometricError", rounded(error)},
-                         {"content", {{"uri", relative(tileset_path(tile), from != 0)}}}};
+        if (!children.empty()) {
+            node["children"] = std::move(children);
         }
         return node;
     }
 
-    /// The children of a tile, whose boxes widen the box of `node`.
-    Json visit_children(const TileId& tile, std::uint32_t from, Node& node) {
-        Json children = Json::array();
-        const glm::dmat4 to_node = inverse_of_frame(node.frame);
-        for (std::uint32_t i = 0; i < 4 && tile.level + 1 < contents_.size(); ++i) {
-            const TileId below{tile.level + 1, 2 * tile.column + (i & 1U), 2 * tile.row + i / 2};
-            if (!contents_[below.level].contains({below.column, below.row})) {
-                continue;
-            }
-            Node child = visit(below, from);
-            const glm::dmat4 transform = to_node * child.frame;
-            for_each_corner(child.box.low, child.box.high, [&](const glm::dvec3& corner) {
-                node.box.add(glm::dvec3(transform * glm::dvec4(corner, 1.0)));
-            });
-            child.json["transform"] = json_of(transform);
-            children.push_back(std::move(child.json));
-        }
-        return children;
-    }
-
-    /// A path below the folder of the root, as seen from a tileset: files other than the root are two
-    /// folders deeper.
-    static std::string relative(const std::string& path, bool is_in_folder) {
-        return is_in_folder ? "../../" + path : path;
-    }
-
-    void write_file(const TileId& tile, const Node& node) {
-        const bool is_root = tile.level == 0;
-        Json root = node.json;
-        if (is_root) {
-            root["transform"] = json_of(node.frame);
-        }
-        Json tileset;
-        tileset["asset"] = {{"version", "1.1"}, {"extras", {{"generator", plan_.generator}}}};
-        tileset["geometricError"] =
-            rounded(is_root ? plan_.root_error : plan_.levels[tile.level].error);
-        tileset["root"] = std::move(root);
-        files_.push_back({tileset_path(tile), tileset.dump() + "\n"});
+    [[nodiscard]] Json reference(const TileId& tile, const std::string& path) const {
+        Json node;
+        node["boundingVolume"]["box"] = json_of(plan_.boxes.box_of(tile));
+        node["geometricError"] = rounded(plan_.levels[tile.level].error);
+        // Tilesets other than the root are two folders deeper.
+        node["content"]["uri"] = root_.level == 0 ? path : "../../" + path;
+        return node;
     }
 
     const TilesetPlan& plan_;
-    /// By level, and by column and row.
-    std::vector<std::map<std::pair<std::uint32_t, std::uint32_t>, const TileContent*>> contents_;
-    std::vector<TileFile> files_;
+    const TileId& root_;
 };
 
 } // namespace
 
-std::vector<TileFile> make_tilesets(const TilesetPlan& plan) {
-    return TilesetWriter(plan).write();
+std::string make_tileset(const TilesetPlan& plan, const TileId& root) {
+    return TilesetWriter(plan, root).write();
 }
 
 } // namespace lsys

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: MIT
+// CanopyField: the canopy of a placement on an unbounded grid, from the expected numbers of trees, so
+// that no tree is placed.
+#pragma once
+
+#include "runtime/placement/density_field.h"
+#include "runtime/tiles/impl/canopy.h"
+#include "runtime/tiles/impl/tile_grid.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace lsys {
+
+class CanopyField {
+public:
+    /// `crowns`: by species, the mean tree. `field` and `grid` must outlive the canopy.
+    CanopyField(const DensityField& field, std::vector<CrownSums> crowns, const TileGrid& grid);
+
+    /// Means of the four cells at a corner of cells; a tile has kCanopyCells by kCanopyCells cells.
+    /// Corners are numbered over the whole level.
+    [[nodiscard]] CanopyPoint
+    at_corner(std::uint32_t level, std::int64_t column, std::int64_t row) const;
+
+private:
+    const DensityField& field_;
+    std::vector<CrownSums> crowns_;
+    const TileGrid& grid_;
+};
+
+} // namespace lsys

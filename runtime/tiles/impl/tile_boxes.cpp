@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: MIT
+#include "runtime/tiles/impl/tile_boxes.h"
+
+#include <glm/common.hpp>
+
+#include <algorithm>
+#include <array>
+
+namespace lsys {
+
+namespace {
+
+constexpr std::uint32_t kSamples = 8;   // cells along a side in which the ground is sampled
+constexpr double kLeastRadius = 6.33e6; // m, less than any radius of curvature of WGS 84
+
+} // namespace
+
+void TileBox::add(const glm::dvec3& point) {
+    low = glm::min(low, point);
+    high = glm::max(high, point);
+}
+
+TileBoxes::TileBoxes(const Terrain& terrain,
+                     const GroundFrame& earth,
+                     const TileGrid& grid,
+                     const TreeReach& reach,
+                     const std::vector<double>& skirts)
+    : terrain_(terrain), earth_(earth), grid_(grid), reach_(reach), ground_margins_(skirts.size()),
+      depths_(skirts) {
+    // From the finest level up, because a box contains the boxes of the tiles below it.
+    double margin = 0.0;
+    double depth = reach.below;
+    for (std::size_t level = skirts.size(); level-- > 0;) {
+        margin += terrain.mesh_error(grid.side(static_cast<std::uint32_t>(level)) / kSamples);
+        ground_margins_[level] = margin;
+        depth = std::max(depth, skirts[level]);
+        depths_[level] = depth;
+    }
+}
+
+glm::dmat4 TileBoxes::frame_of(const TileId& tile) const {
+    const double side = grid_.side(tile.level);
+    return earth_.frame(grid_.square().x + side * (tile.column + 0.5),
+                        grid_.square().z + side * (tile.row + 0.5));
+}
+
+TileBox TileBoxes::box_of(const TileId& tile) const {
+    const Region region = grid_.region_of(tile);
+    double lowest = std::numeric_limits<double>::infinity();
+    double highest = -lowest;
+    for (std::uint32_t row = 0; row <= kSamples; ++row) {
+        for (std::uint32_t column = 0; column <= kSamples; ++column) {
+            const double x = region.x + region.width * column / kSamples;
+            const double z = region.z + region.depth * row / kSamples;
+            const auto height =
+                static_cast<double>(terrain_.height(static_cast<float>(x), static_cast<float>(z)));
+            lowest = std::min(lowest, height);
+            highest = std::max(highest, height);
+        }
+    }
+    const auto [least, most] = terrain_.altitudes();
+    lowest = std::max(lowest - ground_margins_[tile.level], least) - depths_[tile.level];
+    highest = std::min(highest + ground_margins_[tile.level], most) + reach_.above;
+    const glm::dmat4 to_tile = inverse_of_frame(frame_of(tile));
+    TileBox box;
+    const auto add = [&](double x, double z) {
+        for (const double y : {lowest, highest}) {
+            box.add(glm::dvec3(to_tile * glm::dvec4(earth_.place(x, y, z), 1.0)));
+        }
+    };
+    for (const double x : {region.x - reach_.around, region.x + region.width + reach_.around}) {
+        for (const double z : {region.z - reach_.around, region.z + region.depth + reach_.around}) {
+            add(x, z);
+        }
+    }
+    add(region.x + region.width / 2.0, region.z + region.depth / 2.0);
+    if (earth_.is_curved()) {
+        // Arcs between these points, and the tilt of the boxes below this one, stay within the square
+        // of the diagonal over the diameter.
+        const double width = region.width + 2.0 * reach_.around;
+        const double depth = region.depth + 2.0 * reach_.around;
+        const glm::dvec3 slack((width * width + depth * depth) / (2.0 * kLeastRadius));
+        box.low -= slack;
+        box.high += slack;
+    }
+    return box;
+}
+
+} // namespace lsys

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: MIT
+// TileGrid: the squares of the quadtree over the ground of a scene.
+#pragma once
+
+#include "runtime/terrain/region.h"
+#include "runtime/tiles/tiles.h"
+
+#include <cstdint>
+
+namespace lsys {
+
+class TileGrid {
+public:
+    explicit TileGrid(const Region& ground);
+
+    /// The square of level 0. It has the longer side of the ground, and begins where the ground does.
+    [[nodiscard]] const Region& square() const { return square_; }
+    [[nodiscard]] const Region& ground() const { return ground_; }
+    /// Side in m of a tile.
+    [[nodiscard]] double side(std::uint32_t level) const;
+    /// Number of tiles along a side of the square.
+    [[nodiscard]] static std::uint32_t tiles_across(std::uint32_t level) { return 1U << level; }
+    /// The part of a tile that is ground; its width or depth is not positive if there is none.
+    [[nodiscard]] Region region_of(const TileId& tile) const;
+    /// Whether the tile is in the square and has ground. Any numbers are allowed.
+    [[nodiscard]] bool has_ground(const TileId& tile) const;
+    /// The tile of a place on the ground.
+    [[nodiscard]] TileId tile_at(std::uint32_t level, float x, float z) const;
+
+private:
+    Region ground_;
+    Region square_;
+};
+
+} // namespace lsys

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: MIT
+// The surface of a tile: the ground, or ground and crowns as one surface.
+#pragma once
+
+#include "runtime/meshing/mesh.h"
+#include "runtime/terrain/terrain.h"
+#include "runtime/tiles/impl/canopy.h"
+#include "runtime/tiles/impl/geodesy.h"
+#include "runtime/tiles/impl/tile_grid.h"
+
+#include <glm/mat4x4.hpp>
+#include <glm/vec3.hpp>
+
+#include <cstdint>
+#include <functional>
+
+namespace lsys {
+
+/// The canopy at a corner of cells of a level: (level, column, row). A tile has kCanopyCells by
+/// kCanopyCells cells.
+using CanopyAtCorner =
+    std::function<CanopyPoint(std::uint32_t level, std::int64_t column, std::int64_t row)>;
+
+/// A tile and what its surface depends on.
+struct TileGround {
+    const Terrain& terrain;
+    const GroundPictures& pictures;
+    glm::dvec3 colour; // linear, mean of the ground
+    const GroundFrame& earth;
+    const TileGrid& grid;
+    const CanopyAtCorner& canopy_at; // empty: the ground alone
+    TileId tile;
+    glm::dmat4 to_tile;      // from the coordinates of the tileset to the frame of the tile
+    std::uint32_t cells = 1; // along a side; kCanopyCells with a canopy
+    double skirt = 0.0;      // m
+};
+
+/// The mesh, in the frame of the tile with +Y up. With a canopy its material has a picture of its own.
+[[nodiscard]] Mesh make_tile_ground(const TileGround& ground);
+
+} // namespace lsys
