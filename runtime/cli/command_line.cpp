@@ -314,6 +314,21 @@ Result<GeoPlace> parse_geo_place(const std::string& text) {
     return GeoPlace{longitude.value(), latitude.value(), height.value()};
 }
 
+/// I/N.
+Result<TilePart> parse_part(const std::string& text) {
+    constexpr std::uint64_t kMaxParts = 1'000'000;
+    const std::size_t slash = text.find('/');
+    const auto parse = integer(1, kMaxParts);
+    const std::string number = text.substr(0, slash);
+    const std::string of = slash == std::string::npos ? std::string() : text.substr(slash + 1);
+    const Result<std::uint64_t> i = parse(number);
+    const Result<std::uint64_t> n = parse(of);
+    if (!i || !n || i.value() > n.value()) {
+        return Error{fmt::format("`{}` is not I/N, with I from 1 to N", text)};
+    }
+    return TilePart{i.value(), n.value()};
+}
+
 void add_tiles(CLI::App& app, TilesCommand& command) {
     app.add_option("FILE", command.files, "A scene (.toml), or one grammar per species")
         ->required();
@@ -322,17 +337,28 @@ void add_tiles(CLI::App& app, TilesCommand& command) {
         ->type_name("FOLDER");
     app.add_flag("-f,--force", command.force,
                  "Write into a folder that has files; files of the same names are replaced");
+    app.add_flag("--resume", command.resume,
+                 "Write only the files that the folder does not have yet, of the same scene");
+    add_parsed(app, "--part", command.part, parse_part,
+               "Write only part I of N; N processes write a tileset, each another part")
+        ->type_name("I/N");
     add_parsed(
         app, "--origin", command.tiles.origin, parse_geo_place,
         "Place of the scene's origin on the Earth, in degrees and metres above the ellipsoid "
         "of WGS 84; +X points east, -Z north (default: the tileset has coordinates of its "
         "own)")
         ->type_name("LONGITUDE,LATITUDE[,HEIGHT]");
+    const auto tolerated_error = [](const std::string& text) {
+        return parse_number(text, 0.0F, 1000.0F);
+    };
     constexpr std::uint64_t kMinTriangles = 10'000;
     constexpr std::uint64_t kMaxTriangles = 1'000'000'000;
     add_parsed(app, "--triangles", command.tiles.triangles, integer(kMinTriangles, kMaxTriangles),
                "Maximum number of triangles of a tile, on average (default 2000000)")
         ->type_name("N");
+    add_parsed(app, "--error", command.tiles.error, tolerated_error,
+               "Error of the trees of the nearest tiles in metres (default 0.02); 0: all triangles")
+        ->type_name("METRES");
     app.add_flag("--stats", command.stats, "Print the levels of the tileset and their errors");
     add_scene_overrides(app, command.overrides, "--size");
     add_tree_height(app, command.overrides.height);

@@ -12,10 +12,13 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
+#include <atomic>
+#include <cstdint>
 #include <filesystem>
+#include <mutex>
 #include <set>
 #include <string>
+#include <string_view>
 #include <system_error>
 #include <utility>
 #include <vector>
@@ -26,98 +29,155 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Refuses a file, and a folder with files unless `force`.
-Result<void> check_folder(const std::string& folder, bool force) {
+/// Refuses a file, and a folder with files unless `may_have_files`.
+Result<void> check_folder(const std::string& folder, bool may_have_files) {
     std::error_code error;
     const fs::file_status status = fs::status(path_of(folder), error);
     if (fs::exists(status) && !fs::is_directory(status)) {
         return Error{fmt::format("`{}` is a file; a tileset is a folder", folder)};
     }
-    if (!force && fs::is_directory(status) &&
+    if (!may_have_files && fs::is_directory(status) &&
         fs::directory_iterator(path_of(folder), error) != fs::directory_iterator()) {
-        return Error{fmt::format("`{}` has files already; --force writes there too", folder)};
+        return Error{fmt::format("`{}` has files already; --force writes there too, --resume adds "
+                                 "the files that are missing",
+                                 folder)};
     }
     return {};
 }
 
-/// Writes files below a folder, and makes the folders between.
-class FolderWriter {
-public:
-    FolderWriter(std::string folder, const Console& console)
-        : folder_(std::move(folder)), console_(console) {}
-
-    Result<void> write(const std::string& path, const std::string& bytes) {
-        const std::string whole = folder_ + "/" + path;
-        const std::string folder(folder_of_path(whole));
-        if (folders_.insert(folder).second) {
-            std::error_code error;
-            fs::create_directories(path_of(folder), error);
-            if (error) {
-                return Error{
-                    fmt::format("cannot make the folder `{}`: {}", folder, error.message())};
-            }
-        }
-        bytes_ += bytes.size();
-        return write_file(whole, bytes, console_);
-    }
-    [[nodiscard]] std::uint64_t bytes() const { return bytes_; }
-
-private:
-    std::string folder_;
-    const Console& console_;
-    std::set<std::string> folders_;
-    std::uint64_t bytes_ = 0;
+/// What has been written.
+struct TileTotals {
+    std::uint64_t files = 0;
+    std::uint64_t bytes = 0;
+    std::uint64_t trees = 0; // of the finest level
 };
 
-std::string stats_text(const TileForest& forest,
-                       const std::vector<std::vector<TileContent>>& contents,
-                       std::uint64_t trees,
-                       std::uint64_t bytes) {
-    std::string text = "level     side m  tiles   error m  a tile shows\n";
+/// Writes the files of a tileset. All files are numbered in the order: shared files, tiles level by
+/// level, tilesets from the finest up to the root; a part of N writes every Nth.
+class TilesetFolder {
+public:
+    TilesetFolder(const TilesCommand& command, const TileForest& forest, const Console& console)
+        : command_(command), forest_(forest), console_(console), workers_(command.run.threads) {}
+
+    Result<void> write() {
+        make_folder("");
+        const std::vector<TileFile>& shared = forest_.files();
+        write_files(shared.size(), [&](std::uint64_t i) {
+            write_file_at(shared[i].path, [&] { return shared[i].bytes; });
+        });
+        const auto levels = static_cast<std::uint32_t>(forest_.levels().size());
+        for (std::uint32_t level = 0; level < levels; ++level) {
+            const std::vector<TileId> tiles = forest_.tiles(level);
+            write_files(tiles.size(), [&](std::uint64_t i) {
+                write_file_at(TileForest::content_path(tiles[i]), [&] {
+                    TileContent content = forest_.content(tiles[i]);
+                    trees_ += level + 1 == levels ? content.trees : 0;
+                    return std::move(content.bytes);
+                });
+            });
+        }
+        for (std::uint32_t level = levels; level-- > 0;) {
+            if (TileForest::has_tileset(level)) {
+                const std::vector<TileId> roots = forest_.tiles(level);
+                write_files(roots.size(), [&](std::uint64_t i) {
+                    write_file_at(TileForest::tileset_path(roots[i]),
+                                  [&] { return forest_.tileset(roots[i]); });
+                });
+            }
+        }
+        const std::lock_guard<std::mutex> lock(mutex_);
+        return result_;
+    }
+    [[nodiscard]] TileTotals totals() const { return {files_, bytes_, trees_}; }
+
+private:
+    /// Calls write(i) for the files of this part, on several threads.
+    template <typename Write>
+    void write_files(std::uint64_t count, const Write& write) {
+        // The first of the files with number = part - 1 (mod parts).
+        const std::uint64_t parts = command_.part.of;
+        const std::uint64_t first = (command_.part.number - 1 + parts - number_ % parts) % parts;
+        number_ += count;
+        workers_.for_each(count > first ? (count - first - 1) / parts + 1 : 0,
+                          [&](std::uint64_t i) {
+                              if (!is_stopped_ && !console_.interrupted()) {
+                                  write(first + parts * i);
+                              }
+                          });
+    }
+
+    template <typename Make>
+    void write_file_at(const std::string& path, const Make& make) {
+        const std::string whole = command_.output + "/" + path;
+        std::error_code error;
+        if (command_.resume && fs::exists(path_of(whole), error)) {
+            return; // files get their names when they are complete
+        }
+        make_folder(folder_of_path(path));
+        const std::string bytes = make();
+        if (is_stopped_) {
+            return;
+        }
+        if (const Result<void> written = lsys::write_file(whole, bytes, console_); !written) {
+            stop(written.error());
+        }
+        bytes_ += bytes.size();
+        ++files_;
+    }
+
+    /// Makes a folder below that of the tileset.
+    void make_folder(std::string_view path) {
+        const std::lock_guard<std::mutex> lock(mutex_);
+        if (!folders_.insert(std::string(path)).second) {
+            return;
+        }
+        const std::string whole = command_.output + (path.empty() ? "" : "/") + std::string(path);
+        std::error_code error;
+        fs::create_directories(path_of(whole), error);
+        if (error && result_) {
+            result_ = Error{fmt::format("cannot make the folder `{}`: {}", whole, error.message())};
+            is_stopped_ = true;
+        }
+    }
+
+    void stop(const Error& error) {
+        const std::lock_guard<std::mutex> lock(mutex_);
+        result_ = result_ ? Result<void>(error) : result_;
+        is_stopped_ = true;
+    }
+
+    const TilesCommand& command_;
+    const TileForest& forest_;
+    const Console& console_;
+    Workers workers_;
+    std::uint64_t number_ = 0; // of the next file
+    std::atomic<std::uint64_t> files_{0};
+    std::atomic<std::uint64_t> bytes_{0};
+    std::atomic<std::uint64_t> trees_{0};
+    std::atomic<bool> is_stopped_{false};
+    std::mutex mutex_; // of the following
+    std::set<std::string> folders_;
+    Result<void> result_;
+};
+
+std::string stats_text(const TileForest& forest, const TileTotals& totals, bool is_whole) {
+    std::string text = "level     side m    tiles   error m  a tile shows\n";
     const std::vector<TileLevel>& levels = forest.levels();
-    for (std::size_t i = 0; i < levels.size(); ++i) {
+    for (std::uint32_t i = 0; i < levels.size(); ++i) {
         const TileLevel& level = levels[i];
-        text += fmt::format("{:>5} {:>10.1f} {:>6} {:>9.3f}  {}\n", i, level.side,
-                            contents[i].size(), level.error,
+        text += fmt::format("{:>5} {:>10.1f} {:>8} {:>9.3f}  {}\n", i, level.side,
+                            forest.tiles(i).size(), level.error,
                             level.has_trees ? fmt::format("{:.0f} trees of {} triangles",
                                                           level.trees, level.triangles)
                                             : std::string("ground and crowns as one surface"));
     }
-    text += fmt::format("{}, {} in all", counted(trees, "tree"), byte_size_text(bytes));
-    text += trees == 0 ? std::string("\n")
-                       : fmt::format(", {:.0f} bytes a tree\n",
-                                     static_cast<double>(bytes) / static_cast<double>(trees));
-    return text;
-}
-
-/// Makes all tiles and writes them. `contents` gets their boxes.
-Result<void> write_tiles(const TileForest& forest,
-                         std::uint32_t threads,
-                         const Console& console,
-                         FolderWriter& folder,
-                         std::vector<std::vector<TileContent>>& contents) {
-    constexpr std::size_t kBatch = 256; // tiles that are in memory at once
-    Workers workers(threads);
-    for (std::uint32_t level = 0; level < forest.levels().size(); ++level) {
-        const std::vector<TileId> ids = forest.tiles(level);
-        std::vector<TileContent>& made = contents.emplace_back(ids.size());
-        for (std::size_t first = 0; first < ids.size(); first += kBatch) {
-            if (console.interrupted()) {
-                return {};
-            }
-            const std::size_t count = std::min(kBatch, ids.size() - first);
-            workers.for_each(
-                count, [&](std::uint64_t i) { made[first + i] = forest.content(ids[first + i]); });
-            for (std::size_t i = first; i < first + count; ++i) {
-                if (Result<void> written = folder.write(TileForest::path_of(ids[i]), made[i].bytes);
-                    !written) {
-                    return written;
-                }
-                std::string().swap(made[i].bytes); // frees the memory
-            }
-        }
+    text +=
+        fmt::format("{} written, {}", counted(totals.files, "file"), byte_size_text(totals.bytes));
+    if (is_whole && totals.trees != 0) {
+        text += fmt::format("; {}, {:.0f} bytes a tree", counted(totals.trees, "tree"),
+                            static_cast<double>(totals.bytes) / static_cast<double>(totals.trees));
     }
-    return {};
+    return text + "\n";
 }
 
 } // namespace
@@ -128,7 +188,9 @@ ExitStatus run_command(const TilesCommand& command, const Console& console) {
                                   "whole trees, of which --heroes sets the variety"},
                             console);
     }
-    if (const Result<void> usable = check_folder(command.output, command.force); !usable) {
+    const bool is_whole = command.part.of == 1 && !command.resume;
+    if (const Result<void> usable = check_folder(command.output, command.force || !is_whole);
+        !usable) {
         return report_error(usable.error(), console);
     }
     const Project project = make_project(console, command.run);
@@ -139,48 +201,26 @@ ExitStatus run_command(const TilesCommand& command, const Console& console) {
     if (status == ExitStatus::Ok) {
         status = console.take(choose_instancing(loaded, project));
     }
-    GrownForest grown;
-    if (status == ExitStatus::Ok) {
-        status = console.take(grow_species(loaded, project, {}), grown);
-    }
-    if (status == ExitStatus::Ok) {
-        status = console.take(place_forest(loaded.scene, project, grown));
-    }
     if (status != ExitStatus::Ok) {
         return status;
     }
-    const std::uint64_t trees = grown.forest.trees.size();
     TileOptions options = command.tiles;
     options.generator = "lsc " LSC_VERSION;
-    Outcome<TileForest> planned =
-        make_tile_forest(loaded.scene, std::move(grown), options, project);
-    console.show(planned.messages());
-    if (!planned) {
-        return status_of(planned.stop());
+    Outcome<TileForest> forest = make_tile_forest(std::move(loaded), options, project);
+    console.show(forest.messages());
+    if (!forest) {
+        return status_of(forest.stop());
     }
-    const TileForest& forest = planned.value();
-    Result<void> written;
-    FolderWriter folder(command.output, console);
-    for (const TileFile& file : forest.files()) {
-        written = written ? folder.write(file.path, file.bytes) : written;
-    }
-    std::vector<std::vector<TileContent>> contents;
-    if (written) {
-        written = write_tiles(forest, command.run.threads, console, folder, contents);
-    }
+    TilesetFolder folder(command, forest.value(), console);
+    const Result<void> written = folder.write();
     if (console.interrupted()) {
         return ExitStatus::Interrupted;
-    }
-    if (written) {
-        for (const TileFile& file : forest.tilesets(contents)) { // the root comes last
-            written = written ? folder.write(file.path, file.bytes) : written;
-        }
     }
     if (!written) {
         return report_error(written.error(), console);
     }
     return command.stats
-               ? report_result(console.write(stats_text(forest, contents, trees, folder.bytes())),
+               ? report_result(console.write(stats_text(forest.value(), folder.totals(), is_whole)),
                                console)
                : ExitStatus::Ok;
 }

@@ -95,13 +95,21 @@ struct ForestCommand : ForestFileOptions {
     bool stats = false;
 };
 
+/// One of several processes that write one tileset.
+struct TilePart {
+    std::uint64_t number = 1; // 1 to `of`
+    std::uint64_t of = 1;
+};
+
 struct TilesCommand {
     MessageOptions messages;
     std::vector<std::string> files; // one scene, or one or more grammars
     SceneOverrides overrides;
     RunOptions run;
-    std::string output; // folder
-    bool force = false; // also into a folder that has files
+    std::string output;  // folder
+    bool force = false;  // also into a folder that has files
+    bool resume = false; // keeps files that are there
+    TilePart part;
     bool stats = false;
     TileOptions tiles;
 };

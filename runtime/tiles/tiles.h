@@ -31,7 +31,7 @@ struct GeoPlace {
 
 inline constexpr std::uint32_t kMaxTileLevel = 24;
 inline constexpr std::uint64_t kTileTriangles = 2'000'000;
-inline constexpr double kTileError = 0.02; // m
+inline constexpr float kTileError = 0.02F; // m
 /// Max number of trees of a tile that shows single trees.
 inline constexpr std::uint64_t kMaxTileTrees = 16'384;
 
@@ -40,7 +40,7 @@ struct TileOptions {
     /// coordinates of its own.
     std::optional<GeoPlace> origin;
     std::uint64_t triangles = kTileTriangles; // max per tile with the mean number of trees
-    double error = kTileError;                // m, of the trees of the nearest tiles
+    float error = kTileError;                 // m, of the trees of the nearest tiles
     MeshOptions mesh;
     std::string generator; // the program and its version
 };

@@ -10,12 +10,14 @@ namespace lsys {
 namespace {
 
 constexpr double kMinTileTrees = 4.0; // mean number in a tile that is not divided for its triangles
-constexpr double kGroundError = 0.05; // m, tolerated error of the ground in every tile
+constexpr double kGroundError = 0.1;  // m, tolerated error of the ground in every tile
+constexpr std::uint32_t kGroundCells = 128; // max along a side of a tile with trees
 
 class Planner {
 public:
     explicit Planner(const LevelNeeds& needs)
-        : needs_(needs), budget_(static_cast<double>(needs.options.triangles)) {
+        : needs_(needs), budget_(static_cast<double>(needs.options.triangles)),
+          tolerated_(static_cast<double>(needs.options.error)) {
         for (const Hero& hero : needs.heroes) {
             finest_.push_back(finest_detail(hero));
         }
@@ -57,8 +59,7 @@ private:
     /// The coarsest level of detail within the tolerated error.
     [[nodiscard]] std::size_t finest_detail(const Hero& hero) const {
         std::size_t detail = 0;
-        while (detail + 1 < hero.levels.levels.size() &&
-               error_of(hero, detail + 1) <= needs_.options.error) {
+        while (detail + 1 < hero.levels.levels.size() && error_of(hero, detail + 1) <= tolerated_) {
             ++detail;
         }
         return detail;
@@ -84,8 +85,8 @@ private:
                    mean_trees(depth + 1) >= kMinTileTrees;
         };
         const auto has_coarse_ground = [&] {
-            return needs_.terrain.mesh_error(needs_.grid.side(depth) / kCanopyCells) >
-                   std::max(needs_.options.error, kGroundError);
+            return needs_.terrain.mesh_error(needs_.grid.side(depth) / kGroundCells) >
+                   std::max(tolerated_, kGroundError);
         };
         while (depth < kMaxTileLevel && (has_too_much() || has_coarse_ground())) {
             ++depth;
@@ -124,10 +125,10 @@ private:
         return std::max(error, ground_errors_[number]);
     }
 
-    /// Cells along the side of a surface: the least power of two whose error is at most `allowed`, up
-    /// to kCanopyCells.
+    /// Cells along the side of the ground: the least power of two whose error is at most `allowed`, up
+    /// to kGroundCells.
     [[nodiscard]] std::uint32_t ground_cells(double side, double allowed) const {
-        std::uint32_t cells = kCanopyCells;
+        std::uint32_t cells = kGroundCells;
         while (cells > 1 && needs_.terrain.mesh_error(2.0 * side / cells) <= allowed) {
             cells /= 2;
         }
@@ -147,6 +148,7 @@ private:
 
     const LevelNeeds& needs_;
     double budget_;                     // triangles
+    double tolerated_;                  // m, of the trees of the nearest tiles
     std::vector<std::size_t> finest_;   // by hero: level of detail of the nearest tiles
     std::vector<double> ground_errors_; // by level
     LevelPlan plan_;

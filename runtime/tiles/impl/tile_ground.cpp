@@ -15,6 +15,9 @@ namespace lsys {
 
 namespace {
 
+constexpr std::uint32_t kSide = kCanopyCells + 1; // points along a side of a canopy
+constexpr std::int64_t kWide = kSide + 2;         // with a border of one cell, for normals
+
 double height_of(const Terrain& terrain, double x, double z) {
     return static_cast<double>(terrain.height(static_cast<float>(x), static_cast<float>(z)));
 }
@@ -42,8 +45,6 @@ Mesh make_bare_ground(const TileGround& ground, PatchPlan& plan) {
 
 /// Ground and crowns, with a picture of their colours: one texel for each vertex.
 Mesh make_canopy(const TileGround& ground, PatchPlan& plan) {
-    constexpr std::uint32_t kSide = kCanopyCells + 1;
-    constexpr std::int64_t kWide = kSide + 2; // with a border of one cell, for normals
     const TileId& tile = ground.tile;
     const double cell = ground.grid.side(tile.level) / kCanopyCells;
     const std::int64_t first_column = std::int64_t{tile.column} * kCanopyCells - 1;
