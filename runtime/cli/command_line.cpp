@@ -329,6 +329,47 @@ Result<TilePart> parse_part(const std::string& text) {
     return TilePart{i.value(), n.value()};
 }
 
+/// HOST:PORT, with an IPv6 address in brackets; or a port of this machine.
+Result<ServerOptions> parse_listen(const std::string& text) {
+    const std::size_t colon = text.rfind(':');
+    const bool has_host = colon != std::string::npos;
+    const Result<std::uint64_t> port = integer(0, 65'535)(has_host ? text.substr(colon + 1) : text);
+    std::string host = has_host ? text.substr(0, colon) : ServerOptions().address;
+    if (host.starts_with('[') && host.ends_with(']')) {
+        host = host.substr(1, host.size() - 2);
+    } else if (host.find(':') != std::string::npos) {
+        host.clear();
+    }
+    if (!port || host.empty()) {
+        return Error{fmt::format("`{}` is not ADDRESS:PORT, such as 127.0.0.1:8080", text)};
+    }
+    ServerOptions options;
+    options.address = host == "localhost" ? "127.0.0.1" : host;
+    options.port = static_cast<std::uint16_t>(port.value());
+    return options;
+}
+
+/// The options of the tiles, for `tiles` and `serve`.
+void add_tile_options(CLI::App& app, TileOptions& options) {
+    add_parsed(
+        app, "--origin", options.origin, parse_geo_place,
+        "Place of the scene's origin on the Earth, in degrees and metres above the ellipsoid "
+        "of WGS 84; +X points east, -Z north (default: the tileset has coordinates of its "
+        "own)")
+        ->type_name("LONGITUDE,LATITUDE[,HEIGHT]");
+    const auto tolerated_error = [](const std::string& text) {
+        return parse_number(text, 0.0F, 1000.0F);
+    };
+    constexpr std::uint64_t kMinTriangles = 10'000;
+    constexpr std::uint64_t kMaxTriangles = 1'000'000'000;
+    add_parsed(app, "--triangles", options.triangles, integer(kMinTriangles, kMaxTriangles),
+               "Maximum number of triangles of a tile, on average (default 2000000)")
+        ->type_name("N");
+    add_parsed(app, "--error", options.error, tolerated_error,
+               "Error of the trees of the nearest tiles in metres (default 0.02); 0: all triangles")
+        ->type_name("METRES");
+}
+
 void add_tiles(CLI::App& app, TilesCommand& command) {
     app.add_option("FILE", command.files, "A scene (.toml), or one grammar per species")
         ->required();
@@ -342,23 +383,7 @@ void add_tiles(CLI::App& app, TilesCommand& command) {
     add_parsed(app, "--part", command.part, parse_part,
                "Write only part I of N; N processes write a tileset, each another part")
         ->type_name("I/N");
-    add_parsed(
-        app, "--origin", command.tiles.origin, parse_geo_place,
-        "Place of the scene's origin on the Earth, in degrees and metres above the ellipsoid "
-        "of WGS 84; +X points east, -Z north (default: the tileset has coordinates of its "
-        "own)")
-        ->type_name("LONGITUDE,LATITUDE[,HEIGHT]");
-    const auto tolerated_error = [](const std::string& text) {
-        return parse_number(text, 0.0F, 1000.0F);
-    };
-    constexpr std::uint64_t kMinTriangles = 10'000;
-    constexpr std::uint64_t kMaxTriangles = 1'000'000'000;
-    add_parsed(app, "--triangles", command.tiles.triangles, integer(kMinTriangles, kMaxTriangles),
-               "Maximum number of triangles of a tile, on average (default 2000000)")
-        ->type_name("N");
-    add_parsed(app, "--error", command.tiles.error, tolerated_error,
-               "Error of the trees of the nearest tiles in metres (default 0.02); 0: all triangles")
-        ->type_name("METRES");
+    add_tile_options(app, command.tiles);
     app.add_flag("--stats", command.stats, "Print the levels of the tileset and their errors");
     add_scene_overrides(app, command.overrides, "--size");
     add_tree_height(app, command.overrides.height);
@@ -376,6 +401,53 @@ void add_tiles(CLI::App& app, TilesCommand& command) {
                "Examples: lsc tiles wood.toml -o wood\n"
                "          lsc tiles wood.toml --origin 9.7,47.2,430 -o wood\n"
                "          lsc tiles oak.lsys --count 100000 --size 3000 --stats -o oaks");
+}
+
+void add_serve(CLI::App& app, ServeCommand& command) {
+    app.add_option("FILE", command.files, "A scene (.toml), or one grammar per species")
+        ->required();
+    app.add_option_function<std::string>(
+           "--listen",
+           [&command](const std::string& text) {
+               Result<ServerOptions> parsed = parse_listen(text);
+               if (!parsed) {
+                   throw CLI::ValidationError("--listen", parsed.error().message);
+               }
+               command.server.address = parsed.value().address;
+               command.server.port = parsed.value().port;
+           },
+           "Address and port, or a port of this machine (default 127.0.0.1:8080); port 0: the "
+           "system chooses one")
+        ->type_name("ADDRESS:PORT");
+    app.add_flag("--public", command.server.is_public,
+                 "Allow an address that other machines can reach");
+    add_parsed(app, "--cache", command.cache_bytes, parse_size,
+               "Memory for tiles that have been made (default 256M)")
+        ->type_name("SIZE");
+    constexpr std::uint64_t kMaxConnections = 1'000'000;
+    add_parsed(app, "--max-connections", command.server.max_connections,
+               integer(1, kMaxConnections),
+               "Connections at once; further ones are closed (default 1024)")
+        ->type_name("N");
+    add_tile_options(app, command.tiles);
+    add_scene_overrides(app, command.overrides, "--size");
+    add_tree_height(app, command.overrides.height);
+    add_mesh(app, command.tiles.mesh);
+    add_grammar(app, command.overrides.grammar, command.run);
+    add_seed(app, command.overrides.seed);
+    add_run_limits(app, command.run);
+    add_message_options(app, command.messages);
+    add_levels(app, command.messages);
+    app.footer("Serves the files of `lsc tiles` without writing them: each tile is made when it is "
+               "asked for.\n"
+               "The placement must be on a grid, whose trees are known tile by tile: jittered, "
+               "uniform-cells,\n"
+               "poisson-cells or density-cells. Ctrl-C or SIGTERM ends the server.\n"
+               "/tileset.json is the tileset, / a page that shows it, /health and /metrics are for "
+               "monitoring.\n"
+               "Examples: lsc serve wood.toml\n"
+               "          lsc serve oak.lsys --placement jittered --spacing 10 --size 300000 "
+               "--listen 8000");
 }
 
 void add_import(CLI::App& app, ImportCommand& command) {
@@ -638,6 +710,7 @@ void add_commands(CLI::App& app,
     add("export", "Export one plant as a 3D model or a drawing", add_export);
     add("forest", "Generate a forest of instanced plants", add_forest);
     add("import", "Convert a grammar of another program to .lsys", add_import);
+    add("serve", "Serve a forest as 3D Tiles, made on request", add_serve);
     add("stats", "Predict the size of each generation", add_stats);
     add("tiles", "Write a forest as 3D Tiles for Cesium and other viewers", add_tiles);
     add("trace", "Explain what becomes of a module, and why", add_trace);

@@ -4,10 +4,8 @@
 #include "runtime/base/size_text.h"
 #include "runtime/base/workers.h"
 #include "runtime/cli/commands.h"
-#include "runtime/pipeline/forest.h"
-#include "runtime/pipeline/instancing_choice.h"
+#include "runtime/cli/load_tile_forest.h"
 #include "runtime/program/files.h"
-#include "runtime/program/host.h"
 #include "runtime/tiles/tiles.h"
 
 #include <fmt/format.h>
@@ -16,6 +14,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <mutex>
+#include <optional>
 #include <set>
 #include <string>
 #include <string_view>
@@ -183,35 +182,18 @@ std::string stats_text(const TileForest& forest, const TileTotals& totals, bool 
 } // namespace
 
 ExitStatus run_command(const TilesCommand& command, const Console& console) {
-    if (command.overrides.rho) {
-        return report_error(Error{"--rho is the part of branches that are instances; tiles hold "
-                                  "whole trees, of which --heroes sets the variety"},
-                            console);
-    }
     const bool is_whole = command.part.of == 1 && !command.resume;
     if (const Result<void> usable = check_folder(command.output, command.force || !is_whole);
         !usable) {
         return report_error(usable.error(), console);
     }
-    const Project project = make_project(console, command.run);
-    SceneOverrides overrides = command.overrides;
-    overrides.rho = 0.0F;
-    LoadedScene loaded;
-    ExitStatus status = console.take(load_scene(command.files, overrides, project), loaded);
-    if (status == ExitStatus::Ok) {
-        status = console.take(choose_instancing(loaded, project));
-    }
+    std::optional<TileForest> forest;
+    const ExitStatus status = load_tile_forest(command.files, command.overrides, command.tiles,
+                                               command.run, TilePlacements::All, console, forest);
     if (status != ExitStatus::Ok) {
         return status;
     }
-    TileOptions options = command.tiles;
-    options.generator = "lsc " LSC_VERSION;
-    Outcome<TileForest> forest = make_tile_forest(std::move(loaded), options, project);
-    console.show(forest.messages());
-    if (!forest) {
-        return status_of(forest.stop());
-    }
-    TilesetFolder folder(command, forest.value(), console);
+    TilesetFolder folder(command, *forest, console);
     const Result<void> written = folder.write();
     if (console.interrupted()) {
         return ExitStatus::Interrupted;
@@ -220,7 +202,7 @@ ExitStatus run_command(const TilesCommand& command, const Console& console) {
         return report_error(written.error(), console);
     }
     return command.stats
-               ? report_result(console.write(stats_text(forest.value(), folder.totals(), is_whole)),
+               ? report_result(console.write(stats_text(*forest, folder.totals(), is_whole)),
                                console)
                : ExitStatus::Ok;
 }

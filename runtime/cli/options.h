@@ -8,6 +8,7 @@
 #include "runtime/pipeline/scene_overrides.h"
 #include "runtime/program/message_options.h"
 #include "runtime/program/run_options.h"
+#include "runtime/serve/http_server.h"
 #include "runtime/tiles/tiles.h"
 
 #include <cstdint>
@@ -112,6 +113,16 @@ struct TilesCommand {
     TilePart part;
     bool stats = false;
     TileOptions tiles;
+};
+
+struct ServeCommand {
+    MessageOptions messages;
+    std::vector<std::string> files; // one scene, or one or more grammars
+    SceneOverrides overrides;
+    RunOptions run;
+    TileOptions tiles;
+    ServerOptions server;
+    std::uint64_t cache_bytes = std::uint64_t{256} << 20U;
 };
 
 struct StatsCommand {

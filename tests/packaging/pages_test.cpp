@@ -89,7 +89,7 @@ TEST_CASE("lsc is described with all commands") {
                         [](const OptionText& option) { return option.names.back() == "--help"; }));
     }
     CHECK(names == std::vector<std::string>{"check", "compile", "dump", "export", "forest",
-                                            "import", "stats", "tiles", "trace", "fmt", "explain",
+                                            "import", "serve", "stats", "tiles", "trace", "fmt", "explain",
                                             "help"});
     CHECK(program.program.name == "lsc");
 }

@@ -14,10 +14,10 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// `value` rounded to a multiple of 2^-20, about a micrometre, for a tileset.
+/// `value` rounded to a micrometre, for short numbers.
 double rounded(double value) {
-    constexpr double kSteps = 1 << 20;
-    return std::floor(value * kSteps + 0.5) / kSteps;
+    constexpr double kSteps = 1e6;
+    return std::floor(value * kSteps + 0.5) / kSteps + 0.0; // without a negative zero
 }
 
 /// The matrix in column-major order. Axes are rounded to 12 decimals, which moves a point by less

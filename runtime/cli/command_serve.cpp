@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: MIT
+#include "runtime/cli/commands.h"
+#include "runtime/cli/load_tile_forest.h"
+#include "runtime/serve/http_server.h"
+#include "runtime/serve/tile_service.h"
+
+#include <fmt/format.h>
+
+#include <optional>
+#include <string>
+
+namespace lsys::lsc {
+
+ExitStatus run_command(const ServeCommand& command, const Console& console) {
+    std::optional<TileForest> forest;
+    const ExitStatus status =
+        load_tile_forest(command.files, command.overrides, command.tiles, command.run,
+                         TilePlacements::OnGrids, console, forest);
+    if (status != ExitStatus::Ok) {
+        return status;
+    }
+    TileService service(*forest, command.cache_bytes);
+    ServerOptions options = command.server;
+    options.threads = command.run.threads;
+    const auto ready = [&console](const std::string& address) {
+        static_cast<void>(console.write(fmt::format("serving {}tileset.json\n", address)));
+        static_cast<void>(console.flush());
+    };
+    const Result<void> served =
+        serve_tiles(service, options, ready, [&console] { return console.interrupted(); });
+    return served ? ExitStatus::Ok : report_error(served.error(), console);
+}
+
+} // namespace lsys::lsc

@@ -1,0 +1,327 @@
+// SPDX-License-Identifier: MIT
+#include "runtime/serve/http_server.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <boost/asio/bind_executor.hpp>
+#include <boost/asio/io_context.hpp>
+#include <boost/asio/ip/tcp.hpp>
+#include <boost/asio/post.hpp>
+#include <boost/asio/steady_timer.hpp>
+#include <boost/asio/thread_pool.hpp>
+#include <boost/beast/core/flat_buffer.hpp>
+#include <boost/beast/core/span.hpp>
+#include <boost/beast/core/tcp_stream.hpp>
+#include <boost/beast/http/empty_body.hpp>
+#include <boost/beast/http/parser.hpp>
+#include <boost/beast/http/read.hpp>
+#include <boost/beast/http/span_body.hpp>
+#include <boost/beast/http/write.hpp>
+#include <chrono>
+#include <memory>
+#include <new>
+#include <optional>
+#include <set>
+#include <string_view>
+#include <thread>
+#include <utility>
+
+namespace lsys {
+
+namespace {
+
+namespace asio = boost::asio;
+namespace beast = boost::beast;
+namespace http = boost::beast::http;
+using asio::ip::tcp;
+using std::chrono::milliseconds;
+using std::chrono::seconds;
+
+constexpr seconds kIdle{10};
+constexpr seconds kSending{120};
+constexpr seconds kFinishing{5};
+constexpr milliseconds kPoll{100};
+constexpr std::uint32_t kHeaderBytes = 16 * 1024;
+
+class Session;
+
+/// What the sessions share. Used by the thread of the network only, except `pool`.
+struct Shared {
+    TileService& service;
+    std::set<Session*> sessions;
+    bool is_stopping = false;
+    asio::thread_pool pool;      // makes tiles
+    asio::io_context network{1}; // destroyed first, with the sessions that are left
+
+    Shared(TileService& tiles, std::size_t threads) : service(tiles), pool(threads) {}
+};
+
+std::string_view view_of(beast::string_view text) {
+    return {text.data(), text.size()};
+}
+
+/// A connection: reads a request, lets the pool answer it, and writes the response.
+class Session : public std::enable_shared_from_this<Session> {
+public:
+    Session(Shared& shared, tcp::socket socket) : shared_(shared), stream_(std::move(socket)) {
+        shared_.sessions.insert(this);
+        ++shared_.service.counts().connections;
+    }
+    ~Session() {
+        shared_.sessions.erase(this);
+        --shared_.service.counts().connections;
+    }
+    Session(const Session&) = delete;
+    Session& operator=(const Session&) = delete;
+
+    void read() {
+        parser_.emplace();
+        parser_->header_limit(kHeaderBytes);
+        is_idle_ = true;
+        stream_.expires_after(kIdle);
+        http::async_read(stream_, buffer_, *parser_,
+                         [self = shared_from_this()](beast::error_code error, std::size_t) {
+                             self->is_idle_ = false;
+                             self->answer(error);
+                         });
+    }
+    /// Ends the connection, after a response in progress.
+    void stop() {
+        if (is_idle_) {
+            close();
+        }
+    }
+    void close() {
+        beast::error_code ignored;
+        stream_.socket().shutdown(tcp::socket::shutdown_both, ignored);
+        stream_.close();
+    }
+
+private:
+    void answer(beast::error_code error) {
+        if (error == http::error::header_limit) {
+            refuse(http::status::request_header_fields_too_large);
+            return;
+        }
+        if (error == http::error::unexpected_body || error == http::error::body_limit) {
+            refuse(http::status::payload_too_large);
+            return;
+        }
+        if (error &&
+            error.category() == http::make_error_code(http::error::bad_version).category() &&
+            error != http::error::end_of_stream && error != http::error::partial_message) {
+            refuse(http::status::bad_request);
+            return;
+        }
+        if (error) { // closed by the client, or idle for too long
+            close();
+            return;
+        }
+        asio::post(shared_.pool, [self = shared_from_this()]() mutable {
+            self->respond();
+            // Sessions end on the thread of the network.
+            asio::io_context& network = self->shared_.network;
+            asio::post(network, [self = std::move(self)] { self->write(); });
+        });
+    }
+
+    void respond() {
+        const http::request<http::empty_body>& request = parser_->get();
+        const auto field = [&](http::field name) { return view_of(request[name]); };
+        try {
+            response_ = shared_.service.respond(
+                {view_of(request.method_string()), view_of(request.target()),
+                 field(http::field::accept_encoding), field(http::field::if_none_match),
+                 field(http::field::range), field(http::field::if_range)});
+        } catch (const std::bad_alloc&) {
+            response_ = {};
+            response_.status = 503;
+        }
+    }
+
+    void refuse(http::status status) {
+        response_ = {};
+        response_.status = static_cast<unsigned>(status);
+        ++shared_.service.counts().responses[response_.status / 100];
+        is_last_ = true;
+        write();
+    }
+
+    void write() {
+        const bool is_bodiless = response_.status == 204 || response_.status == 304;
+        message_.emplace();
+        message_->result(response_.status);
+        message_->version(parser_->get().version() == 10 ? 10 : 11);
+        for (const auto& [name, value] : response_.fields) {
+            message_->insert(beast::string_view(name.data(), name.size()), value);
+        }
+        if (response_.body != nullptr && !response_.is_head) {
+            message_->body() = {response_.body->data() + response_.first, response_.length};
+        }
+        if (!is_bodiless) {
+            message_->content_length(response_.length);
+        }
+        is_last_ = is_last_ || shared_.is_stopping || !parser_->get().keep_alive();
+        message_->keep_alive(!is_last_);
+        stream_.expires_after(kSending);
+        http::async_write(stream_, *message_,
+                          [self = shared_from_this()](beast::error_code error, std::size_t) {
+                              self->response_.body.reset();
+                              if (error || self->is_last_) {
+                                  self->close();
+                              } else {
+                                  self->read();
+                              }
+                          });
+    }
+
+    Shared& shared_;
+    beast::tcp_stream stream_;
+    beast::flat_buffer buffer_{kHeaderBytes + 4096};
+    std::optional<http::request_parser<http::empty_body>> parser_;
+    TileResponse response_;
+    std::optional<http::response<http::span_body<const char>>> message_;
+    bool is_idle_ = false;
+    bool is_last_ = false;
+};
+
+class Listener {
+public:
+    Listener(Shared& shared, std::uint32_t max_connections)
+        : shared_(shared), acceptor_(shared.network), retry_(shared.network),
+          max_connections_(max_connections) {}
+
+    /// Returns the mistake.
+    std::string open(const tcp::endpoint& endpoint) {
+        beast::error_code error;
+        acceptor_.open(endpoint.protocol(), error);
+        if (!error) {
+            acceptor_.set_option(asio::socket_base::reuse_address(true), error);
+        }
+        if (!error) {
+            acceptor_.bind(endpoint, error);
+        }
+        if (!error) {
+            acceptor_.listen(asio::socket_base::max_listen_connections, error);
+        }
+        return error ? error.message() : std::string();
+    }
+    [[nodiscard]] std::uint16_t port() const { return acceptor_.local_endpoint().port(); }
+
+    void accept() {
+        acceptor_.async_accept([this](beast::error_code error, tcp::socket socket) {
+            if (shared_.is_stopping) {
+                return;
+            }
+            if (error) { // no descriptor is left, for example
+                retry_.expires_after(kPoll);
+                retry_.async_wait([this](beast::error_code) { accept(); });
+                return;
+            }
+            if (shared_.sessions.size() >= max_connections_) {
+                ++shared_.service.counts().refused_connections;
+                socket.close(error);
+            } else {
+                try {
+                    socket.set_option(tcp::no_delay(true), error);
+                    std::make_shared<Session>(shared_, std::move(socket))->read();
+                } catch (const std::bad_alloc&) {
+                    ++shared_.service.counts().refused_connections;
+                }
+            }
+            accept();
+        });
+    }
+    void close() {
+        beast::error_code ignored;
+        acceptor_.close(ignored);
+        retry_.cancel();
+    }
+
+private:
+    Shared& shared_;
+    tcp::acceptor acceptor_;
+    asio::steady_timer retry_;
+    std::uint32_t max_connections_;
+};
+
+/// Asks should_stop() until it is time to stop, then closes the connections.
+class Stopper {
+public:
+    Stopper(Shared& shared, Listener& listener, const std::function<bool()>& should_stop)
+        : shared_(shared), listener_(listener), should_stop_(should_stop), timer_(shared.network) {}
+
+    void wait() {
+        timer_.expires_after(kPoll);
+        timer_.async_wait([this](beast::error_code) { check(); });
+    }
+
+private:
+    void check() {
+        if (!shared_.is_stopping && should_stop_()) {
+            shared_.is_stopping = true;
+            end_ = std::chrono::steady_clock::now() + kFinishing;
+            listener_.close();
+            const std::set<Session*> sessions = shared_.sessions;
+            for (Session* const session : sessions) {
+                session->stop();
+            }
+        }
+        if (!shared_.is_stopping) {
+            wait();
+        } else if (!shared_.sessions.empty() && std::chrono::steady_clock::now() < end_) {
+            wait();
+        } else {
+            shared_.network.stop();
+        }
+    }
+
+    Shared& shared_;
+    Listener& listener_;
+    const std::function<bool()>& should_stop_;
+    asio::steady_timer timer_;
+    std::chrono::steady_clock::time_point end_;
+};
+
+} // namespace
+
+Result<void> serve_tiles(TileService& service,
+                         const ServerOptions& options,
+                         const std::function<void(const std::string&)>& ready,
+                         const std::function<bool()>& should_stop) {
+    beast::error_code error;
+    const asio::ip::address address = asio::ip::make_address(options.address, error);
+    if (error) {
+        return Error{
+            fmt::format("`{}` is not an address such as 127.0.0.1 or ::1", options.address)};
+    }
+    if (!address.is_loopback() && !options.is_public) {
+        return Error{fmt::format("`{}` can be reached from other machines; --public allows that",
+                                 options.address)};
+    }
+    const std::size_t threads =
+        options.threads != 0 ? options.threads : std::max(1U, std::thread::hardware_concurrency());
+    Shared shared(service, threads);
+    Listener listener(shared, options.max_connections);
+    if (const std::string mistake = listener.open({address, options.port}); !mistake.empty()) {
+        return Error{
+            fmt::format("cannot listen at {}:{}: {}", options.address, options.port, mistake)};
+    }
+    listener.accept();
+    Stopper stopper(shared, listener, should_stop);
+    stopper.wait();
+    const std::string host =
+        address.is_v6() ? "[" + address.to_string() + "]" : address.to_string();
+    ready(fmt::format("http://{}:{}/", host, listener.port()));
+    while (!shared.network.stopped()) {
+        try {
+            shared.network.run();
+        } catch (const std::bad_alloc&) { // the connection is cut, others go on
+        }
+    }
+    shared.pool.join();
+    return {};
+}
+
+} // namespace lsys

@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: MIT
+// TileService: answers requests for the files of a tileset, which it makes when they are asked for. It
+// knows HTTP (RFC 9110) but no sockets; http_server.h connects it to a network. It reads no file.
+#pragma once
+
+#include "runtime/tiles/tiles.h"
+
+#include <array>
+#include <atomic>
+#include <cstddef>
+#include <cstdint>
+#include <list>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <string_view>
+#include <unordered_map>
+#include <utility>
+#include <vector>
+
+namespace lsys {
+
+/// The parts of a request that the service uses. Fields of the header are empty if they are missing.
+struct TileRequest {
+    std::string_view method;
+    std::string_view target; // as received
+    std::string_view accept_encoding;
+    std::string_view if_none_match;
+    std::string_view range;
+    std::string_view if_range;
+};
+
+struct TileResponse {
+    unsigned status = 200;
+    std::vector<std::pair<std::string_view, std::string>> fields; // of the header
+    std::shared_ptr<const std::string> body;                      // null: none
+    std::size_t first = 0; // the part of the body that is sent
+    std::size_t length = 0;
+    bool is_head = false; // the body is not sent, only its length
+};
+
+/// Counts since the start, for /metrics.
+struct TileCounts {
+    static constexpr std::array<double, 8> kSeconds{0.001, 0.003, 0.01, 0.03, 0.1, 0.3, 1.0, 3.0};
+
+    std::array<std::atomic<std::uint64_t>, 6> responses{}; // by first digit of the status
+    std::atomic<std::uint64_t> bytes{0};                   // of bodies
+    std::atomic<std::uint64_t> made{0};                    // tiles and tilesets
+    std::atomic<std::uint64_t> hits{0};                    // answered from the cache
+    std::array<std::atomic<std::uint64_t>, kSeconds.size() + 1> times{}; // made, by time
+    std::atomic<std::uint64_t> microseconds{0};                          // to make all of them
+    std::atomic<std::int64_t> connections{0};
+    std::atomic<std::uint64_t> refused_connections{0};
+};
+
+class TileService {
+public:
+    /// `cache_bytes`: limit of the tiles and tilesets kept for later requests. `forest` must outlive
+    /// the service.
+    TileService(const TileForest& forest, std::uint64_t cache_bytes);
+
+    /// Answers any request. May be called from several threads; a file that two of them ask for is
+    /// made once.
+    [[nodiscard]] TileResponse respond(const TileRequest& request);
+    [[nodiscard]] TileCounts& counts() { return counts_; }
+
+private:
+    /// A file, made by the first thread that asks for it.
+    struct Entry {
+        std::mutex making;
+        std::shared_ptr<const std::string> body;   // null: not made yet
+        std::shared_ptr<const std::string> packed; // by gzip; null: not asked for yet
+        std::string tag;                           // entity tag of `body`
+    };
+    struct Cached {
+        std::shared_ptr<Entry> entry;
+        std::uint64_t bytes = 0;
+        std::list<std::string>::iterator use; // in uses_
+    };
+    /// A file as it is sent.
+    struct Representation {
+        std::shared_ptr<const std::string> body;
+        std::string tag;
+        std::string_view type; // media type
+        bool is_packed = false;
+    };
+
+    [[nodiscard]] TileResponse answer(const TileRequest& request);
+    [[nodiscard]] bool find(const std::string& path, bool wants_packed, Representation& file);
+    [[nodiscard]] std::string make(const std::string& path) const;
+    [[nodiscard]] std::shared_ptr<Entry> entry_of(const std::string& path, bool& is_new);
+    void keep(const std::string& path, const std::shared_ptr<Entry>& entry, std::uint64_t bytes);
+    void forget(const std::string& path);
+    [[nodiscard]] std::string metrics() const;
+
+    const TileForest& forest_;
+    std::uint64_t cache_bytes_;
+    TileCounts counts_;
+    std::unordered_map<std::string, std::shared_ptr<Entry>>
+        shared_;               // files of all tiles, and the page
+    mutable std::mutex mutex_; // of the following
+    std::unordered_map<std::string, Cached> cache_;
+    std::list<std::string> uses_; // paths of cache_, the latest first
+    std::uint64_t used_bytes_ = 0;
+};
+
+/// The tile that `path`, such as "3/5/2.glb", names with this extension; nothing else is accepted, not
+/// even other ways to write the same numbers.
+[[nodiscard]] bool parse_tile_path(std::string_view path, std::string_view extension, TileId& tile);
+
+} // namespace lsys
