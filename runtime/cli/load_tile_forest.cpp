@@ -46,6 +46,7 @@ ExitStatus load_tile_forest(const std::vector<std::string>& files,
     }
     TileOptions named = options;
     named.generator = "lsc " LSC_VERSION;
+    named.keep_trees = placements == TilePlacements::All;
     Outcome<TileForest> planned = make_tile_forest(std::move(loaded), named, project);
     console.show(planned.messages());
     if (!planned) {

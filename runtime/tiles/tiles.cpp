@@ -69,6 +69,7 @@ struct TileForest::State {
     std::unique_ptr<TreeSource> source;
     std::vector<double> max_scales; // by species, of a tree
     double density = 0.0;           // mean number of trees per m2
+    double places = 0.0;            // of a placement on an unbounded grid, expected number
     double largest_extent = 0.0;    // m, of a tree, at least its height
 
     std::unique_ptr<DensityField> field;     // of a placement on an unbounded grid
@@ -83,6 +84,7 @@ struct TileForest::State {
 
     [[nodiscard]] Outcome<void> place_trees(const Project& project);
     [[nodiscard]] Outcome<void> sample_trees(const Project& project);
+    void note_missing_trees(Messages& messages) const;
     void plan_levels();
     [[nodiscard]] Outcome<void> make_models(const Project& project);
     void make_ground_picture();
@@ -173,7 +175,6 @@ Outcome<void> TileForest::State::sample_trees(const Project& project) {
     constexpr int kSamples = 64; // along each side
     const Region& region = scene.terrain.region;
     std::vector<double> densities(max_scales.size());
-    double places = 0.0;
     double trees = 0.0;
     for (int i = 0; i < kSamples * kSamples; ++i) {
         const double x = region.x + region.width * (i % kSamples + 0.5) / kSamples;
@@ -185,16 +186,24 @@ Outcome<void> TileForest::State::sample_trees(const Project& project) {
         places += field->places_at(x, z);
     }
     density = trees / (kSamples * kSamples);
-    if (places == 0.0) {
-        step.messages.add_info("there are hardly any trees: the density map is black nearly "
-                               "all over the region");
-    } else if (trees < 0.995 * places) {
-        step.messages.add_info(
-            fmt::format("about {:.0f} % of places have no tree: no species can live there, by its "
-                        "limits of altitude and slope",
-                        100.0 * (1.0 - trees / places)));
-    }
+    places *= region.area() / (kSamples * kSamples);
     return step.done();
+}
+
+/// Says why there are fewer trees than places, as placement_note() for a forest that is placed.
+void TileForest::State::note_missing_trees(Messages& messages) const {
+    if (places == 0.0) {
+        messages.add_info("there are hardly any trees: the density map is black nearly all over "
+                          "the region");
+        return;
+    }
+    constexpr double kNoted = 0.005; // smaller shares are within the error of the samples
+    const double refused = 1.0 - density * scene.terrain.region.area() / places;
+    if (refused > kNoted) {
+        messages.add_info(fmt::format("about {:.0f} % of places have no tree: no species can live "
+                                      "there, by its limits of altitude and slope",
+                                      100.0 * refused));
+    }
 }
 
 void TileForest::State::plan_levels() {
@@ -495,12 +504,16 @@ make_tile_forest(LoadedScene loaded, const TileOptions& options, const Project& 
     }
     made.hero_table.emplace(made.grown.forest, made.heroes);
     made.plan_levels();
-    if (is_grid) {
+    if (is_grid && !(options.keep_trees && made.places <= kMaxKeptTrees)) {
+        made.note_missing_trees(step.messages);
         made.source = std::make_unique<CellTrees>(made.placement, *made.grown.terrain, *made.sizer,
                                                   made.grid);
     } else {
-        made.source =
-            std::make_unique<PlacedTrees>(made.grown.forest.trees, made.grid, made.plan.finest());
+        if (is_grid && !step.take(place_forest(made.scene, project, made.grown))) {
+            return step.end();
+        }
+        made.source = std::make_unique<PlacedTrees>(made.grown.forest.trees, made.grid,
+                                                    made.plan.finest());
     }
     if (!step.take(made.make_models(project))) {
         return step.end();

@@ -41,9 +41,14 @@ struct TileOptions {
     std::optional<GeoPlace> origin;
     std::uint64_t triangles = kTileTriangles; // max per tile with the mean number of trees
     float error = kTileError;                 // m, of the trees of the nearest tiles
+    /// Whether to place all trees at once and keep them, up to kMaxKeptTrees, which is faster if all
+    /// tiles are made. The tiles are the same.
+    bool keep_trees = false;
     MeshOptions mesh;
     std::string generator; // the program and its version
 };
+
+inline constexpr double kMaxKeptTrees = 4e6; // 160 MB
 
 /// A square of the quadtree. Level 0 is the whole square of the scene; column and row run along +X
 /// and +Z.

@@ -32,6 +32,7 @@ LscRun write_tiles(const ScratchFolder& folder,
                                        "--size",      "300",
                                        "--heroes",    "2",
                                        "--triangles", "20000",
+                                       "--error",     "0",
                                        "-o",          folder / to};
     arguments.insert(arguments.end(), more.begin(), more.end());
     return run_lsc(arguments, "");
@@ -67,8 +68,9 @@ TEST_CASE("a folder with files is kept unless --force is given") {
     write_text(folder / "used/notes.txt", "mine");
     const LscRun refused = write_tiles(folder, "used");
     CHECK(refused.status == 2);
-    CHECK(refused.err ==
-          "lsc: error: `" + folder / "used" + "` has files already; --force writes there too\n");
+    CHECK(refused.err == "lsc: error: `" + folder / "used" +
+                             "` has files already; --force writes there too, --resume adds the "
+                             "files that are missing\n");
     CHECK(files_of(folder.path() / "used").size() == 1);
     CHECK(write_tiles(folder, "used", {"--force"}).status == 0);
     CHECK(read_text(folder / "used/notes.txt") == "mine");
@@ -86,7 +88,52 @@ TEST_CASE("the statistics of tiles list their levels and count all trees") {
     const ScratchFolder folder;
     const LscRun run = write_tiles(folder, "tiles", {"--stats"});
     REQUIRE(run.status == 0);
-    CHECK(run.out.starts_with("level     side m  tiles   error m  a tile shows\n"));
+    CHECK(run.out.starts_with("level     side m    tiles   error m  a tile shows\n"));
     CHECK(run.out.find("ground and crowns as one surface\n") != std::string::npos);
-    CHECK(run.out.find("5625 trees") != std::string::npos);
+    CHECK(run.out.find("; 5625 trees, ") != std::string::npos);
+}
+
+TEST_CASE("the parts of a tileset together are the tileset") {
+    const ScratchFolder folder;
+    REQUIRE(write_tiles(folder, "whole").status == 0);
+    const auto whole = files_of(folder.path() / "whole");
+    std::size_t before = 0;
+    for (const char* const part : {"2/3", "3/3", "1/3"}) {
+        REQUIRE(write_tiles(folder, "parts", {"--part", part}).status == 0);
+        const std::size_t count = files_of(folder.path() / "parts").size();
+        CHECK(count - before >= whole.size() / 3); // all parts have about the same number of files
+        CHECK(count - before <= whole.size() / 3 + 1);
+        before = count;
+    }
+    CHECK(files_of(folder.path() / "parts") == whole);
+    const LscRun wrong = write_tiles(folder, "parts", {"--part", "4/3"});
+    CHECK(wrong.status == 2);
+    CHECK(wrong.err.find("`4/3` is not I/N, with I from 1 to N") != std::string::npos);
+}
+
+TEST_CASE("--resume writes the files that are missing, and no others") {
+    const ScratchFolder folder;
+    REQUIRE(write_tiles(folder, "tiles").status == 0);
+    const fs::path tiles = folder.path() / "tiles";
+    const auto whole = files_of(tiles);
+    fs::remove(tiles / "0/0/0.glb");
+    fs::remove(tiles / "tileset.json");
+    fs::remove_all(tiles / "2");
+    write_text(folder / "tiles/1/0/0.glb", "kept");
+    REQUIRE(write_tiles(folder, "tiles", {"--resume"}).status == 0);
+    auto resumed = files_of(tiles);
+    CHECK(resumed["1/0/0.glb"] == "kept");
+    resumed["1/0/0.glb"] = whole.at("1/0/0.glb");
+    CHECK(resumed == whole);
+}
+
+TEST_CASE("trees that cannot be placed tile by tile are not served") {
+    const ScratchFolder folder;
+    write_text(folder / "tree.lsys", kTree);
+    const LscRun run = run_lsc({"serve", folder / "tree.lsys", "--listen", "0"}, "");
+    CHECK(run.status == 2);
+    CHECK(run.err.starts_with("lsc: error: the trees of this scene cannot be placed tile by tile"));
+    const LscRun listen = run_lsc({"serve", folder / "tree.lsys", "--listen", "here:x"}, "");
+    CHECK(listen.status == 2);
+    CHECK(listen.err.find("`here:x` is not ADDRESS:PORT") != std::string::npos);
 }
