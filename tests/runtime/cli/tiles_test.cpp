@@ -111,7 +111,7 @@ TEST_CASE("the parts of a tileset together are the tileset") {
     CHECK(wrong.err.find("`4/3` is not I/N, with I from 1 to N") != std::string::npos);
 }
 
-TEST_CASE("--resume writes the files that are missing, and no others") {
+TEST_CASE("tiles are resumed by --resume: the files that are missing, and no others") {
     const ScratchFolder folder;
     REQUIRE(write_tiles(folder, "tiles").status == 0);
     const fs::path tiles = folder.path() / "tiles";
