@@ -33,7 +33,7 @@ set(LSYS_LAYERS
   "runtime/export: grammar/base runtime/base runtime/turtle runtime/meshing runtime/physics runtime/forest"
   "runtime/pipeline: grammar/base grammar/ast grammar/lsys grammar/dialects compiler/bytecode compiler/growth compiler/program compiler compiler/instancing runtime/base runtime/derive runtime/turtle runtime/meshing runtime/forest runtime/terrain runtime/placement runtime/scene"
   "runtime/tiles: grammar/base runtime/base runtime/turtle runtime/meshing runtime/forest runtime/terrain runtime/placement runtime/scene runtime/export runtime/pipeline"
-  "runtime/serve: grammar/base runtime/tiles"
+  "runtime/serve: grammar/base runtime/base runtime/tiles"
   "runtime/program: grammar/base grammar/rendering grammar/dialects compiler/bytecode compiler/program runtime/platform runtime/base runtime/derive runtime/turtle runtime/meshing runtime/physics runtime/placement runtime/scene runtime/pipeline"
   "runtime/output: grammar/base runtime/base runtime/derive runtime/turtle runtime/meshing runtime/physics runtime/forest runtime/terrain runtime/placement runtime/scene runtime/export runtime/pipeline runtime/program"
   "runtime/cli: grammar/base grammar/rendering grammar/ast grammar/lsys grammar/format grammar/dialects compiler/bytecode compiler/growth compiler/program compiler/instancing runtime/platform runtime/base runtime/derive runtime/turtle runtime/meshing runtime/physics runtime/forest runtime/terrain runtime/placement runtime/scene runtime/export runtime/pipeline runtime/tiles runtime/serve runtime/program runtime/output"

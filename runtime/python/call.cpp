@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "runtime/python/call.h"
 
-#include <unistd.h>
-
 namespace lsys_python {
 
 namespace {
@@ -11,6 +9,11 @@ namespace {
 std::unique_ptr<CallThread>& kept_thread() {
     static auto* const kept = new std::unique_ptr<CallThread>;
     return *kept;
+}
+
+/// The number of this process, which differs in a fork.
+long process_number() {
+    return py::module_::import("os").attr("getpid")().cast<long>();
 }
 
 /// Exceptions of the module, defined in lsys/__init__.py's errors.py.
@@ -88,7 +91,7 @@ void wait_for_end_if_ending() {
     }
 }
 
-CallThread::CallThread() : process_(::getpid()), thread_([this] { do_calls(); }) {}
+CallThread::CallThread() : process_(process_number()), thread_([this] { do_calls(); }) {}
 
 CallThread::~CallThread() {
     {
@@ -101,7 +104,7 @@ CallThread::~CallThread() {
 
 std::unique_ptr<CallThread> CallThread::take() {
     std::unique_ptr<CallThread> thread = std::move(kept_thread());
-    if (thread != nullptr && thread->process_ != ::getpid()) {
+    if (thread != nullptr && thread->process_ != process_number()) {
         static_cast<void>(thread.release()); // its thread cannot be joined here
     }
     return thread != nullptr ? std::move(thread) : std::make_unique<CallThread>();

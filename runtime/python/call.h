@@ -22,7 +22,6 @@
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
 #include <string>
-#include <sys/types.h>
 #include <thread>
 #include <utility>
 
@@ -113,7 +112,7 @@ private:
 /// a new thread would first have to get its memory from the system, about 0.7 ms a call.
 class CallThread {
 public:
-    CallThread();
+    CallThread(); // with the lock of the interpreter
     /// Waits for the end of its call.
     ~CallThread();
     CallThread(const CallThread&) = delete;
@@ -138,7 +137,7 @@ private:
     std::condition_variable changed_;
     std::function<void()> work_; // empty: none
     bool ends_ = false;
-    pid_t process_;
+    long process_;
     std::thread thread_;
 };
 

@@ -512,8 +512,8 @@ make_tile_forest(LoadedScene loaded, const TileOptions& options, const Project& 
         if (is_grid && !step.take(place_forest(made.scene, project, made.grown))) {
             return step.end();
         }
-        made.source = std::make_unique<PlacedTrees>(made.grown.forest.trees, made.grid,
-                                                    made.plan.finest());
+        made.source =
+            std::make_unique<PlacedTrees>(made.grown.forest.trees, made.grid, made.plan.finest());
     }
     if (!step.take(made.make_models(project))) {
         return step.end();

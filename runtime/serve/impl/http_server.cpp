@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "runtime/serve/http_server.h"
 
+#include "runtime/base/workers.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -24,7 +26,6 @@
 #include <optional>
 #include <set>
 #include <string_view>
-#include <thread>
 #include <utility>
 
 namespace lsys {
@@ -300,9 +301,7 @@ Result<void> serve_tiles(TileService& service,
         return Error{fmt::format("`{}` can be reached from other machines; --public allows that",
                                  options.address)};
     }
-    const std::size_t threads =
-        options.threads != 0 ? options.threads : std::max(1U, std::thread::hardware_concurrency());
-    Shared shared(service, threads);
+    Shared shared(service, Workers(options.threads).count());
     Listener listener(shared, options.max_connections);
     if (const std::string mistake = listener.open({address, options.port}); !mistake.empty()) {
         return Error{
