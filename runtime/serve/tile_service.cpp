@@ -227,7 +227,8 @@ TileResponse TileService::answer(const TileRequest& request) {
     if (!target.starts_with('/')) {
         return text_response(400, "the target of a request begins with /\n");
     }
-    target.remove_prefix(1);
+    // 3DTilesRendererJS asks for //4/9/9.json if the tileset is at the root of a server.
+    target.remove_prefix(std::min(target.find_first_not_of('/'), target.size()));
     if (target == "health") {
         return text_response(200, "ok\n");
     }

@@ -50,6 +50,8 @@ controls.maxPolarAngle = 0.49 * Math.PI;
 
 const tiles = new TilesRenderer('tileset.json');
 tiles.registerPlugin(new GLTFExtensionsPlugin({ meshoptDecoder: MeshoptDecoder }));
+tiles.lruCache.minBytesSize = 1.5e9;
+tiles.lruCache.maxBytesSize = 2e9;
 tiles.setCamera(camera);
 scene.add(tiles.group);
 let isPlaced = false;

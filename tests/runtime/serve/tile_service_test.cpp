@@ -86,6 +86,7 @@ TEST_CASE("the service answers with the tiles, tilesets and shared files of the 
     CHECK(root.status == 200);
     CHECK(field_of(root, "Content-Type") == "application/json");
     CHECK(body_of(root) == forest().tileset({}));
+    CHECK(body_of(service.respond(get("//1/0/0.glb"))) == forest().content({1, 0, 0}).bytes);
     REQUIRE_FALSE(forest().files().empty());
     for (const TileFile& file : forest().files()) {
         CHECK(body_of(service.respond(get("/" + file.path))) == file.bytes);
