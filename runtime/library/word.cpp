@@ -83,7 +83,7 @@ void Word::visit(std::uint64_t first,
 }
 
 bool Word::write_text(const std::function<bool(std::string_view piece)>& write) const {
-    return WordPrinter(data_->bytecode).print(data_->derived.word, write);
+    return WordPrinter(data_->bytecode()).print(data_->derived.word, write);
 }
 
 std::string Word::text() const {
@@ -97,18 +97,16 @@ std::string Word::text() const {
 
 Outcome<Word> derive(const Grammar& grammar, const DeriveOptions& options, const Project& project) {
     Call call(project);
-    ::lsys::Grammar copy = copy_of(grammar.data().grammar);
     PlantOptions inner;
     inner.generations = options.generations;
     inner.seed = options.seed;
-    return call.run<Word>([&] { return derive_word(inner, copy, call.project()); },
-                          [&](DerivedWord derived) {
-                              auto data = std::make_shared<Word::Data>();
-                              data->derived = std::move(derived);
-                              data->kinds = kinds_of(copy.bytecode);
-                              data->bytecode = std::move(copy.bytecode);
-                              return Word(std::move(data));
-                          });
+    return call.run<Word>(
+        [&] { return derive_word(inner, grammar.data().grammar, call.project()); },
+        [&](DerivedWord derived) {
+            auto data = std::make_shared<Word::Data>(Word::Data{grammar, std::move(derived), {}});
+            data->kinds = kinds_of(data->bytecode());
+            return Word(std::move(data));
+        });
 }
 
 } // namespace lsys::v0

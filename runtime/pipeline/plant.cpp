@@ -160,16 +160,20 @@ void report_progress(const Bytecode& bytecode,
 } // namespace
 
 Outcome<DerivedWord>
-derive_word(const PlantOptions& options, Grammar& grammar, const Project& project) {
+derive_word(const PlantOptions& options, const Grammar& grammar, const Project& project) {
     Step step(project);
     DeriveOptions derive = derive_options(options, grammar.bytecode, project);
     if (exceeds_limit(derive, grammar, step)) {
         return step.end(Stop::Limit);
     }
-    fold_modules(derive, grammar.bytecode);
+    DerivedWord derived;
+    derived.generations = derive.generations;
+    derived.seed = derive.seed;
+    derived.folded = fold_reached(grammar.bytecode, derive.seed, derive.generations);
+    const Bytecode& bytecode = derived.folded ? *derived.folded : grammar.bytecode;
     std::vector<double> expected;
-    report_progress(grammar.bytecode, project, expected, derive);
-    Derivation derivation(grammar.bytecode, derive);
+    report_progress(bytecode, project, expected, derive);
+    Derivation derivation(bytecode, derive);
     if (const std::optional<Stop> stop = derivation.derive()) {
         if (stop != Stop::Cancelled) {
             step.diagnose(derivation_diagnostic(derivation.end(), derive.limits, grammar),
@@ -177,7 +181,8 @@ derive_word(const PlantOptions& options, Grammar& grammar, const Project& projec
         }
         return step.end(*stop);
     }
-    return step.done(DerivedWord{derivation.take_word(), derive.generations, derive.seed});
+    derived.word = derivation.take_word();
+    return step.done(std::move(derived));
 }
 
 Outcome<Plant> grow_plant(const PlantOptions& options, Grammar& grammar, const Project& project) {

@@ -46,17 +46,19 @@ derive_options(const PlantOptions& options, const Bytecode& bytecode, const Proj
 /// derives the same words faster, with other module codes.
 void fold_modules(const DeriveOptions& options, Bytecode& bytecode);
 
-/// A word with its grammar: the codes of the word are those of the grammar's folded bytecode.
+/// The result of derive_word().
 struct DerivedWord {
     Word word;
+    std::optional<Bytecode>
+        folded; // has the codes of `word`; none: the bytecode of the grammar has
     std::uint32_t generations = 0;
     std::uint64_t seed = 0;
 };
 
-/// Derives the grammar. Uses only `generations`, `seed` and `origins` of the options. Folds the
-/// bytecode of the grammar (fold_modules()).
+/// Derives the grammar. Uses only `generations`, `seed` and `origins` of the options. Folds a copy of
+/// the bytecode of the grammar (fold_modules()), if that is worth it.
 [[nodiscard]] Outcome<DerivedWord>
-derive_word(const PlantOptions& options, Grammar& grammar, const Project& project);
+derive_word(const PlantOptions& options, const Grammar& grammar, const Project& project);
 
 /// Derives the grammar and draws its word. Folds the bytecode of the grammar (fold_modules()).
 [[nodiscard]] Outcome<Plant>

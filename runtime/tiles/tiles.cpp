@@ -157,7 +157,8 @@ Outcome<void> TileForest::State::sample_trees(const Project& project) {
         return step.fail(fmt::format("placement: {}", checked.error().message));
     }
     field = std::make_unique<DensityField>(placement, *grown.terrain);
-    for (std::uint16_t s = 0; s < max_scales.size(); ++s) {
+    for (std::size_t i = 0; i < max_scales.size(); ++i) {
+        const auto s = static_cast<std::uint16_t>(i);
         const PlacementSpecies& species = placement.species[s];
         const double largest =
             static_cast<double>(species.max_height > 0.0F ? species.max_height : species.max_scale);
@@ -178,7 +179,8 @@ Outcome<void> TileForest::State::sample_trees(const Project& project) {
     double trees = 0.0;
     for (int i = 0; i < kSamples * kSamples; ++i) {
         const double x = region.x + region.width * (i % kSamples + 0.5) / kSamples;
-        const double z = region.z + region.depth * (i / kSamples + 0.5) / kSamples;
+        const int row = i / kSamples;
+        const double z = region.z + region.depth * (row + 0.5) / kSamples;
         field->trees_at(x, z, densities);
         for (const double each : densities) {
             trees += each;
@@ -374,7 +376,8 @@ void TileForest::State::make_canopies() {
     }
     if (field != nullptr) {
         std::vector<CrownSums> means(max_scales.size());
-        for (std::uint16_t s = 0; s < means.size(); ++s) {
+        for (std::size_t i = 0; i < means.size(); ++i) {
+            const auto s = static_cast<std::uint16_t>(i);
             for (std::uint32_t number = 0; number < kSampleTrees; ++number) {
                 Tree tree = field->tree_of(number, s);
                 static_cast<void>(sizer->size(std::span(&tree, 1)));
@@ -409,10 +412,10 @@ void TileForest::State::make_canopies() {
 }
 
 MeshDocument TileForest::State::ground_of(const TileId& tile, const glm::dmat4& to_tile) const {
-    static const CanopyAtCorner kNoCanopy;
+    static const CanopyAtCorner no_canopy;
     const bool has_trees = plan.levels[tile.level].has_trees;
     const Mesh mesh = make_tile_ground({*grown.terrain, grown.ground, ground_colour, earth, grid,
-                                        has_trees ? kNoCanopy : canopy_at, tile, to_tile,
+                                        has_trees ? no_canopy : canopy_at, tile, to_tile,
                                         plan.cells[tile.level], plan.skirts[tile.level]});
     MeshDocument document = make_mesh_document(mesh, info_of(has_trees ? "ground" : "forest"));
     if (!has_trees) {

@@ -28,9 +28,14 @@ struct Grammar::Data {
 [[nodiscard]] ::lsys::Grammar copy_of(const ::lsys::Grammar& grammar);
 
 struct Word::Data {
-    Bytecode bytecode; // folded, with the codes of `derived`
+    Grammar grammar;
     DerivedWord derived;
     std::vector<ModuleKind> kinds;
+
+    /// Has the codes of the word.
+    [[nodiscard]] const Bytecode& bytecode() const {
+        return derived.folded ? *derived.folded : grammar.data().grammar.bytecode;
+    }
 };
 
 struct Plant::Data {
