@@ -370,6 +370,19 @@ void add_tile_options(CLI::App& app, TileOptions& options) {
         ->type_name("METRES");
 }
 
+/// The options of the scene, for `tiles` and `serve`.
+template <typename Command>
+void add_tile_scene(CLI::App& app, Command& command) {
+    add_scene_overrides(app, command.overrides, "--size");
+    add_tree_height(app, command.overrides.height);
+    add_mesh(app, command.tiles.mesh);
+    add_grammar(app, command.overrides.grammar, command.run);
+    add_seed(app, command.overrides.seed);
+    add_run_limits(app, command.run);
+    add_message_options(app, command.messages);
+    add_levels(app, command.messages);
+}
+
 void add_tiles(CLI::App& app, TilesCommand& command) {
     app.add_option("FILE", command.files, "A scene (.toml), or one grammar per species")
         ->required();
@@ -385,14 +398,7 @@ void add_tiles(CLI::App& app, TilesCommand& command) {
         ->type_name("I/N");
     add_tile_options(app, command.tiles);
     app.add_flag("--stats", command.stats, "Print the levels of the tileset and their errors");
-    add_scene_overrides(app, command.overrides, "--size");
-    add_tree_height(app, command.overrides.height);
-    add_mesh(app, command.tiles.mesh);
-    add_grammar(app, command.overrides.grammar, command.run);
-    add_seed(app, command.overrides.seed);
-    add_run_limits(app, command.run);
-    add_message_options(app, command.messages);
-    add_levels(app, command.messages);
+    add_tile_scene(app, command);
     app.footer("Writes 3D Tiles 1.1: tileset.json, which is written last, tilesets of four levels "
                "each, GLB tiles,\n"
                "and the meshes and pictures that the tiles share. Each tree is one of the --heroes "
@@ -430,14 +436,7 @@ void add_serve(CLI::App& app, ServeCommand& command) {
                "Connections at once; further ones are closed (default 1024)")
         ->type_name("N");
     add_tile_options(app, command.tiles);
-    add_scene_overrides(app, command.overrides, "--size");
-    add_tree_height(app, command.overrides.height);
-    add_mesh(app, command.tiles.mesh);
-    add_grammar(app, command.overrides.grammar, command.run);
-    add_seed(app, command.overrides.seed);
-    add_run_limits(app, command.run);
-    add_message_options(app, command.messages);
-    add_levels(app, command.messages);
+    add_tile_scene(app, command);
     app.footer("Serves the files of `lsc tiles` without writing them: each tile is made when it is "
                "asked for.\n"
                "The placement must be on a grid, whose trees are known tile by tile: jittered, "
