@@ -44,7 +44,7 @@ Result<void> check_folder(const std::string& folder, bool may_have_files) {
     return {};
 }
 
-/// What has been written.
+/// Counts of a finished run.
 struct TileTotals {
     std::uint64_t files = 0;
     std::uint64_t bytes = 0;

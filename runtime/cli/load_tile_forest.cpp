@@ -3,7 +3,6 @@
 
 #include "runtime/pipeline/forest.h"
 #include "runtime/pipeline/instancing_choice.h"
-#include "runtime/placement/placement.h"
 #include "runtime/program/host.h"
 
 #include <utility>
@@ -30,9 +29,7 @@ ExitStatus load_tile_forest(const std::vector<std::string>& files,
     if (status != ExitStatus::Ok) {
         return status;
     }
-    const bool is_on_grid =
-        is_tileable(loaded.scene.placement.method) && loaded.scene.painting.empty();
-    if (placements == TilePlacements::OnGrids && !is_on_grid) {
+    if (placements == TilePlacements::OnGrids && !is_placed_by_tile(loaded.scene)) {
         return report_error(
             Error{"the trees of this scene cannot be placed tile by tile: its placement must be "
                   "jittered, uniform-cells, poisson-cells or density-cells, without painted "

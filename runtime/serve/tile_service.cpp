@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "runtime/serve/tile_service.h"
 
+#include "grammar/base/blanks.h"
 #include "grammar/base/hash.h"
 #include "runtime/serve/impl/page.h"
 
@@ -9,7 +10,6 @@
 #include <algorithm>
 #include <charconv>
 #include <chrono>
-#include <iterator>
 #include <new>
 #include <optional>
 #include <zlib.h>
@@ -48,23 +48,12 @@ std::string pack(std::string_view bytes) {
     return packed;
 }
 
-std::string_view trimmed(std::string_view text) {
-    const auto is_blank = [](char c) { return c == ' ' || c == '\t'; };
-    while (!text.empty() && is_blank(text.front())) {
-        text.remove_prefix(1);
-    }
-    while (!text.empty() && is_blank(text.back())) {
-        text.remove_suffix(1);
-    }
-    return text;
-}
-
 /// The items of a list of a header field, without blanks around them.
 std::vector<std::string_view> items_of(std::string_view list) {
     std::vector<std::string_view> items;
     while (!list.empty()) {
         const std::size_t comma = list.find(',');
-        items.push_back(trimmed(list.substr(0, comma)));
+        items.push_back(without_blanks(list.substr(0, comma)));
         list.remove_prefix(comma == std::string_view::npos ? list.size() : comma + 1);
     }
     return items;
@@ -74,9 +63,10 @@ std::vector<std::string_view> items_of(std::string_view list) {
 bool accepts_gzip(std::string_view accept_encoding) {
     for (const std::string_view item : items_of(accept_encoding)) {
         const std::size_t semicolon = item.find(';');
-        const std::string_view coding = trimmed(item.substr(0, semicolon));
-        const std::string_view weight =
-            semicolon == std::string_view::npos ? "q=1" : trimmed(item.substr(semicolon + 1));
+        const std::string_view coding = without_blanks(item.substr(0, semicolon));
+        const std::string_view weight = semicolon == std::string_view::npos
+                                            ? "q=1"
+                                            : without_blanks(item.substr(semicolon + 1));
         if (coding == "gzip" || coding == "*") {
             return !(weight.starts_with("q=0") &&
                      weight.find_first_not_of("0.", 2) == std::string_view::npos);
@@ -145,6 +135,10 @@ std::string_view type_of(std::string_view path) {
                            : "application/octet-stream";
 }
 
+std::string entity_tag(std::string_view bytes) {
+    return fmt::format("\"{:016x}\"", mix64(combine_bytes(kTagHash, bytes)));
+}
+
 TileResponse text_response(unsigned status, std::string text) {
     TileResponse response;
     response.status = status;
@@ -183,7 +177,7 @@ TileService::TileService(const TileForest& forest, std::uint64_t cache_bytes)
     : forest_(forest), cache_bytes_(cache_bytes) {
     const auto add = [this](const std::string& path, std::string bytes) {
         auto entry = std::make_shared<Entry>();
-        entry->tag = fmt::format("\"{:016x}\"", mix64(combine_bytes(kTagHash, bytes)));
+        entry->tag = entity_tag(bytes);
         entry->body = std::make_shared<const std::string>(std::move(bytes));
         shared_[path] = std::move(entry);
     };
@@ -282,29 +276,23 @@ TileResponse TileService::answer(const TileRequest& request) {
 /// Finds or makes a file; false: there is none.
 bool TileService::find(const std::string& path, bool wants_packed, Representation& file) {
     std::shared_ptr<Entry> entry;
+    std::optional<MadeFile> made; // none: a shared file
     const auto shared = shared_.find(path);
-    bool is_new = false;
     if (shared != shared_.end()) {
         entry = shared->second;
     } else {
-        TileId tile;
-        const bool is_file = path == TileForest::tileset_path({}) ||
-                             (parse_tile_path(path, ".glb", tile) && forest_.has_tile(tile)) ||
-                             (parse_tile_path(path, ".json", tile) && tile.level != 0 &&
-                              TileForest::has_tileset(tile.level) && forest_.has_tile(tile));
-        if (!is_file) {
+        made = made_file(path);
+        if (!made) {
             return false;
         }
-        entry = entry_of(path, is_new);
+        entry = entry_of(path);
     }
     const std::lock_guard<std::mutex> making(entry->making);
-    const std::uint64_t before =
-        (entry->body ? entry->body->size() : 0) + (entry->packed ? entry->packed->size() : 0);
     try {
         if (entry->body == nullptr) {
             const auto start = std::chrono::steady_clock::now();
-            std::string bytes = make(path);
-            entry->tag = fmt::format("\"{:016x}\"", mix64(combine_bytes(kTagHash, bytes)));
+            std::string bytes = make(*made);
+            entry->tag = entity_tag(bytes);
             entry->body = std::make_shared<const std::string>(std::move(bytes));
             const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - start;
             const auto slot = std::lower_bound(TileCounts::kSeconds.begin(),
@@ -312,7 +300,7 @@ bool TileService::find(const std::string& path, bool wants_packed, Representatio
             ++counts_.times[static_cast<std::size_t>(slot - TileCounts::kSeconds.begin())];
             counts_.microseconds += static_cast<std::uint64_t>(1e6 * spent.count());
             ++counts_.made;
-        } else if (shared == shared_.end()) {
+        } else if (made) {
             ++counts_.hits;
         }
         file.type = type_of(path);
@@ -331,32 +319,43 @@ bool TileService::find(const std::string& path, bool wants_packed, Representatio
     if (file.is_packed) {
         file.tag.insert(file.tag.size() - 1, "-gzip");
     }
-    const std::uint64_t after = entry->body->size() + (entry->packed ? entry->packed->size() : 0);
-    if (shared == shared_.end() && (is_new || after != before)) {
-        keep(path, entry, after + kEntryBytes + 2 * path.size());
+    if (made) {
+        keep(path, entry,
+             entry->body->size() + (entry->packed ? entry->packed->size() : 0) + kEntryBytes +
+                 2 * path.size());
     }
     return true;
 }
 
-/// Makes a tile or a tileset. Precondition: the path has been checked.
-std::string TileService::make(const std::string& path) const {
+/// The tile or tileset with this path, if the forest has it.
+std::optional<TileService::MadeFile> TileService::made_file(std::string_view path) const {
     TileId tile;
-    if (parse_tile_path(path, ".glb", tile)) {
-        return forest_.content(tile).bytes;
+    if (path == TileForest::tileset_path(tile)) {
+        return MadeFile{tile, true};
     }
-    const bool is_below = parse_tile_path(path, ".json", tile);
-    return forest_.tileset(is_below ? tile : TileId());
+    if (parse_tile_path(path, ".glb", tile) && forest_.has_tile(tile)) {
+        return MadeFile{tile, false};
+    }
+    // The tileset of the root has another path.
+    if (parse_tile_path(path, ".json", tile) && tile.level != 0 &&
+        TileForest::has_tileset(tile.level) && forest_.has_tile(tile)) {
+        return MadeFile{tile, true};
+    }
+    return std::nullopt;
+}
+
+std::string TileService::make(const MadeFile& file) const {
+    return file.is_tileset ? forest_.tileset(file.tile) : forest_.content(file.tile).bytes;
 }
 
 /// The entry of the cache for a path, moved to the front; a new one if there is none.
-std::shared_ptr<TileService::Entry> TileService::entry_of(const std::string& path, bool& is_new) {
+std::shared_ptr<TileService::Entry> TileService::entry_of(const std::string& path) {
     const std::lock_guard<std::mutex> lock(mutex_);
     const auto found = cache_.find(path);
     if (found != cache_.end()) {
         uses_.splice(uses_.begin(), uses_, found->second.use);
         return found->second.entry;
     }
-    is_new = true;
     uses_.push_front(path);
     auto entry = std::make_shared<Entry>();
     cache_[path] = {entry, 0, uses_.begin()};

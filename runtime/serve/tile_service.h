@@ -12,6 +12,7 @@
 #include <list>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <unordered_map>
@@ -77,6 +78,11 @@ private:
         std::uint64_t bytes = 0;
         std::list<std::string>::iterator use; // in uses_
     };
+    /// A file that is made on request: the tileset with a tile as its root, or the tile.
+    struct MadeFile {
+        TileId tile;
+        bool is_tileset = false;
+    };
     /// A file as it is sent.
     struct Representation {
         std::shared_ptr<const std::string> body;
@@ -87,8 +93,9 @@ private:
 
     [[nodiscard]] TileResponse answer(const TileRequest& request);
     [[nodiscard]] bool find(const std::string& path, bool wants_packed, Representation& file);
-    [[nodiscard]] std::string make(const std::string& path) const;
-    [[nodiscard]] std::shared_ptr<Entry> entry_of(const std::string& path, bool& is_new);
+    [[nodiscard]] std::optional<MadeFile> made_file(std::string_view path) const;
+    [[nodiscard]] std::string make(const MadeFile& file) const;
+    [[nodiscard]] std::shared_ptr<Entry> entry_of(const std::string& path);
     void keep(const std::string& path, const std::shared_ptr<Entry>& entry, std::uint64_t bytes);
     void forget(const std::string& path);
     [[nodiscard]] std::string metrics() const;

@@ -68,9 +68,11 @@ struct TileForest::State {
     std::optional<TreeSizer> sizer;
     std::unique_ptr<TreeSource> source;
     std::vector<double> max_scales; // by species, of a tree
-    double density = 0.0;           // mean number of trees per m2
-    double places = 0.0;            // of a placement on an unbounded grid, expected number
-    double largest_extent = 0.0;    // m, of a tree, at least its height
+    std::vector<std::vector<Tree>>
+        samples;                 // by species: kSampleTrees trees of a placement on a grid
+    double density = 0.0;        // mean number of trees per m2
+    double places = 0.0;         // of a placement on an unbounded grid, expected number
+    double largest_extent = 0.0; // m, of a tree, at least its height
 
     std::unique_ptr<DensityField> field;     // of a placement on an unbounded grid
     std::optional<CanopyField> field_canopy; // the same
@@ -79,6 +81,7 @@ struct TileForest::State {
 
     std::vector<std::vector<MeshDocument>> models; // by hero and level of detail
     std::vector<TileFile> files;
+    std::vector<std::string> species_names;
     std::string ground_picture; // its path relative to a tile; empty: none
     glm::dvec3 ground_colour = kGroundColour;
 
@@ -163,7 +166,7 @@ Outcome<void> TileForest::State::sample_trees(const Project& project) {
         const double largest =
             static_cast<double>(species.max_height > 0.0F ? species.max_height : species.max_scale);
         max_scales[s] = largest * sizer->max_factor(s);
-        std::vector<Tree> trees;
+        std::vector<Tree>& trees = samples.emplace_back();
         for (std::uint32_t number = 0; number < kSampleTrees; ++number) {
             trees.push_back(field->tree_of(number, s));
         }
@@ -376,11 +379,8 @@ void TileForest::State::make_canopies() {
     }
     if (field != nullptr) {
         std::vector<CrownSums> means(max_scales.size());
-        for (std::size_t i = 0; i < means.size(); ++i) {
-            const auto s = static_cast<std::uint16_t>(i);
-            for (std::uint32_t number = 0; number < kSampleTrees; ++number) {
-                Tree tree = field->tree_of(number, s);
-                static_cast<void>(sizer->size(std::span(&tree, 1)));
+        for (std::size_t s = 0; s < means.size(); ++s) {
+            for (const Tree& tree : samples[s]) {
                 means[s].add(
                     sums_of(crowns[hero_table->hero_of(tree)], static_cast<double>(tree.scale)),
                     1.0 / kSampleTrees);
@@ -473,16 +473,16 @@ TileContent TileForest::content(const TileId& tile) const {
     if (levels()[tile.level].has_trees) {
         content.trees = state_->add_trees(tile, to_tile, document);
     }
-    std::vector<std::string> species;
-    for (const ForestSpecies& each : state_->grown.forest.species) {
-        species.push_back(each.name);
-    }
-    content.bytes = document.write(species);
+    content.bytes = document.write(state_->species_names);
     return content;
 }
 
 std::string TileForest::tileset(const TileId& root) const {
     return make_tileset({state_->options.generator, levels(), state_->grid, *state_->boxes}, root);
+}
+
+bool is_placed_by_tile(const Scene& scene) {
+    return is_tileable(scene.placement.method) && scene.painting.empty();
 }
 
 Outcome<TileForest>
@@ -498,9 +498,12 @@ make_tile_forest(LoadedScene loaded, const TileOptions& options, const Project& 
     made.earth = GroundFrame(options.origin);
     made.grid = TileGrid(made.scene.terrain.region);
     made.placement = placement_options(made.scene, project, made.grown);
+    for (const ForestSpecies& species : made.grown.forest.species) {
+        made.species_names.push_back(species.name);
+    }
     made.max_scales.assign(made.grown.forest.species.size(), 0.0);
     made.sizer.emplace(unit_heights(made.scene, made.grown), made.grown.forest);
-    const bool is_grid = is_tileable(made.placement.method) && made.scene.painting.empty();
+    const bool is_grid = is_placed_by_tile(made.scene);
     if (!step.take(is_grid ? made.sample_trees(project) : made.place_trees(project)) ||
         !step.take(plan_heroes(made.grown, options.mesh, project), made.heroes)) {
         return step.end();

@@ -116,9 +116,12 @@ private:
     std::unique_ptr<State> state_;
 };
 
-/// Grows the heroes of a scene, plans its tiles, and makes the files that they share. A scene whose
-/// placement is not on an unbounded grid, or that is painted, is placed as a whole; the trees of
-/// others are placed when their tile is made. Precondition: the scene has rho 0. Stops for the
+/// Whether the trees of a scene can be placed tile by tile: its placement is on an unbounded grid, and no
+/// tree is painted or erased.
+[[nodiscard]] bool is_placed_by_tile(const Scene& scene);
+
+/// Grows the heroes of a scene, plans its tiles, and makes the files that they share. The trees
+/// of a scene with is_placed_by_tile() are placed when their tile is made, those of others at once. Precondition: the scene has rho 0. Stops for the
 /// reasons of grow_species(), place_forest() and mesh_forest().
 [[nodiscard]] Outcome<TileForest>
 make_tile_forest(LoadedScene loaded, const TileOptions& options, const Project& project);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "runtime/pipeline/impl/wanted_module.h"
 
+#include "grammar/base/blanks.h"
 #include "grammar/base/number_chars.h"
 
 #include <fmt/format.h>
@@ -10,17 +11,6 @@
 namespace lsys {
 
 namespace {
-
-std::string_view without_blanks(std::string_view text) {
-    const auto is_blank = [](char c) { return c == ' ' || c == '\t'; };
-    while (!text.empty() && is_blank(text.front())) {
-        text.remove_prefix(1);
-    }
-    while (!text.empty() && is_blank(text.back())) {
-        text.remove_suffix(1);
-    }
-    return text;
-}
 
 /// A name without its back quotes.
 std::string name_in(std::string_view text) {

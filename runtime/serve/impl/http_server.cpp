@@ -47,7 +47,8 @@ constexpr std::uint32_t kHeaderBytes = 16 * 1024;
 
 class Session;
 
-/// What the sessions share. Used by the thread of the network only, except `pool`.
+/// Members that all sessions use. Only the thread of the network uses them, except `service`, which
+/// the threads of `pool` call too.
 struct Shared {
     TileService& service;
     std::set<Session*> sessions;

@@ -36,9 +36,4 @@ struct PatchPlan {
 [[nodiscard]] inline glm::dvec3 y_up(const glm::dvec3& z_up) {
     return {z_up.x, z_up.z, -z_up.y};
 }
-/// The reverse of y_up().
-[[nodiscard]] inline glm::dvec3 z_up(const glm::dvec3& y_up) {
-    return {y_up.x, -y_up.z, y_up.y};
-}
-
 } // namespace lsys

@@ -14,7 +14,7 @@
 
 namespace lsys {
 
-/// What the levels depend on.
+/// The input of plan_tile_levels().
 struct LevelNeeds {
     const Terrain& terrain;
     const TileGrid& grid;

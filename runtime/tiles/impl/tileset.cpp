@@ -64,7 +64,7 @@ public:
         }
         Json tileset;
         tileset["asset"] = {{"version", "1.1"}, {"extras", {{"generator", plan_.generator}}}};
-        // Of the root: the error if nothing is shown.
+        // The error if the tileset is not shown; for the root tileset the side of the ground.
         tileset["geometricError"] =
             rounded(root_.level == 0 ? plan_.grid.square().width : plan_.levels[root_.level].error);
         tileset["root"] = std::move(node);
@@ -77,6 +77,7 @@ private:
         Json node = reference(tile, TileForest::content_path(tile));
         node["refine"] = "REPLACE";
         Json children = Json::array();
+        const glm::dmat4 to_tile = inverse_of_frame(plan_.boxes.frame_of(tile));
         for (std::uint32_t i = 0; i < 4; ++i) {
             const TileId below{tile.level + 1, 2 * tile.column + (i & 1U), 2 * tile.row + i / 2};
             if (below.level >= plan_.levels.size() || !plan_.grid.has_ground(below)) {
@@ -85,8 +86,7 @@ private:
             Json child = TileForest::has_tileset(below.level)
                              ? reference(below, TileForest::tileset_path(below))
                              : node_of(below);
-            child["transform"] =
-                json_of(inverse_of_frame(plan_.boxes.frame_of(tile)) * plan_.boxes.frame_of(below));
+            child["transform"] = json_of(to_tile * plan_.boxes.frame_of(below));
             children.push_back(std::move(child));
         }
         if (!children.empty()) {
