@@ -10,6 +10,7 @@
 #include <cstdint>
 #include <cstring>
 #include <string_view>
+#include <type_traits>
 
 namespace lsys {
 
@@ -64,6 +65,22 @@ template <typename T>
         state = combine(state, word_of(bytes.data(), sizeof(std::uint64_t)));
     }
     return bytes.empty() ? state : combine(state, word_of(bytes.data(), bytes.size()));
+}
+/// Adds numbers, truth values and enumerators, of up to 64 bits each; floating-point numbers by their
+/// bits.
+template <typename... Numbers>
+[[nodiscard]] constexpr std::uint64_t combine_numbers(std::uint64_t state, Numbers... numbers) {
+    const auto bits_of = [](auto number) {
+        if constexpr (std::is_same_v<decltype(number), float>) {
+            return std::uint64_t{std::bit_cast<std::uint32_t>(number)};
+        } else if constexpr (std::is_same_v<decltype(number), double>) {
+            return std::bit_cast<std::uint64_t>(number);
+        } else {
+            return static_cast<std::uint64_t>(number);
+        }
+    };
+    ((state = combine(state, bits_of(numbers))), ...);
+    return state;
 }
 /// Spreads the last combined words over all bits.
 [[nodiscard]] constexpr std::uint64_t finish(std::uint64_t state) {

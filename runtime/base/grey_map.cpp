@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "runtime/base/grey_map.h"
 
+#include "grammar/base/hash.h"
 #include "runtime/base/png_samples.h"
 #include "runtime/base/size_text.h"
 
@@ -9,6 +10,14 @@
 #include <cstring>
 
 namespace lsys {
+
+std::uint64_t combine_map(std::uint64_t state, const GreyMap& map) {
+    state = combine_numbers(state, map.columns, map.rows);
+    for (const std::uint16_t value : map.values) {
+        state = combine(state, value);
+    }
+    return state;
+}
 
 Result<GreyMap> read_grey_png(std::string_view bytes, std::uint64_t max_bytes) {
     const Result<PngSamples> read = read_png_samples(

@@ -538,6 +538,7 @@ void add_commands(CLI::App& app,
     add("export", "Export one plant as a 3D model or a drawing", add_export);
     add("forest", "Generate a forest of instanced plants", add_forest);
     add("import", "Convert a grammar of another program to .lsys", add_import);
+    add("place", "Place the trees of a forest, for tiles and serve", add_place);
     add("serve", "Serve a forest as 3D Tiles, made on request", add_serve);
     add("stats", "Predict the size of each generation", add_stats);
     add("tiles", "Write a forest as 3D Tiles for Cesium and other viewers", add_tiles);

@@ -13,9 +13,7 @@ namespace lsys::lsc {
 
 ExitStatus run_command(const ServeCommand& command, const Console& console) {
     std::optional<TileForest> forest;
-    const ExitStatus status =
-        load_tile_forest(command.files, command.overrides, command.tiles, command.run,
-                         TilePlacements::OnGrids, console, forest);
+    const ExitStatus status = load_tile_forest(command, TilePlacements::OnGrids, console, forest);
     if (status != ExitStatus::Ok) {
         return status;
     }

@@ -31,8 +31,7 @@ ExitStatus run_command(const TilesCommand& command, const Console& console) {
         return report_error(usable.error(), console);
     }
     std::optional<TileForest> forest;
-    const ExitStatus status = load_tile_forest(command.files, command.overrides, command.tiles,
-                                               command.run, TilePlacements::All, console, forest);
+    const ExitStatus status = load_tile_forest(command, TilePlacements::All, console, forest);
     if (status != ExitStatus::Ok) {
         return status;
     }

@@ -1,50 +1,62 @@
 // SPDX-License-Identifier: MIT
 #include "runtime/cli/load_tile_forest.h"
 
-#include "runtime/pipeline/forest.h"
 #include "runtime/pipeline/instancing_choice.h"
+#include "runtime/program/files.h"
 #include "runtime/program/host.h"
 
+#include <fmt/format.h>
+
+#include <string>
 #include <utility>
 
 namespace lsys::lsc {
 
-ExitStatus load_tile_forest(const std::vector<std::string>& files,
-                            const SceneOverrides& overrides,
-                            const TileOptions& options,
-                            const RunOptions& run,
-                            TilePlacements placements,
+ExitStatus load_whole_trees(const WholeTreeScene& command,
+                            const Project& project,
                             const Console& console,
-                            std::optional<TileForest>& forest) {
-    if (overrides.rho) {
+                            LoadedScene& loaded) {
+    if (command.overrides.rho) {
         return report_error(Error{"--rho is the part of branches that are instances; tiles hold "
                                   "whole trees, of which --heroes sets the variety"},
                             console);
     }
-    const Project project = make_project(console, run);
-    SceneOverrides whole_trees = overrides;
+    SceneOverrides whole_trees = command.overrides;
     whole_trees.rho = 0.0F;
+    const ExitStatus status = console.take(load_scene(command.files, whole_trees, project), loaded);
+    return status == ExitStatus::Ok ? console.take(choose_instancing(loaded, project)) : status;
+}
+
+ExitStatus load_tile_forest(const TileScene& command,
+                            TilePlacements placements,
+                            const Console& console,
+                            std::optional<TileForest>& forest) {
+    const Project project = make_project(console, command.run);
     LoadedScene loaded;
-    ExitStatus status = console.take(load_scene(files, whole_trees, project), loaded);
+    const ExitStatus status = load_whole_trees(command, project, console, loaded);
     if (status != ExitStatus::Ok) {
         return status;
     }
-    if (placements == TilePlacements::OnGrids && !is_placed_by_tile(loaded.scene)) {
+    TileOptions options = command.tiles;
+    options.generator = "lsc " LSC_VERSION;
+    options.keep_trees = placements == TilePlacements::All;
+    std::string trees;
+    if (!command.trees.empty()) {
+        Result<std::string> bytes =
+            read_file(command.trees, {~std::uint64_t{0}, command.run.limits.max_bytes}, console);
+        if (!bytes) {
+            return report_error(bytes.error(), console);
+        }
+        trees = std::move(bytes.value());
+        options.tree_file = trees;
+    } else if (placements == TilePlacements::OnGrids && !is_placed_by_tile(loaded.scene)) {
         return report_error(
-            Error{"the trees of this scene cannot be placed tile by tile: its placement must be "
-                  "jittered, uniform-cells, poisson-cells or density-cells, without painted "
-                  "trees; `lsc tiles` writes tiles of every scene, which any web server can "
-                  "serve"},
+            Error{"the trees of this scene cannot be placed tile by tile: its placement is not "
+                  "jittered, uniform-cells, poisson-cells or density-cells, or it has painted "
+                  "trees; `lsc place` places them once, and --trees serves them"},
             console);
     }
-    status = console.take(choose_instancing(loaded, project));
-    if (status != ExitStatus::Ok) {
-        return status;
-    }
-    TileOptions named = options;
-    named.generator = "lsc " LSC_VERSION;
-    named.keep_trees = placements == TilePlacements::All;
-    Outcome<TileForest> planned = make_tile_forest(std::move(loaded), named, project);
+    Outcome<TileForest> planned = make_tile_forest(std::move(loaded), options, project);
     console.show(planned.messages());
     if (!planned) {
         return status_of(planned.stop());

@@ -1,26 +1,27 @@
 // SPDX-License-Identifier: MIT
-// The forest of `lsc tiles` and `lsc serve`.
+// The scene of `lsc place`, and the forest of `lsc tiles` and `lsc serve`. Each function prints the
+// messages and returns the exit status.
 #pragma once
 
 #include "runtime/cli/options.h"
-#include "runtime/pipeline/scene_overrides.h"
+#include "runtime/pipeline/forest.h"
 #include "runtime/program/console.h"
 #include "runtime/tiles/tiles.h"
 
 #include <optional>
-#include <string>
-#include <vector>
 
 namespace lsys::lsc {
 
-/// Which placements a command takes.
+/// Which scenes a command takes without a file of trees.
 enum class TilePlacements : std::uint8_t { All, OnGrids };
 
-/// Plans the tiles of a scene. Prints the messages; returns the exit status.
-[[nodiscard]] ExitStatus load_tile_forest(const std::vector<std::string>& files,
-                                          const SceneOverrides& overrides,
-                                          const TileOptions& options,
-                                          const RunOptions& run,
+/// Loads a scene, without branch instances.
+[[nodiscard]] ExitStatus load_whole_trees(const WholeTreeScene& command,
+                                          const Project& project,
+                                          const Console& console,
+                                          LoadedScene& loaded);
+/// Plans the tiles of a scene.
+[[nodiscard]] ExitStatus load_tile_forest(const TileScene& command,
                                           TilePlacements placements,
                                           const Console& console,
                                           std::optional<TileForest>& forest);

@@ -102,25 +102,33 @@ struct TilePart {
     std::uint64_t of = 1;
 };
 
-struct TilesCommand {
+/// A scene without branch instances: each tree is a whole hero.
+struct WholeTreeScene {
     MessageOptions messages;
     std::vector<std::string> files; // one scene, or one or more grammars
     SceneOverrides overrides;
     RunOptions run;
+};
+
+struct PlaceCommand : WholeTreeScene {
+    std::string output;
+    bool stats = false;
+};
+
+struct TileScene : WholeTreeScene {
+    TileOptions tiles;
+    std::string trees; // a file of `lsc place`; empty: the scene is placed
+};
+
+struct TilesCommand : TileScene {
     std::string output;  // folder
     bool force = false;  // also into a folder that has files
     bool resume = false; // keeps files that are there
     TilePart part;
     bool stats = false;
-    TileOptions tiles;
 };
 
-struct ServeCommand {
-    MessageOptions messages;
-    std::vector<std::string> files; // one scene, or one or more grammars
-    SceneOverrides overrides;
-    RunOptions run;
-    TileOptions tiles;
+struct ServeCommand : TileScene {
     ServerOptions server;
     std::uint64_t cache_bytes = std::uint64_t{256} << 20U;
 };

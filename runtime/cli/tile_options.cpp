@@ -83,7 +83,11 @@ Result<ServerOptions> parse_listen(const std::string& text) {
 }
 
 /// The options of the tiles, for `tiles` and `serve`.
-void add_tile_options(CLI::App& app, TileOptions& options) {
+void add_tile_options(CLI::App& app, TileScene& command) {
+    TileOptions& options = command.tiles;
+    app.add_option("--trees", command.trees,
+                   "The trees of the scene as a file of `lsc place` (default: the scene is placed)")
+        ->type_name("FILE");
     add_parsed(
         app, "--origin", options.origin, parse_geo_place,
         "Place of the scene's origin on the Earth, in degrees and metres above the ellipsoid "
@@ -96,19 +100,21 @@ void add_tile_options(CLI::App& app, TileOptions& options) {
     constexpr std::uint64_t kMinTriangles = 10'000;
     constexpr std::uint64_t kMaxTriangles = 1'000'000'000;
     add_parsed(app, "--triangles", options.triangles, integer(kMinTriangles, kMaxTriangles),
-               "Maximum number of triangles of a tile, on average (default 2000000)")
+               "Maximum number of triangles of a tile, on average (default 500000)")
         ->type_name("N");
     add_parsed(app, "--error", options.error, tolerated_error,
-               "Error of the trees of the nearest tiles in metres (default 0.02); 0: all triangles")
+               "Error of the trees of the nearest tiles in metres (default 0.05); 0: all triangles")
         ->type_name("METRES");
 }
 
-/// The options of the scene, for `tiles` and `serve`.
-template <typename Command>
-void add_tile_scene(CLI::App& app, Command& command) {
+/// The scene and the options of its trees, for `place`, `tiles` and `serve`.
+void add_files(CLI::App& app, WholeTreeScene& command) {
+    app.add_option("FILE", command.files, "A scene (.toml), or one grammar per species")
+        ->required();
+}
+void add_scene(CLI::App& app, WholeTreeScene& command) {
     add_scene_overrides(app, command.overrides, "--size");
     add_tree_height(app, command.overrides.height);
-    add_mesh(app, command.tiles.mesh);
     add_grammar(app, command.overrides.grammar, command.run);
     add_seed(app, command.overrides.seed);
     add_run_limits(app, command.run);
@@ -123,9 +129,24 @@ void add_message_options(CLI::App& app, MessageOptions& options) {
     add_messages(app, options);
 }
 
+void add_place(CLI::App& app, PlaceCommand& command) {
+    add_files(app, command);
+    app.add_option("-o,--output", command.output, "Output file; `-` is standard output")
+        ->required()
+        ->type_name("FILE");
+    app.add_flag("--stats", command.stats, "Print the numbers of trees");
+    add_scene(app, command);
+    app.footer("Writes the trees of a scene, sorted by tile, for --trees of `lsc tiles` and `lsc "
+               "serve`: a forest\n"
+               "that cannot be placed tile by tile is placed once, and any number of processes "
+               "make its tiles.\n"
+               "The file fits the scene and the options with which it was made; after a change "
+               "place the trees again.\n"
+               "Example: lsc place wood.toml -o wood.trees");
+}
+
 void add_tiles(CLI::App& app, TilesCommand& command) {
-    app.add_option("FILE", command.files, "A scene (.toml), or one grammar per species")
-        ->required();
+    add_files(app, command);
     app.add_option("-o,--output", command.output, "Folder of the tileset; it is made if missing")
         ->required()
         ->type_name("FOLDER");
@@ -136,9 +157,10 @@ void add_tiles(CLI::App& app, TilesCommand& command) {
     add_parsed(app, "--part", command.part, parse_part,
                "Write only part I of N; N processes write a tileset, each another part")
         ->type_name("I/N");
-    add_tile_options(app, command.tiles);
+    add_tile_options(app, command);
     app.add_flag("--stats", command.stats, "Print the levels of the tileset and their errors");
-    add_tile_scene(app, command);
+    add_mesh(app, command.tiles.mesh);
+    add_scene(app, command);
     app.footer("Writes 3D Tiles 1.1: tileset.json, which is written last, tilesets of four levels "
                "each, GLB tiles,\n"
                "and the meshes and pictures that the tiles share. Each tree is one of the --heroes "
@@ -150,8 +172,7 @@ void add_tiles(CLI::App& app, TilesCommand& command) {
 }
 
 void add_serve(CLI::App& app, ServeCommand& command) {
-    app.add_option("FILE", command.files, "A scene (.toml), or one grammar per species")
-        ->required();
+    add_files(app, command);
     app.add_option_function<std::string>(
            "--listen",
            [&command](const std::string& text) {
@@ -175,18 +196,22 @@ void add_serve(CLI::App& app, ServeCommand& command) {
                integer(1, kMaxConnections),
                "Connections at once; further ones are closed (default 1024)")
         ->type_name("N");
-    add_tile_options(app, command.tiles);
-    add_tile_scene(app, command);
-    app.footer("Serves the files of `lsc tiles` without writing them: each tile is made when it is "
-               "asked for.\n"
-               "The placement must be on a grid, whose trees are known tile by tile: jittered, "
-               "uniform-cells,\n"
-               "poisson-cells or density-cells. Ctrl-C or SIGTERM ends the server.\n"
-               "/tileset.json is the tileset, / a page that shows it, /health and /metrics are for "
-               "monitoring.\n"
-               "Examples: lsc serve wood.toml\n"
-               "          lsc serve oak.lsys --placement jittered --spacing 10 --size 300000 "
-               "--listen 8000");
+    add_tile_options(app, command);
+    add_mesh(app, command.tiles.mesh);
+    add_scene(app, command);
+    app.footer(
+        "Serves the files of `lsc tiles` without writing them: each tile is made when it is "
+        "asked for.\n"
+        "Trees are placed tile by tile if the placement is jittered, uniform-cells, "
+        "poisson-cells or\n"
+        "density-cells, without painted trees; other scenes need --trees. Ctrl-C or SIGTERM "
+        "ends the server.\n"
+        "/tileset.json is the tileset, / a page that shows it, /health and /metrics are for "
+        "monitoring.\n"
+        "Examples: lsc serve wood.toml\n"
+        "          lsc serve oak.lsys --placement jittered --spacing 10 --size 300000 "
+        "--listen 8000\n"
+        "          lsc place wood.toml -o wood.trees; lsc serve wood.toml --trees wood.trees");
 }
 
 } // namespace lsys::lsc

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The options of `lsc tiles` and `lsc serve`, those of the former for lsc-mpi too.
+// The options of `lsc place`, `lsc tiles` and `lsc serve`, those of `tiles` for lsc-mpi too.
 #pragma once
 
 #include "runtime/cli/options.h"
@@ -12,6 +12,7 @@ namespace lsys::lsc {
 
 /// The options of every command for its messages, and --version.
 void add_message_options(CLI::App& app, MessageOptions& options);
+void add_place(CLI::App& app, PlaceCommand& command);
 void add_tiles(CLI::App& app, TilesCommand& command);
 void add_serve(CLI::App& app, ServeCommand& command);
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "runtime/forest/tree_heights.h"
 
+#include "grammar/base/hash.h"
 #include "runtime/base/workers.h"
 #include "runtime/forest/instance_meshes.h"
 #include "runtime/turtle/plant_size.h"
@@ -226,6 +227,17 @@ double TreeSizer::max_factor(std::uint16_t species) const {
         }
     }
     return factor;
+}
+
+std::uint64_t TreeSizer::digest() const {
+    std::uint64_t state = combine_numbers(0, forest_.key, heights_.size());
+    for (std::size_t s = 0; s < heights_.size(); ++s) {
+        state = combine_numbers(state, heights_[s], tables_[s].min_height, tables_[s].whole.size());
+        for (const std::optional<double>& height : tables_[s].whole) {
+            state = combine_numbers(state, height.value_or(-1.0));
+        }
+    }
+    return finish(state);
 }
 
 std::optional<std::uint16_t>

@@ -69,6 +69,8 @@ public:
     /// The largest factor that size() multiplies the scale of a tree by. Precondition: the trees of
     /// the species are whole plants (rho 0).
     [[nodiscard]] double max_factor(std::uint16_t species) const;
+    /// A hash of the heights of the species and of their heroes. Precondition: as max_factor().
+    [[nodiscard]] std::uint64_t digest() const;
 
 private:
     std::vector<double> heights_;

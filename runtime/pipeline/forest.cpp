@@ -2,6 +2,7 @@
 #include "runtime/pipeline/forest.h"
 
 #include "compiler/instancing/instance.h"
+#include "grammar/base/hash.h"
 #include "grammar/base/paths.h"
 #include "grammar/dialects/dialect.h"
 #include "runtime/forest/tree_heights.h"
@@ -586,6 +587,44 @@ std::vector<double> unit_heights(const Scene& scene, const GrownForest& grown) {
         heights.push_back(draws_height ? 1.0 : static_cast<double>(grown.forest.species[s].height));
     }
     return heights;
+}
+
+// Structured bindings, so that a new member that is not combined does not compile.
+std::uint64_t
+placement_digest(const Scene& scene, const Project& project, const GrownForest& grown) {
+    const PlacementOptions options = placement_options(scene, project, grown);
+    const auto& [key, method, region, species, count, spacing, density, map, map_region, years,
+                 stages_passed, threads] = options;
+    static_cast<void>(threads);
+    std::uint64_t state = combine_numbers(0, kTreePlacementVersion, key, method, region.x, region.z,
+                                          region.width, region.depth, species.size(), count,
+                                          spacing, density, years, stages_passed);
+    for (const PlacementSpecies& each : species) {
+        const auto& [share, min_scale, max_scale, min_height, max_height, lowest, highest, steepest,
+                     growth, stages, start, years_of_stage] = each;
+        state = combine_numbers(state, share, min_scale, max_scale, min_height, max_height, lowest,
+                                highest, steepest, stages, start, years_of_stage);
+        const auto& [rate, max_radius, tolerance, vigour_spread, lifespan, maturity, seeds,
+                     seed_distance] = growth;
+        state = combine_numbers(state, rate, max_radius, tolerance, vigour_spread, lifespan,
+                                maturity, seeds, seed_distance);
+    }
+    if (map != nullptr) {
+        const Region extent = map_region.value_or(region);
+        state = combine_map(combine_numbers(state, extent.x, extent.z, extent.width, extent.depth),
+                            *map);
+    }
+    const auto& [painted, erased] = scene.painting;
+    state = combine_numbers(state, painted.size(), erased.size());
+    for (const PaintedTree& tree : painted) {
+        const auto& [kind, x, z, yaw, scale] = tree;
+        state = combine_numbers(state, kind, x, z, yaw, scale);
+    }
+    for (const std::uint32_t number : erased) {
+        state = combine(state, number);
+    }
+    const TreeSizer sizer(unit_heights(scene, grown), grown.forest);
+    return finish(combine_numbers(state, grown.terrain->digest(), sizer.digest()));
 }
 
 Outcome<void> size_forest(const Scene& scene, const Project& project, GrownForest& grown) {

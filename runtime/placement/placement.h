@@ -20,6 +20,8 @@
 namespace lsys {
 
 inline constexpr std::uint64_t kMaxTrees = 10'000'000; // per placement
+/// Rises when place_trees() gives other trees for the same options; part of files of placed trees.
+inline constexpr std::uint32_t kTreePlacementVersion = 1;
 inline constexpr std::uint32_t kMaxYears = 10'000;
 /// Years per stage for methods other than Domination. Stage s has age 2 s + 1, because age 0 means
 /// the last stage.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "runtime/terrain/terrain.h"
 
+#include "grammar/base/hash.h"
 #include "runtime/base/random.h"
 #include "runtime/terrain/impl/interpolate.h"
 
@@ -186,6 +187,16 @@ std::array<double, 2> Terrain::altitudes() const {
         reach += octave.amplitude;
     }
     return {base_ - reach, base_ + reach};
+}
+
+std::uint64_t Terrain::digest() const {
+    std::uint64_t state = combine_numbers(0, region_.x, region_.z, region_.width, region_.depth,
+                                          base_, map_scale_, slope_step_, octaves_.size(), filter_);
+    for (const Octave& octave : octaves_) {
+        state = combine_numbers(state, octave.frequency, octave.shift_x, octave.shift_z,
+                                octave.layer, octave.amplitude);
+    }
+    return finish(map_ ? combine_map(state, *map_) : state);
 }
 
 double Terrain::mesh_error(double cell) const {

@@ -72,6 +72,8 @@ public:
     /// cells of `cell` m (make_terrain_mesh()), from the second derivatives of the ground. Of a
     /// height map the time is linear in its pixels.
     [[nodiscard]] double mesh_error(double cell) const;
+    /// A hash of all that height() and slope() depend on.
+    [[nodiscard]] std::uint64_t digest() const;
     /// Distance in m over which slopes are measured, in proportion to the finest feature.
     [[nodiscard]] double slope_step() const { return slope_step_; }
 

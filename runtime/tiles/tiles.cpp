@@ -18,6 +18,7 @@
 #include "runtime/tiles/impl/tile_ground.h"
 #include "runtime/tiles/impl/tileset.h"
 #include "runtime/tiles/impl/tree_source.h"
+#include "runtime/tiles/tree_file.h"
 
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
@@ -86,6 +87,8 @@ struct TileForest::State {
     glm::dvec3 ground_colour = kGroundColour;
 
     [[nodiscard]] Outcome<void> place_trees(const Project& project);
+    [[nodiscard]] Outcome<void> read_trees(const Project& project);
+    [[nodiscard]] Outcome<void> measure_placed_trees(const Project& project);
     [[nodiscard]] Outcome<void> sample_trees(const Project& project);
     void note_missing_trees(Messages& messages) const;
     void plan_levels();
@@ -158,10 +161,35 @@ std::vector<TileId> TileForest::tiles(std::uint32_t level) const {
     return list;
 }
 
-/// Places all trees of a scene.
+/// Takes all trees of a scene from the file of trees, or places them.
 Outcome<void> TileForest::State::place_trees(const Project& project) {
+    if (options.tree_file) {
+        return read_trees(project);
+    }
     Step step(project);
     if (!step.take(place_forest(scene, project, grown))) {
+        return step.end();
+    }
+    sort_by_tile(grid, grown.forest.trees);
+    return step.done();
+}
+
+Outcome<void> TileForest::State::read_trees(const Project& project) {
+    Step step(project);
+    const TreeFileScene wanted{placement_digest(scene, project, grown), scene.terrain.region,
+                               grown.forest.species.size()};
+    Result<LargeVector<Tree>> trees = read_tree_file(*options.tree_file, wanted);
+    if (!trees) {
+        return step.fail(trees.error().message);
+    }
+    grown.forest.trees = std::move(trees.value());
+    return step.done();
+}
+
+/// Measures a placement that has no expected numbers of trees.
+Outcome<void> TileForest::State::measure_placed_trees(const Project& project) {
+    Step step(project);
+    if (!step.take(place_trees(project))) {
         return step.end();
     }
     density = static_cast<double>(grown.forest.trees.size()) / scene.terrain.region.area();
@@ -523,29 +551,44 @@ make_tile_forest(LoadedScene loaded, const TileOptions& options, const Project& 
     made.max_scales.assign(made.grown.forest.species.size(), 0.0);
     made.sizer.emplace(unit_heights(made.scene, made.grown), made.grown.forest);
     const bool is_grid = is_placed_by_tile(made.scene);
-    if (!step.take(is_grid ? made.sample_trees(project) : made.place_trees(project)) ||
+    if (!step.take(is_grid ? made.sample_trees(project) : made.measure_placed_trees(project)) ||
         !step.take(plan_heroes(made.grown, options.mesh, project), made.heroes)) {
         return step.end();
     }
     made.hero_table.emplace(made.grown.forest, made.heroes);
     made.plan_levels();
-    if (is_grid && !(options.keep_trees && made.places <= kMaxKeptTrees)) {
+    const bool keeps_trees =
+        options.tree_file || (options.keep_trees && made.places <= kMaxKeptTrees);
+    if (is_grid && !keeps_trees) {
         made.note_missing_trees(step.messages);
         made.source = std::make_unique<CellTrees>(made.placement, *made.grown.terrain, *made.sizer,
                                                   made.grid);
     } else {
-        if (is_grid && !step.take(place_forest(made.scene, project, made.grown))) {
+        if (is_grid && !step.take(made.place_trees(project))) {
             return step.end();
         }
-        made.source =
-            std::make_unique<PlacedTrees>(made.grown.forest.trees, made.grid, made.plan.finest());
+        made.source = std::make_unique<PlacedTrees>(made.grown.forest.trees, made.grid);
     }
     if (!step.take(made.make_models(project))) {
         return step.end();
     }
     made.make_ground_picture();
     made.make_canopies();
+    made.options.tree_file.reset();
     return step.done(TileForest(std::move(state)));
+}
+
+Outcome<PlacedScene> place_scene(const LoadedScene& loaded, const Project& project) {
+    Step step(project);
+    GrownForest grown;
+    if (!step.take(grow_species(loaded, project, {}), grown) ||
+        !step.take(place_forest(loaded.scene, project, grown))) {
+        return step.end();
+    }
+    PlacedScene placed{placement_digest(loaded.scene, project, grown),
+                       std::move(grown.forest.trees)};
+    sort_by_tile(TileGrid(loaded.scene.terrain.region), placed.trees);
+    return step.done(std::move(placed));
 }
 
 } // namespace lsys

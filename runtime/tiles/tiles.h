@@ -8,6 +8,8 @@
 #pragma once
 
 #include "grammar/base/outcome.h"
+#include "runtime/base/large_vector.h"
+#include "runtime/forest/tree.h"
 #include "runtime/meshing/mesh.h"
 #include "runtime/pipeline/forest.h"
 #include "runtime/pipeline/project.h"
@@ -18,6 +20,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace lsys {
@@ -30,8 +33,8 @@ struct GeoPlace {
 };
 
 inline constexpr std::uint32_t kMaxTileLevel = 24;
-inline constexpr std::uint64_t kTileTriangles = 2'000'000;
-inline constexpr float kTileError = 0.02F; // m
+inline constexpr std::uint64_t kTileTriangles = 500'000;
+inline constexpr float kTileError = 0.05F; // m
 /// Max number of trees of a tile that shows single trees.
 inline constexpr std::uint64_t kMaxTileTrees = 16'384;
 
@@ -44,6 +47,9 @@ struct TileOptions {
     /// Whether to place all trees at once and keep them, up to kMaxKeptTrees, which is faster if all
     /// tiles are made. The tiles are the same.
     bool keep_trees = false;
+    /// A file of the trees of the scene (tree_file.h); none: the scene is placed. Must live until
+    /// make_tile_forest() returns.
+    std::optional<std::string_view> tree_file;
     MeshOptions mesh;
     std::string generator; // the program and its version
 };
@@ -130,10 +136,21 @@ private:
 /// tree is painted or erased.
 [[nodiscard]] bool is_placed_by_tile(const Scene& scene);
 
-/// Grows the heroes of a scene, plans its tiles, and makes the files that they share. The trees
-/// of a scene with is_placed_by_tile() are placed when their tile is made, those of others at once. Precondition: the scene has rho 0. Stops for the
-/// reasons of grow_species(), place_forest() and mesh_forest().
+/// Grows the heroes of a scene, plans its tiles, and makes the files that they share. The trees of a
+/// scene with is_placed_by_tile() are placed when their tile is made, those of others at once, or
+/// read from TileOptions::tree_file. Precondition: the scene has rho 0. Stops for the reasons of
+/// grow_species(), place_forest(), read_tree_file() and mesh_forest().
 [[nodiscard]] Outcome<TileForest>
 make_tile_forest(LoadedScene loaded, const TileOptions& options, const Project& project);
+
+/// The trees of a scene, placed once for all tiles.
+struct PlacedScene {
+    std::uint64_t placement_digest = 0;
+    LargeVector<Tree> trees; // in the order of write_tree_file()
+};
+
+/// Places the trees of a scene. Precondition: the scene has rho 0. Stops for the reasons of
+/// grow_species() and place_forest().
+[[nodiscard]] Outcome<PlacedScene> place_scene(const LoadedScene& loaded, const Project& project);
 
 } // namespace lsys

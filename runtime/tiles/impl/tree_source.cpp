@@ -4,6 +4,8 @@
 #include "grammar/base/contract.h"
 
 #include <algorithm>
+#include <compare>
+#include <cstdint>
 #include <new>
 #include <utility>
 
@@ -13,7 +15,7 @@ namespace {
 
 constexpr double kMargin = 0.5; // m, around a tile; above the rounding of its borders
 
-/// The position of a tile on the Z-order curve (Morton 1966). The tiles below a tile are consecutive,
+/// The position of a tile on the Z-order curve. The tiles below a tile are consecutive,
 /// at every level of the quadtree.
 std::uint64_t morton_code(const TileId& tile) {
     std::uint64_t number = 0;
@@ -22,6 +24,11 @@ std::uint64_t morton_code(const TileId& tile) {
         number |= std::uint64_t{tile.row >> bit & 1U} << (2 * bit + 1);
     }
     return number;
+}
+
+/// The position of the place of a tree, as a tile of the deepest level.
+std::uint64_t morton_code(const TileGrid& grid, const Tree& tree) {
+    return morton_code(grid.tile_at(kMaxTileLevel, tree.position.x, tree.position.z));
 }
 
 /// The region with a margin, within the allowed coordinates.
@@ -40,30 +47,44 @@ void sort_by_number(std::vector<Tree>& trees) {
 
 } // namespace
 
-PlacedTrees::PlacedTrees(std::span<const Tree> trees, const TileGrid& grid, std::uint32_t finest)
-    : trees_(trees), finest_(finest) {
-    std::vector<std::pair<std::uint64_t, std::uint32_t>> keyed;
-    keyed.reserve(trees.size());
+void sort_by_tile(const TileGrid& grid, LargeVector<Tree>& trees) {
+    struct Key {
+        std::uint64_t code = 0;
+        std::uint32_t number = 0;
+        std::uint32_t index = 0;
+        auto operator<=>(const Key&) const = default;
+    };
+    LargeVector<Key> keys;
+    keys.reserve(trees.size());
     for (std::uint32_t i = 0; i < trees.size(); ++i) {
-        const glm::vec3& at = trees[i].position;
-        keyed.emplace_back(morton_code(grid.tile_at(finest, at.x, at.z)), i);
+        keys.push_back({morton_code(grid, trees[i]), trees[i].number, i});
     }
-    std::sort(keyed.begin(), keyed.end());
-    for (const auto& [key, tree] : keyed) {
-        order_keys_.push_back(key);
-        order_.push_back(tree);
+    std::sort(keys.begin(), keys.end());
+    LargeVector<Tree> sorted;
+    sorted.reserve(trees.size());
+    for (const Key& key : keys) {
+        sorted.push_back(trees[key.index]);
     }
+    trees = std::move(sorted);
+}
+
+bool is_sorted_by_tile(const TileGrid& grid, std::span<const Tree> trees) {
+    return std::is_sorted(trees.begin(), trees.end(), [&](const Tree& a, const Tree& b) {
+        const std::uint64_t code_a = morton_code(grid, a);
+        const std::uint64_t code_b = morton_code(grid, b);
+        return code_a != code_b ? code_a < code_b : a.number < b.number;
+    });
 }
 
 std::vector<Tree> PlacedTrees::trees_of(const TileId& tile) const {
-    const unsigned shift = 2 * (finest_ - tile.level);
-    const std::uint64_t number = morton_code(tile);
-    const auto first = std::lower_bound(order_keys_.begin(), order_keys_.end(), number << shift);
-    const auto end = std::lower_bound(first, order_keys_.end(), (number + 1) << shift);
-    std::vector<Tree> trees;
-    for (auto at = first; at != end; ++at) {
-        trees.push_back(trees_[order_[static_cast<std::size_t>(at - order_keys_.begin())]]);
-    }
+    const unsigned shift = 2 * (kMaxTileLevel - tile.level);
+    const std::uint64_t code = morton_code(tile);
+    const auto first_from = [&](std::uint64_t from) {
+        return std::partition_point(trees_.begin(), trees_.end(), [&](const Tree& tree_before) {
+            return morton_code(grid_, tree_before) < from;
+        });
+    };
+    std::vector<Tree> trees(first_from(code << shift), first_from((code + 1) << shift));
     sort_by_number(trees);
     return trees;
 }

@@ -3,12 +3,12 @@
 // tile by tile, those of other placements once for all tiles.
 #pragma once
 
+#include "runtime/base/large_vector.h"
 #include "runtime/forest/tree.h"
 #include "runtime/forest/tree_heights.h"
 #include "runtime/placement/placement.h"
 #include "runtime/tiles/impl/tile_grid.h"
 
-#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -26,17 +26,20 @@ public:
     [[nodiscard]] virtual std::vector<Tree> trees_of(const TileId& tile) const = 0;
 };
 
-/// Trees that have been placed, which must outlive the source.
+/// Sorts trees by their place on the Z-order curve (Morton 1966) and then by number, so that the
+/// trees of each tile of each level are consecutive. Throws std::bad_alloc.
+void sort_by_tile(const TileGrid& grid, LargeVector<Tree>& trees);
+[[nodiscard]] bool is_sorted_by_tile(const TileGrid& grid, std::span<const Tree> trees);
+
+/// Trees that have been placed and sorted by sort_by_tile(); they and `grid` must outlive the source.
 class PlacedTrees : public TreeSource {
 public:
-    PlacedTrees(std::span<const Tree> trees, const TileGrid& grid, std::uint32_t finest);
+    PlacedTrees(std::span<const Tree> trees, const TileGrid& grid) : trees_(trees), grid_(grid) {}
     [[nodiscard]] std::vector<Tree> trees_of(const TileId& tile) const override;
 
 private:
     std::span<const Tree> trees_;
-    std::uint32_t finest_;                  // level
-    std::vector<std::uint64_t> order_keys_; // morton_code() of the trees in order
-    std::vector<std::uint32_t> order_;      // trees by morton_code()
+    const TileGrid& grid_;
 };
 
 /// Trees of a placement on an unbounded grid.

@@ -133,7 +133,57 @@ TEST_CASE("trees that cannot be placed tile by tile are not served") {
     const LscRun run = run_lsc({"serve", folder / "tree.lsys", "--listen", "0"}, "");
     CHECK(run.status == 2);
     CHECK(run.err.starts_with("lsc: error: the trees of this scene cannot be placed tile by tile"));
+    CHECK(run.err.find("`lsc place` places them once, and --trees serves them") !=
+          std::string::npos);
     const LscRun listen = run_lsc({"serve", folder / "tree.lsys", "--listen", "here:x"}, "");
     CHECK(listen.status == 2);
     CHECK(listen.err.find("`here:x` is not ADDRESS:PORT") != std::string::npos);
+}
+
+TEST_CASE("tiles of trees that were placed before are those of the scene") {
+    const ScratchFolder folder;
+    write_text(folder / "tree.lsys", kTree);
+    write_text(folder / "wood.toml", "key = 3\n[placement]\nmethod = \"domination\"\nyears = 60\n"
+                                     "count = 300\n[terrain]\nsize = [90, 60]\n"
+                                     "[[species]]\ngrammar = \"tree.lsys\"\nheight = [3, 5]\n");
+    const std::string wood = folder / "wood.toml";
+    const LscRun placed = run_lsc({"place", wood, "--stats", "-o", folder / "wood.trees"}, "");
+    CHECK(placed.err == "");
+    REQUIRE(placed.status == 0);
+    CHECK(placed.out.find(" trees of 1 species, ") != std::string::npos);
+    REQUIRE(run_lsc({"tiles", wood, "--error", "0", "--triangles", "20000", "-o", folder / "a"}, "")
+                .status == 0);
+    REQUIRE(run_lsc({"tiles", wood, "--error", "0", "--triangles", "20000", "--trees",
+                     folder / "wood.trees", "-o", folder / "b"},
+                    "")
+                .status == 0);
+    CHECK(files_of(folder.path() / "a").size() > 20);
+    CHECK(files_of(folder.path() / "a") == files_of(folder.path() / "b"));
+
+    const auto error_of = [&](const std::vector<std::string>& more) {
+        std::vector<std::string> arguments{"tiles", wood,        "--trees", folder / "wood.trees",
+                                           "-o",    folder / "c"};
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        const LscRun run = run_lsc(arguments, "");
+        CHECK(run.status != 0);
+        return run.err;
+    };
+    const std::string other = "the trees were placed for another scene, or with other options: "
+                              "place them again";
+    CHECK(error_of({"--seed", "4"}).find(other) != std::string::npos);
+    CHECK(error_of({"--count", "301"}).find(other) != std::string::npos);
+    write_text(folder / "wood.trees", "trees");
+    CHECK(error_of({}).find("not a file of trees; `lsc place` writes one") != std::string::npos);
+    CHECK_FALSE(fs::exists(folder.path() / "c/tileset.json"));
+}
+
+TEST_CASE("trees on a grid that were placed before give the tiles of the grid") {
+    const ScratchFolder folder;
+    REQUIRE(write_tiles(folder, "a").status == 0);
+    REQUIRE(run_lsc({"place", folder / "tree.lsys", "--placement", "jittered", "--spacing", "4",
+                     "--size", "300", "--heroes", "2", "-o", folder / "trees"},
+                    "")
+                .status == 0);
+    REQUIRE(write_tiles(folder, "b", {"--trees", folder / "trees"}).status == 0);
+    CHECK(files_of(folder.path() / "a") == files_of(folder.path() / "b"));
 }

@@ -66,7 +66,7 @@ TEST_CASE("the tiles of a level together hold each tree of the region once") {
         CAPTURE(static_cast<int>(method));
         const PlacementOptions options = options_of(method, region, map);
         REQUIRE(CellTrees::check(options, terrain));
-        const LargeVector<Tree> all = place_trees(options, terrain).value().trees;
+        LargeVector<Tree> all = place_trees(options, terrain).value().trees;
         REQUIRE(all.size() > 1000);
         std::map<std::uint32_t, Tree> by_number;
         for (const Tree& tree : all) {
@@ -77,7 +77,8 @@ TEST_CASE("the tiles of a level together hold each tree of the region once") {
         kinds.species.resize(2);
         const TreeSizer keeps_scales(none, kinds);
         const CellTrees cells(options, terrain, keeps_scales, grid);
-        const PlacedTrees placed(all, grid, 5);
+        sort_by_tile(grid, all);
+        const PlacedTrees placed(all, grid);
         for (const std::uint32_t level : {0U, 2U, 5U}) {
             std::size_t count = 0;
             for (std::uint32_t i = 0; i < 1U << (2 * level); ++i) {
