@@ -314,7 +314,7 @@ Result<GeoPlace> parse_geo_place(const std::string& text) {
     return GeoPlace{longitude.value(), latitude.value(), height.value()};
 }
 
-/// I/N.
+/// Parses `I/N`: part I of N.
 Result<TilePart> parse_part(const std::string& text) {
     constexpr std::uint64_t kMaxParts = 1'000'000;
     const std::size_t slash = text.find('/');
@@ -329,7 +329,7 @@ Result<TilePart> parse_part(const std::string& text) {
     return TilePart{i.value(), n.value()};
 }
 
-/// HOST:PORT, with an IPv6 address in brackets; or a port of this machine.
+/// Parses `HOST:PORT`, with an IPv6 address in brackets, or `PORT`, a port of this machine.
 Result<ServerOptions> parse_listen(const std::string& text) {
     const std::size_t colon = text.rfind(':');
     const bool has_host = colon != std::string::npos;
@@ -628,8 +628,8 @@ std::optional<UsageError> verbose_before_command(std::span<const std::string> ar
     return std::nullopt;
 }
 
-/// Words a mistake found by CLI11, with help about commands. `command`: the given command; null if
-/// the first argument is not a command.
+/// The usage error for a mistake found by CLI11, with help about commands. `command`: the given
+/// command; null if the first argument is not a command.
 UsageError usage_error(const CLI::ParseError& error,
                        const CLI::App& app,
                        const CLI::App* command,
@@ -759,7 +759,7 @@ CommandLine parse_arguments(std::span<const std::string> arguments,
     ProgramOptions program_options;
     add_program_options(app, program_options);
     const std::string first = arguments.empty() ? std::string() : arguments.front();
-    add_commands(app, Commands::OnlyChosen, first, parsed, program_options); // all take long
+    add_commands(app, Commands::OnlyChosen, first, parsed, program_options); // adding all is slow
     if (find_command(app, first) == nullptr) {
         add_commands(app, Commands::All, first, parsed, program_options);
     }
@@ -827,8 +827,9 @@ CommandLine parse_arguments(std::span<const std::string> arguments,
     return parsed;
 }
 
-/// `lsc check FILE...` without options, read as parse_arguments() reads it. To set up CLI11 takes as
-/// long as to check a small grammar, and editors and scripts start such a run for every file.
+/// Parses `lsc check FILE...` without options like parse_arguments(); nothing for other arguments.
+/// Setting up CLI11 takes as long as checking a small grammar, and editors and scripts start such a
+/// run for every file.
 std::optional<CheckCommand> parse_check_of_files(std::span<const std::string> arguments) {
     if (arguments.size() < 2 || arguments.front() != "check" ||
         std::any_of(arguments.begin() + 1, arguments.end(), [](const std::string& argument) {

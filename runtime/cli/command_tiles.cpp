@@ -28,7 +28,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Refuses a file, and a folder with files unless `may_have_files`.
+/// Error: `folder` is a file, or it has files and `may_have_files` is false.
 Result<void> check_folder(const std::string& folder, bool may_have_files) {
     std::error_code error;
     const fs::file_status status = fs::status(path_of(folder), error);
@@ -93,7 +93,7 @@ private:
     /// Calls write(i) for the files of this part, on several threads.
     template <typename Write>
     void write_files(std::uint64_t count, const Write& write) {
-        // The first of the files with number = part - 1 (mod parts).
+        // Index of the first file whose number is part - 1 modulo `parts`.
         const std::uint64_t parts = command_.part.of;
         const std::uint64_t first = (command_.part.number - 1 + parts - number_ % parts) % parts;
         number_ += count;
@@ -110,7 +110,7 @@ private:
         const std::string whole = command_.output + "/" + path;
         std::error_code error;
         if (command_.resume && fs::exists(path_of(whole), error)) {
-            return; // files get their names when they are complete
+            return; // a file has its name only when it is complete
         }
         make_folder(folder_of_path(path));
         const std::string bytes = make();
@@ -154,7 +154,7 @@ private:
     std::atomic<std::uint64_t> bytes_{0};
     std::atomic<std::uint64_t> trees_{0};
     std::atomic<bool> is_stopped_{false};
-    std::mutex mutex_; // of the following
+    std::mutex mutex_; // guards the members below
     std::set<std::string> folders_;
     Result<void> result_;
 };

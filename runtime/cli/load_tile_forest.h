@@ -13,7 +13,7 @@
 
 namespace lsys::lsc {
 
-/// Which placements a command takes.
+/// Placements that a command accepts. OnGrids: only placements whose trees are known tile by tile.
 enum class TilePlacements : std::uint8_t { All, OnGrids };
 
 /// Plans the tiles of a scene. Prints the messages; returns the exit status.

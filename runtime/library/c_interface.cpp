@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The C interface, on top of the C++ one. No exception passes it.
+// The C interface, on top of the C++ interface. No exception leaves it.
 #include "runtime/library/impl/c_interface.h"
 
 #include <lsys/export.h>

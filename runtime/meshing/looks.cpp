@@ -77,7 +77,7 @@ void apply_look(const Looks* looks, ItemColour colour, Material& material) {
     if (look->relief != nullptr) {
         material.relief = look->relief;
         if (material.textured && material.picture == nullptr) {
-            material.picture = built_in_picture(material.kind); // the two are drawn together
+            material.picture = built_in_picture(material.kind); // drawn together with the relief
         }
     }
     material.translucency = look->translucency;

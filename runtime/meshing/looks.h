@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Looks: the appearance of colour indexes that have a `#material` (docs/language.md section 7.7),
-// with its pictures read. Made by the pipeline; meshers give it to materials.
+// with its pictures read. Made by the pipeline; meshers apply it to materials.
 #pragma once
 
 #include "runtime/turtle/skeleton.h"
@@ -42,8 +42,8 @@ void add_look(ItemColour index, Look look, Looks& looks);
 [[nodiscard]] float linear_of_srgb(float part);
 /// The linear colour of an item in formats without pictures, and of vertices. `looks` may be null.
 [[nodiscard]] glm::vec3 plain_colour(const Looks* looks, ItemColour colour);
-/// A colour that looks the same without `looks`, to 1/255 per component; an index without a look
-/// stays.
+/// A colour that looks the same without `looks`, to 1/255 per component. An index without a look is
+/// returned unchanged.
 [[nodiscard]] ItemColour without_look(const Looks* looks, ItemColour colour);
 /// Gives a material the look of its colour; `looks` may be null.
 void apply_look(const Looks* looks, ItemColour colour, Material& material);

@@ -74,7 +74,7 @@ std::optional<Stop> build(const Skeleton& skeleton,
     builder.set_looks(skeleton.looks);
     if (skeleton.l3d_compatible_surface && options.method == MeshMethod::Tubes) {
         append_l3d_shapes(skeleton, builder);
-        append_objects(skeleton, user_meshes, options, builder); // other objects
+        append_objects(skeleton, user_meshes, options, builder); // all objects except leaves
         return builder.finish();
     }
     switch (options.method) {

@@ -94,7 +94,7 @@ struct MeshOptions {
     MeshMethod method = MeshMethod::Default;
     /// 0 is the finest; each level has about half the sides of the one before, and fewer rings.
     std::uint32_t level = 0;
-    /// Sides of every cross-section; 0: those of the skeleton.
+    /// Sides of every cross-section; 0: the sides that each segment states.
     std::uint32_t sides = 0;
     /// Tubes: max distance in metres of a ring from its circle. Rings get the fewest sides within
     /// this distance, at most the sides of their level. 0: rings have the sides of their level.
@@ -118,8 +118,8 @@ struct MeshOptions {
     bool smooth_joints = false;
     /// Bending of leaves by gravity, 0 (none) to 1 (hanging); unset: Skeleton::leaf_droop.
     std::optional<float> droop = std::nullopt;
-    /// Boxes: steps of smoothing; none: kGrooveSubdivisions with grooves, else 0 for
-    /// Skeleton::box_segments and kSubdivisions for others.
+    /// Boxes: steps of smoothing. Unset: kGrooveSubdivisions with grooves, else 0 for
+    /// Skeleton::box_segments, else kSubdivisions.
     std::optional<std::uint32_t> subdivisions = std::nullopt;
     /// Solid: width in metres of the thinnest branch, and of leaves and polygons. 0: 1/150 of the
     /// largest extent of the plant.
@@ -136,7 +136,7 @@ struct ObjName {
     std::uint64_t offset = 0;
 };
 
-/// A mesh read from a file for `#object X "leaf.obj"`; extent along +Y gives the turtle its step.
+/// A mesh read from a file for `#object X "leaf.obj"`; length() is the step of the turtle.
 /// A picture for polygons, `#object { "leaf.png"`, sets `picture` only.
 struct UserMesh {
     std::vector<glm::vec3> positions;

@@ -154,7 +154,7 @@ Result<std::shared_ptr<const Texture>> read_ground_picture(const SceneFile& file
     return std::make_shared<const Texture>(std::move(picture.value()));
 }
 
-/// Reads the pictures of the ground, or reuses those of `previous`.
+/// Reads the pictures of the ground, or reuses the pictures of `previous`.
 Outcome<GroundPictures> make_ground_pictures(const LoadedScene& loaded,
                                              const PreviousForest& previous,
                                              const Project& project,

@@ -142,7 +142,7 @@ bool exceeds_limit(const DeriveOptions& derive, const Grammar& grammar, Step& st
     return limit.has_value();
 }
 
-/// Lets `derive` report to the host. `expected` outlives the derivation.
+/// Makes `derive` report progress to the host. `expected` must outlive the derivation.
 void report_progress(const Bytecode& bytecode,
                      const Project& project,
                      std::vector<double>& expected,

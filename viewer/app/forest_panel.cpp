@@ -289,7 +289,7 @@ void draw_cache(ForestView& view) {
     }
 }
 
-/// Colours and their values, several in a row.
+/// Draws the colours with their values, several per row.
 void draw_legend(const ForestView& view) {
     const std::vector<LegendEntry>& legend = view.legend();
     constexpr std::size_t kMaxShown = 60;

@@ -27,7 +27,7 @@ constexpr GLuint kShadowTexture = 0;
 constexpr GLint kDisc = 0;
 constexpr GLint kGridStep = 1;
 constexpr GLint kPickedContent = 20;  // in pick.frag.glsl
-constexpr float kDiscInRadii = 14.0F; // radii of the plant
+constexpr float kDiscInRadii = 14.0F; // radius of the ground disc, in radii of the plant
 
 struct Programs {
     ProgramObject sky;

@@ -154,7 +154,7 @@ void ForestLod::visit_cell(std::uint32_t index,
     const ForestCell& cell = cells_[index];
     float weight = 1.0F; // weight of single trees against the cluster
     if (cell.count >= kMinClusterTrees && cell.removed == 0 && options.cluster_pixels > 0.0F) {
-        const float scale = frustum.pixels / std::max(distance, kNearest); // pixels of a metre
+        const float scale = frustum.pixels / std::max(distance, kNearest); // pixels per metre
         // The picture of a cluster is as wide as its cell: low trees far apart would cover few of
         // its texels.
         constexpr float kTallestPart = 1.0F / 6.0F;

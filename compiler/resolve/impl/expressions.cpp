@@ -358,7 +358,7 @@ ValueId ExpressionResolver::distribution_value(const Expression& expression,
                : kPoison;
 }
 
-/// Whether a range or distribution is allowed in `place`; reports one that is not.
+/// Returns false after reporting that ranges and distributions are not allowed in `place`.
 bool ExpressionResolver::may_draw(const Expression& expression, ExpressionPlace place) {
     is_random_ = true;
     if (!ranges_allowed(place)) {

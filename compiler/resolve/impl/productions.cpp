@@ -125,7 +125,8 @@ void ProductionResolver::resolve_locals(ListRange locals, Production& production
     }
 }
 
-/// Whether no parameter or earlier local value has the name; reports the one that has it.
+/// Returns false after reporting that a parameter or an earlier local value has the name. Warns of
+/// a constant with the name.
 bool ProductionResolver::is_new_local(const LocalNode& node, const Production& production) {
     const auto report = [&](const char* what, SourceSpan first) {
         Diagnostic& error = resolution_.diagnostics.add(

@@ -23,7 +23,7 @@ constexpr std::size_t kMaxExpanded = std::size_t{1} << 22;
 
 } // namespace
 
-/// Whether no other function has the name; reports the one that has it.
+/// Returns false after reporting that another function has the name.
 bool ExpressionResolver::is_free_name(NameId name, SourceSpan span) {
     const std::string_view text = resolution_.text(name);
     UserFunction& function = user_functions_.at(name);

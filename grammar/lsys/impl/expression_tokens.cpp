@@ -340,8 +340,9 @@ void report_conditional(ParseSession& session, TextRange word) {
     }
 }
 
-/// Whether a comma is the certain fix between two values. It is not if several blanks separate
-/// them, which may have held an operator, or if the values are equal, which may be a repetition.
+/// Whether a comma is the certain fix between two values. False if several blanks separate the
+/// values, since an operator may have stood there, or if the values are equal, since one may be a
+/// repetition.
 bool lacks_comma(std::string_view text,
                  std::uint32_t before_end,
                  std::uint32_t begin,
@@ -777,7 +778,7 @@ void report_assignment(ParseSession& session) {
 
 namespace {
 
-/// Where the identifier directly before the current character begins, if it begins an argument.
+/// The offset of the identifier before the current character; nullopt if no argument begins there.
 std::optional<std::uint32_t> argument_name(const ParseSession& session) {
     const ScanState& scan = session.scan;
     const std::string_view text = session.scanned.text;

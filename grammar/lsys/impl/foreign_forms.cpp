@@ -107,10 +107,11 @@ bool is_type(std::string_view word) {
     return std::find(kTypes.begin(), kTypes.end(), word) != kTypes.end();
 }
 
-/// A statement that is searched for forms of other languages.
-class Form {
+/// Searches one statement for forms of other languages and repairs them.
+class StatementRepair {
 public:
-    Form(DraftText& draft, StatementText statement) : draft_(draft), statement_(statement) {
+    StatementRepair(DraftText& draft, StatementText statement)
+        : draft_(draft), statement_(statement) {
         const std::size_t word = text().find_first_not_of(" \t", statement.begin + 1);
         word_ = leading_word(text().substr(word));
         body_ = word + word_.size();
@@ -166,6 +167,7 @@ private:
         return draft_.report(DiagnosticCode::ForeignForm, draft_.span(piece.begin, piece.end),
                              std::move(message));
     }
+    /// The offset after the statement and its `;`.
     [[nodiscard]] std::size_t after() const {
         return statement_.end + (statement_.end < text().size() && char_at(statement_.end) == ';');
     }
@@ -697,7 +699,7 @@ private:
         std::optional<Edit> value_edit; // edit of the condition
         const bool is_production = keyword_ != Keyword::Axiom;
         std::size_t colons = 1;
-        bool begins_part = true; // or follows a module that was repaired
+        bool begins_part = true; // true also after a repaired module
         for (std::size_t at = colon + 1; at < statement_.end; ++at) {
             const char c = char_at(at);
             if (std::string_view(" \t\r\n").find(c) != std::string_view::npos) {
@@ -933,6 +935,7 @@ private:
         return {};
     }
 
+    /// Blanks the statement, whose repair does not fit into its place.
     void leave_out() {
         draft_.blank(statement_.begin, after());
         draft_.is_incomplete = true;
@@ -986,7 +989,7 @@ void repair_foreign_forms(DraftText& draft) {
          at = draft.masked.find('#', at)) {
         const std::string_view text = draft.masked;
         at = is_statement_start(text, at)
-                 ? std::max(at + 1, Form(draft, statement_at(text, at)).repair())
+                 ? std::max(at + 1, StatementRepair(draft, statement_at(text, at)).repair())
                  : at + 1;
     }
 }

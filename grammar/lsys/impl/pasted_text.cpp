@@ -128,8 +128,8 @@ void repair_fences(DraftText& draft) {
 
 // --- line numbers
 
-/// The length of a line number with its sign at the start of a line: `12`, `12:`, `12 |`; 0 if
-/// none.
+/// The length of a line number with its punctuation at the start of a line: `12`, `12:`, `12 |`; 0
+/// if there is none.
 std::size_t number_length(std::string_view line, std::uint32_t& number) {
     std::size_t at = 0;
     number = 0;
@@ -160,7 +160,7 @@ void repair_line_numbers(DraftText& draft) {
             break;
         }
         if (!line.text.empty() && length == 0 && !is_comment(line.text)) {
-            return; // the first line that is not empty has none
+            return; // the first line that is not empty has no number
         }
     }
     if (first == std::string::npos) {
@@ -650,8 +650,8 @@ std::optional<Meaning> line_without_meaning(std::string_view line) {
     return std::nullopt;
 }
 
-/// The begin of a `//` comment in a line in the notation of a paper; npos if there is none. Slashes
-/// between modules roll the turtle.
+/// The offset of a `//` comment in a line in the notation of a paper; npos if there is none.
+/// Slashes between modules roll the turtle.
 std::size_t comment_in(std::string_view line) {
     for (std::size_t at = line.find("//"); at != std::string_view::npos;
          at = line.find("//", line.find_first_not_of('/', at))) {

@@ -258,7 +258,8 @@ void read_indices(const ForestSurface& surface,
     }
 }
 
-/// Calls visit(indices) for the parts of one material whose slices are wide, or for all others.
+/// Calls visit(indices) for the parts of one material whose slices are wide, or for its other
+/// parts.
 template <typename Visit>
 void for_each_part(const ForestSurface& surface,
                    std::size_t material,

@@ -106,8 +106,8 @@ bool share_edge(const std::uint32_t* a, const std::uint32_t* b) {
 /// Orders the triangles of parts for compression and numbers their vertices.
 class PartOrderer {
 public:
-    /// `users`: for each vertex of the mesh the part that used it last. `vertices`: those of the
-    /// file so far.
+    /// `users`: for each vertex of the mesh the part that used it last. `vertices`: the vertices of
+    /// the file so far.
     PartOrderer(const Mesh& mesh,
                 const GltfVertexUse& use,
                 LargeVector<std::uint32_t>& users,
@@ -199,7 +199,7 @@ void order_triangles(std::span<std::uint32_t> triangles) {
         return share_edge(corners + 3 * a, corners + 3 * b);
     };
     const auto end_run = [&] {
-        // The last triangle may have been the first of a quad, so the triangle before it counts too.
+        // The last two triangles may be a quad, so the triangle before the last one counts too.
         const auto meets_last = [&](std::uint32_t triangle) {
             const std::size_t back = std::min<std::size_t>(ordered, 2);
             for (std::size_t i = 1; i <= back; ++i) {

@@ -65,7 +65,7 @@ glm::vec3 position_change(const GltfPlant& plant,
            plant.mesh.positions[vertex];
 }
 
-/// Writes the items of a stream of a primitive, uncompressed and without padding behind them.
+/// Writes the items of a stream of a primitive, uncompressed and without padding at the end.
 void write_primitive_stream(const GltfPlant& plant,
                             const GltfStreams& streams,
                             const GltfStream& stream,
@@ -137,8 +137,8 @@ public:
         };
         add(GltfArray::Positions);
         add(GltfArray::Normals);
-        // Quantised files are for display: coordinates without a texture are left out or, if wind data
-        // follow, written as 0, because sets of coordinates are numbered from 0 on.
+        // Quantised files are for display: coordinates without a texture are left out or, if wind
+        // data follow, written as 0, because sets of coordinates are numbered from 0 on.
         const bool shown = textured || relief;
         if (is_complete(mesh, mesh.texture_coordinates) &&
             (shown || plant_.wind != nullptr || !form.quantized())) {

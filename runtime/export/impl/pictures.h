@@ -50,7 +50,7 @@ struct Pictures {
 [[nodiscard]] inline double six_decimals(float value) {
     return std::round(static_cast<double>(value) * 1e6) / 1e6;
 }
-/// Roughness, 0 to 1, in formats that have one.
+/// The roughness of a material as written to files, 0 to 1.
 [[nodiscard]] inline double roughness(const Material& material) {
     return six_decimals(roughness_of(material));
 }

@@ -53,7 +53,7 @@ struct Run {
 /// The radius that can be drawn around `centre`; 0 if none can.
 [[nodiscard]] float drawn_radius(float radius, const glm::vec3& centre, std::uint32_t sides);
 
-/// Whether two places are equal in floats, for joints of that radius.
+/// Whether two centres of joints with this radius are too near for floats to tell apart.
 [[nodiscard]] bool coincide(const glm::vec3& a, const glm::vec3& b, float radius);
 
 struct CurveStart; // joint_curves.h

@@ -122,7 +122,7 @@ strip_around(int side, const std::vector<std::uint8_t>& marked, std::size_t coun
     if (top == bottom) {
         return {};
     }
-    // Both corners between two trapezoids are as far out as either of them needs.
+    // Both corners between two trapezoids are as far out as either trapezoid needs.
     const float height = static_cast<float>(bottom - top) / static_cast<float>(count);
     const auto row_at = [&](std::size_t k) {
         return static_cast<float>(top) + static_cast<float>(k) * height;
@@ -436,7 +436,8 @@ Mesh ImpostorBaker::make(double cover, const glm::vec3& tint) const {
             mesh.texture_coordinates.push_back(
                 (part + glm::vec2(tile % columns_, tile / columns_)) / glm::vec2(columns_, rows));
         }
-        for (std::uint32_t k = 0; k < trapezoids[tile]; ++k) { // left and right, above and below
+        // Corners 0 to 3 of a trapezoid: left and right above, left and right below.
+        for (std::uint32_t k = 0; k < trapezoids[tile]; ++k) {
             const std::uint32_t corner = first + 2 * k;
             for (const std::uint32_t to : {0U, 2U, 1U, 1U, 2U, 3U}) {
                 indices.push_back(corner + to);

@@ -15,7 +15,7 @@ namespace lsys {
 
 namespace {
 
-/// An ellipse in space, or the cone of directions across it.
+/// An ellipse in space: the positions of a ring, or the ends of its normals.
 struct Ellipse {
     Float4 centre;
     Float4 at_cosine;

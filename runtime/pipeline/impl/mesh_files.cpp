@@ -392,13 +392,13 @@ Outcome<MeshFiles> read_mesh_files(const std::string& grammar_file,
     }
     for (std::size_t i = 0; i < bytecode.symbols.size(); ++i) {
         const BytecodeSymbol& symbol = bytecode.symbols[i];
-        const bool is_of_polygons =
+        const bool is_polygon_picture =
             symbol.turtle == TurtleOperation::PolygonBegin && !symbol.mesh_file.empty();
-        if (symbol.turtle != TurtleOperation::MeshFile && !is_of_polygons) {
+        if (symbol.turtle != TurtleOperation::MeshFile && !is_polygon_picture) {
             continue;
         }
         const std::string path = path_text(folder / path_of(symbol.mesh_file));
-        if (is_of_polygons || is_picture(path)) {
+        if (is_polygon_picture || is_picture(path)) {
             std::shared_ptr<const Texture>& picture = budget.pictures[path];
             if (picture == nullptr) {
                 Result<Texture> read = read_picture_file(path, budget.left, project);
@@ -409,7 +409,7 @@ Outcome<MeshFiles> read_mesh_files(const std::string& grammar_file,
                 picture = std::make_shared<const Texture>(std::move(read.value()));
             }
             UserMesh& mesh =
-                files.meshes.emplace_back(is_of_polygons ? UserMesh{} : card_of(*picture));
+                files.meshes.emplace_back(is_polygon_picture ? UserMesh{} : card_of(*picture));
             mesh.picture = picture;
             budget.take(mesh.byte_count());
             files.lengths.resize(bytecode.symbols.size(), 1.0F);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Random draws of placement, and their purposes. The position is the tree's number, or the cell's
-// number for draws of a cell; runtime/base/random.h defines draws.
+// Random draws of placement, and their purposes. The position of a draw is the number of a tree, of
+// a cell or of a step of PoissonDisk; runtime/base/random.h defines draws.
 #pragma once
 
 #include "runtime/base/random.h"

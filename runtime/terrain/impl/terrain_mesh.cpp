@@ -98,7 +98,8 @@ Result<Mesh> make_terrain_mesh(const Terrain& terrain, const TerrainMeshOptions&
             const auto corner = static_cast<std::uint32_t>(row * (columns + 1) + column);
             const std::uint32_t below = corner + options.columns + 1; // the next row, greater z
             std::uint32_t* const to = indices.data() + 6 * (row * columns + column);
-            // Triangles are counter-clockwise seen from above, so an edge along Z precedes an edge along X.
+            // Triangles are counter-clockwise seen from above, so an edge along Z precedes an edge
+            // along X.
             const bool diagonal_at_corner = ((row + column) & 1U) == 0;
             const std::array<std::uint32_t, 6> cell =
                 diagonal_at_corner ? std::array<std::uint32_t, 6>{corner, below,     below + 1,

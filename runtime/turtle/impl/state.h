@@ -82,7 +82,7 @@ struct Turtle::State {
         begin();
     }
 
-    /// The state at the start of a word.
+    /// Sets the state at the start of a word.
     void begin() {
         const Settings& settings = bytecode.settings;
         now = {};
@@ -138,7 +138,7 @@ struct Turtle::State {
     bool place(const Action& action, const float* arguments);
     bool save();
     bool restore();
-    /// Skips a module of a branch that `%` cut off; its `]` restores the turtle.
+    /// Skips a module after a `%` or in a skipped branch; its `]` restores the turtle.
     bool skip(const Action& action);
     bool save_branch(const Action& action, const float* arguments);
     [[nodiscard]] TurtlePlace current_place() const;
@@ -159,7 +159,7 @@ struct Turtle::State {
     void add_colour(float number, double sign);
 
     void note(TurtleFaultKind kind) { note_at(kind, position, code); }
-    /// Notes a fault of the module of this code at `place` in the word.
+    /// Notes a fault of the module at index `place` of the word, whose code is `module`.
     void note_at(TurtleFaultKind kind, std::uint64_t place, Code module);
     /// Notes `count` faults at the end of a word, which belong to no module.
     void note_end(TurtleFaultKind kind, std::uint64_t count) {

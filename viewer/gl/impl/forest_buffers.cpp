@@ -23,7 +23,7 @@ namespace lsys::view {
 
 namespace {
 
-// Bindings in forest.glsl and branch.frag.glsl.
+// Bindings in forest.glsl and branch.vert.glsl.
 constexpr GLuint kBranches = 0;
 constexpr GLuint kTrees = 1;
 constexpr GLuint kForms = 2;
@@ -42,7 +42,7 @@ static_assert(sizeof(Vertex) == 16);
 
 struct MaterialRecord {
     glm::vec3 colour{};
-    std::uint32_t kind = 0; // kTextured, kTranslucent, kBumpy
+    std::uint32_t kind = 0; // kTextured, kTranslucent, kBumpy; from bit 8 on: translucency in 1/256
 };
 static_assert(sizeof(MaterialRecord) == 16);
 constexpr std::uint32_t kTextured = 1; // bits in branch.frag.glsl
@@ -52,7 +52,7 @@ constexpr unsigned kTranslucencyShift = 8;
 
 struct FormRecord {
     glm::vec4 cylinder{};
-    glm::vec4 pictures{};
+    glm::vec4 layers{};
 };
 
 struct TreeRecord {
@@ -63,7 +63,7 @@ struct TreeRecord {
 };
 static_assert(sizeof(TreeRecord) == 24);
 
-/// Spare records for added trees; beyond them the buffer is copied on the device.
+/// Spare records for added trees; when they are used up, the buffer is copied on the device.
 constexpr std::size_t kRoomForTrees = std::size_t{1} << 14U;
 
 TreeRecord record_of(const LodTree& tree, const Tree& full) {
@@ -105,7 +105,7 @@ std::vector<std::uint16_t> add_materials(const std::vector<Material>& materials,
     for (const Material& material : materials) {
         MaterialRecord record;
         record.colour = glm::vec3(material.colour);
-        // Leaves, petals, and two-sided meshes from files, which are mostly leaves.
+        // Thin: leaves, petals, and two-sided meshes from files, which are mostly leaves.
         const bool is_thin = material.two_sided || material.kind == MaterialKind::Leaf ||
                              material.kind == MaterialKind::Flower;
         const auto translucency = static_cast<std::uint32_t>(translucency_step(material, is_thin));

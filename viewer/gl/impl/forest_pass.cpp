@@ -215,7 +215,7 @@ void ForestPass::draw_impostors(std::span<const ImpostorEntry> trees, FrameStats
     }
     quad_trees_.fill(trees);
     // Depth pass first: most of a quad is empty and lighting is expensive, so light only visible
-    // texels. A software renderer keeps shading after `discard`.
+    // texels. A software renderer continues to shade after `discard`.
     glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
     const auto whole = static_cast<std::size_t>(
         std::partition_point(trees.begin(), trees.end(),

@@ -17,7 +17,7 @@ constexpr std::array<Attribute, 4> kAttributes = {{{0, 3}, {1, 3}, {2, 2}, {3, 4
 // Uniforms and bindings of mesh.frag.glsl.
 constexpr GLint kColour = 0;
 constexpr GLint kKind = 1;
-constexpr GLint kFirstTriangle = 2; // of pick.frag.glsl
+constexpr GLint kFirstTriangle = 2; // in pick.frag.glsl
 constexpr GLuint kBaseTexture = 1;
 constexpr GLuint kNormalTexture = 2;
 
@@ -98,7 +98,7 @@ std::uint64_t PlantMesh::draw(MaterialTextures& textures, Pass pass) const {
             glBindTextureUnit(kNormalTexture, relief ? relief.name() : textures.bark_normals());
         }
         (material.two_sided ? glDisable : glEnable)(GL_CULL_FACE);
-        // Draw calls count in 31 bits, in whole triangles.
+        // A draw call has at most 31 bits for its count of indices; each draws whole triangles.
         constexpr std::uint64_t kMax = std::numeric_limits<GLsizei>::max() / 3 * std::uint64_t{3};
         for (std::uint64_t first = 0; first < part.index_count; first += kMax) {
             const std::uint64_t count = std::min(part.index_count - first, kMax);
