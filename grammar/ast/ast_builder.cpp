@@ -313,7 +313,7 @@ void AstBuilder::recover() {
 
 /// Returns whether 32-bit ids suffice for one more statement, which has fewer than 2^31 nodes of
 /// each kind; reports a grammar that is too large.
-bool AstBuilder::has_room(SourceSpan span) {
+bool AstBuilder::check_room(SourceSpan span) {
     constexpr std::size_t kMaxNodes = std::size_t{1} << 31;
     const std::size_t max_count =
         std::max({ast_.expressions.size(), ast_.expression_lists.size(), ast_.modules.size(),
@@ -330,7 +330,7 @@ void AstBuilder::mark_incomplete() {
 }
 
 bool AstBuilder::finish_statement(SourceSpan span, bool keep) {
-    const bool kept = keep && !is_discarded_ && has_room(span);
+    const bool kept = keep && !is_discarded_ && check_room(span);
     if (!kept) {
         rollback();
         ast_.incomplete = true;

@@ -159,7 +159,7 @@ private:
     ExpressionId add(const Expression& expression);
     ListRange take_arguments(std::uint32_t count);
     [[nodiscard]] ListRange new_set_values() const;
-    [[nodiscard]] bool has_room(SourceSpan span);
+    [[nodiscard]] bool check_room(SourceSpan span);
     void rollback();
     void begin_node(StatementKind kind, std::size_t index);
     void push_module(NameId name, TextRange text);

@@ -60,7 +60,7 @@ private:
         SourceSpan span;
     };
     [[nodiscard]] const Part& part_at(std::uint32_t offset) const;
-    [[nodiscard]] bool has_room(std::string_view text, SourceSpan span);
+    [[nodiscard]] bool claim_room(std::string_view text, SourceSpan span);
 
     FileId file_;
     std::uint64_t max_bytes_ = 0;

@@ -213,7 +213,7 @@ void render_all(const Diagnostics& diagnostics,
         return;
     }
     if (options.format == MessageFormat::Json) {
-        rendering::append_json_rest(rest[2], rest[1], rest[0], out);
+        rendering::append_json_omitted(rest[2], rest[1], rest[0], out);
     } else {
         out += options.program;
         out += ": " + describe_omitted(rest) + '\n';

@@ -31,9 +31,9 @@ enum class ExportFormat : std::uint8_t {
 /// Where a format stores the textures of materials.
 enum class ExportPictures : std::uint8_t {
     None,
-    Inside,           // embedded in the file; readers multiply them by the colour of the material
-    FilesWithRelief,  // files with the colour of the material; relief of bark as normal maps
-    FilesWithOpacity, // as FilesWithRelief; opacity of leaves in further files
+    Inside, // embedded in the file; readers multiply them by the colour of the material
+    FilesWithNormalMaps, // files with the colour of the material; relief of bark as normal maps
+    FilesWithOpacity,    // as FilesWithNormalMaps; opacity of leaves in further files
 };
 
 /// Axis of a file that points away from the ground. Z: a point (x, y, z) of the mesh is at

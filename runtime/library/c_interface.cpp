@@ -238,7 +238,7 @@ lsys_status lsys_export(const lsys_plant* plant,
                         void* user,
                         const lsys_project* project,
                         lsys_messages** messages) {
-    return call_alone(
+    return call_without_value(
         [&] {
             return api::export_plant(plant->value, mesh->value, format, piece_writer(write, user),
                                      {}, project_of(project));

@@ -18,11 +18,11 @@ struct Material;
 
 /// The look of a colour index. Unset members keep the built-in look.
 struct Look {
-    std::optional<glm::vec3> colour;                  // linear
-    std::shared_ptr<const Texture> picture = nullptr; // multiplied by the colour
-    std::shared_ptr<const Texture> relief = nullptr;  // normals, as bark_normals()
-    std::optional<float> roughness;                   // 0 to 1
-    std::optional<float> translucency;                // 0 to 1
+    std::optional<glm::vec3> colour;                     // linear
+    std::shared_ptr<const Texture> picture = nullptr;    // multiplied by the colour
+    std::shared_ptr<const Texture> normal_map = nullptr; // normals, as bark_normals()
+    std::optional<float> roughness;                      // 0 to 1
+    std::optional<float> translucency;                   // 0 to 1
     std::optional<bool> two_sided;
 };
 

@@ -25,7 +25,7 @@ std::vector<FilePictures> pictures_of(const Skeleton& skeleton,
     names.resize(user_meshes.size());
     std::vector<FilePictures> pictures;
     for (std::size_t i = 0; i < user_meshes.size(); ++i) {
-        pictures.push_back({user_meshes[i].picture, user_meshes[i].relief, names[i]});
+        pictures.push_back({user_meshes[i].picture, user_meshes[i].normal_map, names[i]});
     }
     return pictures;
 }

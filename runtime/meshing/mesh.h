@@ -35,9 +35,9 @@ struct Material {
     bool two_sided = false;
     bool cut_out = false;  // texels below half opacity are discarded
     bool textured = false; // by `picture` or, if that is null, material_texture(kind)
-    std::shared_ptr<const Texture> picture = nullptr; // of a file; multiplied by the colour
-    std::shared_ptr<const Texture> relief = nullptr;  // normals of a file, as bark_normals()
-    std::optional<float> roughness = std::nullopt;    // unset: the roughness of the kind
+    std::shared_ptr<const Texture> picture = nullptr;    // of a file; multiplied by the colour
+    std::shared_ptr<const Texture> normal_map = nullptr; // normals of a file, as bark_normals()
+    std::optional<float> roughness = std::nullopt;       // unset: the roughness of the kind
     std::optional<float> translucency = std::nullopt; // 0 to 1; unset: the viewer chooses by kind
 };
 
@@ -146,7 +146,7 @@ struct UserMesh {
     std::vector<ObjName> libraries; // its material files (mtllib)
     std::vector<ObjName> materials; // of its faces, in order of first use; no name: no material
     std::shared_ptr<const Texture> picture;         // of the whole mesh; may be null
-    std::shared_ptr<const Texture> relief;          // normals of the whole mesh; may be null
+    std::shared_ptr<const Texture> normal_map;      // normals of the whole mesh; may be null
     std::vector<std::string> files;                 // files tried to find the picture
     [[nodiscard]] float length() const;             // max y, at least 0
     [[nodiscard]] std::uint64_t byte_count() const; // in memory, without the picture

@@ -505,9 +505,9 @@ ObjName* map_of(std::string_view keyword, MaterialPicture& material) {
     if (keyword == "map_d") {
         return &material.opacity;
     }
-    const bool is_relief =
+    const bool is_normal_map =
         keyword == "map_Bump" || keyword == "map_bump" || keyword == "bump" || keyword == "norm";
-    return is_relief ? &material.relief : nullptr;
+    return is_normal_map ? &material.normal_map : nullptr;
 }
 
 /// The number written as `word`; 1 if it is not a number.
@@ -560,7 +560,7 @@ std::unordered_map<std::string, MaterialPicture> pictures_of(std::string_view mt
             // Options precede the name: a keyword, then its numbers or another word.
             while (begin < last && mtl[begin] == '-') {
                 const std::string_view option = next_word();
-                if (option == "-bm" && file == &material->relief) {
+                if (option == "-bm" && file == &material->normal_map) {
                     material->bump = number_of(next_word());
                     skip_blanks();
                     continue;

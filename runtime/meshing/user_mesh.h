@@ -25,7 +25,7 @@ struct MaterialPicture {
     bool has_options = false; // an option other than -bm stands before a name
     ObjName file;             // of map_Kd
     ObjName opacity;          // of map_d
-    ObjName relief;           // of map_Bump, bump or norm
+    ObjName normal_map;       // of map_Bump, bump or norm
     float bump = 1.0F;        // factor of the heights of map_Bump, by -bm
 };
 /// Pictures of the materials `wanted`, by material name; without materials missing in `mtl`.

@@ -461,8 +461,9 @@ grow_species(const LoadedScene& loaded, const Project& project, const PreviousFo
                 const bool is_new =
                     mesh.picture != nullptr && known_pictures.insert(mesh.picture.get()).second;
                 budget.take(mesh.byte_count() + (is_new ? mesh.picture->texels.size() : 0));
-                if (mesh.relief != nullptr && known_pictures.insert(mesh.relief.get()).second) {
-                    budget.take(mesh.relief->texels.size());
+                if (mesh.normal_map != nullptr &&
+                    known_pictures.insert(mesh.normal_map.get()).second) {
+                    budget.take(mesh.normal_map->texels.size());
                 }
             }
             continue;

@@ -89,7 +89,7 @@ predict_counts(const Bytecode& bytecode, std::uint32_t generations, const Limits
     return counts;
 }
 
-std::vector<double> expect_modules(const Bytecode& bytecode, std::uint32_t generations) {
+std::vector<double> predict_expected_modules(const Bytecode& bytecode, std::uint32_t generations) {
     if (!is_small(bytecode)) {
         return {};
     }

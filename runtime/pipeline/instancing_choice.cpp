@@ -82,7 +82,7 @@ public:
     Outcome<void> run(std::uint64_t budget, std::uint64_t max_bytes) {
         Step step(project_);
         const SceneSpecies& species = one_species_.scene.species.front();
-        const WrittenInstancing& written = species.written;
+        const ExplicitInstancing& written = species.explicit_instancing;
         const std::vector<float> rhos =
             written.rho ? std::vector{species.rho} : std::vector(kRhos.begin(), kRhos.end());
         const std::vector<std::uint32_t> heroes = written.heroes
@@ -219,7 +219,7 @@ place_trees_of(const LoadedScene& loaded, const Project& project, std::vector<bo
     cheap.scene.goal = {};
     for (SceneSpecies& species : cheap.scene.species) {
         species.cache.heroes = 1; // with one hero there are no notes on variety
-        species.rho = species.written.rho ? species.rho : 0.0F;
+        species.rho = species.explicit_instancing.rho ? species.rho : 0.0F;
     }
     Step quiet(project); // its messages are dropped, since growing the forest repeats them
     GrownForest grown;

@@ -150,7 +150,7 @@ void report_progress(const Bytecode& bytecode,
     if (!project.host.progress) {
         return;
     }
-    expected = expect_modules(bytecode, derive.generations);
+    expected = predict_expected_modules(bytecode, derive.generations);
     derive.progress = [&expected, &project, generations = derive.generations](
                           std::uint32_t generation, std::uint64_t modules) {
         project.host.progress({generation, generations, modules, expected});

@@ -73,7 +73,7 @@ public:
     [[nodiscard]] ForestPlant
     seedling(std::uint32_t number, std::uint16_t species, glm::vec2 place) const {
         const SpeciesGrowth& growth = options_.species[species].growth;
-        const PhiloxBlock words = placement_draws(options_.key, number, kLooksBlock);
+        const PhiloxBlock words = placement_draws(options_.key, number, kAppearanceBlock);
         ForestPlant plant;
         plant.place = place;
         plant.vigour = 1.0F - growth.vigour_spread * unit_interval(words[3]);

@@ -76,7 +76,7 @@ struct InstancingGoal {
 };
 
 /// Whether the scene or command line sets a value; choose_instancing() keeps values that are set.
-struct WrittenInstancing {
+struct ExplicitInstancing {
     bool heroes = false;
     bool rho = false;
     bool cap = false;
@@ -98,7 +98,7 @@ struct SceneSpecies {
     std::optional<StageStart> start; // none: First with domination, else Random
     float rho = kSceneRho;
     CacheOptions cache; // only heroes, seed, cap and tolerance are set
-    WrittenInstancing written;
+    ExplicitInstancing explicit_instancing;
     SourceSpan span;        // place of `[[species]]`
     SourceSpan height_span; // place of the value of `height`; kNoFile: none
 };

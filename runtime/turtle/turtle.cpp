@@ -35,7 +35,7 @@ Turtle::State::quick_forward(const Action& action, const float* arguments, Pose&
         if (origins.size() == items.size()) {
             return true;
         }
-        if (!has_room(origins)) {
+        if (!make_room(origins)) {
             return false;
         }
         origins.push_back(each);

@@ -317,8 +317,8 @@ void ForestView::picture_shown(double draw_seconds) {
         "loaded {}: {} trees of {} species, {:.0f} ms; changed after {:.0f} ms, seen {:.0f} ms "
         "after the change",
         file(), painting_.tree_count(), document_->scene.species.size(),
-        kMilliseconds * stats_.make_seconds, kMilliseconds * stats_.swap_seconds,
-        kMilliseconds * stats_.shown_seconds));
+        kMillisecondsPerSecond * stats_.make_seconds, kMillisecondsPerSecond * stats_.swap_seconds,
+        kMillisecondsPerSecond * stats_.shown_seconds));
 }
 
 bool ForestView::plays_smoothly() const {

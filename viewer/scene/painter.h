@@ -74,10 +74,10 @@ public:
 
     /// All changes, as a scene file stores them.
     [[nodiscard]] Painting painting() const;
-    /// Whether painting() differs from its value at the last saved(), or at the start.
+    /// Whether painting() differs from its value at the last mark_saved(), or at the start.
     [[nodiscard]] bool is_changed() const { return done_ != saved_; }
     /// Marks painting() as saved.
-    void saved() { saved_ = done_; }
+    void mark_saved() { saved_ = done_; }
     /// Marks the initial painting as not saved.
     void set_unsaved() { saved_ = kNone; }
 

@@ -120,7 +120,7 @@ void write_rules(const CareyFile& file,
     std::map<std::string, std::size_t> turns; // index of each left side, in file order
     std::vector<std::string> left_sides;
     for (const CareyRule& rule : file.rules) {
-        left_sides.push_back(without_blanks(context.sources.text(rule.left)));
+        left_sides.push_back(remove_blanks(context.sources.text(rule.left)));
         ++alternatives[left_sides.back()];
         turns.emplace(left_sides.back(), turns.size());
     }
@@ -158,7 +158,7 @@ void translate_carey(const DialectRow& row, const ParseContext& context, Transla
     bool any_choice = false;
     for (const CareyRule& rule : file.rules) {
         const bool is_new =
-            left_sides.insert(without_blanks(context.sources.text(rule.left))).second;
+            left_sides.insert(remove_blanks(context.sources.text(rule.left))).second;
         any_choice = any_choice || !is_new;
     }
     const LeftParameters parameters = find_left_parameters(file, context);

@@ -153,7 +153,7 @@ bool is_percent_sign(const ParseSession& session) {
            ends_percentage(text, session.scan.begin);
 }
 
-bool is_unit(ParseSession& session, std::string_view word) {
+bool report_unit_word(ParseSession& session, std::string_view word) {
     const ScanState& scan = session.scan;
     const std::string_view text = session.scanned.text;
     const Unit* const unit = find_unit(word);
@@ -222,7 +222,7 @@ Token foreign_value(ParseSession& session, std::string_view text) {
     return Token(Parser::token::TOK_BAD_VALUE, span);
 }
 
-bool is_compound_assignment(ParseSession& session) {
+bool report_compound_assignment(ParseSession& session) {
     const ScanState& scan = session.scan;
     const std::string_view text = session.scanned.text;
     const char before = scan.begin == 0 ? '\0' : text[scan.begin - 1];
@@ -713,7 +713,7 @@ void report_wrong_operator(ParseSession& session, std::string_view right) {
             text != "**");
 }
 
-bool is_word_for_operator(ParseSession& session, std::string_view word) {
+bool report_word_for_operator(ParseSession& session, std::string_view word) {
     const ScanState& scan = session.scan;
     if (!scan.value_before || (word != "and" && word != "or")) {
         return false;
@@ -736,7 +736,7 @@ bool is_word_for_operator(ParseSession& session, std::string_view word) {
     return true;
 }
 
-bool is_word_for_not(ParseSession& session, std::string_view word) {
+bool report_word_for_not(ParseSession& session, std::string_view word) {
     const ScanState& scan = session.scan;
     if (scan.value_before || word != "not") {
         return false;

@@ -35,9 +35,9 @@ Token nesting_operator(ParseSession& session, Token::Kind token);
 
 /// Reports `and` or `or` between two values, in place of an operator. Returns whether the current
 /// name is one.
-bool is_word_for_operator(ParseSession& session, std::string_view word);
+bool report_word_for_operator(ParseSession& session, std::string_view word);
 /// Reports a `not` before a value, in place of `!`. Returns whether the current name is one.
-bool is_word_for_not(ParseSession& session, std::string_view word);
+bool report_word_for_not(ParseSession& session, std::string_view word);
 void report_split_operator(ParseSession& session, std::string_view text);
 void report_wrong_operator(ParseSession& session, std::string_view right);
 void report_remainder_operator(ParseSession& session);
@@ -48,12 +48,12 @@ void report_named_argument(ParseSession& session);
 /// Whether the current `%` ends a percentage, which its number has reported.
 [[nodiscard]] bool is_percent_sign(const ParseSession& session);
 /// Reports a unit of measure after a number. Returns whether the current word is one.
-[[nodiscard]] bool is_unit(ParseSession& session, std::string_view word);
+[[nodiscard]] bool report_unit_word(ParseSession& session, std::string_view word);
 /// Reports a variable or channel of another program, `$F` or `ch("angle")`; returns the token of a
 /// bad value.
 [[nodiscard]] Token foreign_value(ParseSession& session, std::string_view text);
 /// Reports `+=` and similar operators. Returns whether the current `=` belongs to one.
-[[nodiscard]] bool is_compound_assignment(ParseSession& session);
+[[nodiscard]] bool report_compound_assignment(ParseSession& session);
 /// Reports a back quote in an expression.
 void report_quoted_expression(ParseSession& session);
 /// Reports a `#` within an expression or setting.

@@ -154,7 +154,7 @@ bool is_before_statement(const ParseSession& session) {
 
 } // namespace
 
-bool is_after_likely_comment(ParseSession& session) {
+bool report_likely_comment(ParseSession& session) {
     const std::optional<std::uint32_t> slashes = comment_before(session);
     if (slashes && session.wants_reports()) {
         const std::string_view all = session.scanned.text;
@@ -170,7 +170,7 @@ StrayHandling report_stray_in_modules(ParseSession& session, std::string_view te
     const char first = text[0];
     const ScanState& scan = session.scan;
     const bool has_modules = scan.part == Part::Successor || scan.part == Part::Axiom;
-    if (has_modules && is_after_likely_comment(session)) {
+    if (has_modules && report_likely_comment(session)) {
         return StrayHandling::Skip;
     }
     if (scan.part == Part::Head) {
@@ -311,7 +311,7 @@ StrayHandling report_extra_parenthesis(ParseSession& session) {
     return StrayHandling::Skip;
 }
 
-bool is_colour_symbol(ParseSession& session) {
+bool report_colour_symbol(ParseSession& session) {
     const ScanState& scan = session.scan;
     if ((scan.part != Part::Successor && scan.part != Part::Axiom) || scan.skipping ||
         !scan.open.empty() || next_character(session.scanned.text, scan.end) != '(') {

@@ -28,12 +28,12 @@ Token read_as_module(ParseSession& session, std::string_view name);
 void report_foreign_symbol(ParseSession& session, char symbol);
 /// Reports a `//` before the current character on its line that looks like a comment. Returns
 /// whether there is one.
-bool is_after_likely_comment(ParseSession& session);
+bool report_likely_comment(ParseSession& session);
 /// Reports one or more `)` without `(`; returns their handling.
 StrayHandling report_extra_parenthesis(ParseSession& session);
 /// Reports a `;` that sets the colour in cpfg and L-Py, as in `;(0.9)`. Returns whether the current
 /// `;` is one.
-bool is_colour_symbol(ParseSession& session);
+bool report_colour_symbol(ParseSession& session);
 
 /// Reports control characters in a text whose characters are modules; `text` includes the quotes.
 void check_quoted_text(ParseSession& session, std::string_view text);

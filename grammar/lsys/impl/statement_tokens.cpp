@@ -287,7 +287,7 @@ Token start(ParseSession& session, std::string_view word) {
 
 } // namespace
 
-bool is_hash_comment(ParseSession& session, std::string_view text) {
+bool report_hash_comment(ParseSession& session, std::string_view text) {
     const ScanState& scan = session.scan;
     const std::size_t name_begin = text.find_first_not_of(" \t", 1);
     const std::string_view word = text.substr(name_begin);
@@ -471,7 +471,7 @@ std::optional<Token> missing_opening(ParseSession& session) {
     return Token(Parser::token::TOK_COLON, place).as_inserted();
 }
 
-bool is_needless_sign(ParseSession& session) {
+bool report_needless_sign(ParseSession& session) {
     ScanState& scan = session.scan;
     const bool takes_none = scan.keyword == Keyword::Define || scan.keyword == Keyword::Param ||
                             scan.keyword == Keyword::Function || scan.keyword == Keyword::Curve ||
@@ -494,7 +494,7 @@ bool is_needless_sign(ParseSession& session) {
     return true;
 }
 
-bool is_doubled_colon(ParseSession& session) {
+bool report_doubled_colon(ParseSession& session) {
     ScanState& scan = session.scan;
     const std::string_view text = session.scanned.text;
     const std::uint32_t wanted = scan.part == Part::Axiom || scan.part == Part::Ignored ? 1u
@@ -573,7 +573,7 @@ Token colon_after_modules(ParseSession& session) {
     const bool ends_line = rest.find_first_not_of(" \t\r") == std::string_view::npos;
     // At the end of a line the `:` may be a mistyped `;`.
     if ((scan.part == Part::Successor || scan.part == Part::Axiom) && !ends_line &&
-        is_after_likely_comment(session)) {
+        report_likely_comment(session)) {
         return discard_statement(session);
     }
     if (session.wants(DiagnosticCode::ExtraColon) &&

@@ -13,7 +13,7 @@ namespace lsys::lsys_grammar {
 
 /// Reports a `# word` that begins a comment, as in other languages. Returns whether the current
 /// match does.
-bool is_hash_comment(ParseSession& session, std::string_view text);
+bool report_hash_comment(ParseSession& session, std::string_view text);
 /// The first token of a statement, `#word`.
 Token start_statement(ParseSession& session, std::string_view text);
 /// The first token of a statement without `#`. It begins with `word`, or with a symbol if `word` is
@@ -31,11 +31,11 @@ Token opening_sign(ParseSession& session);
 std::optional<Token> missing_opening(ParseSession& session);
 /// Reports a superfluous `=` or `:`, as in `#define NAME = 3;`. Returns whether the current
 /// character is one.
-bool is_needless_sign(ParseSession& session);
+bool report_needless_sign(ParseSession& session);
 
 /// Reports a `:` that repeats the one before it in a statement with too many. Returns whether the
 /// current `:` does.
-bool is_doubled_colon(ParseSession& session);
+bool report_doubled_colon(ParseSession& session);
 Token colon_after_modules(ParseSession& session);
 /// The current token if it is `let`, a name, `=` or `,` of local values outside of their
 /// expressions.

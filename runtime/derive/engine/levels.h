@@ -110,7 +110,7 @@ private:
 
     [[nodiscard]] bool add_level();
     [[nodiscard]] bool descend(std::uint64_t index);
-    [[nodiscard]] bool is_decomposed(std::uint64_t index);
+    [[nodiscard]] bool check_decomposed(std::uint64_t index);
     [[nodiscard]] bool emit(Level& level);
     void pass_down(Level& level, Level& below);
     void prune(std::uint64_t index);

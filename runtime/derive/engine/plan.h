@@ -219,7 +219,7 @@ public:
     }
     /// Distance from a module to the first one that its right guard may check.
     [[nodiscard]] std::uint32_t guard_distance() const {
-        return parallel_ ? 1 : active_.predecessor_count;
+        return families_by_symbol_ ? 1 : active_.predecessor_count;
     }
     /// First symbol of the predecessor of `rule`.
     [[nodiscard]] SymbolId first_symbol(std::uint32_t rule) const;
@@ -314,7 +314,7 @@ private:
     PlanInputs inputs_;
     bool each_generation_;
     TableRange productions_;
-    bool parallel_; // a family holds all productions of its symbol
+    bool families_by_symbol_; // a family holds all productions of its symbol
     std::uint32_t generation_ = 0;
     std::optional<GlibcRuleDraws> glibc_draws_; // with `random glibc`
 

@@ -256,7 +256,8 @@ Outcome<void> write_forest_usdz(const ForestExportJob& job, PieceWriter& out) {
     return write_usdz_archive(
         {ExportSubject::Forest, "forest.usda",
          [&forest](PieceWriter& layer) { forest.write(layer); },
-         find_pictures(forest.material_samples(), ExportPictures::FilesWithRelief, pictures).list,
+         find_pictures(forest.material_samples(), ExportPictures::FilesWithNormalMaps, pictures)
+             .list,
          info.threads},
         out);
 }

@@ -21,7 +21,8 @@ constexpr std::uint32_t kUnused = ~std::uint32_t{0};
 bool differ_in_colour_only(const Material& a, const Material& b) {
     return a.kind == b.kind && a.colour.a == b.colour.a && a.two_sided == b.two_sided &&
            a.cut_out == b.cut_out && a.textured == b.textured && a.picture == b.picture &&
-           a.relief == b.relief && a.roughness == b.roughness && a.translucency == b.translucency;
+           a.normal_map == b.normal_map && a.roughness == b.roughness &&
+           a.translucency == b.translucency;
 }
 
 bool is_in_range(const glm::vec4& colour) {
@@ -121,9 +122,9 @@ public:
         mesh_.indices.read(drawn.first_index, part.indices);
         order_triangles(part.indices);
         const MaterialPictures& shown = use_.pictures.of_materials[drawn.material];
-        textured_ = (shown.colour || shown.relief || use_.segments) &&
+        textured_ = (shown.colour || shown.normal_map || use_.segments) &&
                     is_complete(mesh_, mesh_.texture_coordinates);
-        tangents_ = shown.relief && is_complete(mesh_, mesh_.tangents);
+        tangents_ = shown.normal_map && is_complete(mesh_, mesh_.tangents);
         coloured_ = primitive.colours == GltfColours::Palette;
         std::array<std::uint32_t, kSlots> near; // by hash of the position: number of a vertex
         near.fill(kUnused);

@@ -191,8 +191,8 @@ Outcome<void> write_mtl(const Mesh& mesh, const ExportInfo& info, const ByteSink
             put_map("map_d", shown.opacity);
             // Readers differ: three.js and assimp take normals from `norm`, which hides the heights
             // of `map_Bump`; Blender and Babylon take normals from `map_Bump` and skip `norm`.
-            put_map("norm", shown.relief);
-            put_map("map_Bump", shown.relief);
+            put_map("norm", shown.normal_map);
+            put_map("map_Bump", shown.normal_map);
         }
         return finish(out);
     });

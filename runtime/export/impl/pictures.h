@@ -19,7 +19,7 @@ namespace lsys {
 enum class PictureKind : std::uint8_t {
     Colour,  // with opacity
     Opacity, // in all channels, as readers of MTL differ in the one they use
-    Relief,  // normals
+    NormalMap,
 };
 
 struct Picture {
@@ -34,7 +34,7 @@ struct Picture {
 struct MaterialPictures {
     std::optional<std::size_t> colour;
     std::optional<std::size_t> opacity;
-    std::optional<std::size_t> relief;
+    std::optional<std::size_t> normal_map;
 };
 
 struct Pictures {

@@ -185,7 +185,8 @@ Outcome<void> write_usdz(const ExportJob& job, PieceWriter& out) {
         return write_usdz_archive(
             {info.subject, "plant.usda",
              [&](PieceWriter& layer) { put_layer(inside, motion, layer); },
-             find_pictures(materials, ExportPictures::FilesWithRelief, info).list, info.threads},
+             find_pictures(materials, ExportPictures::FilesWithNormalMaps, info).list,
+             info.threads},
             out);
     });
 }

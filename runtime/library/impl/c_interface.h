@@ -143,7 +143,7 @@ inline auto piece_writer(int (*write)(void* user, const char* piece, std::size_t
 
 /// Calls `work`, ignores its value, and gives its messages to the caller.
 template <typename Work>
-lsys_status call_alone(const Work& work, lsys_messages** messages) noexcept {
+lsys_status call_without_value(const Work& work, lsys_messages** messages) noexcept {
     if (messages != nullptr) {
         *messages = nullptr;
     }

@@ -170,7 +170,7 @@ bool AxisReader::read(Run& run) {
               : at == kForked               ? TubeEnd::Ball
                                             : TubeEnd::Blunt;
     std::optional<CurveStart> start;
-    const bool open = attached_ && begins_in_parent(run, start);
+    const bool open = attached_ && fit_into_parent(run, start);
     run.begin = joints_.front().radius == 0.0F ? TubeEnd::Point
                 : open                         ? TubeEnd::Open
                                                : TubeEnd::Flat;
@@ -184,8 +184,8 @@ bool AxisReader::read(Run& run) {
             std::min(0.05F * static_cast<float>(1U << std::min(options_.level, kMaxLevels)), 0.5F);
         leave_out_joints(joints_, spare_, tolerance, options_.axis_error);
     }
-    const bool has_relief = options_.bark_noise > 0.0F || options_.grooves > 0.0F;
-    if (has_relief) {
+    const bool has_normal_map = options_.bark_noise > 0.0F || options_.grooves > 0.0F;
+    if (has_normal_map) {
         subdivide();
     }
     if (counts_) {
@@ -194,7 +194,7 @@ bool AxisReader::read(Run& run) {
             open ? std::min(joints_.front().radius, max_base_radius_) : joints_.front().radius;
         run.radii = radii_;
     }
-    if (!rings_final_ || counts_ || leaves_out || has_relief) {
+    if (!rings_final_ || counts_ || leaves_out || has_normal_map) {
         set_rings();
     }
     run.joints = joints_;
@@ -261,7 +261,7 @@ bool AxisReader::add_end(const glm::vec3& centre, float radius) {
 }
 
 /// Fits the base into the tube that the axis branches from; returns false if it lies outside.
-bool AxisReader::begins_in_parent(const Run& run, std::optional<CurveStart>& start) {
+bool AxisReader::fit_into_parent(const Run& run, std::optional<CurveStart>& start) {
     const Segment& child = skeleton_.segments[run.first_segment];
     if (child.parent >= run.first_segment) {
         return false;

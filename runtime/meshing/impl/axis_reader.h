@@ -75,7 +75,7 @@ private:
     bool read(Run& run);
     void add(const Segment& segment, float radius);
     bool add_end(const glm::vec3& centre, float radius);
-    bool begins_in_parent(const Run& run, std::optional<CurveStart>& start);
+    bool fit_into_parent(const Run& run, std::optional<CurveStart>& start);
     [[nodiscard]] glm::vec3 tip_tangent(const Segment& segment, std::uint32_t next) const;
     [[nodiscard]] float collar_length(const Segment& parent, float parent_radius) const;
     void add_collar(const Segment& parent, float parent_radius);

@@ -21,7 +21,7 @@ namespace lsys {
 class LinearTextures;
 
 /// Min triangles of an impostor with three cards per direction.
-inline constexpr std::uint64_t kTrianglesOfSlabs = 40;
+inline constexpr std::uint64_t kMinSlabTriangles = 40;
 
 class ImpostorBaker {
 public:
@@ -61,7 +61,7 @@ private:
                                     double cover,
                                     const glm::vec3& tint,
                                     Texture& colour,
-                                    Texture& relief) const;
+                                    Texture& normal_map) const;
 
     [[nodiscard]] std::size_t texels() const {
         return static_cast<std::size_t>(tile_) * static_cast<std::size_t>(tile_);

@@ -279,7 +279,7 @@ std::optional<Stop> MeshBuilder::finish() {
         if (part.material.picture != 0) {
             const FilePictures& pictures = pictures_[part.material.picture - 1U];
             material.picture = pictures.colour;
-            material.relief = pictures.relief;
+            material.normal_map = pictures.normal_map;
             material.name = pictures.name;
         }
         apply_look(mesh_.looks.get(), part.material.palette, material);

@@ -35,7 +35,7 @@ struct MaterialKey {
 /// Pictures of a file; each may be null.
 struct FilePictures {
     std::shared_ptr<const Texture> colour;
-    std::shared_ptr<const Texture> relief;
+    std::shared_ptr<const Texture> normal_map;
     std::string name; // of the material
 };
 

@@ -37,7 +37,8 @@ std::uint64_t key_of(const PlacedObject& object, std::size_t file_count) {
 }
 
 bool shows_pictures(const UserMesh& mesh) {
-    return (mesh.picture != nullptr || mesh.relief != nullptr) && !mesh.texture_coordinates.empty();
+    return (mesh.picture != nullptr || mesh.normal_map != nullptr) &&
+           !mesh.texture_coordinates.empty();
 }
 
 /// Writes one part of a shape for many objects.

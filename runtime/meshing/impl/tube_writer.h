@@ -70,10 +70,10 @@ private:
     void bend(const Joint& before, const Joint& joint, Ring& ring);
     void put_ring(const Ring& ring);
     void put_textured(const Ring& ring, std::uint64_t first);
-    void put_relief(const Ring& ring, std::uint64_t first);
+    void put_normal_map(const Ring& ring, std::uint64_t first);
     void put_tip(const glm::vec3& position, const glm::vec3& normal, const Ring& ring);
     void close(const Run& run, Ring& ring);
-    [[nodiscard]] bool has_relief() const { return noise_ != nullptr || grooves_ != nullptr; }
+    [[nodiscard]] bool has_normal_map() const { return noise_ != nullptr || grooves_ != nullptr; }
     [[nodiscard]] float v_of(double arc) const { return static_cast<float>(-arc * v_scale_); }
 
     MeshBlock block_;

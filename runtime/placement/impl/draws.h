@@ -15,9 +15,9 @@ namespace lsys {
 inline constexpr std::uint32_t kPlacementGeneration = 0xFFFFFFFDu;
 
 /// Blocks whose position is a tree's number.
-inline constexpr std::uint32_t kPlaceBlock = 0; // words: x, z, rank, threshold
-inline constexpr std::uint32_t kLooksBlock = 1; // words: species, yaw, scale, vigour
-inline constexpr std::uint32_t kLifeBlock = 2;  // words: age of death, stage at the start
+inline constexpr std::uint32_t kPlaceBlock = 0;      // words: x, z, rank, threshold
+inline constexpr std::uint32_t kAppearanceBlock = 1; // words: species, yaw, scale, vigour
+inline constexpr std::uint32_t kLifeBlock = 2;       // words: age of death, stage at the start
 /// Blocks kCellBlock to kCellBlock + 3, whose position is a cell's number: the count of places
 /// (UniformCells), or the random order of 16 places (DensityCells).
 inline constexpr std::uint32_t kCellBlock = 8;

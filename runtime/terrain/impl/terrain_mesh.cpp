@@ -118,7 +118,7 @@ Result<Mesh> make_terrain_mesh(const Terrain& terrain, const TerrainMeshOptions&
     ground.colour = tiled ? glm::vec4(1.0F) : glm::vec4(0.055F, 0.07F, 0.025F, 1.0F);
     ground.textured = tiled;
     ground.picture = pictures.colour;
-    ground.relief = tiled ? pictures.normals : nullptr;
+    ground.normal_map = tiled ? pictures.normals : nullptr;
     mesh.materials.push_back(ground);
     mesh.parts.push_back({0, 0, mesh.indices.size()});
     return mesh;

@@ -67,7 +67,7 @@ bool Turtle::State::secondary_forward(const Action& action, const float* argumen
         advance(now.pose, static_cast<double>(now.step));
         polygons.path(now.pose);
         now.moved = true;
-        is_finite = is_finite_pose();
+        is_finite = check_finite_pose();
     }
     now.pose.qw = pose.qw;
     now.pose.qx = pose.qx;

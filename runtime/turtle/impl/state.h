@@ -184,8 +184,8 @@ struct Turtle::State {
     }
     /// Makes room in `items` for one more; otherwise ends the drawing and returns false.
     template <typename Items>
-    bool has_room(Items& items);
-    bool is_finite_pose();
+    bool make_room(Items& items);
+    bool check_finite_pose();
     [[nodiscard]] std::uint16_t order() const {
         constexpr std::size_t kMaxOrder = std::numeric_limits<std::uint16_t>::max();
         return static_cast<std::uint16_t>(std::min(stack.size(), kMaxOrder));
@@ -222,7 +222,7 @@ struct Turtle::State {
 };
 
 template <typename Items>
-bool Turtle::State::has_room(Items& items) {
+bool Turtle::State::make_room(Items& items) {
     if (items.size() < items.capacity()) {
         return true;
     }
@@ -269,7 +269,7 @@ inline float Turtle::State::spring_of(double length, float base_width, float tip
     return cached_spring;
 }
 
-/// Appends the next segment of the path. Precondition: has_room(skeleton.segments).
+/// Appends the next segment of the path. Precondition: make_room(skeleton.segments).
 [[gnu::always_inline]] inline Segment& Turtle::State::put_segment(
     const Pose& base, float length, float base_width, float tip_width, float spring, float mass) {
     const auto index = static_cast<std::uint32_t>(skeleton.segments.size());

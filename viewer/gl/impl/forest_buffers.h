@@ -106,9 +106,9 @@ private:
     /// Pictures of a file on the device.
     struct BranchPicture {
         std::shared_ptr<const Texture> colour_file;
-        std::shared_ptr<const Texture> relief_file;
+        std::shared_ptr<const Texture> normal_map_file;
         TextureObject colour; // empty: the material has only a relief
-        TextureObject relief;
+        TextureObject normal_map;
         bool has_holes = false;
     };
 
