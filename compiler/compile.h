@@ -19,7 +19,7 @@ namespace lsys {
 
 struct CompileOutcome {
     std::optional<Program> program;   // unset after errors, or for CompileOptions::part
-    std::optional<Bytecode> bytecode; // unset as `program`, and without CompileOptions::lower
+    std::optional<Bytecode> bytecode; // unset like `program`, or without CompileOptions::lower
     std::vector<std::string> unknown_definitions; // -D names without a #define or #param
 };
 

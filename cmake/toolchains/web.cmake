@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-# WebAssembly by Emscripten of Debian (emscripten): programs for Node.js, with the files of the machine. Packages come
-# from scripts/cross-packages web.
+# WebAssembly by Emscripten of Debian (emscripten): programs for Node.js that access the files of the machine. Packages
+# come from scripts/cross-packages web.
 set(LSYS_EMSCRIPTEN /usr/share/emscripten)
 include("${LSYS_EMSCRIPTEN}/cmake/Modules/Platform/Emscripten.cmake")
 get_filename_component(LSYS_CROSS "${CMAKE_CURRENT_LIST_DIR}/../../build/cross/web" ABSOLUTE)

@@ -19,7 +19,7 @@
 //   kRunsOneSide                    a constant: whether the condition of every choice is known
 //     bool holds(x)                 if true: whether condition x holds; only that side is run
 //     Value choice(x, y, z)         if false: both sides are run; y if x is not 0, else z
-//     first_side(x), second_side(x) if false: called before either side is run
+//     first_side(x), second_side(x) if false: called with condition x before that side is run
 // `at` points to the instruction being run.
 #pragma once
 

@@ -523,7 +523,7 @@ private:
                 fits = operand < bytecode_.globals.size() && operand < bounds.globals;
                 break;
             case OperandKind::Draw:
-                fits = operand < bounds.draws && is_first_draw(operand);
+                fits = operand < bounds.draws && record_draw(operand);
                 break;
             case OperandKind::Branch:
                 fits = true;
@@ -559,9 +559,9 @@ private:
         return fail("the code at {} has no end", first);
     }
 
-    /// Whether `number` is used for the first time in this word or constant. Numbers of draws that
-    /// constant folding removed stay unused.
-    bool is_first_draw(std::uint32_t number) {
+    /// Records the use of draw `number`. Returns false if this word or constant has used it
+    /// already. Numbers of draws that constant folding removed stay unused.
+    bool record_draw(std::uint32_t number) {
         draw_is_seen_.resize(std::max<std::size_t>(draw_is_seen_.size(), std::size_t{number} + 1));
         const bool is_first = !draw_is_seen_[number];
         draw_is_seen_[number] = true;

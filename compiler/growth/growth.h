@@ -43,17 +43,17 @@ struct GenerationSize {
     Count bytes;      // code width per module, plus 4 per stored parameter
 };
 
-/// Maximum of listed generations; beyond it only the last generation is predicted, if possible.
+/// Max number of listed generations; beyond it only the last one is predicted, if possible.
 inline constexpr std::uint32_t kMaxListedGenerations = 10'000;
 
 /// Bounds low[g] and high[g] of generation g. Lists all requested generations up to
-/// kMaxListedGenerations, and fewer for programs so large that more would take long.
+/// kMaxListedGenerations; large programs list fewer, so that the prediction stays fast.
 struct GrowthPrediction {
     bool exact = false; // low == high for every generation
     std::vector<GenerationSize> low;
     std::vector<GenerationSize> high;
     /// The expected counts of the listed generations. Known for stochastic systems without contexts
-    /// whose conditions have a truth known before the derivation.
+    /// if the truth of all conditions is known before the derivation.
     bool has_expected = false;
     std::vector<double> expected_modules;
     /// The last requested generation, even if it is not listed.
@@ -90,11 +90,11 @@ struct FixedPoint {
     bool is_empty = false; // the word has no modules
 };
 
-/// The limit or the fixed point that the words reach before the requested generation. Neither is set
-/// if growth is not known.
+/// The limit or the fixed point that the words reach before the requested generation. Neither is
+/// set if growth is not known.
 struct GrowthEnd {
-    /// Set if not all requested generations fit. If the axiom is too large, largest_fitting is 0 and
-    /// at_largest is at_next.
+    /// Set if not all requested generations fit. If the axiom is too large, largest_fitting is 0
+    /// and at_largest is at_next.
     std::optional<GrowthLimit> limit;
     /// Set if there is no limit and the word is known to stay the same.
     std::optional<FixedPoint> fixed_point;

@@ -16,7 +16,7 @@ struct Uint128 {
     std::uint64_t low = 0;
 
     constexpr Uint128() = default;
-    // every 64-bit count is also a 128-bit count
+    // Implicit: every 64-bit count is also a 128-bit count.
     constexpr Uint128(std::uint64_t value) : low(value) {}
     constexpr Uint128(std::uint64_t upper, std::uint64_t lower) : high(upper), low(lower) {}
 

@@ -107,7 +107,7 @@ private:
 
     /// Whether the local values need code: one of them is used and is not a leaf, or draws a random
     /// number, which may be a run-time error.
-    bool has_needed(std::span<const LocalValue> locals) {
+    bool needs_code(std::span<const LocalValue> locals) {
         return std::any_of(locals.begin(), locals.end(), [&](const LocalValue& local) {
             bool draws = false;
             for_each_value(program_, {local.value}, [&](ValueId, const Value& value) {
@@ -143,7 +143,7 @@ private:
         });
         places_.word(word, word_template.codes.first);
         word_template.parameter_count = static_cast<std::uint32_t>(stored_arguments_.size());
-        if (has_needed(locals)) {
+        if (needs_code(locals)) {
             word_template.locals = emitter_.locals(locals);
         }
         if (!stored_arguments_.empty()) {

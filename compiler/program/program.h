@@ -143,7 +143,7 @@ struct Global {
     NameId name = kNoName;
     SourceSpan span;
     ValueId value = kNoValue;
-    std::uint32_t draw_position = 0; // index of its first draw among those of #define, #param, #w
+    std::uint32_t draw_position = 0; // index of its first draw among all of #define, #param, #w
     std::uint32_t draw_count = 0;
     bool has_bounds = false;
     float minimum = 0.0F;
@@ -300,7 +300,7 @@ void for_each_value(const Program& program, std::vector<ValueId> roots, Visit&& 
 [[nodiscard]] std::vector<ValueId> expressions_of(const Program& program,
                                                   const Production& production);
 
-/// Per symbol: the productions whose predecessor contains it, each once.
+/// Per symbol: the productions whose predecessor contains it, once per occurrence.
 [[nodiscard]] GroupedLists rewriters_of(const Program& program);
 /// Per symbol: the productions whose successor contains it, each once.
 [[nodiscard]] GroupedLists writers_of(const Program& program);

@@ -29,7 +29,7 @@ constexpr Commands<(sizes + ...)> joined(const Commands<sizes>&... tables) {
     return rows;
 }
 
-/// Rows with parameters other than those of their operation in turtle_operations.def.
+/// Rows whose parameters differ from the row of their operation in turtle_operations.def.
 constexpr TurtleCommand bare(std::string_view name, TurtleOperation operation) {
     return {name, operation, 0, ""};
 }
@@ -134,7 +134,7 @@ constexpr auto kSys = joined(commands({{"F", TaperedForward},
                                        {"|", TurnAround}}),
                              kPolygons);
 
-// Fractint's turtle in the plane: `F G + - |` use a heading of whole angles, `D M \\ /` a second
+// Fractint's turtle in the plane: `F G + - |` use a heading of whole angles, `D M \ /` a second
 // heading.
 constexpr auto kFractint = joined(commands({bare("F", Forward),
                                             bare("G", Move),
@@ -187,13 +187,13 @@ constexpr std::array<TurtleObject, 9> kObjects{{
     {"CUBE", Cube},
     {"DISK", Disk},
 }};
-/// Whether #object can name the operation, if the operation places an object. Mesh files need no
-/// name.
-constexpr bool is_bound(TurtleOperation operation) {
+/// Whether #object has a name for an operation that places an object. True for operations that need
+/// no name: mesh files, and operations without an object.
+constexpr bool has_name_if_object(TurtleOperation operation) {
     return info(operation).drawn != DrawnKind::Object || operation == MeshFile ||
            std::ranges::find(kObjects, operation, &TurtleObject::operation) != kObjects.end();
 }
-static_assert(std::ranges::all_of(enumerators_of<TurtleOperation>(), is_bound),
+static_assert(std::ranges::all_of(enumerators_of<TurtleOperation>(), has_name_if_object),
               "an operation that places an object has no name for #object");
 
 bool has_polygons(TurtleProfile profile) {

@@ -46,8 +46,9 @@ struct TurtleCommand {
 [[nodiscard]] TurtleOperation operation_of(const TurtleCommand& command,
                                            std::uint32_t parameter_count);
 
-/// Whether `name` is a bracket or polygon module: `[ ]` in every profile, `{ } .` in all but those
-/// of L3D, which has no polygons. These take no parameters and cannot be bound by #object.
+/// Whether `name` is a bracket or polygon module: `[ ]` in every profile, `{ } .` in profiles with
+/// polygons (all except the profiles of L3D and Fractint). These modules take no parameters, and
+/// #object cannot bind them, except `{` to a picture.
 [[nodiscard]] bool is_structural(TurtleProfile profile, std::string_view name);
 /// Whether a module of this name takes no parameters (docs/language.md section 3).
 [[nodiscard]] bool takes_no_parameters(std::string_view name);

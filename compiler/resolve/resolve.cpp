@@ -150,7 +150,7 @@ public:
         check_missing();
     }
 
-    /// Reads the numbers of `#set` statements that replace those of the grammar, after all
+    /// Reads the numbers of `#set` statements that replace settings of the grammar, after all
     /// constants of the grammar are known.
     void replace(SetResolver& settings, Resolution& replacing) {
         ExpressionResolver expressions(replacing, values_, constants_);

@@ -218,7 +218,7 @@ struct SetValue {
     SourceSpan span;      // includes the quotes of a file name
     bool is_word = false; // a mode, a profile or a constant; a key of a #material
     NameId word = kNoName;
-    ExpressionId value = kNoExpression; // unless it is a word or a file
+    ExpressionId value = kNoExpression; // kNoExpression for a word or a file
     bool is_file = false;               // `word` is a file name; in a #material only
 };
 

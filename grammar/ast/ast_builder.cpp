@@ -233,7 +233,7 @@ void AstBuilder::set_file(NameId path, SourceSpan span) {
     ast_.set_values.push_back({span, false, path, kNoExpression, true});
 }
 
-/// The values since the last statement.
+/// The set values added since the last statement.
 ListRange AstBuilder::new_set_values() const {
     const auto first = static_cast<std::uint32_t>(watermark_.set_values);
     return {first, static_cast<std::uint32_t>(ast_.set_values.size()) - first};
@@ -311,9 +311,9 @@ void AstBuilder::recover() {
     arguments_.clear();
 }
 
-/// Whether 32-bit ids suffice for one more statement, which has less than 2^31 nodes of each kind;
-/// reports if not.
-bool AstBuilder::has_room(SourceSpan span) {
+/// Returns whether 32-bit ids suffice for one more statement, which has fewer than 2^31 nodes of
+/// each kind; reports a grammar that is too large.
+bool AstBuilder::check_room(SourceSpan span) {
     constexpr std::size_t kMaxNodes = std::size_t{1} << 31;
     const std::size_t max_count =
         std::max({ast_.expressions.size(), ast_.expression_lists.size(), ast_.modules.size(),
@@ -330,7 +330,7 @@ void AstBuilder::mark_incomplete() {
 }
 
 bool AstBuilder::finish_statement(SourceSpan span, bool keep) {
-    const bool kept = keep && !is_discarded_ && has_room(span);
+    const bool kept = keep && !is_discarded_ && check_room(span);
     if (!kept) {
         rollback();
         ast_.incomplete = true;

@@ -127,13 +127,14 @@ public:
     void mark_incomplete();
     /// Lets finish_statement() roll the current statement back.
     void discard_statement() { is_discarded_ = true; }
-    /// Discards the current statement and its open arguments; the parser continues inside the statement.
+    /// Discards the current statement and its open arguments; the parser continues inside the
+    /// statement.
     void recover();
 
     /// Ends the current statement: keeps its nodes, or rolls them back and marks the Ast as
     /// incomplete. Returns whether it was kept.
     bool finish_statement(SourceSpan span, bool keep);
-    /// Protects all present nodes from rollbacks, for example those of an included file.
+    /// Protects all present nodes from rollbacks, for example the nodes of an included file.
     void set_watermark();
 
 private:
@@ -158,7 +159,7 @@ private:
     ExpressionId add(const Expression& expression);
     ListRange take_arguments(std::uint32_t count);
     [[nodiscard]] ListRange new_set_values() const;
-    [[nodiscard]] bool has_room(SourceSpan span);
+    [[nodiscard]] bool check_room(SourceSpan span);
     void rollback();
     void begin_node(StatementKind kind, std::size_t index);
     void push_module(NameId name, TextRange text);
@@ -194,7 +195,7 @@ private:
     std::vector<ExpressionId> arguments_;
     std::uint32_t open_brackets_ = 0; // `[` of the current module list
     LastName last_name_ = LastName::None;
-    /// In a translation: place in the original file of the last module of the current list.
+    /// Place of the last module of the current list in the original file; for translations only.
     SourceSpan list_place_;
     bool is_discarded_ = false; // the current statement
     bool has_node_ = false;

@@ -26,10 +26,10 @@ class IncludeChain {
 public:
     IncludeChain(const ParseContext& context, FileId root);
 
-    /// Loads the file at `path_span` and makes it the innermost; reports a failure and returns
-    /// kNoFile.
+    /// Loads the file that the #include at `path_span` names and makes it the innermost; reports a
+    /// failure and returns kNoFile.
     [[nodiscard]] FileId enter(std::string_view path, SourceSpan path_span);
-    /// Ends the innermost file.
+    /// Leaves the innermost file.
     void leave();
 
 private:
@@ -39,7 +39,7 @@ private:
     };
     const ParseContext& context_;
     std::vector<Link> chain_;
-    std::unordered_map<std::string, FileId> read_;
+    std::unordered_map<std::string, FileId> read_; // files read so far, by normalised path
     std::uint32_t inclusions_ = 0;
 };
 

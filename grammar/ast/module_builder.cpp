@@ -68,7 +68,7 @@ void AstBuilder::extend_list(ModuleList& list, SourceSpan span) {
 }
 
 /// `text`: the place of the name in the scanned text, with its back quotes. Inline because it runs
-/// for every module; the case of translated or edited text is a call.
+/// for every module; only translated or edited text takes a function call.
 inline void AstBuilder::push_module(NameId name, TextRange text) {
     if (scanned_.translation != nullptr || scanned_.map != nullptr) {
         push_changed_text(name, text);
@@ -240,7 +240,8 @@ AstBuilder::module_arguments(ModuleList list, std::uint32_t count, SourceSpan pa
     return list;
 }
 
-/// Whether the last module of the list takes `parentheses`; sets CallNode::module.
+/// Begins the call of the last module and sets CallNode::module. Returns false if the module cannot
+/// take `parentheses`, which is reported here or has been reported before.
 bool AstBuilder::begin_call(SourceSpan parentheses, CallNode& call) {
     switch (last_name_) {
     case LastName::None:

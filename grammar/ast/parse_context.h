@@ -27,7 +27,7 @@ struct ParseContext {
     /// Reproduce the bugs of the dialect's original program.
     bool bug_compatible = false;
     std::string_view system{}; // name of the system to read if a file has several
-    /// Receives the spans of all statements, also of those with errors; may be null.
+    /// Receives the spans of all statements, with and without errors; may be null.
     std::vector<SourceSpan>* statements = nullptr;
 };
 

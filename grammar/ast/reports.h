@@ -18,6 +18,7 @@ void report_chained_comparison(Diagnostics& diagnostics,
                                ExpressionId first,
                                SourceSpan span,
                                const SourceMap& sources);
+/// Reports a random range, or bounds of a #param, with `count` values instead of two.
 void report_bad_range(Diagnostics& diagnostics,
                       std::uint32_t count,
                       SourceSpan span,
@@ -31,8 +32,9 @@ void report_literal_range(Diagnostics& diagnostics,
 /// Reports nesting beyond kMaxNesting. `what` names the brackets in the plural: "parentheses".
 void report_too_deep(Diagnostics& diagnostics, SourceSpan span, std::string_view what);
 
-/// Reports `slashes`, a `//` among modules that is meant as a comment. `line`: from there to the
-/// end of its line. `may_be_rolls`: `//` may be two modules after all, so the repair is only offered.
+/// Reports `slashes`, a `//` among modules that is meant as a comment. `line`: the text from the
+/// `//` to the end of its line. `may_be_rolls`: the `//` may be two modules after all, so the
+/// repair is only offered.
 void report_stray_comment(Diagnostics& diagnostics,
                           std::string_view line,
                           SourceSpan slashes,

@@ -7,7 +7,7 @@
 
 namespace lsys {
 
-bool Translation::has_room(std::string_view text, SourceSpan span) {
+bool Translation::claim_room(std::string_view text, SourceSpan span) {
     if (!overflow_ && text.size() > max_bytes_ - text_.size()) {
         overflow_ = span;
     }
@@ -28,7 +28,7 @@ void Translation::copy(SourceSpan span, const SourceMap& sources) {
 
 void Translation::copy_as(std::string_view text, SourceSpan span) {
     LSYS_CHECK(text.size() == span.end - span.begin);
-    if (text.empty() || !has_room(text, span)) {
+    if (text.empty() || !claim_room(text, span)) {
         return;
     }
     text_ += text;
@@ -49,7 +49,7 @@ void Translation::put(std::string_view text, SourceSpan span) {
     if (span.file == kNoFile) {
         span = {file_, 0, 0};
     }
-    if (!has_room(text, span)) {
+    if (!claim_room(text, span)) {
         return;
     }
     text_ += text;

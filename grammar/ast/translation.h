@@ -25,7 +25,7 @@ public:
 
     /// Appends the bytes of `span` unchanged.
     void copy(SourceSpan span, const SourceMap& sources);
-    /// Appends `text`, whose bytes correspond to those of `span` one to one.
+    /// Appends `text`, whose bytes correspond one to one to the bytes of `span`.
     void copy_as(std::string_view text, SourceSpan span);
     /// Appends `text`, which corresponds to `span` as a whole.
     void put(std::string_view text, SourceSpan span);
@@ -60,7 +60,7 @@ private:
         SourceSpan span;
     };
     [[nodiscard]] const Part& part_at(std::uint32_t offset) const;
-    [[nodiscard]] bool has_room(std::string_view text, SourceSpan span);
+    [[nodiscard]] bool claim_room(std::string_view text, SourceSpan span);
 
     FileId file_;
     std::uint64_t max_bytes_ = 0;

@@ -216,8 +216,8 @@ static_assert(std::is_sorted(std::begin(kTable),
                                  return a.character < b.character;
                              }));
 
-/// A character of confusables.def. Without pointers, because the system would have to set them in
-/// each of the many rows at the start of the program.
+/// A character of confusables.def. A row has no pointers: the loader would have to relocate the
+/// pointers of all rows at the start of the program.
 struct Listed {
     char32_t character = 0;
     char ascii = '\0';
@@ -257,7 +257,7 @@ auto find_row(const Table& table, char32_t character) {
 constexpr char32_t kFirstFullWidth = 0xFF01; // `!`
 constexpr char32_t kLastFullWidth = 0xFF5E;  // `~`
 
-/// The ASCII characters, for views of single ones.
+/// All ASCII characters: the memory of the one-character views that text_of() returns.
 constexpr auto kAscii = [] {
     std::array<char, 128> ascii{};
     for (std::size_t i = 0; i < ascii.size(); ++i) {

@@ -18,7 +18,7 @@ struct Confusable {
 /// Nullopt if `character` is not a confusable. Covers all full-width forms of ASCII.
 [[nodiscard]] std::optional<Confusable> find_confusable(char32_t character);
 
-/// Whether `character` is likely to be a letter.
+/// Whether a character beyond ASCII is likely to be a letter; false for ASCII.
 [[nodiscard]] bool is_letter_beyond_ascii(char32_t character);
 
 /// "U+2212".

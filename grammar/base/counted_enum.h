@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Enums and structs with their numbers of enumerators and fields as constants, for tables, range
-// checks and file versions.
+// Numbers of enumerators of enums, and of fields of structs, as constants: for tables, range checks
+// and file versions.
 //
 //   LSYS_COUNTED_ENUM(Mode, Parallel, Sequential);   enum class Mode : std::uint8_t { ... };
 //   kCountOf<Mode>                                   2

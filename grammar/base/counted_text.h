@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A number with its unit, as messages and dumps write it: `1 rule`, `2 rules`.
+// A number with its noun, as messages and dumps write it: `1 rule`, `2 rules`.
 #pragma once
 
 #include <cstdint>
@@ -8,8 +8,8 @@
 
 namespace lsys {
 
-/// `number`, the count as the caller formats it (`2,000`), and a regular noun, which is in the
-/// plural unless `count` is 1.
+/// A count with its noun. `number` is the count as the caller formats it (`2,000`); `noun` is
+/// regular, and in the plural unless `count` is 1.
 [[nodiscard]] inline std::string
 counted(std::uint64_t count, std::string_view number, std::string_view noun) {
     std::string text(number);

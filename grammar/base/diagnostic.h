@@ -132,7 +132,8 @@ public:
         }
     }
     /// Removes help texts that contain `pattern`, a form that the file cannot use, and all fixes
-    /// except those that replace text by a single name. The remaining fixes become offers.
+    /// except those whose replacements are names of at least two characters without `_`. The
+    /// remaining fixes become offers.
     void drop_repairs(std::string_view pattern);
     /// Gives each diagnostic the severity that `severity_of` returns for it, or removes it.
     template <typename SeverityOf>

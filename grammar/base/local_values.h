@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Where local values stand in a production (docs/language.md section 4.5).
+// The start of the local values of a production (docs/language.md section 4.5).
 #pragma once
 
 #include <cstddef>

@@ -29,27 +29,27 @@ std::optional<std::string> reason_against_level(std::string_view code) {
            (nearest ? "; did you mean `" + std::string(*nearest) + "`?" : std::string());
 }
 
-std::optional<std::string> MessageLevels::set(MessageLevel level, std::string_view what) {
+std::optional<std::string> MessageLevels::set(MessageLevel level, std::string_view code_or_group) {
     const auto put = [&](std::optional<MessageLevel>& group) -> std::optional<std::string> {
         if (group && *group != level) {
-            return "`" + std::string(what) + "` have two levels";
+            return "`" + std::string(code_or_group) + "` have two levels";
         }
         group = level;
         return std::nullopt;
     };
-    if (what == "warnings") {
+    if (code_or_group == "warnings") {
         return put(warnings_);
     }
-    if (what == "notes") {
+    if (code_or_group == "notes") {
         return put(notes_);
     }
-    if (std::optional<std::string> reason = reason_against_level(what)) {
+    if (std::optional<std::string> reason = reason_against_level(code_or_group)) {
         return reason;
     }
-    const auto [at, is_new] = codes_.try_emplace(*find_diagnostic_code(what), level);
+    const auto [at, is_new] = codes_.try_emplace(*find_diagnostic_code(code_or_group), level);
     return is_new || at->second == level
                ? std::nullopt
-               : std::optional("`" + std::string(what) + "` has two levels");
+               : std::optional("`" + std::string(code_or_group) + "` has two levels");
 }
 
 std::optional<MessageLevel> MessageLevels::of(const Diagnostic& diagnostic) const {

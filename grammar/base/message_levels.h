@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Which diagnostics are errors, warnings or hidden: the options --allow, --warn and --deny, and the comments
-// `/* lsc: allow CODE */` of grammars. Errors stay errors.
+// Levels of diagnostics (error, warning or hidden), set by the options --allow, --warn and --deny
+// and by the comments `/* lsc: allow CODE */` of grammars. Errors stay errors.
 #pragma once
 
 #include "grammar/base/diagnostic.h"
@@ -24,9 +24,10 @@ enum class MessageLevel : std::uint8_t {
 /// level of its group.
 class MessageLevels {
 public:
-    /// Sets the level of `what`: a code, `warnings` or `notes`. Returns a message if the code does
-    /// not exist, is the code of an error, or already has another level.
-    [[nodiscard]] std::optional<std::string> set(MessageLevel level, std::string_view what);
+    /// Sets the level of a code, or of all `warnings` or `notes`. Returns a message if the code
+    /// does not exist, is the code of an error, or already has another level.
+    [[nodiscard]] std::optional<std::string> set(MessageLevel level,
+                                                 std::string_view code_or_group);
 
     /// The level of a diagnostic; nullopt if it is an error or keeps its usual severity.
     [[nodiscard]] std::optional<MessageLevel> of(const Diagnostic& diagnostic) const;
@@ -40,12 +41,12 @@ private:
     std::optional<MessageLevel> notes_;
 };
 
-/// Gives diagnostics the severities of their levels and removes those that are allowed, also by
-/// the comments of `sources`.
+/// Gives diagnostics the severities of their levels; removes diagnostics that a level or a comment
+/// of `sources` allows.
 void apply_levels(const MessageLevels& levels, const SourceMap& sources, Diagnostics& diagnostics);
 
-/// Why the level of `code` cannot be set, as a clause about the code: "`x` is ..."; nullopt if it
-/// can.
+/// The reason why the level of `code` cannot be set, as a clause: "`x` is ..."; nullopt if it can
+/// be set.
 [[nodiscard]] std::optional<std::string> reason_against_level(std::string_view code);
 
 } // namespace lsys

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Numbers as characters, by std::from_chars and std::to_chars. The only place that calls them for
-// floating-point numbers: where the standard library lacks those (libc++), impl/portable_chars.h
-// gives the same values and the same characters.
+// Conversion between numbers and characters by std::from_chars and std::to_chars. No other file
+// calls them for floating-point numbers: if the standard library lacks these overloads (libc++),
+// impl/portable_chars.h gives the same values and the same characters.
 #pragma once
 
 #include <charconv>

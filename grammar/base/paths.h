@@ -15,11 +15,11 @@ namespace lsys {
 /// The text of a path, with `/` between the names on every system.
 [[nodiscard]] std::string path_text(const std::filesystem::path& path);
 
-/// Whether a path does not depend on a folder.
+/// Whether a path is absolute: it does not depend on the current folder.
 [[nodiscard]] bool is_absolute_path(std::string_view path);
 /// Whether a path ends in a separator.
 [[nodiscard]] bool names_folder(std::string_view path);
-/// The folder of a path with the separator at its end; empty without one.
+/// The folder of a path, with the separator at its end; empty if the path has no separator.
 [[nodiscard]] std::string_view folder_of_path(std::string_view path);
 /// The last name of a path.
 [[nodiscard]] std::string_view name_of_path(std::string_view path);

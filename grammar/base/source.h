@@ -100,7 +100,7 @@ private:
     };
 
     std::deque<SourceFile> files_;
-    std::map<FileId, std::vector<Allowance>> allowances_; // ascending
+    std::map<FileId, std::vector<Allowance>> allowances_; // ascending by begin of the statement
 };
 
 } // namespace lsys

@@ -10,7 +10,7 @@ namespace lsys {
 namespace {
 
 struct Signature {
-    std::string_view bytes; // at the begin of the file
+    std::string_view bytes; // at the beginning of the file
     std::string_view description;
 };
 constexpr std::array kSignatures{
@@ -28,14 +28,14 @@ constexpr std::array kSignatures{
     Signature{"Kaydara FBX", "an FBX model"},
 };
 
-constexpr std::size_t kSampled = 4096;
+constexpr std::size_t kSampleBytes = 4096;
 
 bool is_control(char c) {
     const auto byte = static_cast<unsigned char>(c);
     return byte < 0x20 && c != '\n' && c != '\r' && c != '\t' && c != '\f' && c != '\v';
 }
 
-NonText utf16(std::string_view form) {
+NonText other_encoding(std::string_view form) {
     return {std::string(form) + " text", "a grammar is UTF-8 text; save the file in that encoding"};
 }
 
@@ -61,19 +61,19 @@ bool has_alternate_nuls(std::string_view sample, std::size_t first) {
 std::optional<NonText> recognise_non_text(std::string_view bytes) {
     if (bytes.starts_with(std::string_view("\xFF\xFE\0\0", 4)) ||
         bytes.starts_with(std::string_view("\0\0\xFE\xFF", 4))) {
-        return utf16("UTF-32");
+        return other_encoding("UTF-32");
     }
     if (bytes.starts_with("\xFF\xFE") || bytes.starts_with("\xFE\xFF")) {
-        return utf16("UTF-16");
+        return other_encoding("UTF-16");
     }
     for (const Signature& signature : kSignatures) {
         if (bytes.starts_with(signature.bytes)) {
             return NonText{std::string(signature.description), "a grammar is UTF-8 text"};
         }
     }
-    const std::string_view sample = bytes.substr(0, kSampled);
+    const std::string_view sample = bytes.substr(0, kSampleBytes);
     if (has_alternate_nuls(sample, 1) || has_alternate_nuls(sample, 0)) {
-        return utf16("UTF-16");
+        return other_encoding("UTF-16");
     }
     constexpr std::ptrdiff_t kFewControls = 16;
     const std::ptrdiff_t controls = std::count_if(sample.begin(), sample.end(), is_control);

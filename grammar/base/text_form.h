@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Whether the bytes of a file are text. UTF-16 and binary files get one message instead of one for
-// each byte that is illegal in a grammar.
+// Recognition of files that are not UTF-8 text. UTF-16 and binary files get one message instead of
+// one for each byte that is illegal in a grammar.
 #pragma once
 
 #include <optional>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Dialects: the formats in which grammars are written, how the dialect of a file is recognised, and
-// the front ends of foreign ones, which translate a file to .lsys text (grammar/ast/translation.h).
+// the front ends of foreign dialects, which translate a file to .lsys text
+// (grammar/ast/translation.h).
 #pragma once
 
 #include "grammar/ast/translation.h"
@@ -49,9 +50,11 @@ struct DialectRow {
 
 struct DetectedDialect {
     std::optional<Dialect> dialect; // nullopt if neither text nor path shows a dialect
-    std::string_view evidence;      // evidence: "its first line is `LSYSTEM`"
+    std::string_view evidence;      // for messages: "its first word, `LSYSTEM`"
 };
-/// Detects the dialect from the content of `text`, else from the extension of `path`.
+/// Detects the dialect from the extension of `path`; if no dialect has the extension, or if it is
+/// `.l`, which several programs use, from the content of `text`. A `.l` file of unknown content is
+/// L3D.
 [[nodiscard]] DetectedDialect detect_dialect(std::string_view path, std::string_view text);
 
 /// Names of the systems of `text`, in order; none for dialects whose files hold one system.

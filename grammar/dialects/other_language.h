@@ -21,7 +21,7 @@ struct OtherLanguage {
 /// The language of a text without any statement of .lsys; nullopt if no line shows it.
 [[nodiscard]] std::optional<OtherLanguage> recognise_other_language(std::string_view text);
 /// Whether a text whose name does not show its language is in the notation of papers or of L-Py. No
-/// dialect reads these, but messages explain them.
+/// dialect reads these notations, but messages explain them.
 [[nodiscard]] bool is_foreign_notation(std::string_view text);
 
 } // namespace lsys

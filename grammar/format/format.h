@@ -14,7 +14,7 @@
 namespace lsys {
 
 /// The formatted text of `file`, with its byte order mark and line ends (if mixed, the more
-/// frequent kind). Reads no included files. Nothing if the file has errors, which are in
+/// frequent kind). Reads no included files. Nullopt if the file has errors; they are added to
 /// context.diagnostics.
 [[nodiscard]] std::optional<std::string> format_lsys(FileId file, const ParseContext& context);
 

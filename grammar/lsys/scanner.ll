@@ -132,7 +132,7 @@ CONTROL [\x01-\x08\x0B\x0C\x0E-\x1F\x7F]
                           BEGIN_COMMENT(COMMENT);
                         }
   ";"                   {
-                          if (is_colour_symbol(session)) {
+                          if (report_colour_symbol(session)) {
                               return read_as_module(session, ";");
                           }
                           if (const auto token = semicolon(session)) {
@@ -165,7 +165,7 @@ CONTROL [\x01-\x08\x0B\x0C\x0E-\x1F\x7F]
                           BEGIN_COMMENT(LINE_COMMENT);
                         }
   "#"[ \t]*{IDENT}      {
-                          if (is_hash_comment(session, TEXT)) {
+                          if (report_hash_comment(session, TEXT)) {
                               BEGIN_COMMENT(LINE_COMMENT);
                           } else {
                               const Token token = start_statement(session, TEXT);
@@ -336,7 +336,7 @@ CONTROL [\x01-\x08\x0B\x0C\x0E-\x1F\x7F]
                           return opening_bracket(session, OpenBracket::Kind::Group, Parser::token::TOK_LPAREN);
                         }
   [=:]                  {
-                          if (!is_needless_sign(session)) {
+                          if (!report_needless_sign(session)) {
                               return Token(Parser::token::TOK_OTHER, session.token());
                           }
                         }
@@ -376,7 +376,7 @@ CONTROL [\x01-\x08\x0B\x0C\x0E-\x1F\x7F]
                           }
                         }
   ":"                   {
-                          if (!is_doubled_colon(session)) {
+                          if (!report_doubled_colon(session)) {
                               return colon_after_modules(session);
                           }
                         }
@@ -461,16 +461,16 @@ CONTROL [\x01-\x08\x0B\x0C\x0E-\x1F\x7F]
                           if (const auto token = local_value_token(session, TEXT)) {
                               return *token;
                           }
-                          if (is_unit(session, TEXT)) {
+                          if (report_unit_word(session, TEXT)) {
                               break;
                           }
-                          if (is_word_for_operator(session, TEXT)) {
+                          if (report_word_for_operator(session, TEXT)) {
                               if (yytext[0] == 'a') {
                                   OPERATOR(AND);
                               }
                               OPERATOR(OR);
                           }
-                          if (is_word_for_not(session, TEXT)) {
+                          if (report_word_for_not(session, TEXT)) {
                               return nesting_operator(session, Parser::token::TOK_NOT);
                           }
                           BEGIN_VALUE();
@@ -563,10 +563,10 @@ CONTROL [\x01-\x08\x0B\x0C\x0E-\x1F\x7F]
                               report_named_argument(session);
                               return discard_statement(session);
                           }
-                          if (is_compound_assignment(session)) {
+                          if (report_compound_assignment(session)) {
                               break;
                           }
-                          if (!is_needless_sign(session)) {
+                          if (!report_needless_sign(session)) {
                               report_assignment(session);
                               OPERATOR(EQUAL);
                           }
@@ -588,7 +588,7 @@ CONTROL [\x01-\x08\x0B\x0C\x0E-\x1F\x7F]
                         }
   "//*"                 { SHORTEN(1); OPERATOR(SLASH); }
   ":"                   {
-                          if (!is_doubled_colon(session)) {
+                          if (!report_doubled_colon(session)) {
                               return colon_in_expression(session);
                           }
                         }

@@ -127,7 +127,7 @@ void append_human(const Diagnostic& diagnostic,
 }
 
 /// `1 more error, 2 more warnings`.
-std::string describe_rest(const std::array<std::uint64_t, 3>& counts) {
+std::string describe_omitted(const std::array<std::uint64_t, 3>& counts) {
     std::string text;
     for (const Severity severity : {Severity::Error, Severity::Warning, Severity::Note}) {
         const std::uint64_t count = counts[static_cast<std::size_t>(severity)];
@@ -213,10 +213,10 @@ void render_all(const Diagnostics& diagnostics,
         return;
     }
     if (options.format == MessageFormat::Json) {
-        rendering::append_json_rest(rest[2], rest[1], rest[0], out);
+        rendering::append_json_omitted(rest[2], rest[1], rest[0], out);
     } else {
         out += options.program;
-        out += ": " + describe_rest(rest) + '\n';
+        out += ": " + describe_omitted(rest) + '\n';
     }
 }
 

@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Runs the sessions of "Five minutes" of README.md with installed programs and compares what they print.
+"""Runs the sessions of "Five minutes" of README.md with installed programs and compares their output.
 
-Commands of programs that are not named are left out, and so are windows. Usage: read-me.py README.md PROGRAM...
+Skips commands of programs that are not named, and commands that open windows. Usage: read-me.py README.md PROGRAM...
 """
 import os
 import re
@@ -13,7 +13,7 @@ import tempfile
 
 
 def sessions(text):
-    """Yields (command, lines that it prints)."""
+    """Yields pairs: a command, the lines that it must print."""
     part = text.split("\n## Five minutes\n", 1)[1].split("\n## ", 1)[0]
     for block in re.findall(r"^```console\n(.*?)^```$", part, re.M | re.S):
         command, lines = None, []

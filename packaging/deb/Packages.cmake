@@ -14,7 +14,7 @@ set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
 set(CPACK_STRIP_FILES ON)
 set(CPACK_INSTALL_DEFAULT_DIRECTORY_PERMISSIONS OWNER_READ OWNER_WRITE OWNER_EXECUTE GROUP_READ GROUP_EXECUTE
   WORLD_READ WORLD_EXECUTE)
-# Adds what only Debian packages have: changelog.Debian.gz, copyright, compressed man pages.
+# Adds the files that only Debian packages have: changelog.Debian.gz, copyright, compressed man pages.
 set(CPACK_PRE_BUILD_SCRIPTS "${CMAKE_CURRENT_BINARY_DIR}/deb/stage.cmake")
 
 set(CPACK_DEB_COMPONENT_INSTALL ON)
@@ -54,7 +54,7 @@ edit it, and takes pictures and films without a display.")
 endif()
 
 if(LSYS_SHARED)
-  # The name of a library's package is that of its SONAME: liblsys.so.0.1, so liblsys0.1 (Debian policy 8.1).
+  # A library's package is named after its SONAME: liblsys.so.0.1, so liblsys0.1 (Debian policy 8.1).
   set(library "liblsys${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR}")
   list(APPEND CPACK_COMPONENTS_ALL library development)
   lsys_deb(library "${library}" libs "L-systems: shared library"

@@ -13,7 +13,7 @@ std::string joined(const std::vector<std::string>& texts, const char* separator)
     return fmt::format("{}", fmt::join(texts, separator));
 }
 
-/// The command that completes a value. `prefix`: begins the names of the helpers.
+/// The command that completes a value. `prefix`: prefix of the names of helper functions.
 std::string completer(const OptionText& option, const std::string& prefix) {
     std::vector<std::string> parts;
     if (!option.words.empty()) {

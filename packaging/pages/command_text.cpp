@@ -10,7 +10,7 @@ namespace lsys::pages {
 
 namespace {
 
-/// The words of `human|short|json` or `N|all`. Names of values are in capitals.
+/// The alternatives of `human|short|json` or `N|all` that are words; placeholders have capitals.
 std::vector<std::string> words_of(const std::string& value) {
     std::vector<std::string> words;
     for (std::size_t at = 0; at <= value.size();) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The command line of a program as data, read from its CLI11 tree. Man pages and completions of shells are
-// written from it, so they name the commands, options and values that the program takes.
+// The command line of a program as data, read from its CLI11 tree. Man pages and completions of
+// shells are written from it, so they name the commands, options and values that the program takes.
 #pragma once
 
 #include <functional>
@@ -18,12 +18,12 @@ enum class ValueKind { None, Text, Words, File, Folder };
 
 /// An option or a positional argument.
 struct OptionText {
-    std::vector<std::string> names; // `-o`, `--output`; of a positional none
+    std::vector<std::string> names; // `-o`, `--output`; empty for a positional
     std::string value;              // `FILE`, `human|short|json`; empty for a flag
     std::string description;
     std::string group; // heading in --help
     ValueKind kind = ValueKind::None;
-    std::vector<std::string> words;      // values that are words, whatever the kind
+    std::vector<std::string> words;      // literal values, such as `human`; possible with any kind
     std::vector<std::string> extensions; // of ValueKind::File, without dots; empty: any file
     bool required = false;
     bool repeatable = false;
@@ -32,7 +32,7 @@ struct OptionText {
 
 /// A command, or a program.
 struct CommandText {
-    std::string name; // of a program its own: `lsc`
+    std::string name; // of the command, `export`, or of the program, `lsc`
     std::string description;
     std::vector<OptionText> positionals;
     std::vector<OptionText> options; // in the order of --help
@@ -44,13 +44,13 @@ struct ProgramText {
     std::vector<CommandText> commands; // may be empty
 };
 
-/// Adds what CLI11 does not know of an option: words and extensions. `command`: the name of the
+/// Adds the data of an option that CLI11 lacks: words and extensions. `command`: the name of the
 /// command or program.
 using AddValues = std::function<void(std::string_view command, OptionText& option)>;
 
 [[nodiscard]] CommandText describe(const CLI::App& app, const AddValues& add_values);
 
-/// The name that people look for: `--output` of `-o,--output`, `FILE` of a positional.
+/// The most descriptive name: `--output` of `-o,--output`, `FILE` of a positional.
 [[nodiscard]] const std::string& main_name(const OptionText& option);
 
 } // namespace lsys::pages

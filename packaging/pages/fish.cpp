@@ -43,7 +43,7 @@ end
 complete -c {0} -f
 )";
 
-/// Whether fish is to offer files that value_options() does not name.
+/// Whether the option takes any file, which fish offers with -F instead of value_options().
 bool takes_any_file(const OptionText& option) {
     return option.kind == ValueKind::File && option.extensions.empty();
 }
@@ -84,12 +84,12 @@ std::string fish_completion(const ProgramText& program) {
     if (program.commands.empty()) {
         return text + command_lines(name, program.program, "complete -c " + name);
     }
-    const std::string none = fmt::format("complete -c {} -n __fish_use_subcommand", name);
+    const std::string begin = fmt::format("complete -c {} -n __fish_use_subcommand", name);
     for (const CommandText& command : program.commands) {
-        text += fmt::format("{} -a {} -d {}\n", none, command.name,
+        text += fmt::format("{} -a {} -d {}\n", begin, command.name,
                             quoted(short_text(command.description)));
     }
-    text += command_lines(name, program.program, none);
+    text += command_lines(name, program.program, begin);
     for (const CommandText& command : program.commands) {
         text += command_lines(
             name, command,

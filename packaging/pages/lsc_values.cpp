@@ -27,7 +27,7 @@ std::vector<std::string> plant_formats() {
     return names;
 }
 
-/// Formats of `lsc forest`: with instances, as statistics, and with --bake all meshes.
+/// Formats of `lsc forest`: those with instances, with --bake all formats of meshes, and JSON.
 std::vector<std::string> forest_formats() {
     std::vector<std::string> names;
     for (const ExportFormat format : export_formats()) {
@@ -38,7 +38,7 @@ std::vector<std::string> forest_formats() {
     return and_also(std::move(names), {"json"});
 }
 
-/// Files that a command reads.
+/// Extensions of the files that a command reads.
 std::vector<std::string> input_extensions(std::string_view command) {
     if (command == "forest") {
         return and_also(grammar_extensions(), {"toml"});
@@ -49,7 +49,7 @@ std::vector<std::string> input_extensions(std::string_view command) {
     return grammar_extensions();
 }
 
-/// Files that a command writes; empty: any.
+/// Extensions of the files that a command writes; empty: any.
 std::vector<std::string> output_extensions(std::string_view command) {
     if (command == "export") {
         return plant_formats();

@@ -12,7 +12,7 @@ namespace lsys::pages {
 
 namespace {
 
-/// Escapes characters that man(7) reads as commands or prints as typographic ones.
+/// Escapes characters that man(7) reads as commands or prints as typographic characters.
 std::string escape(std::string_view text) {
     std::string escaped;
     for (const char c : text) {
@@ -45,7 +45,7 @@ std::string escape(std::string_view text) {
     return escaped.starts_with('.') ? "\\&" + escaped : escaped;
 }
 
-/// Escapes a text of --help, in which code stands between backquotes: it becomes bold.
+/// Escapes a text of --help; code between backquotes becomes bold.
 std::string prose(std::string_view text) {
     std::string escaped;
     while (true) {
@@ -61,7 +61,7 @@ std::string prose(std::string_view text) {
     }
 }
 
-/// prose() in lines of at most 80 bytes, as far as there are blanks.
+/// prose() wrapped at blanks to lines of at most 80 bytes; longer words are kept whole.
 std::string filled(std::string_view text) {
     constexpr std::size_t kLineLength = 80;
     std::istringstream words(prose(text));
@@ -174,8 +174,8 @@ void add_paragraph(std::string& text, std::string& paragraph) {
     }
 }
 
-/// Lines that begin with two blanks are a table. Lines after `Example:` or `Examples:` are commands.
-/// `Exit status: ...` is left out, because pages have a section of it.
+/// Lines that begin with two blanks are a table. Lines after `Example:` or `Examples:` are
+/// commands. `Exit status: ...` is omitted, because pages have a section about it.
 Footer read_footer(const std::string& footer) {
     Footer parts;
     std::istringstream lines(footer);

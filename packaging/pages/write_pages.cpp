@@ -46,7 +46,7 @@ void add_common_values(OptionText& option) {
     if (option.value == "CODE") {
         for (std::uint32_t i = 0; i < diagnostic_code_count(); ++i) {
             const DiagnosticInfo& row = info(static_cast<DiagnosticCode>(i));
-            // Errors stay errors, so only `lsc explain` takes their codes.
+            // Options cannot change the level of errors; the argument of `lsc explain` is any code.
             if (option.names.empty() || row.severity != Severity::Error) {
                 option.words.emplace_back(row.name);
             }

@@ -11,8 +11,8 @@ namespace lsys::pages {
 /// The main() of a writer. Arguments: the folder, the date, the version.
 [[nodiscard]] int write_pages(int argc, char** argv, const ProgramText& program, PageInfo info);
 
-/// Words and extensions of options that several programs have: codes of messages, files of
-/// grammars, pictures.
+/// Adds words and extensions of options that several programs have: codes of messages, grammar
+/// files, pictures.
 void add_common_values(OptionText& option);
 /// Extensions of grammars in any dialect.
 [[nodiscard]] std::vector<std::string> grammar_extensions();

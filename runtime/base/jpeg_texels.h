@@ -19,8 +19,8 @@ struct JpegTexels {
 };
 
 [[nodiscard]] bool is_jpeg(std::string_view bytes);
-/// Reads a baseline or progressive JPEG. A picture of more than `max_pixels`, or one that needs more
-/// than `max_bytes` while it is decoded, is refused before memory is allocated.
+/// Reads a baseline or progressive JPEG. A picture of more than `max_pixels`, or one that needs
+/// more than `max_bytes` while it is decoded, is refused before memory is allocated.
 [[nodiscard]] Result<JpegTexels>
 read_jpeg_texels(std::string_view bytes, std::uint64_t max_pixels, std::uint64_t max_bytes);
 

@@ -32,7 +32,7 @@ struct PngRequest {
     PngForm form = PngForm::Rgba;
     std::uint64_t max_pixels = 0;
     std::uint64_t max_bytes = 0;  // of the samples and the caller's copy of them
-    std::uint32_t copy_bytes = 0; // per pixel of the caller's copy
+    std::uint32_t copy_bytes = 0; // bytes per pixel of the caller's copy
     std::string_view noun;        // names the picture in errors: "map"
 };
 /// Errors: a damaged file, more than `max_pixels`, more than `max_bytes` (ErrorKind::Limit).

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// WaitableCount: a count that one thread raises and others wait for. Instead of
-// std::atomic::wait(), because that of libstdc++ 12 misses wake-ups on systems without futexes
-// (Windows), and threads then wait for ever.
+// WaitableCount: a count that one thread raises and others wait for. It replaces
+// std::atomic::wait(), which in libstdc++ 12 misses wake-ups on systems without futexes (Windows),
+// so that threads wait for ever.
 #pragma once
 
 #include <cstddef>
@@ -19,7 +19,8 @@ class WaitableCount {
 public:
     explicit WaitableCount(std::size_t count) : count_(count) {}
 
-    /// Returns when the count is above `bound`. What the raising thread wrote before can be read.
+    /// Returns when the count is above `bound`. The raising thread's writes before raise() are then
+    /// visible.
     void wait_above(std::size_t bound) {
         std::unique_lock lock(mutex_);
         raised_.wait(lock, [&] { return count_ > bound; });

@@ -115,7 +115,7 @@ struct Workers::Team {
     const Task* task = nullptr;                // null between tasks
     std::uint32_t busy = 0;                    // helpers within the task
     bool stops = false;
-    std::vector<std::thread> helpers; // last: they use all of the above
+    std::vector<std::thread> helpers; // declared last: they use all members above
 };
 
 Workers::Workers(std::uint32_t threads)

@@ -95,7 +95,8 @@ bool has_balanced_modules(std::string_view text) {
            std::count(text.begin(), text.end(), '{') == std::count(text.begin(), text.end(), '}');
 }
 
-/// Whether a number follows `place`, where a comma was added. If so, no `*` can be missing at `place`.
+/// Whether a number follows `place`, where a comma was added. If so, no `*` can be missing at
+/// `place`.
 bool is_before_number(std::string_view text, std::size_t place) {
     const std::size_t next = text.find_first_not_of(" \t\r\n", place);
     return next != std::string_view::npos &&
@@ -110,8 +111,8 @@ bool is_number_part(char c) {
     return (c >= '0' && c <= '9') || c == '.';
 }
 
-/// Adds the texts without the blank at the place of a missing comma, if it splits a number, and
-/// with a `.` in place of it.
+/// If the blank at the place of a missing comma splits a number, adds the text without the blank
+/// and the text with a `.` in its place.
 void add_joined_numbers(const StatementRepair& repair, std::vector<std::string>& texts) {
     const std::string_view text = repair.broken;
     const std::size_t begin = repair.place;
@@ -126,8 +127,8 @@ void add_joined_numbers(const StatementRepair& repair, std::vector<std::string>&
     }
 }
 
-/// Adds the texts without the word before or after a missing comma, if it is one character, which
-/// may have been typed by mistake.
+/// Adds the texts without the word before and without the word after a missing comma, for words of
+/// one character, which may have been typed by mistake.
 void add_without_letters(const StatementRepair& repair, std::vector<std::string>& texts) {
     const std::string_view text = repair.broken;
     const std::size_t before = repair.place;
@@ -148,8 +149,8 @@ void add_without_letters(const StatementRepair& repair, std::vector<std::string>
     }
 }
 
-/// Whether a digit may have been typed as the parenthesis at `at`: as `)` after a digit, `/(6))`, or
-/// as `(` between blanks, `a - ( - b`.
+/// Whether the parenthesis at `at` may be a mistyped digit: `)` after a digit, as in `/(6))`, or
+/// `(` between blanks, as in `a - ( - b`.
 bool may_be_digit(std::string_view text, std::size_t at) {
     const char before = at == 0 ? ' ' : text[at - 1];
     const char after = at + 1 == text.size() ? ' ' : text[at + 1];
@@ -186,7 +187,7 @@ std::vector<std::string> bracket_repairs(std::string_view broken, bool is_single
         if (is_pair) {
             add(at, 2, std::string{broken[at + 1], broken[at]});
         }
-        // Removing an opening bracket is tried only after an equal one or before nothing.
+        // An opening bracket is removed only after an equal one, before `;` or before nothing.
         const std::size_t next = broken.find_first_not_of(" \t\r\n", at + 1);
         const bool is_doubled = (at > 0 && broken[at - 1] == broken[at]) ||
                                 next == std::string_view::npos || broken[next] == ';';

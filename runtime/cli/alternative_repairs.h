@@ -24,10 +24,11 @@ struct StatementRepair {
 /// Whether the repair of a mistake may have alternatives: true for brackets and commas.
 [[nodiscard]] bool may_have_alternatives(DiagnosticCode code);
 
+inline constexpr std::size_t kMaxComparedStatement = 2000; // bytes
+
 /// Statement texts after alternative repairs: each differs from the broken statement by one
 /// character, parses, and has a syntax tree unlike those of `repaired` and the other alternatives.
 /// Empty for statements of more than kMaxComparedStatement bytes.
-inline constexpr std::size_t kMaxComparedStatement = 2000;
 [[nodiscard]] std::vector<std::string> alternative_repairs(const StatementRepair& repair);
 
 } // namespace lsys::lsc

@@ -51,7 +51,7 @@ ExitStatus check_text(const std::string& path,
     }
     if (!compiled.value().definition_error && command.messages.format == MessageFormat::Json) {
         // Readers of JSON apply machine-applicable fixes without asking, so doubtful fixes must not
-        // be marked as such.
+        // be marked machine-applicable.
         const Result<void> offered = offer_doubtful_fixes(
             path, text, options, FixScope(path, command.files), project, compiled.value());
         if (!offered) {

@@ -32,8 +32,8 @@ struct Imported {
     std::uint64_t warnings = 0;
 };
 
-/// A .lsys text whose generations, constants and settings are replaced by those of the command
-/// line.
+/// A .lsys text with the generations, constants and settings of the command line in place of its
+/// own.
 Result<std::string> with_options(const std::string& text, const GrammarOptions& options) {
     const FileLoader load = [](const std::string& path) -> Result<std::string> {
         return Error{fmt::format("`{}` is not read here", path)};

@@ -457,8 +457,8 @@ std::optional<UsageError> verbose_before_command(std::span<const std::string> ar
     return std::nullopt;
 }
 
-/// Words a mistake found by CLI11, with help about commands. `command`: the given command; null if
-/// the first argument is not a command.
+/// The usage error for a mistake found by CLI11, with help about commands. `command`: the given
+/// command; null if the first argument is not a command.
 UsageError usage_error(const CLI::ParseError& error,
                        const CLI::App& app,
                        const CLI::App* command,
@@ -589,7 +589,7 @@ CommandLine parse_arguments(std::span<const std::string> arguments,
     ProgramOptions program_options;
     add_program_options(app, program_options);
     const std::string first = arguments.empty() ? std::string() : arguments.front();
-    add_commands(app, Commands::OnlyChosen, first, parsed, program_options); // all take long
+    add_commands(app, Commands::OnlyChosen, first, parsed, program_options); // adding all is slow
     if (find_command(app, first) == nullptr) {
         add_commands(app, Commands::All, first, parsed, program_options);
     }
@@ -657,8 +657,9 @@ CommandLine parse_arguments(std::span<const std::string> arguments,
     return parsed;
 }
 
-/// `lsc check FILE...` without options, read as parse_arguments() reads it. To set up CLI11 takes as
-/// long as to check a small grammar, and editors and scripts start such a run for every file.
+/// Parses `lsc check FILE...` without options like parse_arguments(); nothing for other arguments.
+/// Setting up CLI11 takes as long as checking a small grammar, and editors and scripts start such a
+/// run for every file.
 std::optional<CheckCommand> parse_check_of_files(std::span<const std::string> arguments) {
     if (arguments.size() < 2 || arguments.front() != "check" ||
         std::any_of(arguments.begin() + 1, arguments.end(), [](const std::string& argument) {

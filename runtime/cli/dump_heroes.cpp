@@ -27,7 +27,7 @@ namespace lsys::lsc {
 
 namespace {
 
-constexpr std::size_t kPieceOfHeroes = std::size_t{1} << 18;
+constexpr std::size_t kPieceBytes = std::size_t{1} << 18;
 
 /// Collects text in `text` and writes it in large pieces.
 class PieceWriter {
@@ -38,7 +38,7 @@ public:
 
     /// Writes `text` if it is long enough. Returns false after an interrupt or a failed write.
     [[nodiscard]] bool pass(const Console& console) {
-        return text.size() < kPieceOfHeroes || (!console.interrupted() && write());
+        return text.size() < kPieceBytes || (!console.interrupted() && write());
     }
     [[nodiscard]] ExitStatus finish(const Console& console) {
         if (console.interrupted()) {

@@ -382,8 +382,9 @@ ExitStatus dump_word(const DumpCommand& command, Grammar& grammar, const Console
     }
     const bool shows = console.shows_progress();
     Progress progress(shows ? &console.io().err : nullptr, plan.last_age, Progress::Clock::now(),
-                      shows && from_axiom ? expect_modules(grammar.bytecode, plan.last_age)
-                                          : std::vector<double>());
+                      shows && from_axiom
+                          ? predict_expected_modules(grammar.bytecode, plan.last_age)
+                          : std::vector<double>());
     plan.derive.progress = [&](std::uint32_t generation, std::uint64_t modules) {
         progress.update(generation, modules, Progress::Clock::now());
     };

@@ -7,14 +7,14 @@
 //    (ParseSession::offer_doubtful_fixes).
 // 3. Warnings are fixed after all errors, because errors may cause warnings.
 // 4. The fixes of a statement are applied and undone together. They are undone if the repaired
-//    statement has an error. Typographic characters are always replaced, each independently of other
-//    fixes.
+//    statement has an error. Typographic characters are always replaced, each independently of
+//    other fixes.
 // 5. A bracket or comma is repaired only if each alternative gives errors, the same meaning or more
 //    warnings (alternative_repairs.h).
 // 6. A mistake that is made once may be a slip of the hand: one character typed for another. Then a
-//    sign is added only if it cannot stand in place of a character beside it (mistyped_signs.h), and
-//    a single character is neither removed, unless it is doubled, nor read as a longer operator or a
-//    name. A mistake that is made twice is a habit and is repaired.
+//    sign is added only if it cannot stand in place of a character beside it (mistyped_signs.h),
+//    and a single character is neither removed, unless it is doubled, nor read as a longer operator
+//    or a name. A mistake that is made twice is a habit and is repaired.
 //
 // With FixChoice::Offered the first repair of every message is applied, certain or not. Only rule 3
 // applies, and repairs that cause new errors are undone. A place is repaired at most once for each

@@ -41,9 +41,9 @@ void append_record(const Diagnostic& diagnostic,
     render(record, sources, options, out);
 }
 
-/// Whether a fix removes one character of a text, replaces it by something else than a sign, or
-/// exchanges two: `=>` may be `>=` or `==`. A character may have been typed in place of any other;
-/// one that is doubled is typed too often.
+/// Whether the mistake may be one mistyped character: the fix exchanges two characters (`=>` may
+/// mean `>=` or `==`), removes one, or replaces one by something other than a single sign. False
+/// for a doubled character, which was typed too often.
 bool may_be_slip(std::string_view text, const Edit& edit) {
     const std::uint32_t at = edit.span.begin;
     if (edit.replacement.size() == 2 && edit.span.end - at == 2 &&
@@ -272,8 +272,8 @@ std::set<StatementKey> RepairAttempt::wrong_statements() const {
             const auto before = original_errors_.find(key);
             const bool is_new = before == original_errors_.end() ||
                                 before->second.count({diagnostic.code, diagnostic.message}) == 0;
-            // The parser recovers by reading the original as if it were repaired, so an error that a
-            // wrong repair causes may be in both texts.
+            // The parser recovers by reading the original as if it were repaired, so an error that
+            // a wrong repair causes may be in both texts.
             if ((is_new || subject_.choice == FixChoice::Certain) && is_repaired(key)) {
                 keys.insert(key);
             }

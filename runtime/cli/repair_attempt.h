@@ -34,8 +34,8 @@ struct AppliedFix {
     DiagnosticCode code{};
     std::string path;         // file of the first edit
     std::uint32_t place = 0;  // offset of the first edit in the original text
-    char added = '\0';        // the sign that it adds, if it does nothing else
-    bool may_be_slip = false; // it removes a character, or writes more or a name for it
+    char added = '\0';        // the sign that the fix adds, if it does nothing else
+    bool may_be_slip = false; // the mistake may be one mistyped character
 };
 
 /// The grammar to repair, and the options of the repair.

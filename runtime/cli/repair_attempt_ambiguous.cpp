@@ -11,8 +11,8 @@ namespace lsys::lsc {
 
 namespace {
 
-/// Maximum number of compared repairs and maximum size of their files, because a comparison
-/// compiles the file for each alternative. Repairs beyond these limits are offers.
+/// Max number of compared repairs, and max bytes of their files: a comparison compiles the file for
+/// each alternative. Repairs beyond these limits are offers.
 constexpr std::size_t kMaxCompared = 100;
 constexpr std::size_t kMaxComparedFile = std::size_t{1} << 20;
 
@@ -116,8 +116,8 @@ bool RepairAttempt::may_be_mistyped(const AppliedFix& fix) const {
     });
 }
 
-/// Whether an alternative is as plausible as the applied fix. `is_single`: of a mistake that is made
-/// once.
+/// Whether an alternative is as plausible as the applied fix. `is_single`: the original has one
+/// mistake of this code.
 bool RepairAttempt::has_alternative(const StatementKey& key,
                                     const AppliedFix& fix,
                                     bool is_single) const {

@@ -19,8 +19,8 @@ has_unmatched_close(const Bytecode& bytecode, TableRange codes, SymbolKind close
 /// partner.
 [[nodiscard]] bool rewrites_bracket(const Bytecode& bytecode, const BytecodeProduction& production);
 
-/// Checks the brackets of a word, which may come in pieces. Polygons begin and end apart from
-/// branches; a `{` or `}` that a cut removes does not count.
+/// Checks the brackets of a word, which may come in pieces. Branches and polygons are counted
+/// separately; a `{` or `}` that a cut removes does not count.
 class BracketCounter {
 public:
     explicit BracketCounter(const Bytecode& bytecode);
@@ -70,7 +70,7 @@ private:
     std::vector<std::int8_t> branch_changes_; // by code, Change::branches
     std::int64_t branches_ = 0;
     std::int64_t polygons_ = 0;
-    std::int64_t cut_ = 0; // number of open branches, counted from the cut one; 0: no cut
+    std::int64_t cut_ = 0; // open branches from the cut one inwards; 0: no cut
     bool has_branch_close_ = false;
     bool has_polygon_close_ = false;
 };

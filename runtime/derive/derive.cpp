@@ -35,7 +35,7 @@ struct Derivation::State {
     Word next;  // written by the current pass
     Word spare; // the third word, for generations of several passes
     Pruner pruner;
-    StageDepth depth; // of decomposition
+    StageDepth depth; // passes of decomposition
     std::uint32_t rules = 0;
     std::uint32_t age = 0;
     DerivationEnd end;
@@ -45,8 +45,8 @@ struct Derivation::State {
         return Stop::Diagnosed;
     }
 
-    /// Sets the values to report in case the next word does not fit: its modules, and the bytes held
-    /// with it.
+    /// Sets the values reported if the next word does not fit: its number of modules, and the bytes
+    /// held with it.
     void report_limit(LimitKind kind, std::uint64_t modules, std::uint64_t bytes) {
         end.limit = {kind, age, word.module_count(), modules, bytes};
     }
@@ -262,7 +262,7 @@ struct Derivation::State {
         return std::nullopt;
     }
 
-    /// The error for the first module that productions of a later stage still match, if any.
+    /// The error for the first module that a production of the plan's stage still matches, if any.
     [[nodiscard]] static std::optional<RuntimeError>
     unfinished(const Plan& stage_plan, const Word& in, const PassKeys& keys) {
         return visit_view(in, [&](const auto& view) -> std::optional<RuntimeError> {

@@ -23,7 +23,7 @@ enum class RuntimeErrorKind : std::uint8_t {
     RangeReversed,   // {min, max} with min > max
     RangeTooWide,    // a bound or the width is not finite
     BadDistribution, // a distribution whose arguments are outside their bounds
-    NegativeWeight,  // of a production
+    NegativeWeight,  // a weight of a production is below 0
     WeightsTooLarge, // the sum of the weights of a choice is not finite
     OutOfBounds,     // a #param outside its bounds
     Unbalanced,      // a `]` or `}` without its partner in the last word, of age `generation`
@@ -37,8 +37,8 @@ struct RuntimeError {
     std::uint32_t site = kNone;              // the expression, or the production's name
     std::uint32_t generation = 0; // age of the word being rewritten; kStartGeneration: at the start
     std::uint64_t position = 0;   // index of the module in that word
-    SymbolId symbol = kNoSymbol;  // of the module
-    std::vector<float> parameters; // of the module
+    SymbolId symbol = kNoSymbol;  // the symbol of the module
+    std::vector<float> parameters; // the parameters of the module
     float value = 0.0F;            // for NotFinite and OutOfBounds
     float minimum = 0.0F; // for RangeReversed, RangeTooWide; the first argument of BadDistribution
     float maximum = 0.0F; // the second argument of BadDistribution
@@ -53,8 +53,8 @@ struct DerivationPass {
     enum class Kind : std::uint8_t { Cut, Rewrite, Decompose, Interpret };
     Kind kind = Kind::Rewrite;
     std::uint32_t rule = kNone;   // the only rule of the pass; kNone: all of its stage
-    std::uint32_t number = 0;     // of passes of this kind in the step, from 0
-    std::uint32_t generation = 0; // of its draws, and the value of step()
+    std::uint32_t number = 0;     // index among the passes of this kind in the step
+    std::uint32_t generation = 0; // key of its random draws; the value of step()
     std::uint64_t first_draw = 0; // number of the first draw of each module
     const Word* in = nullptr;
     const Word* out = nullptr; // null: the pass is about to begin
@@ -74,8 +74,8 @@ struct DeriveOptions {
     /// never from two at once.
     std::function<void(std::uint32_t generation, std::uint64_t modules_written)> progress;
     /// Called before and after each pass. Before a pass, each origin in `in` is set to the index of
-    /// its module, so the origins in `out` name the modules of `in` that were rewritten. Passes that
-    /// cannot change the word are left out. Precondition: `origins`; fewer than 2^32 modules.
+    /// its module, so the origins in `out` name the modules of `in` that were rewritten. Not called
+    /// for passes that cannot change the word. Precondition: `origins`; fewer than 2^32 modules.
     std::function<void(const DerivationPass& pass)> on_pass;
 };
 
@@ -95,10 +95,10 @@ public:
     Derivation(Derivation&&) noexcept;
     Derivation& operator=(Derivation&&) noexcept;
 
-    /// Draws the globals and makes the axiom. The first call is start() or resume().
+    /// Draws the globals and makes the axiom. start() or resume() must be called first.
     [[nodiscard]] std::optional<Stop> start();
     /// Continues from a saved word of age `age`. Globals are drawn again from the seed, with the
-    /// same values. If the word has no origins, those of its modules are unknown.
+    /// same values. Modules of a word without origins get unknown origins.
     [[nodiscard]] std::optional<Stop> resume(Word word, std::uint32_t age);
     /// Rewrites the word once. After a Stop the word is still that of age().
     [[nodiscard]] std::optional<Stop> step();
@@ -106,16 +106,16 @@ public:
     [[nodiscard]] std::optional<Stop> run_to(std::uint32_t age);
     /// Runs the whole derivation: start(), run_to(DeriveOptions::generations), check_brackets().
     [[nodiscard]] std::optional<Stop> derive();
-    /// Applies the productions of `#interpret` to the word, which becomes the one that is drawn. No
-    /// step() may follow. Interpretation does the same without storing words.
+    /// Applies the productions of `#interpret` to the word, which becomes the word to draw. No
+    /// step() may follow. The class Interpretation does the same without storing words.
     [[nodiscard]] std::optional<Stop> interpret();
     /// Starts to follow the modules of the word: sets each origin to the index of its module, with
     /// age() and the bit kFollowed as generation. After step() an origin names the module of the
     /// former word that was copied or, if the generation is the new age, rewritten. Returns false if
     /// the word has more than 2^32 - 1 modules. Precondition: DeriveOptions::origins.
     [[nodiscard]] bool follow();
-    /// Checks that every `]` of the word has its `[`. Commands call it on the last word. The error
-    /// names the production that wrote the `]` if only one can have.
+    /// Checks that every `]` and `}` of the word has its partner. Commands call it on the last
+    /// word. The error names the production that wrote the bracket if only one can have written it.
     [[nodiscard]] std::optional<Stop> check_brackets();
 
     [[nodiscard]] const Word& word() const;

@@ -19,7 +19,8 @@ namespace {
 constexpr std::size_t kMaxProductions = 4096;
 constexpr std::uint32_t kMaxAxiomParameters = 4096;
 constexpr std::uint32_t kMaxCodes = 4096;
-constexpr std::uint64_t kMaxTrials = std::uint64_t{1} << 16; // of productions on modules
+/// Max applications of productions to modules.
+constexpr std::uint64_t kMaxTrials = std::uint64_t{1} << 16;
 
 class Folder {
 public:

@@ -2,7 +2,8 @@
 // Folds the modules that a derivation can reach. If modules have few different tuples of arguments,
 // as in most published systems (lengths that grow by a factor per generation, counters that run
 // down), a module with its arguments becomes one code. Words then store no parameters, conditions
-// are decided once per code, and parametric systems are rewritten as fast as others.
+// are decided once per code, and parametric systems are rewritten as fast as those without
+// parameters.
 #pragma once
 
 #include "compiler/bytecode/bytecode.h"

@@ -26,8 +26,8 @@ struct Origin {
     friend bool operator==(const Origin&, const Origin&) = default;
 };
 
-/// Prints origins: "from p2 at tree.lsys:7:14, generation 3", without the place if the program has
-/// none; "origin unknown, in the saved state of generation 2".
+/// Prints origins: "from p2 at tree.lsys:7:14, generation 3", without " at ..." if the program has
+/// no sites; "origin unknown, in the saved state of generation 2".
 class OriginPrinter {
 public:
     /// Precondition: `bytecode` outlives the printer.

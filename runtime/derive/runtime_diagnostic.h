@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Messages to the grammar's author about errors and limits of a derivation. Made from a
-// RuntimeError or LimitReport and the bytecode alone, so that they are the same for a source file
-// and for a .lsb file.
+// Messages to the grammar's author about errors and limits of a derivation. They are made from a
+// RuntimeError or LimitReport and the bytecode alone, so a source file and its .lsb file give the
+// same messages.
 #pragma once
 
 #include "compiler/bytecode/bytecode.h"

@@ -89,7 +89,7 @@ struct StepTracer::State {
     const Bytecode& bytecode;
     TraceInputs inputs;
     std::vector<ModuleTrace> traces;
-    std::vector<Place> places; // tracked in the current word, ascending
+    std::vector<Place> places; // tracked modules of the current word, ascending
     std::vector<ModuleTrace>
         traces_without_pass;                     // traces of the roots, if the engine makes no pass
     std::vector<std::uint32_t> pass_productions; // productions of the current pass
@@ -132,8 +132,8 @@ struct StepTracer::State {
         }
     }
 
-    /// Whether the tracked module at `position` is explained: if productions of the pass may apply to
-    /// it. A root always is, except in the passes of a sequential generation for other rules.
+    /// Whether the tracked module at `position` gets a trace: always in a rewriting pass, except in
+    /// sequential mode; else if a production of the pass may apply to it.
     [[nodiscard]] bool is_explained(const TracedPass& pass, std::uint64_t position) const {
         return (pass.facts.kind == DerivationPass::Kind::Rewrite &&
                 bytecode.settings.rewriting != RewritingMode::Sequential) ||
@@ -202,7 +202,7 @@ struct StepTracer::State {
         return trace;
     }
 
-    /// Compares the successors with the word written, and tracks its modules from then on.
+    /// Compares the successors with the written word, and tracks their modules from then on.
     void end(const Word& out) {
         const TracedWord word(bytecode, out);
         const std::span<const Origin> origins = out.origins();

@@ -39,7 +39,7 @@ module_text(const Bytecode& bytecode, std::string_view name, const std::vector<f
 /// A module that a context search visited.
 struct VisitedModule {
     std::uint64_t position = 0; // in the word read
-    std::uint32_t item = 0;     // of the pattern that the module was compared with
+    std::uint32_t item = 0;     // pattern item that the module was compared with
     TracedModule module;
 };
 
@@ -54,7 +54,7 @@ LSYS_COUNTED_ENUM(ContextEnd,
 struct ContextTrace {
     ContextEnd end = ContextEnd::NotSearched;
     std::vector<VisitedModule> visited;
-    std::uint32_t item = 0;     // of the pattern, where the search ended without fitting
+    std::uint32_t item = 0;     // pattern item where the search ended without fitting
     std::uint64_t ignored = 0;  // modules skipped because of #ignore or #consider
     std::uint64_t branches = 0; // branches skipped
 };
@@ -71,8 +71,8 @@ struct TracedPart {
 struct TracedRange {
     std::string text; // "{0.8, 1.2}", "normal(2, 0.3)"
     Opcode opcode = Opcode::Range;
-    std::uint64_t number = 0;     // of the draw
-    std::vector<float> arguments; // minimum and maximum, or those of the distribution
+    std::uint64_t number = 0;     // number of the draw
+    std::vector<float> arguments; // minimum and maximum, or the distribution's arguments
     float unit = 0.0F;            // u of docs/language.md section 6
     float value = 0.0F;
 };
@@ -80,7 +80,7 @@ struct TracedRange {
 /// A local value.
 struct TracedLocal {
     std::string name;
-    std::string text; // of its expression; for `if`, of the chosen side
+    std::string text; // its expression; for `if`, the chosen side
     float value = 0.0F;
     std::vector<std::string> choices; // conditions of `if` in it: "x > 2 is true"
 };
@@ -106,7 +106,7 @@ LSYS_COUNTED_ENUM(Verdict,
                   NotDrawn,  // it matches, but another production was drawn
                   NotTried); // an earlier production was taken
 
-/// One production that has a module's name, and why it applies or does not.
+/// A production for modules of this name, and why it applies or does not.
 struct Attempt {
     ProductionId production = kNoProduction;
     Verdict verdict = Verdict::NotTried;
@@ -128,8 +128,8 @@ struct ChoiceTrace {
     std::vector<Alternative> alternatives; // in file order; more than one
     bool by_generation = false;            // `choice generation`: one draw for all modules
     bool by_glibc = false;                 // `random glibc`
-    std::uint64_t number = 0;              // of the draw
-    std::uint64_t position = 0;            // at which it is drawn
+    std::uint64_t number = 0;              // number of the draw
+    std::uint64_t position = 0;            // position that keys the draw
     std::uint32_t rule = 0;
     float unit = 0.0F;
     std::size_t taken = 0; // index in alternatives
@@ -159,8 +159,8 @@ LSYS_COUNTED_ENUM(Fate,
 /// A module in one pass.
 struct ModuleTrace {
     DerivationPass::Kind kind = DerivationPass::Kind::Rewrite;
-    std::uint32_t rule = kNone; // the only one of the pass
-    std::uint32_t pass = 0;     // number among those of its kind
+    std::uint32_t rule = kNone; // the only rule of the pass
+    std::uint32_t pass = 0;     // index among the passes of its kind
     std::uint32_t generation = 0;
     bool was_run = true; // false: the engine skipped the pass, which could change no module
 
@@ -232,7 +232,7 @@ public:
                std::uint32_t age,
                DerivationPass::Kind kind);
     void on_pass(const DerivationPass& pass);
-    /// Ends the step. Adds a trace of each start module whose pass the engine left out because it
+    /// Ends the step. Adds a trace of each start module whose pass the engine skipped because it
     /// changes nothing.
     void finish();
 

@@ -28,8 +28,8 @@ public:
     explicit WordPrinter(const Bytecode& bytecode);
     /// Starts a new word: the next module does not follow the last one printed.
     void begin() { after_identifier_ = false; }
-    /// The text before and after a word that is not empty: a back quote if the word is one text,
-    /// with `names characters`. print() writes it, append() does not.
+    /// The text before and after a word that is not empty: a back quote if words are printed as one
+    /// text (`names characters`). print() writes it, append() does not.
     [[nodiscard]] std::string_view quote() const { return one_text_ ? "`" : ""; }
     /// Appends the text of `codes`, whose parameters are `parameters`.
     void append(std::span<const Code> codes, std::span<const float> parameters, std::string& out);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Export: writes a mesh, or for drawings the skeleton, as a file of a common format. Bytes go to a
 // sink in pieces and in order, large arrays straight from memory; no file is held in memory as a
-// whole. Input are the results of make_mesh() and the turtle; the command line owns the files.
+// whole. The input are results of make_mesh() and of the turtle; the command line owns the files.
 // Metres; +Y up, or +Z if requested. The same input gives the same bytes.
 #pragma once
 
@@ -31,13 +31,13 @@ enum class ExportFormat : std::uint8_t {
 /// Where a format stores the textures of materials.
 enum class ExportPictures : std::uint8_t {
     None,
-    Inside,           // embedded in the file; readers multiply them by the colour of the material
-    FilesWithRelief,  // files with the colour of the material; relief of bark as normal maps
-    FilesWithOpacity, // as FilesWithRelief; opacity of leaves in further files
+    Inside, // embedded in the file; readers multiply them by the colour of the material
+    FilesWithNormalMaps, // files with the colour of the material; relief of bark as normal maps
+    FilesWithOpacity,    // as FilesWithNormalMaps; opacity of leaves in further files
 };
 
-/// Axis of a file that points away from the ground. Z: x stays, and a point (x, y, z) of the mesh is
-/// at (x, -z, y).
+/// Axis of a file that points away from the ground. Z: a point (x, y, z) of the mesh is at
+/// (x, -z, y) in the file.
 enum class UpAxis : std::uint8_t { Y, Z };
 
 /// Collision shapes of trunk and boughs for game engines, as nodes of glTF beside the plant.
@@ -46,7 +46,7 @@ enum class CollisionKind : std::uint8_t { None, Capsules, Hulls };
 /// `tree_00-convcolonly`; `tree_collider_00`.
 enum class CollisionNames : std::uint8_t { Unreal, Godot, Unity };
 
-/// Unit of the lengths in a file. The mesh is scaled to it already; formats with a field for units
+/// Unit of the lengths in a file. The mesh is already in this unit; formats with a field for units
 /// state it.
 enum class LengthUnit : std::uint8_t { Metres, Centimetres, Millimetres };
 /// Units per metre: 1, 100 or 1000.
@@ -149,8 +149,8 @@ struct ExportInfo {
     /// Poses that move the mesh as a skin, in formats with motion. Preconditions: the skeleton is
     /// the first pose; Mesh::segments has an item for each vertex.
     const PlantAnimation* animation = nullptr;
-    /// Frames with different meshes, in formats with films. Preconditions: the mesh is that of the
-    /// film; no animation, compression or wind data.
+    /// Frames with different meshes, in formats with films. Preconditions: the exported mesh is
+    /// MeshFilm::mesh; no animation, compression or wind data.
     const MeshFilm* film = nullptr;
     /// Max count of joints of the skin, 2 to kMaxJoints; makes a skeleton of few joints with smooth
     /// weights (impl/bones.h). 0: a joint for each segment that moves.
@@ -159,14 +159,14 @@ struct ExportInfo {
     /// FormatTraits::wind_data. Precondition: Mesh::segments has an item for each vertex.
     bool wind_data = false;
     UpAxis up = UpAxis::Y; // for FormatTraits::up_axes
-    /// Write the triangles of two-sided materials a second time, reversed, with normals of their
-    /// own, for readers that draw front faces only; for FormatTraits::back_faces.
+    /// Write the triangles of two-sided materials a second time, reversed and with reversed
+    /// normals, for readers that draw front faces only; for FormatTraits::back_faces.
     bool both_sides = false;
     /// Collision shapes of the plant at rest, in glTF files.
     CollisionKind collision = CollisionKind::None;
     CollisionNames collision_names = CollisionNames::Unreal;
-    /// Levels of detail after the mesh itself, the finest first, in formats with `lods`; null: none.
-    /// Not together with an animation.
+    /// Levels of detail after the mesh itself, the finest first, in formats with `lods`; null:
+    /// none. Not together with an animation.
     const std::vector<CoarserMesh>* coarser = nullptr;
     /// Other plants in the file, for FormatTraits::variants; null: none. Not together with an
     /// animation or `coarser`.
@@ -175,7 +175,8 @@ struct ExportInfo {
 
 /// Writes one file to `sink`. Precondition: indices of the mesh are below its number of vertices.
 /// Stops before the first byte: Failed (nothing to draw, or more than the format can hold), Limit
-/// (more than kMaxJoints). Stops at any byte: Cancelled (by the sink), OutOfMemory.
+/// (a skin of more than kMaxJoints joints). Stops at any byte: Cancelled (by the sink),
+/// OutOfMemory.
 Outcome<void> export_mesh(const Mesh& mesh,
                           const Skeleton& skeleton,
                           ExportFormat format,

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Export of forests: trees as instances of shared surfaces, as nodes, or as one mesh. Bytes go to a
-// sink in pieces; memory holds only some trees of one cell of the ground. Metres, +Y up. The same
-// forest gives the same bytes, for any number of threads.
+// sink in pieces; uncompressed transforms are in memory for one window of instances at a time
+// (ForestExportInfo::window_bytes). Metres, +Y up. The same forest gives the same bytes, for any
+// number of threads.
 #pragma once
 
 #include "runtime/export/export.h"
@@ -23,7 +24,7 @@ struct ForestScene {
 };
 
 enum class ForestForm : std::uint8_t {
-    Instanced, // EXT_mesh_gpu_instancing, which readers must support; 40 bytes per instance, or less
+    Instanced, // EXT_mesh_gpu_instancing, which readers must support; at most 40 bytes per instance
     Expanded,  // a node for each branch instance; for FormatTraits::expands_forest
 };
 /// Max count of branch instances of ForestForm::Expanded. Each takes about 200 bytes of the file.
@@ -66,9 +67,9 @@ Outcome<std::vector<PictureFile>> make_forest_picture_files(const ForestScene& s
                                                             const ForestExportInfo& info);
 
 /// One mesh of all triangles in world coordinates. Parts are in the order of materials: first the
-/// materials of the species, then of the ground. Texture coordinates, tangents and colours are kept only
-/// if every surface has them. Stops: Limit for more than `max_bytes`, checked before the memory is
-/// allocated; Failed for more vertices than 32 bits can number; OutOfMemory.
+/// materials of the species, then of the ground. Texture coordinates, tangents and colours are kept
+/// only if every surface has them. Stops: Limit for more than `max_bytes`, checked before the
+/// memory is allocated; Failed for more vertices than 32 bits can number; OutOfMemory.
 Outcome<Mesh> bake_forest(const ForestScene& scene, std::uint64_t max_bytes, std::uint32_t threads);
 
 struct ForestStatsOptions {

@@ -30,7 +30,7 @@ struct PlantPlacement {
     friend bool operator==(const PlantPlacement&, const PlantPlacement&) = default;
 };
 
-/// The pivot of a plant at rest, in metres. The box is that of measure(), without radii.
+/// The pivot of a plant at rest, in metres. The box is the bounds of measure(), which ignore radii.
 [[nodiscard]] glm::vec3 pivot_of(const Skeleton& skeleton, PlantPivot pivot);
 
 /// Moves and scales positions, lengths and radii. Springs and masses stay as they are.

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// TileDocument: a GLB of a tile, composed of glTF documents: one with the surface of the ground, whose
-// buffer goes into the file, and those of the heroes, whose buffers and pictures are files of their
-// own. Adds the trees as instances (EXT_mesh_gpu_instancing) with a table of their properties
-// (EXT_instance_features, EXT_structural_metadata).
+// TileDocument: a GLB of a tile, composed of glTF documents: one of the ground, whose buffer goes
+// into the GLB, and one per hero, whose buffer and pictures are separate files. Adds the trees as
+// instances (EXT_mesh_gpu_instancing) with a table of their properties (EXT_instance_features,
+// EXT_structural_metadata).
 #pragma once
 
 #include "runtime/export/export.h"
@@ -24,16 +24,16 @@ namespace lsys {
 struct MeshDocument {
     nlohmann::ordered_json json;     // buffer 0 is `data`, buffer 1 its fallback
     std::string data;                // the buffer; empty if it is in the file `uri`
-    std::uint64_t decoded_bytes = 0; // of the fallback; 0: there is none
+    std::uint64_t decoded_bytes = 0; // size of the fallback; 0: no fallback
     std::string uri;                 // percent-encoded, relative to the tile; empty: none
-    std::uint64_t file_bytes = 0;    // size of this file
+    std::uint64_t file_bytes = 0;    // size of the file `uri`
     std::uint64_t offset = 0;        // of the buffer in the file
 };
-/// The document of a mesh at rest. Pictures are files beside it, those of make_picture_files() for
-/// ExportFormat::Gltf and `info`. Precondition: the mesh has triangles, a few million at most;
+/// The document of a mesh at rest. It refers to the picture files that make_picture_files() makes
+/// for ExportFormat::Gltf and `info`. Precondition: the mesh has triangles, a few million at most;
 /// `info` has a `buffer_name`, and no motion, film, levels or variants. Throws std::bad_alloc.
 [[nodiscard]] MeshDocument make_mesh_document(const Mesh& mesh, const ExportInfo& info);
-/// Stores a picture in the buffer of the document, in place of the file that image `number` names.
+/// Stores a picture in the buffer of the document; image `number` then refers to it, not to a file.
 /// Precondition: the buffer is `data`.
 void embed_picture(std::size_t number, const std::string& png, MeshDocument& document);
 
@@ -66,7 +66,7 @@ private:
     struct Buffer {
         std::string uri; // empty: the buffer of the GLB
         std::uint64_t bytes = 0;
-        std::uint64_t decoded_bytes = 0; // of its fallback; 0: there is none
+        std::uint64_t decoded_bytes = 0; // size of its fallback; 0: no fallback
     };
     /// A mesh with quantised positions, which are low + step * item.
     struct DrawnMesh {

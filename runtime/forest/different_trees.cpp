@@ -114,30 +114,30 @@ bool alike(const Moments& a, const Moments& b) {
     return true;
 }
 
-struct TreeLook {
+struct TreeShape {
     std::uint32_t species = 0;
     Moments moments;
 };
 
-std::uint64_t count_different(std::vector<TreeLook>& looks) {
-    const auto before = [](const TreeLook& a, const TreeLook& b) {
+std::uint64_t count_different(std::vector<TreeShape>& shapes) {
+    const auto before = [](const TreeShape& a, const TreeShape& b) {
         return std::tuple(a.species, a.moments.items, a.moments.second[0]) <
                std::tuple(b.species, b.moments.items, b.moments.second[0]);
     };
-    std::sort(looks.begin(), looks.end(), before);
+    std::sort(shapes.begin(), shapes.end(), before);
     std::uint64_t count = 0;
-    std::vector<std::size_t> near; // indices of distinct looks that a later look may equal
-    for (std::size_t i = 0; i < looks.size(); ++i) {
-        const TreeLook& look = looks[i];
-        const auto& s = look.moments.second;
+    std::vector<std::size_t> near; // indices of distinct shapes that a later shape may equal
+    for (std::size_t i = 0; i < shapes.size(); ++i) {
+        const TreeShape& shape = shapes[i];
+        const auto& s = shape.moments.second;
         const double tolerance = 2e-6 * (s[0] + s[1] + s[2]);
         std::erase_if(near, [&](std::size_t other) {
-            return looks[other].species != look.species ||
-                   looks[other].moments.items != look.moments.items ||
-                   looks[other].moments.second[0] < s[0] - tolerance;
+            return shapes[other].species != shape.species ||
+                   shapes[other].moments.items != shape.moments.items ||
+                   shapes[other].moments.second[0] < s[0] - tolerance;
         });
         const bool known = std::any_of(near.begin(), near.end(), [&](std::size_t other) {
-            return alike(looks[other].moments, look.moments);
+            return alike(shapes[other].moments, shape.moments);
         });
         if (!known) {
             near.push_back(i);
@@ -158,18 +158,18 @@ std::vector<Moments> moments_of(const InstanceCache& cache) {
     return moments;
 }
 
-TreeLook look_of(const Forest& forest, const MomentsOfCaches& of_caches, const Tree& tree) {
+TreeShape shape_of(const Forest& forest, const MomentsOfCaches& of_caches, const Tree& tree) {
     const InstanceCache& cache = forest.cache_of(tree);
     const std::vector<Moments>& moments = of_caches.at(&cache);
-    TreeLook look;
-    look.species = tree.species;
+    TreeShape shape;
+    shape.species = tree.species;
     Tree alone;
     alone.number = tree.number;
     TreeExpander expander(cache, forest.key);
     expander.expand(alone, [&](const BranchInstance& branch) {
-        add(look.moments, moments[branch.instance], branch);
+        add(shape.moments, moments[branch.instance], branch);
     });
-    return look;
+    return shape;
 }
 
 } // namespace
@@ -181,27 +181,27 @@ std::uint64_t count_different_trees(const Forest& forest, std::uint32_t threads)
             of_caches.emplace(&stage.cache, moments_of(stage.cache));
         }
     }
-    std::vector<TreeLook> looks(forest.trees.size());
+    std::vector<TreeShape> shapes(forest.trees.size());
     for_each_piece(forest, threads, [&](std::uint64_t, std::span<const Tree> trees) {
         for (const Tree& tree : trees) {
-            looks[static_cast<std::size_t>(&tree - forest.trees.data())] =
-                look_of(forest, of_caches, tree);
+            shapes[static_cast<std::size_t>(&tree - forest.trees.data())] =
+                shape_of(forest, of_caches, tree);
         }
     });
-    return count_different(looks);
+    return count_different(shapes);
 }
 
 std::uint64_t count_different_trees(const Forest& forest, std::span<const Tree> trees) {
     MomentsOfCaches of_caches; // only caches of these trees, since a forest may have many species
-    std::vector<TreeLook> looks;
+    std::vector<TreeShape> shapes;
     for (const Tree& tree : trees) {
         const InstanceCache& cache = forest.cache_of(tree);
         if (of_caches.count(&cache) == 0) {
             of_caches.emplace(&cache, moments_of(cache));
         }
-        looks.push_back(look_of(forest, of_caches, tree));
+        shapes.push_back(shape_of(forest, of_caches, tree));
     }
-    return count_different(looks);
+    return count_different(shapes);
 }
 
 } // namespace lsys

@@ -57,9 +57,9 @@ struct ForestCounts {
     std::uint64_t segments = 0;
     std::uint64_t objects = 0;
     std::uint64_t polygons = 0;
-    std::uint32_t max_branches = 0; // of one tree
-    /// Depends on place, rotation, scale and instance of every branch, not on the number of threads
-    /// or the order of trees.
+    std::uint32_t max_branches = 0; // max branches of one tree
+    /// Hash of place, rotation, scale and instance of every branch. Independent of the number of
+    /// threads and the order of trees.
     std::uint64_t digest = 0;
 
     void add(const ForestCounts& other);

@@ -41,7 +41,7 @@ struct DrawnRange {
 /// the branch.
 struct InstanceFork {
     std::uint32_t segment = 0;
-    std::uint32_t slot = 0; // of the branch
+    std::uint32_t slot = 0; // slot of the branch
 };
 
 struct Instance {
@@ -51,16 +51,16 @@ struct Instance {
     std::uint32_t exit_count = 0;
     std::uint32_t first_range = 0; // index in InstanceCache::ranges
     std::uint32_t range_count = 0;
-    DrawnCounts size;                     // of all its ranges
-    glm::dquat frame{1.0, 0.0, 0.0, 0.0}; // of the turtle at the entry, in the skeleton
-    glm::dvec3 position{};                // m, of the entry, in the skeleton
-    std::uint32_t order = 0;              // of the branch and its segments in its hero
+    DrawnCounts size;                     // sum over its ranges
+    glm::dquat frame{1.0, 0.0, 0.0, 0.0}; // frame of the turtle at the entry, in the skeleton
+    glm::dvec3 position{};                // m, position of the entry, in the skeleton
+    std::uint32_t order = 0;              // order of the branch and its segments in its hero
 };
 
 /// The instances of one key, with counts of the recording.
 struct InstanceSlot {
-    std::uint32_t id = 0;            // of the branch; 0: the axiom, whole plants
-    std::uint32_t age = 0;           // of the branch, in generations
+    std::uint32_t id = 0;            // id of the branch; 0: the axiom, whole plants
+    std::uint32_t age = 0;           // age of the branch, in generations
     std::uint32_t first_variant = 0; // index in InstanceCache::variants
     std::uint32_t variant_count = 0;
     // In the instanced system `<` uses a recorded branch, `@` records a branch.
@@ -72,18 +72,18 @@ struct InstanceSlot {
 
 /// The values of a key besides id and age, from the first branch with this key.
 struct InstanceKey {
-    std::vector<float> formals; // used in the text of the branch, by position in the predecessor
+    std::vector<float> formals; // formals that the branch uses, by position in the predecessor
     TurtlePlace place;          // position, frame and order are not part of the key
     bool has_vertical = false;  // whether elevation and roll are part of the key
-    float elevation = 0.0F;     // degrees, of the heading
-    float roll = 0.0F;          // degrees, about the heading
+    float elevation = 0.0F;     // degrees, elevation of the heading
+    float roll = 0.0F;          // degrees, roll about the heading
 };
 
 struct InstanceCache {
-    Skeleton skeleton; // of all heroes, one after the other
+    Skeleton skeleton; // all heroes, one after the other
     std::vector<Instance> instances;
     std::vector<InstanceSlot> slots;     // slot 0: whole plants
-    std::vector<std::uint32_t> variants; // numbers of instances, slot by slot
+    std::vector<std::uint32_t> variants; // indexes of instances, slot by slot
     std::vector<InstanceExit> exits;
     std::vector<DrawnRange> ranges;
     std::vector<InstanceFork> forks; // places where the skeleton lacks a branch
@@ -93,7 +93,7 @@ struct InstanceCache {
     /// CacheOptions::origins.
     std::vector<Origin> origins;
 
-    /// Memory in bytes, without the skeleton.
+    /// Memory in bytes, without skeleton, keys and origins.
     [[nodiscard]] std::uint64_t byte_count() const {
         return instances.size() * sizeof(Instance) + slots.size() * sizeof(InstanceSlot) +
                variants.size() * sizeof(std::uint32_t) + exits.size() * sizeof(InstanceExit) +
@@ -113,8 +113,8 @@ struct CacheOptions {
     std::vector<bool> depends_on_vertical;
     bool keep_keys = false; // fills InstanceCache::keys
     std::uint32_t threads = 0;
-    Limits limits;                               // of each word
-    std::uint64_t max_bytes = ~std::uint64_t{0}; // of the skeleton
+    Limits limits;                               // limits of each word
+    std::uint64_t max_bytes = ~std::uint64_t{0}; // limit of the skeleton
     std::vector<float> mesh_lengths;             // as in TurtleOptions
     std::shared_ptr<const Looks> looks;          // as in TurtleOptions
     bool origins = false;                        // record the origins of instances and drawn items
@@ -199,8 +199,8 @@ private:
     const InstanceCache& cache_;
     std::uint64_t key_;
     Stack<Pending> pending_;
-    Stack<std::uint32_t> pending_slots_;           // of expand_instances()
-    std::array<std::uint32_t, kBlockRun> draws_{}; // of the kBlockRun nodes around the current one
+    Stack<std::uint32_t> pending_slots_;           // used by expand_instances()
+    std::array<std::uint32_t, kBlockRun> draws_{}; // draws of the current run of nodes
 };
 
 /// The transform of a tree into the world.

@@ -36,7 +36,8 @@ private:
     std::uint64_t count_ = 0;
 };
 
-/// Calls visit(tree number, first instance of its cache, expander) for trees of a piece.
+/// Calls visit(tree, its cache, number of the first instance of this cache, expander) for each of
+/// `trees`.
 template <typename Visit>
 void visit_trees(const Forest& forest,
                  const GroupNumbers& numbers,

@@ -44,7 +44,7 @@ struct InstanceList {
 
 struct InstanceListOptions {
     std::uint32_t threads = 0;                    // 0: as many as the machine has
-    std::uint64_t max_bytes = ~std::uint64_t{0};  // of the instances
+    std::uint64_t max_bytes = ~std::uint64_t{0};  // limit of the instances
     const std::atomic<bool>* cancelled = nullptr; // may be null
 };
 

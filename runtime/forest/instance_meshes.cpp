@@ -61,7 +61,8 @@ bool draws_at_entry(const InstanceCache& cache, const Instance& instance) {
     return false;
 }
 
-/// Per slot: whether its instances begin with a segment, of their own or of an instance at an exit.
+/// Per slot: whether its instances begin with a segment at the entry: their own, or a segment of an
+/// instance at an exit.
 std::vector<bool> find_slots_with_segments(const InstanceCache& cache) {
     std::vector<bool> begins(cache.slots.size());
     // Repeats until nothing changes: exits at the entry of their instance form chains, which are
@@ -217,7 +218,7 @@ private:
 
     const InstanceCache& cache_;
     const Mesh& mesh_;
-    LargeVector<std::uint32_t> indices_; // of the mesh
+    LargeVector<std::uint32_t> indices_; // expanded indices of the mesh
     std::uint64_t segments_;
     std::uint64_t polygons_;
     ItemTriangles item_triangles_;

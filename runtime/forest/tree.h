@@ -11,10 +11,10 @@
 namespace lsys {
 
 struct Tree {
-    glm::vec3 position{};     // m, of the start of the turtle
+    glm::vec3 position{};     // m, where the turtle starts
     float yaw = 0.0F;         // radians about +Y
-    float scale = 1.0F;       // of all lengths
-    std::uint32_t number = 0; // in the forest: seeds the choices of the tree
+    float scale = 1.0F;       // factor of all lengths
+    std::uint32_t number = 0; // number in the forest: seeds the choices of the tree
     std::uint16_t species = 0;
     std::uint16_t age = 0; // years; 0: last stage of its species
 };

@@ -220,7 +220,7 @@ double TreeSizer::max_factor(std::uint16_t species) const {
     if (heights_[species] == 0.0) {
         return 1.0;
     }
-    double factor = 1.0; // of trees that draw nothing
+    double factor = 1.0; // the factor of trees that draw nothing
     for (const std::optional<double>& height : tables_[species].whole) {
         if (height && *height > tables_[species].min_height) {
             factor = std::max(factor, heights_[species] / *height);

@@ -18,7 +18,7 @@ namespace lsys {
 
 /// Extents of a cache's instances, from which the heights of its trees are computed.
 struct HeightTable {
-    std::vector<Bounds> boxes; // of each instance, in the coordinates of the heroes
+    std::vector<Bounds> boxes; // box of each instance, in the coordinates of the heroes
     /// Heights in m of whole plants without exits; none for other instances.
     std::vector<std::optional<double>> whole;
     double min_height = 0.0; // m; a lower tree counts as flat
@@ -61,7 +61,8 @@ void scale_cache(double factor, const StemMaterial& material, InstanceCache& cac
 /// flat or draw nothing.
 class TreeSizer {
 public:
-    /// Precondition: `forest` outlives the sizer; its trees are not used. heights[s]: of species s.
+    /// Precondition: `forest` outlives the sizer; its trees are not used. heights[s]: height of
+    /// species s, m.
     TreeSizer(std::span<const double> heights, const Forest& forest);
 
     /// Returns the first species with a flat tree, or nullopt. May be called from several threads.
@@ -78,7 +79,7 @@ private:
     std::vector<HeightTable> tables_; // by species; empty if its height is 0
 };
 
-/// Gives all trees of a forest their heights, as TreeSizer. Returns the first species with a flat
+/// Gives all trees of a forest their heights, like TreeSizer. Returns the first species with a flat
 /// tree, or nullopt. 0 threads: as many as the machine has.
 [[nodiscard]] std::optional<std::uint16_t>
 size_trees(std::span<const double> heights, std::uint32_t threads, Forest& forest);

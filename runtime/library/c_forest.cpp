@@ -51,7 +51,7 @@ lsys_status lsys_save_plant(const lsys_plant* plant,
                             std::size_t option_count,
                             const lsys_project* project,
                             lsys_messages** messages) {
-    return call_alone(
+    return call_without_value(
         [&] {
             return api::save_plant(plant->value, path, named_options(options, option_count),
                                    project_of(project));
@@ -67,7 +67,7 @@ lsys_status lsys_write_plant(const lsys_plant* plant,
                              void* user,
                              const lsys_project* project,
                              lsys_messages** messages) {
-    return call_alone(
+    return call_without_value(
         [&] {
             return api::write_plant(plant->value, name, receiver_of(receive, user),
                                     named_options(options, option_count), project_of(project));
@@ -126,7 +126,7 @@ lsys_status lsys_save_forest(const lsys_forest* forest,
                              std::size_t option_count,
                              const lsys_project* project,
                              lsys_messages** messages) {
-    return call_alone(
+    return call_without_value(
         [&] {
             return api::save_forest(forest->value, path, named_options(options, option_count),
                                     project_of(project));
@@ -142,7 +142,7 @@ lsys_status lsys_write_forest(const lsys_forest* forest,
                               void* user,
                               const lsys_project* project,
                               lsys_messages** messages) {
-    return call_alone(
+    return call_without_value(
         [&] {
             return api::write_forest(forest->value, name, receiver_of(receive, user),
                                      named_options(options, option_count), project_of(project));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The C interface, on top of the C++ one. No exception passes it.
+// The C interface, on top of the C++ interface. No exception leaves it.
 #include "runtime/library/impl/c_interface.h"
 
 #include <lsys/export.h>
@@ -238,7 +238,7 @@ lsys_status lsys_export(const lsys_plant* plant,
                         void* user,
                         const lsys_project* project,
                         lsys_messages** messages) {
-    return call_alone(
+    return call_without_value(
         [&] {
             return api::export_plant(plant->value, mesh->value, format, piece_writer(write, user),
                                      {}, project_of(project));

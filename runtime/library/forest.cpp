@@ -169,7 +169,8 @@ Outcome<Forest> grow(ForestSource source, const ForestOptions& options, const Pr
     });
 }
 
-/// Writes a forest whose options have been parsed and do not conflict.
+/// Writes a forest whose options have been parsed and do not conflict. `changing`: the forest that
+/// frames change, or null for a file without frames.
 ExitStatus write_loaded(const ForestFileOptions& options,
                         const ForestTarget& target,
                         const ForestSource& source,

@@ -25,8 +25,8 @@ std::span<const Public> as(std::span<const Inner> items) {
     return {reinterpret_cast<const Public*>(items.data()), items.size()};
 }
 
-// The layouts of glm and of the skeleton must equal the layouts in plant.h. The flags of a segment are
-// bit fields, whose position a test checks.
+// The layouts of glm and of the skeleton must equal the layouts in plant.h. The flags of a segment
+// are bit fields, whose position a test checks.
 static_assert(offsetof(glm::quat, x) == offsetof(Quaternion, x));
 static_assert(offsetof(glm::quat, w) == offsetof(Quaternion, w));
 static_assert(offsetof(::lsys::Segment, frame) == offsetof(Segment, frame));

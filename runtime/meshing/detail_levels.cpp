@@ -35,7 +35,7 @@ constexpr int kMaxTries = 24;              // max steps of the search for a numb
 constexpr double kEnough = 0.96;           // fraction of the wanted triangles that ends the search
 constexpr int kFittingSteps = 12;
 constexpr double kCloseAreas = 0.004; // value of Planner::difference() that ends the fitting
-constexpr double kAreaWeight = 0.1;   // of the covered area in Planner::difference()
+constexpr double kAreaWeight = 0.1;   // weight of the covered area in Planner::difference()
 constexpr double kMinScale = 0.2;     // of DetailLevel::wood_scale and foliage_scale
 constexpr double kMaxScale = 6.0;
 constexpr double kMaxStep = 1.8;   // max factor of a scale from one try to the next
@@ -52,7 +52,8 @@ constexpr double kLastTriangles = 45.0; // aimed at for the last level, without 
 constexpr double kLastCardTriangles = 24.0; // aimed at for the last level, with impostors
 // Max triangles of a level that an impostor may follow if the next mesh would look poor.
 constexpr std::uint64_t kMaxBeforePoor = 450;
-// A mesh looks poor if left-out wood lies, on average, more pixels than this from its parent.
+// A mesh looks poor if the wood of the plant lies, on average, more pixels than this from the kept
+// wood.
 constexpr double kPoorPixels = 0.8;
 constexpr std::uint64_t kMaxBeforeCards = 100; // max triangles of a mesh that only cards may follow
 constexpr std::uint64_t kMinBeforeCards = 20;  // a mesh of at most this many triangles is the last
@@ -76,7 +77,8 @@ constexpr float kRestoring = 1.3F;      // factor of MeshOptions::axis_error per
 constexpr double kMeanErrorPart = 0.3;  // mean error of an axis / MeshOptions::axis_error
 constexpr float kMaxDeviations = 4.0F;  // max MeshOptions::deviation / axis_error
 constexpr double kMinMove = 1e-12; // min product of a step and its effect to update derivatives
-constexpr float kMaxRadiusErrors = 2.0F; // radius of widened wood in errors: it is two pixels wide
+// Max radius of widened wood / DetailLevel::error: the wood is then two pixels wide.
+constexpr float kMaxRadiusErrors = 2.0F;
 
 std::uint64_t triangles_of(const Mesh& mesh) {
     std::uint64_t count = 0;
@@ -277,7 +279,7 @@ private:
         return triangles_of(mesh_);
     }
 
-    /// An estimate: corners of a polygon that coincide make no triangles.
+    /// An estimate, because corners of a polygon that coincide make no triangles.
     double triangles_of_item(std::uint32_t item, const std::vector<FoliageShape>& shapes) const {
         const std::size_t objects = skeleton_.objects.size();
         return item < objects
@@ -539,7 +541,7 @@ private:
         return wanted > 0.0 ? std::min(area / wanted - 1.0, kMaxExcess) : 0.0;
     }
 
-    /// The triangles of a level as it will be drawn.
+    /// The number of triangles of a level as it will be drawn.
     std::uint64_t exact_triangles(const DetailLevel& level) {
         if (!level.thinned) {
             count(skeleton_, level.options);
@@ -869,11 +871,11 @@ private:
     std::vector<double> mean_distances_; // m, by number of paths; see measure_paths()
     std::uint64_t most_paths_ = 0;       // paths of the level before it is thinned
     std::optional<AreaMeter> meter_;
-    VisibleAreas areas_; // of the finest level
-    VisibleAreas third_; // of the finest level, by AreaMeter::measure_third()
-    Bounds frame_;
-    std::uint64_t finest_ = 0;       // triangles
-    double last_ = 1.0;              // triangles at the end of the chain
+    VisibleAreas areas_;             // of the finest level
+    VisibleAreas third_;             // of the finest level, by AreaMeter::measure_third()
+    Bounds frame_;                   // of the finest level
+    std::uint64_t finest_ = 0;       // triangles of the finest level
+    double last_ = 1.0;              // triangles wanted at the end of the chain
     double triangles_per_ear_ = 1.0; // mean; a polygon of n corners has n - 2 ears
     float extent_ = 0.0F;
     std::optional<Stop> stop_;

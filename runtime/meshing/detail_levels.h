@@ -20,7 +20,7 @@ namespace lsys {
 
 /// Chains end with the first level of at most this many triangles.
 inline constexpr std::uint64_t kMinDetailTriangles = 50;
-/// Max number of the coarsest level; the finest is 0.
+/// Max number of the coarsest level; the finest level has number 0.
 inline constexpr std::uint32_t kMaxDetailLevel = 24;
 /// Size on screen, in pixels of the plant's largest extent, for which the finest level is made.
 inline constexpr float kFinestPixels = 1024.0F;
@@ -48,7 +48,7 @@ struct DetailLevel {
     /// Max size on screen for this level, in pixels of the plant's largest extent. At this size the
     /// axes of branches may be off by half a pixel.
     float pixels = kFinestPixels;
-    float error = 0.0F; // half a pixel at this size, in metres; 0 for the finest level
+    float error = 0.0F; // m, half a pixel at this size; 0 for the finest level
 };
 
 inline constexpr std::uint32_t kNoDetailLevel = ~std::uint32_t{0};
@@ -59,9 +59,9 @@ struct DetailChain {
     /// For formats with pictures: the chain ends with an impostor, crossed cards with one picture
     /// and its normals, and materials of coarser levels have colours of their own.
     bool pictures = false;
-    /// Levels from this number on, and the last level, get scales and tints, which takes most of the
-    /// time. kNoDetailLevel: no level gets any, and fit_detail_levels() must be called before the
-    /// levels are meshed.
+    /// Levels from this number on, and the last level, get scales and tints, which takes most of
+    /// the time. kNoDetailLevel: no level gets any, and fit_detail_levels() must be called before
+    /// the levels are meshed.
     std::uint32_t first_fitted = 0;
     /// Max number of levels. A longer chain keeps the finest, the coarsest, and others in about
     /// equal steps between. 1: the finest level only.
@@ -95,8 +95,8 @@ struct DetailLevels {
                                                     DetailLevels& levels);
 
 /// Makes the mesh of one level from `skeleton`, which is the planned skeleton or a pose of it.
-/// Mesh::segments refers to `skeleton`. Uses only arrays, threads and max_bytes of `options`; the
-/// level sets the rest. Precondition: number < levels.levels.size().
+/// Mesh::segments refers to `skeleton`. Takes only the requested arrays, threads and max_bytes from
+/// `options`; the level sets all others. Precondition: number < levels.levels.size().
 [[nodiscard]] std::optional<Stop> make_detail_mesh(const Skeleton& skeleton,
                                                    const std::vector<UserMesh>& user_meshes,
                                                    const DetailLevels& levels,

@@ -70,14 +70,14 @@ void apply_look(const Looks* looks, ItemColour colour, Material& material) {
             material.roughness = look->roughness.value_or(kBarkRoughness);
         }
         material.picture = look->picture;
-        material.relief = nullptr;
+        material.normal_map = nullptr;
         material.textured = true;
         material.cut_out = has_holes(*look->picture);
     }
-    if (look->relief != nullptr) {
-        material.relief = look->relief;
+    if (look->normal_map != nullptr) {
+        material.normal_map = look->normal_map;
         if (material.textured && material.picture == nullptr) {
-            material.picture = built_in_picture(material.kind); // the two are drawn together
+            material.picture = built_in_picture(material.kind); // drawn together with the relief
         }
     }
     material.translucency = look->translucency;

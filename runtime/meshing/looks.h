@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Looks: the appearance of colour indexes that have a `#material` (docs/language.md section 7.7),
-// with its pictures read. Made by the pipeline; meshers give it to materials.
+// with its pictures read. Made by the pipeline; meshers apply it to materials.
 #pragma once
 
 #include "runtime/turtle/skeleton.h"
@@ -18,11 +18,11 @@ struct Material;
 
 /// The look of a colour index. Unset members keep the built-in look.
 struct Look {
-    std::optional<glm::vec3> colour;                  // linear
-    std::shared_ptr<const Texture> picture = nullptr; // multiplied by the colour
-    std::shared_ptr<const Texture> relief = nullptr;  // normals, as bark_normals()
-    std::optional<float> roughness;                   // 0 to 1
-    std::optional<float> translucency;                // 0 to 1
+    std::optional<glm::vec3> colour;                     // linear
+    std::shared_ptr<const Texture> picture = nullptr;    // multiplied by the colour
+    std::shared_ptr<const Texture> normal_map = nullptr; // normals, as bark_normals()
+    std::optional<float> roughness;                      // 0 to 1
+    std::optional<float> translucency;                   // 0 to 1
     std::optional<bool> two_sided;
 };
 
@@ -42,8 +42,8 @@ void add_look(ItemColour index, Look look, Looks& looks);
 [[nodiscard]] float linear_of_srgb(float part);
 /// The linear colour of an item in formats without pictures, and of vertices. `looks` may be null.
 [[nodiscard]] glm::vec3 plain_colour(const Looks* looks, ItemColour colour);
-/// A colour that looks the same without `looks`, to 1/255 per component; an index without a look
-/// stays.
+/// A colour that looks the same without `looks`, to 1/255 per component. An index without a look is
+/// returned unchanged.
 [[nodiscard]] ItemColour without_look(const Looks* looks, ItemColour colour);
 /// Gives a material the look of its colour; `looks` may be null.
 void apply_look(const Looks* looks, ItemColour colour, Material& material);

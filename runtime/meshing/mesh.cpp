@@ -25,7 +25,7 @@ std::vector<FilePictures> pictures_of(const Skeleton& skeleton,
     names.resize(user_meshes.size());
     std::vector<FilePictures> pictures;
     for (std::size_t i = 0; i < user_meshes.size(); ++i) {
-        pictures.push_back({user_meshes[i].picture, user_meshes[i].relief, names[i]});
+        pictures.push_back({user_meshes[i].picture, user_meshes[i].normal_map, names[i]});
     }
     return pictures;
 }
@@ -74,7 +74,7 @@ std::optional<Stop> build(const Skeleton& skeleton,
     builder.set_looks(skeleton.looks);
     if (skeleton.l3d_compatible_surface && options.method == MeshMethod::Tubes) {
         append_l3d_shapes(skeleton, builder);
-        append_objects(skeleton, user_meshes, options, builder); // other objects
+        append_objects(skeleton, user_meshes, options, builder); // all objects except leaves
         return builder.finish();
     }
     switch (options.method) {

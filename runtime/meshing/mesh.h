@@ -35,9 +35,9 @@ struct Material {
     bool two_sided = false;
     bool cut_out = false;  // texels below half opacity are discarded
     bool textured = false; // by `picture` or, if that is null, material_texture(kind)
-    std::shared_ptr<const Texture> picture = nullptr; // of a file; multiplied by the colour
-    std::shared_ptr<const Texture> relief = nullptr;  // normals of a file, as bark_normals()
-    std::optional<float> roughness = std::nullopt;    // unset: the roughness of the kind
+    std::shared_ptr<const Texture> picture = nullptr;    // of a file; multiplied by the colour
+    std::shared_ptr<const Texture> normal_map = nullptr; // normals of a file, as bark_normals()
+    std::optional<float> roughness = std::nullopt;       // unset: the roughness of the kind
     std::optional<float> translucency = std::nullopt; // 0 to 1; unset: the viewer chooses by kind
 };
 
@@ -94,7 +94,7 @@ struct MeshOptions {
     MeshMethod method = MeshMethod::Default;
     /// 0 is the finest; each level has about half the sides of the one before, and fewer rings.
     std::uint32_t level = 0;
-    /// Sides of every cross-section; 0: those of the skeleton.
+    /// Sides of every cross-section; 0: the sides that each segment states.
     std::uint32_t sides = 0;
     /// Tubes: max distance in metres of a ring from its circle. Rings get the fewest sides within
     /// this distance, at most the sides of their level. 0: rings have the sides of their level.
@@ -118,8 +118,8 @@ struct MeshOptions {
     bool smooth_joints = false;
     /// Bending of leaves by gravity, 0 (none) to 1 (hanging); unset: Skeleton::leaf_droop.
     std::optional<float> droop = std::nullopt;
-    /// Boxes: steps of smoothing; none: kGrooveSubdivisions with grooves, else 0 for
-    /// Skeleton::box_segments and kSubdivisions for others.
+    /// Boxes: steps of smoothing. Unset: kGrooveSubdivisions with grooves, else 0 for
+    /// Skeleton::box_segments, else kSubdivisions.
     std::optional<std::uint32_t> subdivisions = std::nullopt;
     /// Solid: width in metres of the thinnest branch, and of leaves and polygons. 0: 1/150 of the
     /// largest extent of the plant.
@@ -136,7 +136,7 @@ struct ObjName {
     std::uint64_t offset = 0;
 };
 
-/// A mesh read from a file for `#object X "leaf.obj"`; extent along +Y gives the turtle its step.
+/// A mesh read from a file for `#object X "leaf.obj"`; length() is the step of the turtle.
 /// A picture for polygons, `#object { "leaf.png"`, sets `picture` only.
 struct UserMesh {
     std::vector<glm::vec3> positions;
@@ -146,7 +146,7 @@ struct UserMesh {
     std::vector<ObjName> libraries; // its material files (mtllib)
     std::vector<ObjName> materials; // of its faces, in order of first use; no name: no material
     std::shared_ptr<const Texture> picture;         // of the whole mesh; may be null
-    std::shared_ptr<const Texture> relief;          // normals of the whole mesh; may be null
+    std::shared_ptr<const Texture> normal_map;      // normals of the whole mesh; may be null
     std::vector<std::string> files;                 // files tried to find the picture
     [[nodiscard]] float length() const;             // max y, at least 0
     [[nodiscard]] std::uint64_t byte_count() const; // in memory, without the picture

@@ -45,8 +45,8 @@ public:
         film_.frames_per_second = frames_per_second;
     }
 
-    /// Texture coordinates, tangents and colours of a shape are those of its last frame. May throw
-    /// std::bad_alloc.
+    /// Adds a frame. A shape has the texture coordinates, tangents and colours of its last frame.
+    /// May throw std::bad_alloc.
     void add(Mesh frame);
     /// Bytes of all frames so far.
     [[nodiscard]] std::uint64_t byte_count() const;

@@ -131,7 +131,7 @@ struct PetalRow {
 };
 constexpr PetalRow kPetalBase{0.10F, 0.34F, 0.0F};
 constexpr PetalRow kPetalTip{0.68F, 1.0F, 0.0F};
-// Coarse levels have the last rows, which reach farthest out, like the tip.
+// Coarse levels keep only the last rows, which reach farthest out, like the tip.
 constexpr std::array<PetalRow, 3> kPetalRows{{
     {0.27F, 0.62F, 0.20F},
     {0.46F, 0.83F, 0.29F},
@@ -345,7 +345,7 @@ Shape make_shape(TurtleOperation kind, std::uint32_t level) {
 
 Shape make_shape(const UserMesh& mesh) {
     ShapePart part = plain(kGrey);
-    part.material.two_sided = true; // many are leaves
+    part.material.two_sided = true; // many user meshes are leaves
     if (mesh.picture != nullptr && !mesh.texture_coordinates.empty()) {
         part.material.textured = true;
         part.material.cut_out = has_holes(*mesh.picture);

@@ -4,8 +4,9 @@
 //   LEAF        length 1, width 0.5; upper side +Z, the tip and the edges bent
 //   FLOWER      length 1 to the tips of its five petals, opening along +Y
 //   SPHERE      diameter 1, centre at y = 0.5
-//   HETEROCYST  the same extent: a barrel with a plug at each pole
-//   CYLINDER    length 1, diameter 1;  CONE the same, its point at y = 1
+//   HETEROCYST  the extent of SPHERE: a barrel with a plug at each pole
+//   CYLINDER    length 1, diameter 1
+//   CONE        length 1, diameter 1, its point at y = 1
 //   CUBE        side 1, from y = 0 to 1
 //   DISK        diameter 1, at y = 0, normal +Y
 //
@@ -20,7 +21,7 @@
 
 namespace lsys {
 
-/// Triangles of one material. Arrays run in parallel.
+/// Triangles of one material. Arrays of vertices are parallel.
 struct ShapePart {
     MaterialKey material;
     bool takes_colour = true; // an object's own colour index replaces the material's

@@ -16,7 +16,7 @@ namespace {
 
 constexpr std::uint32_t kSize = 256;
 
-/// A number in [0, 1) for each point of a lattice.
+/// Pseudo-random number in [0, 1) of a lattice point.
 float lattice(std::uint32_t x, std::uint32_t y, std::uint32_t layer) {
     constexpr std::uint32_t kRow = 0x9E3779B9;
     return unit_float(lowbias32(x + kRow * (y + kRow * layer)));
@@ -45,7 +45,7 @@ float texel_centre(std::uint32_t texel) {
 struct LatticePosition {
     std::uint32_t low = 0;
     std::uint32_t high = 0;
-    float share = 0.0F;
+    float share = 0.0F; // weight of `high`, 0 to 1
 };
 LatticePosition lattice_position(std::uint32_t texel, std::uint32_t cells) {
     const float x = texel_centre(texel) * static_cast<float>(cells);
@@ -106,7 +106,8 @@ private:
     Noise narrow_;
 };
 
-/// Bark: two families of crossing lines form long lozenges; cracks across them are shallow and rare.
+/// Bark: two families of crossing lines form long lozenges; cracks across them are shallow and
+/// rare.
 class Bark {
 public:
     /// Height of the bark, 0 in the fissures to 1 on the ridges.
@@ -136,7 +137,7 @@ std::uint8_t byte(float value) {
     return static_cast<std::uint8_t>((twice + 1) / 2);
 }
 
-/// Four channels for each texel, by column and row.
+/// A texture of texel(column, row), which returns four channels from 0 to 1.
 template <typename Texel>
 Texture paint(const Texel& texel) {
     Texture texture{kSize, kSize, {}};
@@ -190,7 +191,7 @@ Texture paint_leaf() {
         const float v = texel_centre(row);
         const float half = halves[row];
         const float side = std::abs(2.0F * texel_centre(column) - 1.0F);
-        // One texel of slope around the outline, for filters.
+        // Opacity falls over three texels across the outline, for texture filters.
         const float opacity = smooth(-1.5F, 1.5F, (half - side) * static_cast<float>(kSize) / 2.0F);
         const float midrib = 1.0F - smooth(0.012F, 0.03F + 0.03F * v, side);
         // Eight veins on each side leave the midrib and lean towards v = 0.
@@ -223,7 +224,7 @@ Texture material_texture(MaterialKind kind) {
 }
 
 Texture bark_normals() {
-    constexpr float kSteepness = 5.0F; // in texels of height
+    constexpr float kSteepness = 5.0F; // height of ridges above fissures, in texels
     std::vector<float> heights(std::size_t{kSize} * kSize);
     const auto height = [&heights](std::uint32_t column, std::uint32_t row) -> float& {
         return heights[std::size_t{row % kSize} * kSize + column % kSize];

@@ -28,13 +28,14 @@ struct Texture {
 /// LEAF, whose base is at v = 1 and tip at v = 0, as wide as the picture; a midrib and side veins.
 /// Empty for other kinds.
 [[nodiscard]] Texture material_texture(MaterialKind kind);
-/// The relief of the bark as normals.
+/// The normal map of the bark.
 [[nodiscard]] Texture bark_normals();
 
 /// Max texels of a picture file, in total and along a side.
 inline constexpr std::uint64_t kMaxTexels = std::uint64_t{1} << 26;
 inline constexpr std::uint32_t kMaxTextureSide = 16384;
-/// Reads a PNG or JPEG file whose texels take at most `max_bytes`. The error names any other known format.
+/// Reads a PNG or JPEG file whose texels take at most `max_bytes`. The error names any other known
+/// format.
 [[nodiscard]] Result<Texture> read_picture(std::string_view bytes, std::uint64_t max_bytes);
 /// A normal map is returned unchanged; its mean near (0, 0, 1) identifies it. Any other picture is
 /// a height map, from which normals are computed: white is higher than black by `bump` times 2 % of

@@ -14,7 +14,7 @@ namespace lsys {
 
 namespace {
 
-/// Name of the format that the first bytes identify; empty for PNG, JPEG and unknown ones.
+/// Name of the format that the first bytes identify; empty for PNG, JPEG and unknown formats.
 std::string_view other_format(std::string_view bytes) {
     struct Known {
         std::string_view begin;
@@ -76,7 +76,7 @@ Texture normals_of(const Texture& picture, float bump) {
     if (is_near(0, 96, 160) && is_near(1, 96, 160) && is_near(2, 192, 255)) {
         return picture;
     }
-    constexpr float kHeight = 0.02F; // of white above black, in widths of the picture
+    constexpr float kHeight = 0.02F; // height of white above black, in widths of the picture
     // Height in texels per step of red + green + blue.
     const float scale = bump * kHeight * static_cast<float>(picture.width) / (3.0F * 255.0F);
     const auto height = [&](std::uint32_t x, std::uint32_t y) {

@@ -127,13 +127,13 @@ void TriangleList::read_patches(const Block& block,
         };
         while (first < patch->end && !to.empty()) {
             const std::uint64_t number = (first - begin) / unit;
-            const std::uint64_t left_out = (first - begin) % unit;
-            const std::size_t count = std::min<std::size_t>(to.size(), unit - left_out);
+            const std::uint64_t skipped = (first - begin) % unit;
+            const std::size_t count = std::min<std::size_t>(to.size(), unit - skipped);
             if (count == unit) {
                 write(number, to.data());
             } else {
                 write(number, part.data());
-                std::copy_n(part.data() + left_out, count, to.data());
+                std::copy_n(part.data() + skipped, count, to.data());
             }
             to = to.subspan(count);
             first += count;

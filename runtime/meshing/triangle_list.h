@@ -18,7 +18,7 @@
 
 namespace lsys {
 
-/// Consecutive vertices of a ring from vertex `first` on. With a seam, where the picture begins and
+/// Consecutive vertices of a ring from vertex `first` on. With a seam, where the texture begins and
 /// ends, there is one vertex more than sides; without a seam, the last side ends at the first
 /// vertex.
 struct RingCorners {
@@ -56,7 +56,7 @@ public:
 
     /// Appends two triangles per side between consecutive rings, `bands` + 1 rings from `low` on.
     void append_bands(const RingCorners& low, std::uint32_t bands);
-    /// Appends the triangles between two rings with different sides.
+    /// Appends the triangles between two rings with different numbers of sides.
     void append_uneven_band(const RingCorners& low, const RingCorners& high);
     /// Appends a triangle from each side of a ring to vertex `point`, or with `point_per_side` to
     /// the vertices from `point` on. `upwards`: the ring is counter-clockwise seen from the point.
@@ -68,9 +68,9 @@ private:
 
     /// Triangles of one shape in a regular order.
     struct Patch {
-        std::uint32_t end = 0; // of its indices, counted within the block
-        std::uint32_t first = 0;
-        std::uint32_t second = 0; // the other ring, the point, or the last ring of bands
+        std::uint32_t end = 0;    // of its indices, counted within the block
+        std::uint32_t first = 0;  // first vertex of the ring, or of the lowest ring of bands
+        std::uint32_t second = 0; // of the other ring, the point, or of the last ring of bands
         Shape shape = Shape::Bands;
         std::uint8_t sides = 0;
         std::uint8_t second_sides = 0;
@@ -103,7 +103,8 @@ private:
     std::uint64_t size_ = 0;
 };
 
-/// Calls visit(first, indices) with as many at a time as a cache holds, in order.
+/// Calls visit(first, indices) for chunks of indices that fit into a cache, in order. `first`:
+/// number of the first index.
 template <typename Visit>
 void for_each_chunk(const TriangleList& list, const Visit& visit) {
     constexpr std::uint64_t kMax = 24576;

@@ -30,7 +30,7 @@ constexpr std::uint32_t kNotGiven = 0xFFFFFFFFu;
 // Every vertex and every corner of a face takes two bytes at least, so indices fit into 32 bits.
 constexpr std::uint64_t kMaxBytes = 0x1FFFFFFF0u;
 
-/// A corner of a face: indices from 0 of elements read so far.
+/// A corner of a face: zero-based indices of the elements read so far.
 struct Corner {
     std::uint32_t position = kNotGiven;
     std::uint32_t texture = kNotGiven;
@@ -109,7 +109,7 @@ public:
         }
         const std::uint64_t finished_bytes =
             numbers_.corners().size() * (2 * sizeof(glm::vec3) + sizeof(glm::vec2));
-        if (!has_memory(finished_bytes)) {
+        if (!check_memory(finished_bytes)) {
             return std::move(*error_);
         }
         finish();
@@ -164,8 +164,8 @@ private:
         return of(positions_) + of(normals_) + of(texture_coordinates_) + of(area_sums_) +
                of(mesh_.indices) + numbers_.byte_count() + name_bytes_;
     }
-    /// Whether `more` bytes fit; sets the error if not.
-    bool has_memory(std::uint64_t more) {
+    /// Returns whether `more` bytes fit; sets the error if they do not.
+    bool check_memory(std::uint64_t more) {
         if (held_bytes() + more <= max_bytes_) {
             return true;
         }
@@ -182,7 +182,7 @@ private:
         }
         constexpr std::size_t kMin = 32;
         const std::size_t room = std::max({count, 2 * items.capacity(), kMin});
-        if (!has_memory(room * sizeof(T))) {
+        if (!check_memory(room * sizeof(T))) {
             return false;
         }
         items.reserve(room);
@@ -213,7 +213,7 @@ private:
         skip_line_end();
     }
 
-    /// Names may have blanks in them, but not at their ends.
+    /// The name in the rest of the line. It may have blanks in it, but not at its ends.
     ObjName rest_of_line() {
         skip_blanks();
         const std::size_t begin = at_;
@@ -232,10 +232,10 @@ private:
         if (known.contains(name.name)) {
             return true;
         }
-        // Bound: a node and a bucket of the set, an item of a list that may be reallocating.
+        // Upper bound: a node and a bucket of the set, an item of a list that may be reallocating.
         const std::uint64_t bytes =
             2 * name.name.size() + 8 * sizeof(void*) + sizeof(std::string) + 3 * sizeof(ObjName);
-        if (!has_memory(bytes)) {
+        if (!check_memory(bytes)) {
             return false;
         }
         name_bytes_ += bytes;
@@ -320,7 +320,8 @@ private:
     }
 
     // --- faces
-    /// Reads an index at the head of `rest`; negative ones count from the last one read so far.
+    /// Reads an index at the head of `rest`. Negative indices count back from the last element
+    /// read.
     bool read_index(std::uint64_t line,
                     std::string_view& rest,
                     std::size_t count,
@@ -404,7 +405,7 @@ private:
             }
         }
         const std::uint64_t growth = numbers_.growth(3);
-        if ((growth != 0 && !has_memory(growth)) || !make_room(mesh_.indices, 3)) {
+        if ((growth != 0 && !check_memory(growth)) || !make_room(mesh_.indices, 3)) {
             return false;
         }
         for (const Corner* corner : {&a, &b, &c}) {
@@ -437,7 +438,7 @@ private:
             const glm::dvec3 normal = has_normal(corner) ? glm::dvec3(normals_[corner.normal])
                                                          : area_sums_[corner.position];
             const double length = std::sqrt(glm::dot(normal, normal));
-            // Faces of a vertex may cancel each other.
+            // The normals of the faces of a vertex may cancel each other.
             mesh_.normals.push_back(length > 0.0 ? glm::vec3(normal / length)
                                                  : glm::vec3(0.0F, 1.0F, 0.0F));
             if (!texture_coordinates_.empty()) {
@@ -462,7 +463,7 @@ private:
     std::vector<glm::dvec3>
         area_sums_; // by vertex: sum of the normals of its faces, each of length 2 * area
     CornerNumbers numbers_;
-    ObjName material_; // of the next faces
+    ObjName material_; // of the faces that follow
     std::string last_material_;
     std::unordered_set<std::string> known_libraries_;
     std::unordered_set<std::string> known_materials_;
@@ -496,7 +497,7 @@ std::uint64_t UserMesh::byte_count() const {
 
 namespace {
 
-/// The name that a line of a map sets; null for other lines.
+/// The member that a line with `keyword` sets; null if the keyword is no supported map.
 ObjName* map_of(std::string_view keyword, MaterialPicture& material) {
     if (keyword == "map_Kd") {
         return &material.file;
@@ -504,12 +505,12 @@ ObjName* map_of(std::string_view keyword, MaterialPicture& material) {
     if (keyword == "map_d") {
         return &material.opacity;
     }
-    const bool is_relief =
+    const bool is_normal_map =
         keyword == "map_Bump" || keyword == "map_bump" || keyword == "bump" || keyword == "norm";
-    return is_relief ? &material.relief : nullptr;
+    return is_normal_map ? &material.normal_map : nullptr;
 }
 
-/// The number written as `word`; 1 if it is no number.
+/// The number written as `word`; 1 if it is not a number.
 float number_of(std::string_view word) {
     float number = 1.0F;
     const auto [end, failure] = number_from_chars(word.data(), word.data() + word.size(), number);
@@ -559,7 +560,7 @@ std::unordered_map<std::string, MaterialPicture> pictures_of(std::string_view mt
             // Options precede the name: a keyword, then its numbers or another word.
             while (begin < last && mtl[begin] == '-') {
                 const std::string_view option = next_word();
-                if (option == "-bm" && file == &material->relief) {
+                if (option == "-bm" && file == &material->normal_map) {
                     material->bump = number_of(next_word());
                     skip_blanks();
                     continue;

@@ -20,15 +20,15 @@ namespace lsys {
 /// coordinates are empty if the file has none. Uses at most `max_bytes` beside `text`.
 [[nodiscard]] Result<UserMesh> read_obj(std::string_view text, std::uint64_t max_bytes);
 
-/// Pictures of a material in a file of materials (MTL); no name: no picture.
+/// Pictures of a material in an MTL file; an empty name: no picture.
 struct MaterialPicture {
     bool has_options = false; // an option other than -bm stands before a name
     ObjName file;             // of map_Kd
     ObjName opacity;          // of map_d
-    ObjName relief;           // of map_Bump, bump or norm
+    ObjName normal_map;       // of map_Bump, bump or norm
     float bump = 1.0F;        // factor of the heights of map_Bump, by -bm
 };
-/// Pictures of the materials `wanted`, found by name.
+/// Pictures of the materials `wanted`, by material name; without materials missing in `mtl`.
 [[nodiscard]] std::unordered_map<std::string, MaterialPicture>
 pictures_of(std::string_view mtl, std::span<const ObjName> wanted);
 

@@ -42,7 +42,7 @@ void add_collision(CLI::App& app, CollisionKind& kind, CollisionNames& names) {
         "(default unreal)");
 }
 
-/// Adds the options of unit and pivot of the file of a plant.
+/// Adds the options of unit, pivot and collision shapes of plant files.
 void add_placement(CLI::App& app, PlantFileOptions& options) {
     add_unit(app, options.unit);
     add_choice<PlantPivot>(
@@ -97,8 +97,8 @@ Result<void> parse(CLI::App& app, const std::vector<std::string>& arguments) {
     }
 }
 
-/// Parses named options, then again with those of their preset. `add` adds the options of a struct
-/// to a command line, without `--output`.
+/// Parses named options; if they name a preset, parses them again with its options in front. `add`
+/// adds the options of a struct, except `--output`, to a command line.
 template <typename Options, typename Add>
 Result<Options> parse_named(PresetCommand command,
                             const std::string& output,

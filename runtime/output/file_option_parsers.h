@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Options of files of plants and forests: added to a command line, or parsed from names and values for
-// the public library.
+// Options of files of plants and forests: added to a command line, or parsed from names and values
+// for the public library.
 #pragma once
 
 #include "grammar/base/result.h"
@@ -18,29 +18,31 @@
 
 namespace lsys {
 
-/// The option --preset with the presets of the command.
+/// Adds the option --preset, with the presets of the command.
 void add_preset(CLI::App& app, PresetCommand command, std::string& target);
 
-// The options of files of plants, in the order of `lsc export --help`, which has more options.
-/// --format, --preset, and the options of all files: place, unit, compression, axes.
+// Options of plant files, in the order of `lsc export --help`, which has more options.
+/// Adds --format, --preset, and the options of unit, pivot, collision shapes, compression, buffers
+/// and axes.
 void add_plant_form(CLI::App& app, PlantFileOptions& options);
-/// The options of meshes and levels of detail.
+/// Adds the options of meshes and levels of detail.
 void add_plant_mesh(CLI::App& app, PlantFileOptions& options);
-/// The options of bending, motion and growth.
+/// Adds the options of bending, motion and growth.
 void add_plant_motion(CLI::App& app, PlantFileOptions& options);
 
-// The options of files of forests, in the order of `lsc forest --help`.
-/// The options of all files, without --preset.
+// Options of forest files, in the order of `lsc forest --help`.
+/// Adds the options of compression, instances, unit, pivot, collision shapes and axes.
 void add_forest_form(CLI::App& app, ForestFileOptions& options);
-/// --frames, and the options of meshes.
+/// Adds --frames and the options of meshes.
 void add_forest_mesh(CLI::App& app, ForestFileOptions& options);
 
-/// The format in which a file will be written; null if the name of the output has no known extension.
+/// The format of a file to write; null if it is not given and the name of the output has no known
+/// extension.
 [[nodiscard]] const FormatTraits* format_of(const PlantFileOptions& options);
 [[nodiscard]] const FormatTraits* format_of(const ForestFileOptions& options);
 
-/// The options that a preset adds to those that `app` has parsed. Error: the preset has no files of
-/// the format. Empty without a preset, or if the format is unknown. `format` may be null.
+/// The options that a preset adds to the options that `app` has parsed. Error: the preset does not
+/// suit the format. Empty without a preset, or if the format is unknown. `format` may be null.
 [[nodiscard]] Result<std::vector<std::string>> find_preset_arguments(std::string_view preset,
                                                                      PresetCommand command,
                                                                      const FormatTraits* format,
@@ -55,12 +57,13 @@ using NamedOption = std::pair<std::string, std::string>;
 [[nodiscard]] Result<ForestFileOptions> parse_forest_files(const std::string& output,
                                                            const std::vector<NamedOption>& options);
 
-/// An option that one of the functions below reads.
+/// An option that the parser of an OptionSet accepts.
 struct OptionHelp {
     std::string name;       // without dashes
     std::string value_name; // "METRES", "none|capsules|hulls"; empty for a flag
     std::string text;
 };
+/// The options of parse_plant_files(), parse_forest_files() and parse_scene_overrides().
 enum class OptionSet : std::uint8_t { Plant, Forest, Scene };
 [[nodiscard]] std::vector<OptionHelp> describe_options(OptionSet set);
 

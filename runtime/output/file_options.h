@@ -23,7 +23,7 @@ enum class BufferPlace : std::uint8_t {
     Separate, // files beside the output
 };
 
-/// Options for files of meshes that not all formats take.
+/// Options for files of meshes that only some formats accept.
 struct SurfaceOptions {
     UpAxis up = UpAxis::Y;
     bool both_sides = false;
@@ -51,13 +51,13 @@ struct PlantFileOptions {
     std::optional<float> height;  // m, of the plant
     std::optional<float> gravity; // m/s^2; with gravity or wind the plant is bent
     std::optional<Wind> wind;
-    bool settle = false;
+    bool settle = false; // start the motion at rest; without frames a plant is always at rest
     /// Max number of joints of a skin. 0: one per segment that moves. Default: 128.
     std::optional<std::uint32_t> bones;
     bool wind_data = false;   // add vertex attributes for wind shaders
-    bool loop = false;        // the motion is a loop
+    bool loop = false;        // the last frame equals the first
     bool grow = false;        // the frames show the growth through the generations
-    std::uint32_t frames = 0; // of an animation or of numbered files; 0: only the plant at rest
+    std::uint32_t frames = 0; // of an animation or of numbered files; 0: a plant that does not move
     float frames_per_second = 24.0F;
     bool stream = false;    // grow the plant without storing its word
     std::uint32_t lods = 0; // number of levels of detail to write; 0: only MeshOptions::level
@@ -78,8 +78,8 @@ struct ForestFileOptions {
     std::string output;                           // empty: none
     std::string preset;                           // of presets.def; empty: none
     std::optional<ExportCompression> compression; // default: none
-    bool expand = false;
-    bool bake = false;
+    bool expand = false;                          // glTF: one node per instance
+    bool bake = false;                            // all triangles as one mesh
     SurfaceOptions surface;
     LengthUnit unit = LengthUnit::Metres;
     ForestPivot pivot = ForestPivot::Origin;
@@ -90,7 +90,7 @@ struct ForestFileOptions {
     /// Side in m of the square cells of ground whose trees share a node. 0: a single cell. Unset:
     /// 100 for ForestInstances::Branches, else 0.
     std::optional<float> cell;
-    std::uint32_t frames = 0;
+    std::uint32_t frames = 0; // moments of growth, one file each; 0: a single file
     MeshOptions mesh;
 };
 

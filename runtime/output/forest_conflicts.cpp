@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The output of a forest, and its options that conflict.
+// The target of the output of a forest, and conflicts of its options.
 #include "grammar/base/paths.h"
 #include "runtime/output/forest_files.h"
 #include "runtime/output/surface_options.h"

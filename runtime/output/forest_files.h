@@ -19,12 +19,12 @@ namespace lsys {
 
 enum class ForestOutputKind : std::uint8_t { None, Instances, Mesh, Statistics };
 
-/// The kind and format of the output, determined by its extension.
+/// The kind and format of the output, determined by its extension and `bake`.
 struct ForestTarget {
     ForestOutputKind kind = ForestOutputKind::None;
     ExportFormat format = ExportFormat::Glb;
 };
-/// Error: the extension is no format of forests.
+/// Error: the extension is not of a format in which the forest can be written.
 [[nodiscard]] Result<ForestTarget> target_of(const ForestFileOptions& options);
 
 /// A message about options that conflict; empty if none do. `rho`: value of SceneOverrides::rho.
@@ -38,7 +38,7 @@ struct ForestOutput {
     const ForestTarget& target;
     const OutputContext& context;
     const Scene& scene;
-    /// By species and stage; with ForestInstances::Lods they may be empty.
+    /// Indexed by species and stage; may be empty with ForestInstances::Lods.
     const std::vector<std::vector<InstanceMeshes>>& meshes;
     const Mesh* ground = nullptr; // null: none
 };
@@ -48,11 +48,11 @@ struct ForestOutput {
                                      const GrownForest& grown,
                                      const OutputContext& context,
                                      std::optional<Mesh>& ground);
-/// Writes the forest with its trees as they are. Precondition: no conflict.
+/// Writes the forest with the current trees of `grown`. Precondition: no conflict.
 [[nodiscard]] ExitStatus write_forest(const ForestOutput& output, const GrownForest& grown);
-/// Writes `options.frames` moments of a forest that grows as numbered files. Changes the trees of
-/// `grown`. Precondition: no conflict; the scene grows by domination, or its trees have stages and
-/// are placed.
+/// Writes `options.frames` moments of a growing forest, each as a numbered file. Changes the trees
+/// of `grown`. Precondition: no conflict; the scene grows by domination, or its trees have stages
+/// and are placed.
 [[nodiscard]] ExitStatus write_forest_frames(const ForestOutput& output, GrownForest& grown);
 
 } // namespace lsys

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Files of levels of detail: their names, the distance and screen coverage at which a level is shown,
-// and the list of the files as JSON, which the importers in scripts/engines read.
+// Files of levels of detail: their names, the distance and screen coverage at which a level is
+// shown, and the list of the files as JSON, which the importers in scripts/engines read.
 #pragma once
 
 #include "runtime/export/export.h"
@@ -41,7 +41,7 @@ struct LodFile {
 [[nodiscard]] std::string lod_path(const std::string& path, std::size_t number);
 /// The path of the list: `tree.lods.json` for `tree.glb`.
 [[nodiscard]] std::string lods_json_path(const std::string& path);
-/// The list as a JSON object with a line end.
+/// The list as a JSON object and a line end.
 [[nodiscard]] std::string
 lods_json(const ExportInfo& info, const PlantExtent& extent, const std::vector<LodFile>& files);
 

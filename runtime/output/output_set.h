@@ -28,7 +28,7 @@ using FileReceiver = std::function<bool(const FilePiece& piece)>;
 struct OutputContext {
     const Console& console;
     const Project& project;
-    std::string generator;                     // the program and its version, for the files
+    std::string generator;                     // program and version, written into the files
     const FileReceiver* receiver = nullptr;    // null: files on disk
     std::vector<std::string>* paths = nullptr; // if not null, gets the paths of the files
 
@@ -42,13 +42,13 @@ public:
     /// `context` must outlive the set.
     explicit OutputSet(const OutputContext& context) : context_(context) {}
 
-    /// Writes a file that appears at commit(), and prints the messages of `write`. `write` passes
-    /// the bytes to the given sink, which returns false after a failure or an interrupt.
+    /// Writes a file that appears on disk at commit(), and prints the messages of `write`. `write`
+    /// passes the bytes to the given sink, which returns false after a failure or an interrupt.
     [[nodiscard]] ExitStatus add(const std::string& path,
                                  const std::function<Outcome<void>(const ByteSink&)>& write);
     /// Adds a file with these bytes.
     [[nodiscard]] ExitStatus add_text(const std::string& path, std::string_view text);
-    /// Makes all files visible.
+    /// Makes all files appear on disk.
     [[nodiscard]] ExitStatus commit() {
         return report_result(commit_all(outputs_), context_.console);
     }
@@ -56,6 +56,7 @@ public:
     [[nodiscard]] std::uint64_t byte_count() const { return byte_count_; }
 
 private:
+    /// Passes a file to the receiver.
     [[nodiscard]] ExitStatus hand_over(const std::string& path,
                                        const std::function<Outcome<void>(const ByteSink&)>& write);
 

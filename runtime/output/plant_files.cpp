@@ -67,8 +67,8 @@ ExitStatus add_side_files(PlantRun& run,
                      [&](const ByteSink& sink) { return write_mtl(run.mesh, info, sink); });
 }
 
-/// Plans levels of detail, once for all poses of the plant. Sets DetailChain::pictures if the format
-/// and the output allow pictures.
+/// Plans levels of detail, once for all poses of the plant. Sets DetailChain::pictures if the
+/// format and the output allow pictures.
 ExitStatus plan_levels(PlantRun& run, const Skeleton& skeleton, DetailChain chain) {
     const bool is_pose = skeleton.segments.size() == run.plant.skeleton.segments.size() &&
                          skeleton.objects.size() == run.plant.skeleton.objects.size() &&
@@ -88,7 +88,8 @@ ExitStatus plan_levels(PlantRun& run, const Skeleton& skeleton, DetailChain chai
                                     run.levels);
 }
 
-/// Meshes the level of detail of `skeleton` given by `--level`, at most the coarsest level.
+/// Meshes `skeleton` at the level of detail of `--level`, or at the coarsest level if there are
+/// fewer.
 ExitStatus mesh_wanted_level(PlantRun& run, const Skeleton& skeleton, const MeshOptions& options) {
     const std::uint32_t wanted = run.options.mesh.level;
     if (wanted == 0) {
@@ -167,10 +168,10 @@ ExitStatus write_mesh(PlantRun& run,
     constexpr std::uint32_t kDefaultJoints = 128;
     info.max_joints = given.bones.value_or(kDefaultJoints);
     const PlantPlacement placement = placement_of(run, skeleton);
-    const bool stays = placement == PlantPlacement{};
+    const bool is_identity = placement == PlantPlacement{};
     Skeleton placed;
     PlantAnimation placed_animation;
-    if (!stays) {
+    if (!is_identity) {
         placed = skeleton;
         place(placement, run.mesh);
         place(placement, placed);
@@ -180,7 +181,7 @@ ExitStatus write_mesh(PlantRun& run,
             info.animation = &placed_animation;
         }
     }
-    const Skeleton& written = stays ? skeleton : placed;
+    const Skeleton& written = is_identity ? skeleton : placed;
     OutputSet files(run.context);
     ExitStatus status = ExitStatus::Ok;
     if (run.context.is_regular(path)) {

@@ -26,7 +26,7 @@ struct ExportTiming {
 /// Results of writing, for statistics.
 struct PlantFileReport {
     ExportTiming timing;
-    Mesh mesh; // of the last file
+    Mesh mesh; // of the last frame, or of the finest level
 };
 
 /// The inputs of a plant: the path of its grammar and the compiled grammar.
@@ -35,7 +35,7 @@ struct PlantSource {
     const Grammar& grammar;
 };
 
-/// A message about options that conflict or that the format does not support; else empty.
+/// A message about options that conflict or that the format does not support; empty if none.
 [[nodiscard]] std::string
 find_conflict(const PlantFileOptions& options, ExportFormat format, const OutputContext& context);
 

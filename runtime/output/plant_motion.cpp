@@ -197,8 +197,8 @@ ExitStatus write_growth(PlantRun& run, PlantGrowth& growth, Skeleton& grown) {
     if (const ExitStatus status = find_first_drawn(run, growth, first); status != ExitStatus::Ok) {
         return status;
     }
-    // Growth starts at the last generation that draws nothing. This generation has no file, since it is
-    // empty: the first frame is one step later.
+    // Growth starts at the last generation that draws nothing. This generation has no file, since
+    // it is empty: the first frame is one step later.
     const std::uint32_t start = first == 0 ? 0 : first - 1;
     const std::uint32_t skipped = first == 0 ? 0 : 1;
     if (first > 0) {

@@ -14,8 +14,8 @@ bool expands(const FormatTraits& format) {
     return format.expands_forest;
 }
 
-/// Whether the format does not say which axis is up. Most readers of such formats, PLY and STL,
-/// assume +Z.
+/// Whether files of the format do not state which axis is up. Most readers of such formats, like
+/// PLY and STL, assume +Z.
 bool cannot_say_up(const FormatTraits& format) {
     return format.up_axes && format.pictures == ExportPictures::None;
 }

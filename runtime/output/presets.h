@@ -22,8 +22,8 @@ struct PresetOption {
     PresetCommand command = PresetCommand::Export;
     std::string_view name;  // such as `--unit`
     std::string_view value; // empty for a flag
-    /// Options that prevent this option, separated by blanks; `--output=-`: only this value prevents
-    /// it.
+    /// Options that prevent this option, separated by blanks; `--output=-`: only this value
+    /// prevents it.
     std::string_view unless;
     /// Whether a format accepts the option. Null: all formats of the preset accept it.
     bool (*takes)(const FormatTraits& format) = nullptr;
@@ -39,7 +39,7 @@ struct Preset {
 
 [[nodiscard]] std::span<const Preset> presets();
 [[nodiscard]] std::span<const PresetOption> preset_options();
-/// Whether the preset has files of the format for a command.
+/// Whether the preset supports a format for files of a command.
 [[nodiscard]] bool suits(const Preset& preset, PresetCommand command, const FormatTraits& format);
 /// The message that the preset does not suit a format.
 [[nodiscard]] std::string

@@ -8,7 +8,7 @@
 
 namespace lsys {
 
-/// A message about options that `format` does not accept; empty if it accepts all.
+/// A message about options that `format` does not accept; empty if it accepts all of them.
 [[nodiscard]] std::string find_surface_conflict(const SurfaceOptions& options, ExportFormat format);
 
 } // namespace lsys

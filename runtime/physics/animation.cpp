@@ -143,7 +143,7 @@ public:
 private:
     struct Change {
         bool is_made = false;
-        glm::dvec3 before{0.0};              // base
+        glm::dvec3 before{0.0};              // base before the change
         glm::dquat turn{1.0, 0.0, 0.0, 0.0}; // in the axes of the world
     };
 

@@ -28,7 +28,7 @@ struct Wind {
     friend bool operator==(const Wind&, const Wind&) = default;
 };
 
-/// Values that are not finite count as 0; negative values, except gravity and velocity, too.
+/// Values that are not finite count as 0, as do negative values except gravity and velocity.
 struct PhysicsOptions {
     float gravity = 9.81F; // m/s^2, downwards; 0: none
     Wind wind;

@@ -155,7 +155,7 @@ Result<std::shared_ptr<const Texture>> read_ground_picture(const SceneFile& file
     return std::make_shared<const Texture>(std::move(picture.value()));
 }
 
-/// Reads the pictures of the ground, or reuses those of `previous`.
+/// Reads the pictures of the ground, or reuses the pictures of `previous`.
 Outcome<GroundPictures> make_ground_pictures(const LoadedScene& loaded,
                                              const PreviousForest& previous,
                                              const Project& project,
@@ -462,8 +462,9 @@ grow_species(const LoadedScene& loaded, const Project& project, const PreviousFo
                 const bool is_new =
                     mesh.picture != nullptr && known_pictures.insert(mesh.picture.get()).second;
                 budget.take(mesh.byte_count() + (is_new ? mesh.picture->texels.size() : 0));
-                if (mesh.relief != nullptr && known_pictures.insert(mesh.relief.get()).second) {
-                    budget.take(mesh.relief->texels.size());
+                if (mesh.normal_map != nullptr &&
+                    known_pictures.insert(mesh.normal_map.get()).second) {
+                    budget.take(mesh.normal_map->texels.size());
                 }
             }
             continue;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Makes the forest of a scene: reads the files of the scene, makes the ground, derives and draws the
-// heroes of each species, and places the trees.
+// Makes the forest of a scene: reads the files of the scene, makes the ground, derives and draws
+// the heroes of each species, and places the trees.
 #pragma once
 
 #include "grammar/base/outcome.h"
@@ -55,8 +55,8 @@ struct GrownForest {
     double place_seconds = 0.0;
 };
 
-/// A forest from which grow_species() reuses heroes of species with equal values, and pictures of the
-/// ground with equal paths, even if the files have changed. Null: no previous forest.
+/// A forest from which grow_species() reuses heroes of species with equal values, and pictures of
+/// the ground with equal paths, even if the files have changed. Null: no previous forest.
 struct PreviousForest {
     const Scene* scene = nullptr;
     const GrownForest* grown = nullptr;

@@ -20,9 +20,9 @@ namespace {
 
 constexpr std::uint64_t kMaxVertices = std::numeric_limits<std::uint32_t>::max() - 1;
 bool is_same(const Material& a, const Material& b) {
-    return std::tie(a.name, a.kind, a.two_sided, a.cut_out, a.textured, a.picture, a.relief,
+    return std::tie(a.name, a.kind, a.two_sided, a.cut_out, a.textured, a.picture, a.normal_map,
                     a.roughness, a.translucency) == std::tie(b.name, b.kind, b.two_sided, b.cut_out,
-                                                             b.textured, b.picture, b.relief,
+                                                             b.textured, b.picture, b.normal_map,
                                                              b.roughness, b.translucency) &&
            a.colour == b.colour;
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // ForestLods: a forest of whole heroes, in which each tree has the level of detail for its distance
-// from a viewpoint. Each level of a species becomes a species of its own, so that writers of forests
-// need no code for levels. Made by make_forest_lods(); used by the command line.
+// from a viewpoint. Each level of a species becomes a species of its own, so that writers of
+// forests need no code for levels. Made by make_forest_lods(); used by the command line.
 #pragma once
 
 #include "grammar/base/outcome.h"
@@ -29,8 +29,8 @@ struct ForestLods {
 /// in a view with a vertical field of view of 60 degrees and 1,080 lines from `viewpoint`. The
 /// default viewpoint lies outside the forest: with h the height of the tallest tree, 3.5 h from the
 /// outermost tree and 2 h above the foot of this tree. Levels are made by plan_detail_levels(); the
-/// last level is an impostor. Precondition: `grown` has been grown with rho 0, so that each tree is a
-/// hero, and its trees are placed. Stops as mesh_forest().
+/// last level is an impostor. Precondition: `grown` has been grown with rho 0, so that each tree is
+/// a hero, and its trees are placed. Stops like mesh_forest().
 [[nodiscard]] Outcome<ForestLods> make_forest_lods(const GrownForest& grown,
                                                    const MeshOptions& options,
                                                    std::optional<glm::vec3> viewpoint,

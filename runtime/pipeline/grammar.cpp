@@ -159,12 +159,12 @@ bool is_standard_input(const std::string& path) {
 }
 
 FileLoader make_loader(const Project& project, std::uint64_t max_bytes) {
-    return
-        [read = project.host.read_named_file, left = max_bytes](const std::string& path) mutable {
-            Result<std::string> bytes = read(path, {kMaxSourceBytes, left});
-            left -= bytes ? bytes.value().size() : 0;
-            return bytes;
-        };
+    return [read = project.host.read_referenced_file,
+            left = max_bytes](const std::string& path) mutable {
+        Result<std::string> bytes = read(path, {kMaxSourceBytes, left});
+        left -= bytes ? bytes.value().size() : 0;
+        return bytes;
+    };
 }
 
 Outcome<GrammarText>

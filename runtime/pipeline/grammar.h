@@ -70,8 +70,8 @@ struct CompiledText {
 /// A path that means standard input and makes paths in the grammar relative to `folder`:
 /// `FOLDER/<stdin>`. `-` if `folder` is empty.
 [[nodiscard]] std::string standard_input_in(const std::string& folder);
-/// A path that means standard input, is printed as `name`, and makes paths in the grammar relative to
-/// the folder of `name`. `-` if `name` is empty.
+/// A path that means standard input, is printed as `name`, and makes paths in the grammar relative
+/// to the folder of `name`. `-` if `name` is empty.
 [[nodiscard]] std::string standard_input_as(const std::string& name);
 /// Whether `path` is `-`, or one of standard_input_in() and standard_input_as().
 [[nodiscard]] bool is_standard_input(const std::string& path);
@@ -88,8 +88,8 @@ read_grammar(const std::string& path, const std::string& dialect, const Project&
 [[nodiscard]] Result<void>
 check_system(const std::string& path, Dialect dialect, const GrammarOptions& options);
 
-/// Compiles `text`, the contents of the file `path`. Errors: those of check_system(); --set of a
-/// key that the dialect does not have.
+/// Compiles `text`, the contents of the file `path`. Errors: an error of check_system(); --set
+/// of a key that the dialect does not have.
 [[nodiscard]] Result<CompiledText> compile_text(const std::string& path,
                                                 GrammarText text,
                                                 const GrammarOptions& options,

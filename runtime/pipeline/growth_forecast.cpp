@@ -30,7 +30,7 @@ bool closes_too_much(const Bytecode& bytecode, TableRange codes) {
            has_unmatched_close(bytecode, codes, SymbolKind::PolygonClose);
 }
 
-/// Whether a derivation can only end in an error while it draws its constants.
+/// Whether no error is possible after the derivation has drawn its constants.
 bool cannot_fail(const Bytecode& bytecode) {
     const auto is_plain = [](const BytecodeSymbol& symbol) { return symbol.parameter_count == 0; };
     const auto is_safe = [&](const BytecodeProduction& production) {
@@ -89,7 +89,7 @@ predict_counts(const Bytecode& bytecode, std::uint32_t generations, const Limits
     return counts;
 }
 
-std::vector<double> expect_modules(const Bytecode& bytecode, std::uint32_t generations) {
+std::vector<double> predict_expected_modules(const Bytecode& bytecode, std::uint32_t generations) {
     if (!is_small(bytecode)) {
         return {};
     }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Predictions of word sizes before deriving: limits that words will exceed, and numbers of modules.
-// Exact, except expect_modules(). Programs of more than 10,000 productions have no predictions,
+// Exact, except predict_expected_modules(). Programs of more than 10,000 productions have no predictions,
 // which would be slow.
 #pragma once
 
@@ -25,7 +25,7 @@ predict_limit(const Bytecode& bytecode, std::uint32_t generations, const Limits&
 predict_counts(const Bytecode& bytecode, std::uint32_t generations, const Limits& limits);
 
 /// The expected number of modules of each generation up to `generations`; empty if unknown.
-[[nodiscard]] std::vector<double> expect_modules(const Bytecode& bytecode,
-                                                 std::uint32_t generations);
+[[nodiscard]] std::vector<double> predict_expected_modules(const Bytecode& bytecode,
+                                                           std::uint32_t generations);
 
 } // namespace lsys

@@ -34,11 +34,11 @@ struct Hero {
 };
 
 /// The heroes of all species and stages, with their levels, which end with an impostor. No level is
-/// in use. Precondition: `grown` has been grown with rho 0. Stops as mesh_forest().
+/// in use. Precondition: `grown` has been grown with rho 0. Stops like mesh_forest().
 [[nodiscard]] Outcome<std::vector<Hero>>
 plan_heroes(const GrownForest& grown, const MeshOptions& options, const Project& project);
 
-/// Makes the meshes of the levels in use. Stops as mesh_forest().
+/// Makes the meshes of the levels in use. Stops like mesh_forest().
 [[nodiscard]] Outcome<void> mesh_heroes(const GrownForest& grown,
                                         const MeshOptions& options,
                                         const Project& project,

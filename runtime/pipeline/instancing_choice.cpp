@@ -22,7 +22,7 @@ namespace lsys {
 namespace {
 
 constexpr std::uint64_t kNoBytes = std::numeric_limits<std::uint64_t>::max();
-// Values to try, the default first, since the first of equally good choices is taken.
+// Values to try. The default rho comes first, since the first of equally good choices is taken.
 constexpr std::array<float, 9> kRhos{0.6F, 0.5F, 0.7F, 0.4F, 0.8F, 0.3F, 0.2F, 0.1F, 0.0F};
 constexpr std::array<std::uint32_t, 16> kHeroes{1,  2,  3,  4,  6,  8,   12,  16,
                                                 24, 32, 48, 64, 96, 128, 192, 256};
@@ -37,8 +37,8 @@ struct Choice {
     float rho = 0.0F;
     std::uint32_t cap = 0;
     std::uint64_t bytes = kNoBytes;
-    std::uint64_t different = 0;     // number of different trees
-    std::uint32_t most_variants = 0; // max number of recorded branches per key
+    std::uint64_t different = 0;    // number of different trees
+    std::uint32_t max_variants = 0; // max number of recorded branches per key
 
     [[nodiscard]] bool is_set() const { return bytes != kNoBytes; }
 };
@@ -78,11 +78,11 @@ public:
     }
 
     /// Sets `smallest`, `best_in_budget` and `best`. `budget`: max bytes of `best_in_budget`.
-    /// `most_bytes`: max bytes of `smallest`.
-    Outcome<void> run(std::uint64_t budget, std::uint64_t most_bytes) {
+    /// `max_bytes`: max bytes of `smallest`.
+    Outcome<void> run(std::uint64_t budget, std::uint64_t max_bytes) {
         Step step(project_);
         const SceneSpecies& species = one_species_.scene.species.front();
-        const WrittenInstancing& written = species.written;
+        const ExplicitInstancing& written = species.explicit_instancing;
         const std::vector<float> rhos =
             written.rho ? std::vector{species.rho} : std::vector(kRhos.begin(), kRhos.end());
         const std::vector<std::uint32_t> heroes = written.heroes
@@ -97,7 +97,7 @@ public:
                     return step.end();
                 }
                 if (!choice.is_set() || choice.bytes >= smallest.bytes ||
-                    choice.bytes > most_bytes || choice.different >= needed) {
+                    choice.bytes > max_bytes || choice.different >= needed) {
                     break; // more heroes would only take more memory
                 }
                 idle = choice.different > shapes ? 0 : idle + 1;
@@ -112,7 +112,7 @@ public:
                 Choice choice = smallest;
                 choice.cap = cap;
                 const std::uint64_t bytes = smallest.bytes;
-                if (cap >= smallest.most_variants) {
+                if (cap >= smallest.max_variants) {
                     break;
                 }
                 if (!step.take(try_choice(choice, budget))) {
@@ -126,8 +126,8 @@ public:
         return step.done();
     }
 
-    /// Whether heroes derived without instancing and with different seeds differ.
-    Outcome<bool> has_different_heroes() {
+    /// Derives heroes without instancing and with different seeds. Returns whether they differ.
+    Outcome<bool> compare_heroes() {
         Step step(project_);
         constexpr std::uint32_t kSeeds = 4;
         SceneSpecies& species = one_species_.scene.species.front();
@@ -173,8 +173,8 @@ private:
         for (const ForestStage& stage : forest.species.front().stages) {
             choice.bytes += stage.cache.byte_count() + stage.cache.skeleton.byte_count();
             for (std::size_t i = 1; i < stage.cache.slots.size(); ++i) {
-                choice.most_variants =
-                    std::max(choice.most_variants, stage.cache.slots[i].variant_count);
+                choice.max_variants =
+                    std::max(choice.max_variants, stage.cache.slots[i].variant_count);
             }
         }
         if (choice.bytes >= smallest.bytes) {
@@ -219,7 +219,7 @@ place_trees_of(const LoadedScene& loaded, const Project& project, std::vector<bo
     cheap.scene.goal = {};
     for (SceneSpecies& species : cheap.scene.species) {
         species.cache.heroes = 1; // with one hero there are no notes on variety
-        species.rho = species.written.rho ? species.rho : 0.0F;
+        species.rho = species.explicit_instancing.rho ? species.rho : 0.0F;
     }
     Step quiet(project); // its messages are dropped, since growing the forest repeats them
     GrownForest grown;
@@ -240,47 +240,49 @@ place_trees_of(const LoadedScene& loaded, const Project& project, std::vector<bo
 /// A help text that names the nearest goals that can be reached.
 std::string nearest_goals(const std::vector<Search>& searches, const InstancingGoal& goal) {
     std::uint64_t bytes = 0;
-    bool all_least = true;
-    bool all_within = true;
-    double least_part = 1.0;
-    double most_part = 1.0;
-    std::string least;
-    std::string within;
+    bool all_have_smallest = true;
+    bool all_fit_budget = true;
+    double min_part_in_budget = 1.0;
+    double min_best_part = 1.0;
+    std::string smallest_text;
+    std::string in_budget_text;
     for (const Search& search : searches) {
         const auto add = [&](const Choice& choice, std::string& text) {
             text += text.empty() ? "" : "; ";
             text += searches.size() > 1 ? search.name() + ": " : std::string();
             text += options_text(choice);
         };
-        all_least = all_least && search.smallest.is_set();
-        all_within = all_within && search.best_in_budget.is_set();
+        all_have_smallest = all_have_smallest && search.smallest.is_set();
+        all_fit_budget = all_fit_budget && search.best_in_budget.is_set();
         if (search.smallest.is_set()) {
             bytes += search.smallest.bytes;
-            add(search.smallest, least);
+            add(search.smallest, smallest_text);
         }
         if (search.best_in_budget.is_set()) {
-            least_part =
-                std::min(least_part, part_of(search.best_in_budget.different, search.tree_count()));
-            add(search.best_in_budget, within);
+            min_part_in_budget = std::min(
+                min_part_in_budget, part_of(search.best_in_budget.different, search.tree_count()));
+            add(search.best_in_budget, in_budget_text);
         }
-        most_part = std::min(most_part, part_of(search.best.different, search.tree_count()));
+        min_best_part =
+            std::min(min_best_part, part_of(search.best.different, search.tree_count()));
     }
     const auto floor_text = [](double part) {
         return fmt::format("{}", std::floor(part * 1e4 + 1e-9) / 1e4);
     };
-    if (all_least) {
-        std::string text = fmt::format("`--memory {}` is enough ({})", size_text(bytes), least);
-        if (all_within) {
-            text += fmt::format(", or `--variety {}` for this memory ({})", floor_text(least_part),
-                                within);
+    if (all_have_smallest) {
+        std::string text =
+            fmt::format("`--memory {}` is enough ({})", size_text(bytes), smallest_text);
+        if (all_fit_budget) {
+            text += fmt::format(", or `--variety {}` for this memory ({})",
+                                floor_text(min_part_in_budget), in_budget_text);
         }
         return text;
     }
-    if (goal.max_bytes != 0 && all_within) {
-        return fmt::format("`--variety {}` can be had in this memory ({})", floor_text(least_part),
-                           within);
+    if (goal.max_bytes != 0 && all_fit_budget) {
+        return fmt::format("`--variety {}` can be had in this memory ({})",
+                           floor_text(min_part_in_budget), in_budget_text);
     }
-    return fmt::format("`--variety {}` is the most that can be had", floor_text(most_part));
+    return fmt::format("`--variety {}` is the most that can be had", floor_text(min_best_part));
 }
 
 void apply(const Choice& choice, SceneSpecies& species) {
@@ -317,7 +319,7 @@ Outcome<void> choose_instancing(LoadedScene& loaded, const Project& project) {
             goal.variety > 0.0 ? share_of(goal.variety, search.tree_count()) : search.tree_count();
         const std::uint64_t shapes = std::max<std::size_t>(species.stages.size(), 1);
         if (goal.variety > 0.0 && is_noted[s] && search.needed > shapes) {
-            Outcome<bool> is_random = search.has_different_heroes();
+            Outcome<bool> is_random = search.compare_heroes();
             bool differs = false;
             if (!step.take(std::move(is_random), differs)) {
                 return step.end();
@@ -331,8 +333,8 @@ Outcome<void> choose_instancing(LoadedScene& loaded, const Project& project) {
         }
         // With a goal of variety the search also tries choices beyond the budget, so that an error
         // can name a sufficient amount of memory.
-        const std::uint64_t most_bytes = goal.variety > 0.0 ? kNoBytes : budget;
-        if (!step.take(search.run(budget, most_bytes))) {
+        const std::uint64_t max_bytes = goal.variety > 0.0 ? kNoBytes : budget;
+        if (!step.take(search.run(budget, max_bytes))) {
             return step.end();
         }
         const Choice& chosen = goal.variety > 0.0 ? search.smallest : search.best_in_budget;

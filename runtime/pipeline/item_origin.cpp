@@ -17,8 +17,8 @@ namespace lsys {
 
 namespace {
 
-/// By item of one kind: Origin::place is the position of the module that drew it, as set by
-/// Derivation::follow().
+/// The origins of the items of one kind. Origin::place is the position of the module that drew the
+/// item, as set by Derivation::follow().
 const LargeVector<Origin>& origins_of(const Skeleton& skeleton, SkeletonItem::Kind kind) {
     switch (kind) {
     case SkeletonItem::Kind::Object:

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Finds the module of a word that drew a segment, object or polygon of its plant, and the production
-// that wrote this module. Derives the word again, since a plant stores neither.
+// Finds the module of a word that drew a segment, object or polygon of its plant, and the
+// production that wrote this module. Derives the word again, since a plant stores neither.
 #pragma once
 
 #include "grammar/base/outcome.h"

@@ -142,7 +142,7 @@ bool exceeds_limit(const DeriveOptions& derive, const Grammar& grammar, Step& st
     return limit.has_value();
 }
 
-/// Lets `derive` report to the host. `expected` outlives the derivation.
+/// Makes `derive` report progress to the host. `expected` must outlive the derivation.
 void report_progress(const Bytecode& bytecode,
                      const Project& project,
                      std::vector<double>& expected,
@@ -150,7 +150,7 @@ void report_progress(const Bytecode& bytecode,
     if (!project.host.progress) {
         return;
     }
-    expected = expect_modules(bytecode, derive.generations);
+    expected = predict_expected_modules(bytecode, derive.generations);
     derive.progress = [&expected, &project, generations = derive.generations](
                           std::uint32_t generation, std::uint64_t modules) {
         project.host.progress({generation, generations, modules, expected});

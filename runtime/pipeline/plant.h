@@ -49,14 +49,14 @@ void fold_modules(const DeriveOptions& options, Bytecode& bytecode);
 /// The result of derive_word().
 struct DerivedWord {
     Word word;
-    std::optional<Bytecode>
-        folded; // has the codes of `word`; none: the bytecode of the grammar has
+    /// Bytecode that defines the codes of `word`; unset: the bytecode of the grammar does.
+    std::optional<Bytecode> folded;
     std::uint32_t generations = 0;
     std::uint64_t seed = 0;
 };
 
-/// Derives the grammar. Uses only `generations`, `seed` and `origins` of the options. Folds a copy of
-/// the bytecode of the grammar (fold_modules()), if that is worth it.
+/// Derives the grammar. Uses only `generations`, `seed` and `origins` of the options. Folds a copy
+/// of the bytecode of the grammar (fold_modules()), if that is worth it.
 [[nodiscard]] Outcome<DerivedWord>
 derive_word(const PlantOptions& options, const Grammar& grammar, const Project& project);
 
@@ -77,8 +77,8 @@ grow_plant(const PlantOptions& options, Grammar& grammar, const Project& project
                                                       const MeshOptions& options,
                                                       const DetailChain& chain,
                                                       const Project& project);
-/// Meshes level `number` of `skeleton`, which is the skeleton of plan_plant_levels() or a pose of it,
-/// with the vertex arrays that `options` requests. Precondition: number < levels.levels.size().
+/// Meshes level `number` of `skeleton`, which is the skeleton of plan_plant_levels() or a pose of
+/// it, with the vertex arrays that `options` requests. Precondition: number < levels.levels.size().
 [[nodiscard]] Outcome<Mesh> mesh_plant_level(const Plant& plant,
                                              const Skeleton& skeleton,
                                              const DetailLevels& levels,

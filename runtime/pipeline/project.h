@@ -38,7 +38,7 @@ struct Host {
     std::function<Result<std::string>(const std::string& path, const ReadLimit& limit)> read_file;
     /// Reads a file that another file names. Refuses pipes, so that the program never blocks.
     std::function<Result<std::string>(const std::string& path, const ReadLimit& limit)>
-        read_named_file;
+        read_referenced_file;
     std::function<bool(const std::string& path)> file_exists;
     /// The caller sets it to true to stop the call; may be null.
     const std::atomic<bool>* cancelled = nullptr;

@@ -67,8 +67,8 @@ std::string stage_conflict(const SceneOverrides& overrides, const Scene& scene) 
 }
 
 void note_written(bool heroes, bool rho, SceneSpecies& species) {
-    species.written.heroes = species.written.heroes || heroes;
-    species.written.rho = species.written.rho || rho;
+    species.explicit_instancing.heroes = species.explicit_instancing.heroes || heroes;
+    species.explicit_instancing.rho = species.explicit_instancing.rho || rho;
 }
 
 } // namespace
@@ -88,7 +88,8 @@ Result<void> apply(const SceneOverrides& overrides, Scene& scene) {
         replace_if_set(overrides.tolerance, species.cache.tolerance);
         replace_if_set(overrides.rho, species.rho);
         note_written(overrides.heroes.has_value(), overrides.rho.has_value(), species);
-        species.written.cap = species.written.cap || overrides.cache_cap.has_value();
+        species.explicit_instancing.cap =
+            species.explicit_instancing.cap || overrides.cache_cap.has_value();
         const GrammarOptions& grammar = overrides.grammar;
         species.dialect.text = grammar.dialect.empty() ? species.dialect.text : grammar.dialect;
         species.system.text = grammar.system.empty() ? species.system.text : grammar.system;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// SceneOverrides: values of a command line or a window that replace those of a scene. Unset fields
+// SceneOverrides: values of a command line or a window that replace values of a scene. Unset fields
 // keep the scene's value.
 #pragma once
 
@@ -93,7 +93,7 @@ struct SceneOverrides {
 /// stages; `years_of_stage` without Domination; `stages` together with `grammar.generations`.
 [[nodiscard]] Result<void> apply(const SceneOverrides& overrides, Scene& scene);
 
-/// Sets `overrides.method`, and the values that only this method reads, not the method of `scene`, so
+/// Sets `overrides.method`, and values that `method` reads but the method of `scene` does not, so
 /// that there are about as many trees as in `scene`.
 void choose_method(SceneOverrides& overrides, PlacementMethod method, const Scene& scene);
 

@@ -27,10 +27,10 @@ struct SettingControl {
     std::array<float, 4> numbers{};      // the value; kinds other than Vector use only the first
     std::string_view word;               // the value of Word
     std::vector<std::string_view> words; // all values of Word
-    float lowest = 0.0F;                 // min valid value of Number and Count
-    float highest = 0.0F;                // max valid value of Number and Count
-    /// Range of a slider: usual values, possibly narrower than the valid range. No range if `max` is
-    /// not above `min`.
+    float lowest = 0.0F;                 // min valid value of Number, Count and Vector
+    float highest = 0.0F;                // max valid value of Number, Count and Vector
+    /// Range of a slider: usual values, possibly narrower than the valid range. No range if `max`
+    /// is not above `min`.
     float min = 0.0F;
     float max = 0.0F;
 };

@@ -27,8 +27,8 @@ Result<std::string> Step::read(const std::string& path, const ReadLimit& limit) 
     return with_file_name(project_.host.read_file(path, limit), path);
 }
 
-Result<std::string> Step::read_named(const std::string& path, const ReadLimit& limit) const {
-    return with_file_name(project_.host.read_named_file(path, limit), path);
+Result<std::string> Step::read_referenced(const std::string& path, const ReadLimit& limit) const {
+    return with_file_name(project_.host.read_referenced_file(path, limit), path);
 }
 
 bool Step::diagnose(Diagnostics diagnostics, std::shared_ptr<const SourceMap> sources) {

@@ -20,9 +20,9 @@ public:
 
     /// Reads a file that the user names, with Host::read_file. The Error names the file.
     [[nodiscard]] Result<std::string> read(const std::string& path, const ReadLimit& limit) const;
-    /// Reads a file that another file names, with Host::read_named_file. The Error names the file.
-    [[nodiscard]] Result<std::string> read_named(const std::string& path,
-                                                 const ReadLimit& limit) const;
+    /// Reads a file that another file names, with Host::read_referenced_file. The Error names the file.
+    [[nodiscard]] Result<std::string> read_referenced(const std::string& path,
+                                                      const ReadLimit& limit) const;
 
     /// Applies the levels of the project to the diagnostics and adds them to the messages. Returns
     /// whether the step may continue, because none of them is an error.

@@ -121,7 +121,7 @@ private:
         }
     }
 
-    // --- stored words, so that each generation on the way back is not derived from the axiom again
+    // --- stored words: starting points for earlier generations, nearer than the axiom
 
     struct StoredWord {
         std::uint32_t age = 0;
@@ -155,7 +155,8 @@ private:
         }
     }
 
-    /// Advances a derivation to the word of age `age`, from the nearest stored word of at most this age.
+    /// Advances a derivation to the word of age `age`, from the nearest stored word of at most this
+    /// age.
     [[nodiscard]] std::optional<Stop> go_to(Derivation& derivation, std::uint32_t age) {
         const auto after = std::find_if(stored_words_.begin(), stored_words_.end(),
                                         [age](const StoredWord& each) { return each.age > age; });
@@ -495,7 +496,7 @@ private:
     TraceInputs inputs_;
     Trace trace_;
     std::vector<TracedModule> next_;       // modules at StepTracer::places()
-    std::vector<StoredWord> stored_words_; // stored words, by ascending age
+    std::vector<StoredWord> stored_words_; // by ascending age
     std::uint32_t stride_ = 1;
 };
 

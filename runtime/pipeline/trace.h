@@ -57,15 +57,15 @@ struct AncestorStep {
     /// The rewritings that lead from the ancestor to the followed module, in order. Empty if every
     /// pass copied the module.
     std::vector<ModuleTrace> steps;
-    bool agrees = true;
+    bool agrees = true; // as Trace::agrees, for this step
 };
 
 struct TracedPlace {
     std::uint64_t position = 0;
     TracedModule module;
     TraceOrigin origin;
-    /// Scope Next: traces of the next step: of the module itself, and of the modules written for it in
-    /// later passes of the step. ModuleTrace::parent is an index of this list.
+    /// Scope Next: traces of the next step: of the module itself, and of the modules written for it
+    /// in later passes of the step. ModuleTrace::parent is an index of this list.
     std::vector<ModuleTrace> step;
     /// The modules of the next word that replace the module.
     std::vector<TracedModule> next;
@@ -93,8 +93,8 @@ struct Trace {
     std::vector<TracedPlace> places;
 };
 
-/// Derives generation `options.generation` and traces its modules. If the traced step or the drawing
-/// fails, sets Trace::stop. Stop::Failed: the word has no such module.
+/// Derives generation `options.generation` and traces its modules. If the traced step or the
+/// drawing fails, sets Trace::stop. Stop::Failed: the word has no such module.
 [[nodiscard]] Outcome<Trace>
 trace_modules(const TraceOptions& options, const Grammar& grammar, const Project& project);
 

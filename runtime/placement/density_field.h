@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// DensityField: how many trees of each species a placement on an unbounded grid has where, without
-// placing them. Used for distant views and for estimates of forests that are too large to be placed.
+// DensityField: the density of the trees of each species at each place, for a placement on an
+// unbounded grid, without placing trees. Used for distant views and for estimates of forests that
+// are too large to be placed.
 #pragma once
 
 #include "runtime/placement/placement.h"
@@ -23,8 +24,8 @@ public:
 
     /// Places per m2 that the method makes at (x, z), with or without a tree.
     [[nodiscard]] double places_at(double x, double z) const;
-    /// Sets densities[s] to the expected number of trees of species s per m2 at (x, z). For
-    /// PoissonCells within 1 %.
+    /// Sets densities[s] to the expected number of trees of species s per m2 at (x, z), for
+    /// PoissonCells to within 1 %.
     void trees_at(double x, double z, std::span<double> densities) const;
     /// The tree `number` of a species as the placement makes it, at the origin.
     [[nodiscard]] Tree tree_of(std::uint32_t number, std::uint16_t species) const;
@@ -33,7 +34,7 @@ private:
     const PlacementOptions& options_;
     std::unique_ptr<TreeMaker> maker_;
     std::unique_ptr<GreySampler> grey_; // DensityCells only
-    double places_ = 0.0;               // per m2, of DensityCells where the map is white
+    double places_ = 0.0;               // per m2; for DensityCells, where the map is white
 };
 
 } // namespace lsys

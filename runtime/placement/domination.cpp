@@ -24,7 +24,7 @@ namespace {
 constexpr std::uint64_t kPiece = 2048;
 constexpr std::uint64_t kPiecesAtOnce = 8; // for each worker
 /// Time in the shade after which a plant without tolerance dies, as a fraction of the time that its
-/// radius took to grow; so larger plants live longer in the shade.
+/// radius took to grow. Larger plants therefore live longer in the shade.
 constexpr float kShadeTolerance = 0.25F;
 constexpr float kLifeSpread = 0.2F; // max deviation from the lifespan, relative to it
 constexpr std::uint32_t kMaxNumber = 0xFFFFFFFFu;
@@ -73,7 +73,7 @@ public:
     [[nodiscard]] ForestPlant
     seedling(std::uint32_t number, std::uint16_t species, glm::vec2 place) const {
         const SpeciesGrowth& growth = options_.species[species].growth;
-        const PhiloxBlock words = placement_draws(options_.key, number, kLooksBlock);
+        const PhiloxBlock words = placement_draws(options_.key, number, kAppearanceBlock);
         ForestPlant plant;
         plant.place = place;
         plant.vigour = 1.0F - growth.vigour_spread * unit_interval(words[3]);

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Domination: simulates a forest that grows and thins itself, year by year, after Deussen et al. 1998,
 // "Realistic modeling and rendering of plant ecosystems", section 4.1. Every plant has a growing
-// circle of influence. If two circles overlap, the weaker plant is dominated: it grows less, and dies
-// if it is dominated too long. Other plants have seeds, and die of age. No rule relates the number of
-// plants to their size; the law of self-thinning (Yoda et al. 1963) emerges.
+// circle of influence. If two circles overlap, the weaker plant is dominated: it grows less, has no
+// seeds, and dies if it is dominated too long. Every plant dies of age in the end. No rule relates
+// the number of plants to their size; the law of self-thinning (Yoda et al. 1963) emerges.
 #pragma once
 
 #include "grammar/base/result.h"
@@ -19,10 +19,10 @@ namespace lsys {
 
 struct ForestPlant {
     glm::vec2 place{};         // m, x and z
-    float radius = 0.0F;       // m, of influence
+    float radius = 0.0F;       // m, radius of influence
     float vigour = 1.0F;       // 0 to 1, factor of growth and strength
     float stress = 0.0F;       // 0 to 1; the plant dies at 1
-    std::uint32_t number = 0;  // of the tree, in the order of sprouting
+    std::uint32_t number = 0;  // number of the tree, in the order of sprouting
     std::uint16_t species = 0; // index in PlacementOptions::species
     std::uint16_t age = 0;     // years; 1 in the year of sprouting
     bool dominated = false;    // its circle overlaps the circle of a stronger plant
@@ -64,7 +64,7 @@ private:
     std::uint32_t year_ = 0;
     std::uint32_t next_number_ = 0;
     LargeVector<ForestPlant> plants_;
-    /// Radius by species and age, in the open with full vigour.
+    /// Radius by species and age of a plant of full vigour that was never dominated.
     std::vector<std::vector<float>> undominated_radii_;
     PlacementReport report_;
 };

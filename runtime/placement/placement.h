@@ -26,7 +26,7 @@ inline constexpr std::uint32_t kMaxYears = 10'000;
 /// Years per stage for methods other than Domination. Stage s has age 2 s + 1, because age 0 means
 /// the last stage.
 inline constexpr float kYearsPerStage = 2.0F;
-/// Limit of the years that all stages of a species take, so that ages have 16 bits.
+/// Max years from the first to the last stage of a species, so that ages fit into 16 bits.
 inline constexpr float kMaxStageYears = 40'000.0F;
 
 enum class PlacementMethod : std::uint8_t {
@@ -61,7 +61,7 @@ struct SpeciesGrowth {
 enum class StageStart : std::uint8_t { First, Random };
 
 struct PlacementSpecies {
-    double share = 1.0; // of the trees, relative to other species that can live at a place
+    double share = 1.0; // weight among the species that can live at a place
     float min_scale = 1.0F;
     float max_scale = 1.0F;
     /// m, height of a full-grown tree; 0: unset. If set, a height is drawn instead of a scale and
@@ -88,12 +88,12 @@ struct PlacementOptions {
     const GreyMap* density_map = nullptr;
     std::optional<Region> map_region; // extent of the map, black outside; none: `region`
     std::uint32_t years = 0;          // Domination
-    std::uint32_t stages_passed = 0;  // other methods: stages each tree has passed
+    std::uint32_t stages_passed = 0;  // other methods: stages passed since the start
     std::uint32_t threads = 0;        // 0: as many as the machine has
 };
 
 struct PlacementReport {
-    std::uint64_t places = 0;  // made by the method
+    std::uint64_t places = 0;  // places made by the method
     std::uint64_t refused = 0; // places without a tree, because no species can live there
     bool black_map = false;    // the density map is 0 in the whole region
 };
@@ -113,7 +113,7 @@ struct Placement {
 [[nodiscard]] Result<Placement> place_trees(const PlacementOptions& options,
                                             const Terrain& terrain);
 
-/// The reason, for the user, why there are no trees, or fewer trees than places; else empty.
+/// A message that explains why there are no trees, or fewer trees than places; else empty.
 [[nodiscard]] std::string placement_note(const PlacementReport& report);
 
 } // namespace lsys

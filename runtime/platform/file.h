@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Files of the system: opening, attributes, renaming. Names are UTF-8. Functions that may fail return
-// a Reason or a value with one, without a text: callers write the messages.
+// Files of the system: opening, attributes, renaming. Names are UTF-8. Functions that may fail
+// return a Reason, or a value with a Reason, and no text: callers write the messages.
 #pragma once
 
 #include <cstddef>
@@ -54,15 +54,15 @@ struct FileFacts {
 [[nodiscard]] Reason open_to_read(const std::string& path, bool may_wait, File& file);
 /// Opens a device or a pipe for writing.
 [[nodiscard]] Reason open_to_write(const std::string& path, File& file);
-/// Makes a file; EEXIST if the name exists, even as a dangling link. A private file can be opened by
-/// its owner only; the permissions of others follow the umask.
+/// Makes a file; EEXIST if the name exists, even as a dangling link. Only its owner can open a
+/// private file; the permissions of any other file follow the umask.
 [[nodiscard]] Reason create_file(const std::string& path, bool is_private, File& file);
 
 [[nodiscard]] Reason facts_of(const File& file, FileFacts& facts);
-/// Attributes of a name, of the target for a link; the type Missing if the name does not exist. Only
-/// the types Regular and Directory are exact.
+/// Attributes of the file at `path`, or of its target if it is a link; the type Missing if the file
+/// does not exist. Only the types Regular and Directory are exact.
 [[nodiscard]] FileFacts facts_of(const std::string& path);
-/// Attributes of a name, of the link itself for a link.
+/// Attributes of the file at `path`, or of the link itself if it is a link.
 [[nodiscard]] FileFacts link_facts_of(const std::string& path);
 /// Returns 0 if the file may be written.
 [[nodiscard]] Reason check_writable(const std::string& path);
@@ -85,7 +85,8 @@ struct ByteCount {
 void remove_file(const char* path) noexcept;
 /// Renames a file; replaces a file of that name.
 [[nodiscard]] Reason rename_file(const std::string& from, const std::string& to);
-/// Renames a file; EEXIST if the name exists. EINVAL or ENOSYS if the file system does not support it.
+/// Renames a file; EEXIST if the name exists. EINVAL or ENOSYS if the file system does not support
+/// it.
 [[nodiscard]] Reason rename_to_new(const std::string& from, const std::string& to);
 /// Exchanges the names of two files. EINVAL or ENOSYS if the file system does not support it.
 [[nodiscard]] Reason exchange_files(const std::string& one, const std::string& other);
@@ -103,7 +104,7 @@ struct FileStamp {
 
     friend bool operator==(const FileStamp&, const FileStamp&) = default;
 };
-/// The stamp of a name, of the target for a link.
+/// The stamp of the file at `path`, or of its target if it is a link.
 [[nodiscard]] FileStamp stamp_of(const std::string& path);
 
 } // namespace lsys::platform

@@ -20,7 +20,7 @@ public:
 
     /// Whether events can be received.
     [[nodiscard]] bool receives() const;
-    /// Replaces the watched folders; those that do not exist have no events.
+    /// Replaces the watched folders; a missing folder has no events.
     void watch(const std::vector<std::filesystem::path>& folders);
 
     struct Waited {

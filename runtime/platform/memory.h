@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Memory of the system: reserved pages, huge pages, and the amounts that the machine and the process
-// have.
+// Memory of the system: reserved pages, huge pages, and the memory of the machine and of the
+// process.
 #pragma once
 
 #include <cstddef>
@@ -19,8 +19,8 @@ inline constexpr std::size_t kPage = 4096;                     // bytes
 inline constexpr std::size_t kHugePage = std::size_t{2} << 20; // bytes
 
 /// Reserves `bytes` at an address that is a multiple of `alignment`, kPage or kHugePage. The bytes
-/// are zero, and usable once committed. Returns null if the system refuses. Precondition: `bytes` is
-/// a multiple of `alignment`.
+/// are zero, and usable once committed. Returns null if the system refuses. Precondition: `bytes`
+/// is a multiple of `alignment`.
 [[nodiscard]] std::byte* reserve_memory(std::size_t bytes, std::size_t alignment);
 /// Makes reserved bytes usable; committing bytes again has no effect. Returns false if the system
 /// has no memory.

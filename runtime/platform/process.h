@@ -9,12 +9,12 @@
 
 namespace lsys::platform {
 
-/// The arguments after the program's name, in UTF-8. `argc` and `argv`: those of main().
+/// The arguments after the program's name, in UTF-8. `argc` and `argv`: the parameters of main().
 [[nodiscard]] std::vector<std::string> process_arguments(int argc, char** argv);
 
 [[nodiscard]] std::uint64_t process_id();
 
-/// Makes the standard streams binary, and opens those that are closed, so that no other file gets
+/// Makes the standard streams binary, and opens closed standard streams, so that no other file gets
 /// their descriptors. The opened streams can be neither read nor written, nor reopened as
 /// /dev/stdout. They are not /dev/null, which would silently drop output. Returns false if a stream
 /// cannot be opened.

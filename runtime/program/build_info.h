@@ -11,7 +11,7 @@ namespace lsys {
 /// A library and its version.
 using LibraryVersion = std::pair<std::string, std::string>;
 
-/// The libraries of lsc and of all programs. Shared libraries report the version that is loaded.
+/// The libraries that all programs use. Shared libraries report the version that is loaded.
 [[nodiscard]] std::vector<LibraryVersion> common_libraries();
 
 /// Lines for commit, compiler, libraries, processor and threads. `revision`: the commit, or

@@ -158,7 +158,8 @@ Result<std::string> read_bytes(const std::string& path,
                                FileKind kind,
                                const ReadLimit& limit,
                                const std::atomic<bool>* cancelled) {
-    // Without waiting for the writer of a pipe; refusal_reason() refuses pipes.
+    // A FileKind::Regular opens without waiting for the writer of a pipe, which refusal_reason()
+    // then refuses.
     platform::File file;
     FileFacts facts;
     Reason reason = platform::open_to_read(path, kind == FileKind::Named, file);
@@ -218,7 +219,7 @@ void Output::clear_temporary() {
 }
 
 /// Makes an empty file in the folder of target_. If the target exists, the file is private and then
-/// gets `permissions`; else they follow the umask.
+/// gets `permissions`; else its permissions follow the umask.
 Result<void> Output::make_temporary(bool exists, unsigned permissions) {
     constexpr int kAttempts = 100;
     for (int attempt = 0; attempt < kAttempts && !file_.is_open(); ++attempt) {
@@ -324,7 +325,7 @@ Result<void> Output::commit() {
     Reason reason = must_be_new_ ? platform::rename_to_new(temporary_, target_)
                                  : platform::rename_file(temporary_, target_);
     if (must_be_new_ && (reason == EINVAL || reason == ENOSYS)) {
-        reason = platform::rename_file(temporary_, target_); // create() has found no such file
+        reason = platform::rename_file(temporary_, target_); // create() found no target_
     }
     if (reason != 0) {
         return failure(reason);

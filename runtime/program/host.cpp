@@ -16,7 +16,7 @@ Host make_file_host(const std::atomic<bool>* cancelled) {
     host.read_file = [cancelled](const std::string& path, const ReadLimit& limit) {
         return read_bytes(path, FileKind::Named, limit, cancelled);
     };
-    host.read_named_file = [cancelled](const std::string& path, const ReadLimit& limit) {
+    host.read_referenced_file = [cancelled](const std::string& path, const ReadLimit& limit) {
         return read_bytes(path, FileKind::Regular, limit, cancelled);
     };
     host.file_exists = [](const std::string& path) {

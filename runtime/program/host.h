@@ -21,9 +21,9 @@ namespace lsys {
 /// A project with make_host(), without progress.
 [[nodiscard]] Project make_project(const Console& console, const RunOptions& run);
 
-/// A reader of files for #include, which together may have half of the memory. It asks for the
-/// memory at the first file: that takes as long as checking a small grammar. `project` must outlive
-/// it.
+/// A loader of files for #include. All files together may take half of the memory. The memory is
+/// queried at the first file, because the query takes as long as checking a small grammar.
+/// `project` must outlive the loader.
 [[nodiscard]] FileLoader make_include_loader(const Project& project);
 
 } // namespace lsys

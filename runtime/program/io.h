@@ -17,8 +17,8 @@ struct Io {
     /// null.
     const std::atomic<bool>* interrupted = nullptr;
     const char* program = "lsc"; // prefix of messages
-    /// The commit of the sources, for `--version --verbose`. Set by main(): libraries and tests that
-    /// contained it would be linked anew for each commit.
+    /// The commit of the sources, for `--version --verbose`. Set by main(): libraries and tests
+    /// that contained it would be linked anew for each commit.
     const char* revision = "unknown";
 };
 

@@ -6,7 +6,8 @@
 
 namespace lsys {
 
-/// Half of the physical memory or of the memory limit of the container, whichever is less, in bytes.
+/// Half of the physical memory or of the memory limit of the container, whichever is less, in
+/// bytes.
 [[nodiscard]] std::uint64_t half_of_memory();
 
 } // namespace lsys

@@ -74,7 +74,8 @@ inline Result<float> fraction(const std::string& text) {
     return parse_number(text, 0.0F, 1.0F);
 }
 
-/// Words a mistake found by CLI11 like other messages, and suggests the nearest option name.
+/// Rewords a mistake found by CLI11 in the style of other messages, and suggests the nearest option
+/// name.
 /// `command`: the words before the options of `app`, such as `lsc dump`.
 [[nodiscard]] UsageError
 to_usage_error(const CLI::ParseError& error, const CLI::App& app, const std::string& command);

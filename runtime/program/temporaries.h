@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Names of the temporary files of this process. Output registers them; the signal handlers of
-// process.cpp remove the files.
+// Names of the temporary files of this process. Output registers them; the signal handlers that
+// process.cpp sets remove the files.
 #pragma once
 
 #include <string>

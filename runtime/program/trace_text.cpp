@@ -27,9 +27,10 @@ constexpr std::size_t kMaxLater = 8;   // modules of later passes
 constexpr std::size_t kMaxVisited = 6; // modules that a context search visited
 /// Max width of a line that joins shorter lines.
 constexpr std::size_t kMaxListColumns = 96;
-/// With more productions to show than these, those that do not apply take one line each.
+/// Max number of productions with frames. If there are more, each production that does not apply
+/// takes one line.
 constexpr std::size_t kMaxFrames = 4;
-constexpr std::size_t kMaxReasons = 4; // operations in such a line
+constexpr std::size_t kMaxReasons = 4; // operations in the line of a production without a frame
 
 std::string value_text(float value) {
     if (!std::isfinite(value)) {
@@ -74,7 +75,7 @@ public:
                 break;
             }
         }
-        rest();
+        untraced_matches();
         return std::move(out_);
     }
 
@@ -409,7 +410,7 @@ private:
         switch (attempt.verdict) {
         case Verdict::Applies:
             if (is_later && !framed_.insert(attempt.production).second) {
-                return; // the title of traces() contains this
+                return; // again_text() in the title says this
             }
             line("{} {}{}", who, marked("applies"), trace.choice ? ", chosen by chance" : "");
             explain(attempt, trace.module, written);
@@ -447,12 +448,12 @@ private:
             break;
         case Verdict::NotDrawn:
             if (is_later) {
-                return; // brief_choice() lists these
+                return; // brief_choice() lists such productions
             }
             line("{} matches too, and is not the one chosen by chance", who);
             break;
         case Verdict::NotTried:
-            return; // attempts() lists these in one line
+            return; // attempts() lists such productions in one line
         }
         if (!is_brief) {
             explain(attempt, trace.module, std::nullopt);
@@ -515,8 +516,8 @@ private:
         }
         line("chance: {}, u = {}: {}", draw_text(choice.number), value_text(choice.unit), text);
     }
-    /// Prints the alternatives of a choice with the sums of their weights. `name_of`: the name of an
-    /// alternative.
+    /// Prints the alternatives of a choice with the sums of their weights. `name_of`: the name of
+    /// an alternative.
     template <typename Choice, typename Name>
     void alternatives(const Choice& choice, const Name& name_of) {
         std::size_t width = 0;
@@ -540,7 +541,7 @@ private:
                            number < kDrawsOfPass ? "" : " of the pass");
     }
 
-    // --- what was written
+    // --- written modules
 
     [[nodiscard]] std::string modules(const std::vector<TracedModule>& list) const {
         if (list.empty()) {
@@ -648,7 +649,8 @@ private:
         }
     }
 
-    [[nodiscard]] bool is_last_pass(const std::vector<ModuleTrace>& list,
+    /// Whether all traces of the list are of the pass of `trace`.
+    [[nodiscard]] bool is_only_pass(const std::vector<ModuleTrace>& list,
                                     const ModuleTrace& trace) const {
         return std::none_of(list.begin(), list.end(), [&](const ModuleTrace& other) {
             return other.kind != trace.kind || other.pass != trace.pass || other.rule != trace.rule;
@@ -723,7 +725,7 @@ private:
                 choice(trace, *trace.choice);
             }
             const bool plain =
-                trace.kind == DerivationPass::Kind::Rewrite && is_last_pass(list, trace);
+                trace.kind == DerivationPass::Kind::Rewrite && is_only_pass(list, trace);
             outcome(trace, is_later ? std::string()
                            : plain  ? fmt::format(" of generation {}", generation)
                            : trace.kind == DerivationPass::Kind::Interpret
@@ -736,8 +738,8 @@ private:
         }
     }
 
-    /// Whether the trace belongs to a match that consumed the traced module as a later module of its
-    /// predecessor.
+    /// Whether the trace belongs to a match that consumed the traced module as a later module of
+    /// its predecessor.
     [[nodiscard]] static bool is_cause(const std::vector<ModuleTrace>& list,
                                        const ModuleTrace& trace) {
         return trace.parent != kNoTrace && list[trace.parent].fate == Fate::Consumed;
@@ -934,7 +936,7 @@ private:
 
     // --- the end
 
-    void rest() {
+    void untraced_matches() {
         if (trace_.matches > trace_.places.size()) {
             out_ += '\n';
             const std::uint64_t more = trace_.matches - trace_.places.size();
@@ -948,7 +950,7 @@ private:
     const Grammar& grammar_;
     const Bytecode& bytecode_;
     bool colour_;
-    std::set<ProductionId> framed_; // whose lines traces() has printed for modules of later passes
+    std::set<ProductionId> framed_; // productions that traces() has shown for later passes
     std::string out_;
 };
 

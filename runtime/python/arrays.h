@@ -24,6 +24,7 @@ inline py::array view(const py::dtype& dtype,
     return array;
 }
 
+/// A view of `items` as a matrix of type Scalar, one row per item.
 template <typename Scalar, typename Item>
 inline py::array rows(std::span<const Item> items, const py::object& owner) {
     constexpr auto kColumns = static_cast<py::ssize_t>(sizeof(Item) / sizeof(Scalar));
@@ -37,6 +38,7 @@ struct Field {
     const char* format;
     std::size_t offset;
 };
+/// A structured dtype of `size` bytes.
 inline py::dtype structure(std::initializer_list<Field> fields, std::size_t size) {
     py::list names;
     py::list formats;
@@ -50,6 +52,7 @@ inline py::dtype structure(std::initializer_list<Field> fields, std::size_t size
             static_cast<py::ssize_t>(size)};
 }
 
+/// A view of `items` as an array of a structured dtype.
 template <typename Item>
 inline py::array
 records(std::span<const Item> items, const py::dtype& dtype, const py::object& owner) {

@@ -16,7 +16,7 @@ long process_number() {
     return py::module_::import("os").attr("getpid")().cast<long>();
 }
 
-/// Exceptions of the module, defined in lsys/__init__.py's errors.py.
+/// The exception class for a status, from lsys/errors.py.
 py::object error_class(lsys::Status status) {
     const py::module_ errors = py::module_::import("lsys.errors");
     switch (status) {
@@ -35,8 +35,8 @@ py::object error_class(lsys::Status status) {
     return errors.attr("LsysError");
 }
 
-/// The messages for an exception: with the lines of the source, or only the text for messages without
-/// a source.
+/// The text of an exception: with source lines if a message has a place, else only the messages and
+/// their help.
 std::string text_of(const lsys::Messages& messages) {
     std::string text;
     for (const lsys::Diagnostic& diagnostic : messages.all()) {

@@ -36,7 +36,7 @@ struct CallOptions {
     std::uint64_t max_modules = lsys::Limits{}.max_modules;
     std::uint64_t max_bytes = 0;
     py::object progress = py::none();  // callable(generation, generations, modules)
-    py::object read_file = py::none(); // callable(path) -> bytes
+    py::object read_file = py::none(); // callable(path) -> bytes, str or None
 };
 
 /// The options among the keyword arguments. Raises TypeError for others.
@@ -61,8 +61,8 @@ struct CallOptions {
 /// file. An OSError becomes the reason of a failure.
 [[nodiscard]] lsys::FileContents read_by(const py::function& read, const std::string& path);
 /// A receiver of files that calls the Python function receive(name, bytes, is_last), which ends the
-/// call by returning False. `receive` must outlive the receiver. The caller of the receiver need not
-/// hold the lock.
+/// call by returning False. `receive` must outlive the receiver. The caller of the receiver need
+/// not hold the lock.
 [[nodiscard]] lsys::FileReceiver receiver_of(const py::function& receive);
 /// Raises the exception for a call that has failed.
 [[noreturn]] void raise(lsys::Status status, const lsys::Messages& messages);
@@ -75,9 +75,9 @@ void wait_for_end_if_ending();
 /// Blocks the thread for good.
 [[noreturn]] void wait_for_end();
 
-/// Calls `work` with the interpreter's lock (GIL). If a thread requests the lock while the interpreter
-/// ends, CPython unwinds the stack of the thread, which C++ code does not survive; with_lock()
-/// blocks the thread instead.
+/// Calls `work` with the interpreter's lock (GIL). If a thread requests the lock while the
+/// interpreter ends, CPython unwinds the stack of the thread, which C++ code does not survive;
+/// with_lock() blocks the thread instead.
 template <typename Work>
 auto with_lock(const Work& work) {
     wait_for_end_if_ending();
@@ -108,26 +108,26 @@ private:
     PyThreadState* state_;
 };
 
-/// A thread that does the calls of Python's main thread, one after the other. It is kept between calls:
-/// a new thread would first have to get its memory from the system, about 0.7 ms a call.
+/// A thread that does the calls of Python's main thread, one after the other. It is kept between
+/// calls: a new thread would first have to get its memory from the system, about 0.7 ms a call.
 class CallThread {
 public:
-    CallThread(); // with the lock of the interpreter
+    CallThread(); // call with the interpreter's lock held
     /// Waits for the end of its call.
     ~CallThread();
     CallThread(const CallThread&) = delete;
     CallThread& operator=(const CallThread&) = delete;
 
-    /// The thread of earlier calls; a new one if there is none, if a call is in progress (a handler of
-    /// a signal makes another), or if the process is a fork, in which the thread does not exist.
+    /// The thread of earlier calls; a new one if there is none, if a call is in progress (a handler
+    /// of a signal makes another), or if the process is a fork, in which the thread does not exist.
     /// Main thread only.
     static std::unique_ptr<CallThread> take();
-    /// Keeps a thread that does nothing for later calls. Main thread only.
+    /// Keeps an idle thread for later calls. Main thread only.
     static void give_back(std::unique_ptr<CallThread> thread);
 
     /// Starts `work`, which throws nothing.
     void start(std::function<void()> work);
-    /// Waits for the end of the work, at most for `time`; false: it has not ended.
+    /// Waits for the end of the work, at most for `time`. Returns false if it has not ended.
     bool wait_for(std::chrono::milliseconds time);
 
 private:
@@ -141,8 +141,8 @@ private:
     std::thread thread_;
 };
 
-/// Runs `work(project)` without the lock of the interpreter. If called on the main thread of Python,
-/// another thread does the work, while the main thread handles Ctrl-C.
+/// Runs `work(project)` without the lock of the interpreter. If called on the main thread of
+/// Python, another thread does the work, while the main thread handles Ctrl-C.
 template <typename Work>
 auto run(const CallOptions& options, const Work& work) {
     using Result = decltype(work(std::declval<const lsys::Project&>()));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The Python module lsys._lsys: the public library for Python, arrays as views of numpy without
-// copies. The package in lsys/ adds what is easier to write in Python.
+// copies. The package in lsys/ adds functions that are easier to write in Python.
 #include "runtime/python/call.h"
 
 #include <lsys/api.h>

@@ -45,7 +45,7 @@ struct SceneTerrain {
     double base = 0.0; // m, altitude of Flat; noise.base of Noise
     NoiseOptions noise;
     SceneFile map;                 // HeightMap
-    std::uint32_t map_columns = 0; // of raw samples; 0: the map is a PNG
+    std::uint32_t map_columns = 0; // size of a map of raw samples; 0: the map is a PNG
     std::uint32_t map_rows = 0;
     HeightMapOptions height_map;
     SceneFile colour;        // picture of the surface; empty: grass and earth
@@ -55,28 +55,28 @@ struct SceneTerrain {
     /// m, a corner of a tile: `origin` of the scene file. Overrides of the region do not move it.
     double tile_x = 0.0;
     double tile_z = 0.0;
-    SourceSpan span; // of `[terrain]`; kNoFile if missing
+    SourceSpan span; // place of `[terrain]`; kNoFile if missing
 };
 
 /// Replaces a constant of the grammar, like `-D`.
 struct SceneDefinition {
     std::string name;
     float value = 0.0F;
-    SourceSpan span; // of the name
+    SourceSpan span; // place of the name
 };
 
 /// Goal of choose_instancing() (runtime/pipeline/instancing_choice.h).
 struct InstancingGoal {
     double variety =
         0.0; // min share of different trees, 0 to 1; 0: the max that `max_bytes` allows
-    std::uint64_t max_bytes = 0; // of all heroes and their branches; 0: no limit
+    std::uint64_t max_bytes = 0; // max memory of all heroes and their branches; 0: no limit
 
     [[nodiscard]] bool is_set() const { return variety > 0.0 || max_bytes != 0; }
     friend bool operator==(const InstancingGoal&, const InstancingGoal&) = default;
 };
 
 /// Whether the scene or command line sets a value; choose_instancing() keeps values that are set.
-struct WrittenInstancing {
+struct ExplicitInstancing {
     bool heroes = false;
     bool rho = false;
     bool cap = false;
@@ -85,8 +85,8 @@ struct WrittenInstancing {
 struct SceneSpecies {
     std::string name; // unique
     SceneFile grammar;
-    SceneName dialect; // of the grammar; empty: detected
-    SceneName system;  // in a file of several systems; empty: the only one
+    SceneName dialect; // dialect of the grammar; empty: detected
+    SceneName system;  // name of the system in a file of several; empty: the only one
     bool bug_compatible = false;
     std::vector<SceneDefinition> definitions;
     /// Key and values of settings that replace those of the grammar, like `--set`.
@@ -98,9 +98,9 @@ struct SceneSpecies {
     std::optional<StageStart> start; // none: First with domination, else Random
     float rho = kSceneRho;
     CacheOptions cache; // only heroes, seed, cap and tolerance are set
-    WrittenInstancing written;
-    SourceSpan span;        // of `[[species]]`
-    SourceSpan height_span; // of the value of `height`; kNoFile: none
+    ExplicitInstancing explicit_instancing;
+    SourceSpan span;        // place of `[[species]]`
+    SourceSpan height_span; // place of the value of `height`; kNoFile: none
 };
 
 struct Scene {
@@ -111,7 +111,7 @@ struct Scene {
     Painting painting; // manual changes
     InstancingGoal goal;
     SceneFile density_map; // DensityMap, DensityCells; spans the region of the terrain
-    SourceSpan span;       // of `[placement]`; kNoFile if missing
+    SourceSpan span;       // place of `[placement]`; kNoFile if missing
 };
 
 /// Copies the number of stages, the start and the years per stage of each species to

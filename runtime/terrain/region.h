@@ -11,8 +11,8 @@ namespace lsys {
 inline constexpr double kMaxCoordinate = 1.0e6;
 
 struct Region {
-    double x = 0.0;     // m, lowest
-    double z = 0.0;     // m, lowest
+    double x = 0.0;     // m, min
+    double z = 0.0;     // m, min
     double width = 0.0; // m, along X
     double depth = 0.0; // m, along Z
 

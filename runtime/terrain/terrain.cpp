@@ -21,7 +21,7 @@ constexpr double kPeriod = 256.0; // cells after which stb's noise repeats
 /// Fraction of the finest feature over which slopes are measured. Coordinates in the noise are
 /// exact to 2^-17 of a cell, which leaves an error of 1 in 2,000 in this distance.
 constexpr double kSlopePart = 1.0 / 32.0;
-// In m; far from the origin binary32 cannot resolve a smaller step.
+// In m; about the resolution of binary32 coordinates far from the origin.
 constexpr double kMinSlopeStep = 0.05;
 /// Generation number of the random draws of terrains; no derivation reaches it.
 constexpr std::uint32_t kTerrainGeneration = 0xFFFFFFFCu;
@@ -68,9 +68,9 @@ float wrapped(double cells) {
     return static_cast<float>(cells - kPeriod * std::floor(cells / kPeriod));
 }
 
-/// Part of the range of its pixels that a bicubic surface rises above them, at most. The weights of
-/// Catmull-Rom sum up to 1 and their absolute values to 1.25^2 = 1.5625, so positive weights sum up to
-/// at most 1.28125.
+/// Max overshoot of a bicubic surface above its pixels, as a fraction of the pixels' range. The
+/// weights of Catmull-Rom sum up to 1 and their absolute values to at most 1.25^2 = 1.5625, so the
+/// positive weights sum up to at most 1.28125.
 constexpr double kOvershoot = 0.28125;
 
 } // namespace
@@ -204,7 +204,8 @@ double Terrain::mesh_error(double cell) const {
     // |f_xx| + 2 |f_xz| + |f_zz|.
     double error = 0.0;
     for (const Octave& octave : octaves_) {
-        constexpr double kNoiseBend = 3.3; // an eighth of this sum for the noise; measured: 3.14
+        // Upper bound of an eighth of this sum for the noise; measured: 3.14.
+        constexpr double kNoiseBend = 3.3;
         const double part = cell * octave.frequency;
         error += octave.amplitude * std::min(kNoiseBend * part * part, 2.0);
     }
@@ -214,7 +215,7 @@ double Terrain::mesh_error(double cell) const {
     const auto value = [&](std::uint32_t column, std::uint32_t row) {
         return static_cast<double>(map_->values[std::size_t{row} * map_->columns + column]);
     };
-    double bend = 0.0; // the largest such sum of differences of pixels
+    double bend = 0.0; // the max of this sum, from differences of pixels
     const auto [low, high] = std::minmax_element(map_->values.begin(), map_->values.end());
     for (std::uint32_t row = 0; row + 1 < map_->rows; ++row) {
         for (std::uint32_t column = 0; column + 1 < map_->columns; ++column) {

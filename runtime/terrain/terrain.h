@@ -62,19 +62,20 @@ public:
     [[nodiscard]] const Region& region() const { return region_; }
     /// Height in m at (x, z) in m. The same on every machine; finite within kMaxCoordinate.
     [[nodiscard]] float height(float x, float z) const;
-    /// The ground is nowhere below the first and nowhere above the second of these heights in m.
+    /// A lower and an upper bound of all heights, in m.
     [[nodiscard]] std::array<double, 2> altitudes() const;
-    /// Unit normal, by finite differences over slope_step(), which stay within a height map.
+    /// Unit normal, by finite differences over slope_step(). Its samples stay within a height map.
     [[nodiscard]] glm::vec3 normal(float x, float z) const;
     /// Rise over run, by the finite differences of normal(): 0 is level, 1 is 45 degrees.
     [[nodiscard]] float slope(float x, float z) const;
     /// An upper bound, in m, of the vertical distance between the ground and a mesh of it with square
-    /// cells of `cell` m (make_terrain_mesh()), from the second derivatives of the ground. Of a
-    /// height map the time is linear in its pixels.
+    /// cells of `cell` m (make_terrain_mesh()), from the second derivatives of the ground. For a
+    /// height map, time is linear in the number of pixels.
     [[nodiscard]] double mesh_error(double cell) const;
     /// A hash of all that height() and slope() depend on.
     [[nodiscard]] std::uint64_t digest() const;
-    /// Distance in m over which slopes are measured, in proportion to the finest feature.
+    /// Distance in m over which slopes are measured: proportional to the finest feature, at least
+    /// 5 cm.
     [[nodiscard]] double slope_step() const { return slope_step_; }
 
 private:
@@ -126,7 +127,7 @@ struct TerrainMeshOptions {
 
 /// Meshes the terrain's region with two triangles per cell. Vertices have height() and normal() of
 /// their x and z; u runs along X and v along Z. The same for any number of threads. Errors: no
-/// cells, more than kMaxTerrainCells, or tiles without area.
+/// cells, more than kMaxTerrainCells, a negative texture size, or tiles without area.
 [[nodiscard]] Result<Mesh> make_terrain_mesh(const Terrain& terrain,
                                              const TerrainMeshOptions& options);
 

@@ -65,7 +65,8 @@ glm::dquat interpolated(const Ends<glm::quat>& ends, double part) {
     return glm::normalize(glm::dquat(ends[0]) * (1.0 - part) + glm::dquat(ends[1]) * part);
 }
 
-/// A quaternion and its negative are the same turn; the nearer one gives the shorter rotation.
+/// Negates the later turn if the rotation between the two is then shorter: a quaternion and its
+/// negative are the same turn.
 void use_shorter_turn(Ends<glm::quat>& turn) {
     if (glm::dot(turn[0], turn[1]) < 0.0F) {
         turn[1] = -turn[1];
@@ -119,7 +120,7 @@ struct SkeletonGrowth::State {
         motion.offset[end] = glm::vec3(back * (place - from.tip));
     }
     /// Sets the pose in the drawing `end`, in which the item has size 0, from the pose in the other
-    /// one: at the parent's tip, with the same turn relative to the parent. An item without a
+    /// drawing: at the parent's tip, with the same turn relative to the parent. An item without a
     /// parent stays in its place.
     static void set_vanished(Motion& motion, std::size_t end) {
         motion.turn[end] = motion.turn[1 - end];

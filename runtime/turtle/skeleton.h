@@ -23,8 +23,8 @@ struct Looks; // runtime/meshing/looks.h
 
 inline constexpr std::uint32_t kNoSegment = 0xFFFFFFFFu;
 
-/// The colour of an item: an index up to kMaxColourIndex, which a `#material` or the palette gives
-/// its look; or a colour of its own, kOwnColour + red << 16 + green << 8 + blue, in sRGB.
+/// The colour of an item: an index up to kMaxColourIndex, whose look a `#material` or the palette
+/// defines; or a colour of its own, kOwnColour + red << 16 + green << 8 + blue, in sRGB.
 using ItemColour = std::uint32_t;
 inline constexpr ItemColour kOwnColour = 0x01000000u;
 [[nodiscard]] constexpr bool is_own(ItemColour colour) {
@@ -58,7 +58,7 @@ struct PlacedObject {
     TurtleOperation kind = TurtleOperation::Nothing; // Leaf, Sphere, ..., MeshFile
     std::uint32_t mesh_file = 0;                     // index in Skeleton::mesh_files, for MeshFile
     glm::vec3 position{};
-    float size = 1.0F; // factor
+    float size = 1.0F; // scale factor
     glm::quat frame{1.0F, 0.0F, 0.0F, 0.0F};
     std::uint32_t parent = kNoSegment;
     ItemColour colour = 0;
@@ -84,11 +84,11 @@ struct Skeleton {
     LargeVector<Polygon> polygons;
     LargeVector<glm::vec3> corners;
     std::vector<std::string> mesh_files; // meshes and pictures, as written in the grammar
-    std::shared_ptr<const Looks> looks;  // of colour indexes with a `#material`; null: none
+    std::shared_ptr<const Looks> looks;  // looks of the `#material`s; null: none
     bool l3d_compatible_surface = false; // drawn by meshing/impl/l3d_shapes.h
     bool box_segments = false;           // MeshMethod::Default draws boxes
     float leaf_droop = 0.0F;             // default of MeshOptions::droop
-    // Origins of the modules that drew the items (for a polygon: of its `{`); empty unless the words
+    // Origins of the modules that drew the items (for a polygon, its `{`); empty unless the words
     // had origins.
     LargeVector<Origin> segment_origins;
     LargeVector<Origin> object_origins;

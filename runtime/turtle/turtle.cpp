@@ -6,7 +6,8 @@
 
 namespace lsys {
 
-/// Draws the common case; returns false without effect if forward() has to check faults and limits.
+/// Draws a segment of the common case. Returns false, without effect, if forward() has to check
+/// faults and limits.
 [[gnu::always_inline]] inline bool
 Turtle::State::quick_forward(const Action& action, const float* arguments, Pose& pose) {
     const float length = action.given > 0 ? arguments[0] : now.step;
@@ -34,7 +35,7 @@ Turtle::State::quick_forward(const Action& action, const float* arguments, Pose&
         if (origins.size() == items.size()) {
             return true;
         }
-        if (!has_room(origins)) {
+        if (!make_room(origins)) {
             return false;
         }
         origins.push_back(each);

@@ -91,7 +91,7 @@ struct BranchStart {
     TurtlePlace place;
     std::uint32_t segment = kNoSegment; // the segment that ends at `place`
     DrawnCounts drawn;                  // items drawn before the branch
-    Origin origin;                      // of its `[`, if the words had origins
+    Origin origin;                      // origin of its `[`, if the words had origins
 };
 
 /// Called for each valid branch of a word when the turtle reads its brackets.
@@ -133,8 +133,8 @@ public:
 
     /// Reserves room for the drawing of `word`; optional.
     [[nodiscard]] std::optional<Stop> reserve(const Word& word);
-    /// Draws the next modules of the word; nothing after a Stop. If `origins` are given, or the
-    /// word keeps them, the drawing has origins too; all pieces must then have origins.
+    /// Draws the next modules of the word; has no effect after a Stop. If `origins` are given, or
+    /// the word keeps them, the drawing has origins too; all pieces must then have origins.
     [[nodiscard]] std::optional<Stop> feed(const Word& word);
     [[nodiscard]] std::optional<Stop> feed(std::span<const Code> codes,
                                            std::span<const float> parameters);

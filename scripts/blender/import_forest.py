@@ -4,7 +4,8 @@
 
     blender --python scripts/blender/import_forest.py -- forest.glb [--save forest.blend]
 
-The objects are those of the add-on beside this file: branches once, and a cloud of points for each square of ground.
+Makes the same objects as the add-on beside this file: each branch once, and a point cloud for each square of the
+ground.
 """
 import os
 import sys

@@ -5,7 +5,7 @@
 //     import * as THREE from 'three';
 //     loader.register(lods(THREE)); // or lods(THREE, 45): vertical field of view in degrees
 //
-// The node becomes a THREE.LOD; three.js shows its level for the distance of the camera.
+// The node becomes a THREE.LOD, which shows the level for its distance from the camera.
 
 /// Default vertical field of view in degrees.
 const VIEW = 60;

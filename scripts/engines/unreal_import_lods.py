@@ -2,8 +2,8 @@
 """Imports the levels of detail of a plant as one static mesh of Unreal Engine 5.
 
 In the console of the editor: py unreal_import_lods.py tree.lods.json /Game/Trees
-The list and the files beside it are written by `lsc export --lods N --lod-files`. Written by the documentation of
-StaticMeshEditorSubsystem and AssetImportTask.
+`lsc export --lods N --lod-files` writes the list and the files beside it. Based on the documentation of
+StaticMeshEditorSubsystem and AssetImportTask, not tried in Unreal Engine.
 """
 
 import json

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// One plant in daylight on level ground, or a plane drawing in front of a light wall.
+// Draws a plant in daylight on level ground, or a plane drawing in front of a light wall.
 import * as THREE from 'three';
 import { GLTFLoader } from '/node_modules/three/examples/jsm/loaders/GLTFLoader.js';
 

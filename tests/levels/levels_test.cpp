@@ -55,7 +55,7 @@ Project sample_project() {
         }
         return std::string(std::istreambuf_iterator<char>(file), {});
     };
-    project.host.read_named_file = project.host.read_file;
+    project.host.read_referenced_file = project.host.read_file;
     project.host.file_exists = [](const std::string& path) { return std::ifstream(path).good(); };
     return project;
 }

@@ -17,7 +17,7 @@ TileForest make_small_tile_forest() {
                            "#p : X : * : !(0.08) F({0.5, 0.8}) [ + X ] /(120) [ & X ];");
     };
     project.host.read_file = read;
-    project.host.read_named_file = read;
+    project.host.read_referenced_file = read;
     project.host.file_exists = [](const std::string&) { return true; };
     SceneOverrides overrides;
     overrides.rho = 0.0F;

@@ -182,8 +182,8 @@ TEST_CASE("the relief of a mesh of a forest changes its shading") {
     write_text(files.folder / "card.obj",
                "mtllib card.mtl\nusemtl card\nv -1 0 0\nv 1 0 0\nv 1 2 0\nv -1 2 0\n"
                "vt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\nf 1/1 2/2 3/3 4/4\n");
-    const auto seen = [&](const std::string& relief) {
-        write_text(files.folder / "card.mtl", "newmtl card\nmap_Kd red.png\n" + relief);
+    const auto seen = [&](const std::string& normal_map) {
+        write_text(files.folder / "card.mtl", "newmtl card\nmap_Kd red.png\n" + normal_map);
         write_text(files.folder / "red.png", encode_png(halves(kRed, kRed)));
         const Picture picture =
             files.picture("eye 20,1,25 target 20,1,20 fov 30", {"--no-shadows"}, "320x320");
@@ -362,8 +362,8 @@ TEST_CASE("a mesh file names a relief and an opacity beside its picture") {
     REQUIRE(material != nullptr);
     CHECK((*material)["alphaMode"] == "MASK");
     REQUIRE(material->contains("normalTexture"));
-    const auto relief = (*material)["normalTexture"]["index"].get<std::size_t>();
-    CHECK(decode_picture(image_of(glb, relief)).texels ==
+    const auto normal_map = (*material)["normalTexture"]["index"].get<std::size_t>();
+    CHECK(decode_picture(image_of(glb, normal_map)).texels ==
           lsys::tests::read_picture(files.folder / "slopes.png").texels);
     const auto colour =
         (*material)["pbrMetallicRoughness"]["baseColorTexture"]["index"].get<std::size_t>();

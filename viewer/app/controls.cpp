@@ -54,8 +54,8 @@ void pan(Camera& camera, const glm::vec2& drag, float height) {
 
 void zoom(Camera& camera, float wheel) {
     if (wheel != 0.0F) {
-        constexpr float kNotch = 0.85F;
-        camera = zoomed(camera, std::pow(kNotch, wheel));
+        constexpr float kZoomPerNotch = 0.85F;
+        camera = zoomed(camera, std::pow(kZoomPerNotch, wheel));
     }
 }
 
@@ -199,9 +199,9 @@ void Controls::use_tool(const WindowInput& input, const PixelArea& area, ForestV
 void Controls::fly(const WindowInput& input, float seconds, float height, Camera& camera) {
     const float turn = std::numbers::pi_v<float> / (2.0F * std::max(height, 1.0F));
     camera = turned(camera, turn * input.motion.x, -turn * input.motion.y);
-    constexpr float kNotch = 1.2F;
+    constexpr float kSpeedPerNotch = 1.2F;
     constexpr float kFaster = 4.0F;
-    speed_ *= std::pow(kNotch, input.wheel);
+    speed_ *= std::pow(kSpeedPerNotch, input.wheel);
     // At speed 1 the camera reaches the target in two seconds.
     const float metres = 0.5F * speed_ * (is_held(input, Key::Shift) ? kFaster : 1.0F) * seconds *
                          glm::distance(camera.eye, camera.target);

@@ -129,7 +129,7 @@ private:
 
 /// Increments the plant's seed.
 void next_seed(PlantView& view);
-/// Adds `step` to the generations.
+/// Shows the next generation if `step` is above 0, else the previous one; pauses growth.
 void step_generations(PlantView& view, int step);
 /// Increments the forest's key.
 void next_forest_key(ForestView& view);

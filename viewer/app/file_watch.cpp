@@ -23,7 +23,7 @@ constexpr int kMaxDelay = 10; // max delay of a report, as a multiple of Options
 /// Max interval of polls where the system has no events.
 constexpr std::chrono::milliseconds kPollWithoutEvents{100};
 
-/// Names whose events are changes of `path`: its own name and that of its link target.
+/// Absolute paths whose events are changes of `path`: its own and the one of its link target.
 std::vector<fs::path> names_of(const std::string& path) {
     std::error_code error;
     std::vector<fs::path> names;
@@ -42,7 +42,7 @@ struct Watched {
     std::string path;
     std::vector<fs::path> names;
     platform::FileStamp stamp;
-    /// First unreported change.
+    /// Time of the first unreported change; empty: none.
     std::optional<FileWatch::Clock::time_point> changed;
 };
 
@@ -128,7 +128,7 @@ struct FileWatch::State {
         }
     }
 
-    /// Reports changes; waits while a changed file is missing for less than `options.missing`.
+    /// Reports all changes, unless a changed file is missing for less than `options.missing`.
     void report(Clock::time_point now) {
         std::vector<std::string> names;
         Clock::time_point first = Clock::time_point::max();

@@ -15,17 +15,17 @@ class FileWatch {
 public:
     using Clock = std::chrono::steady_clock;
     struct Options {
-        /// Changes within this time are reported together.
+        /// Time without events after which changes are reported, all together.
         std::chrono::milliseconds quiet{10};
         /// Max time that a file may be missing, for example while an editor replaces it, before its
         /// absence is reported.
         std::chrono::milliseconds missing{250};
-        /// At most 100 ms on systems without events.
+        /// Interval of polls; at most 100 ms on systems without events.
         std::chrono::milliseconds poll{1000};
         bool use_events = true;
     };
-    /// Called on the watch's thread with the changed files, by the names given, and the time of the
-    /// first change.
+    /// Called on the watch's thread with the changed files, by their paths in watch(), and the time
+    /// of the first change.
     using Changed = std::function<void(const std::vector<std::string>& files, Clock::time_point)>;
 
     FileWatch(const Options& options, Changed changed);

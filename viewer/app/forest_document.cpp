@@ -182,7 +182,7 @@ Camera edge_view(const ForestDocument& document, const glm::vec3& middle, float 
     constexpr float kOutside = 3.5F;   // distance from the eye to the first tree
     constexpr float kAbove = 2.0F;     // height of the eye above the ground below it
     constexpr float kClearance = 1.5F; // min height of the eye above the ground ahead
-    constexpr float kAhead = 16.0F;    // range of the ground ahead
+    constexpr float kAhead = 16.0F;    // distance from the eye to which the ground is checked
     constexpr std::uint32_t kSteps = 64;
     // Angle from the middle of the picture down to the foot of the first tree, radians.
     constexpr float kFootBelow = 0.9F * 0.5F * kFirstField * std::numbers::pi_v<float> / 180.0F;

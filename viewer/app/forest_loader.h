@@ -26,7 +26,7 @@ struct ForestOutcome {
     Messages messages;
     std::vector<std::string> files; // all requested files, readable or not
     ForestRequest request;
-    double seconds = 0.0; // time of making
+    double seconds = 0.0; // time to make the document
 };
 
 [[nodiscard]] ForestOutcome make_forest(const ForestRequest& request,

@@ -259,15 +259,15 @@ Result<void> ForestPainting::save(const std::string& file, const Console& consol
     }
     saved_text_ = std::move(text.value());
     in_file_ = std::move(painting);
-    painter_->saved();
+    painter_->mark_saved();
     return {};
 }
 
 std::vector<LineVertex>
 ForestPainting::outline(const glm::dvec3& place, float radius, bool erases) const {
     constexpr std::uint32_t kCorners = 64;
-    constexpr std::array<std::uint8_t, 4> kPaints = {255, 240, 120, 255};
-    constexpr std::array<std::uint8_t, 4> kErases = {255, 110, 90, 255};
+    constexpr std::array<std::uint8_t, 4> kPaintColour = {255, 240, 120, 255};
+    constexpr std::array<std::uint8_t, 4> kEraseColour = {255, 110, 90, 255};
     std::vector<LineVertex> lines;
     const Terrain& terrain = *document_->grown.terrain;
     const float shown_radius = std::max(radius, 0.25F);
@@ -279,8 +279,8 @@ ForestPainting::outline(const glm::dvec3& place, float radius, bool erases) cons
         return glm::vec3(x, terrain.height(x, z) + 0.02F * shown_radius, z);
     };
     for (std::uint32_t i = 0; i < kCorners; ++i) {
-        lines.push_back({corner(i), erases ? kErases : kPaints});
-        lines.push_back({corner(i + 1), erases ? kErases : kPaints});
+        lines.push_back({corner(i), erases ? kEraseColour : kPaintColour});
+        lines.push_back({corner(i + 1), erases ? kEraseColour : kPaintColour});
     }
     return lines;
 }

@@ -31,8 +31,8 @@ class ForestPainting {
 public:
     explicit ForestPainting(Renderer& renderer) : renderer_(&renderer) {}
 
-    /// Continues on a new forest in the renderer and applies painted and erased trees to it;
-    /// unsaved changes are kept. Returns a note for the user, which may be empty.
+    /// Switches to a new forest, which the renderer shows already, and applies painted and erased
+    /// trees to it; keeps unsaved changes. Returns a note for the user, which may be empty.
     [[nodiscard]] std::string set_document(std::shared_ptr<const ForestDocument> document);
 
     /// Drops all painted and erased trees, saved or not.
@@ -45,7 +45,7 @@ public:
     [[nodiscard]] std::optional<glm::dvec3> pick(const Ray& ray);
     /// Moves the tool to `place` and applies it along the way. `begins`: starts a stroke there.
     void move_tool(const glm::dvec3& place, bool begins, PaintTool tool, const Brush& brush);
-    /// Changes since the last stroke, undo or redo began.
+    /// Trees changed by the last stroke, undo or redo.
     [[nodiscard]] const PaintCount& count() const { return count_; }
 
     [[nodiscard]] bool can_undo() const { return painter_ && painter_->can_undo(); }

@@ -289,7 +289,7 @@ void draw_cache(ForestView& view) {
     }
 }
 
-/// Colours and their values, several in a row.
+/// Draws the colours with their values, several per row.
 void draw_legend(const ForestView& view) {
     const std::vector<LegendEntry>& legend = view.legend();
     constexpr std::size_t kMaxShown = 60;
@@ -322,17 +322,17 @@ void draw_colours(ForestView& view) {
     if (!ImGui::CollapsingHeader("Colours of branches")) {
         return;
     }
-    constexpr std::array<std::pair<const char*, BranchColours>, 4> kWays = {
+    constexpr std::array<std::pair<const char*, BranchColours>, 4> kChoices = {
         {{"Natural", BranchColours::Natural},
          {"Id", BranchColours::Id},
          {"Age", BranchColours::Age},
          {"Hero", BranchColours::Hero}}};
-    for (std::size_t i = 0; i < kWays.size(); ++i) {
+    for (std::size_t i = 0; i < kChoices.size(); ++i) {
         if (i != 0) {
             ImGui::SameLine();
         }
-        if (ImGui::RadioButton(kWays[i].first, colours == kWays[i].second)) {
-            colours = kWays[i].second;
+        if (ImGui::RadioButton(kChoices[i].first, colours == kChoices[i].second)) {
+            colours = kChoices[i].second;
         }
     }
     draw_legend(view);

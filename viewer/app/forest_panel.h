@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Panel of a forest: its sources and its painting.
+// Panel of a forest: its numbers, growth, painting, scene values and display.
 #pragma once
 
 #include "viewer/app/forest_view.h"

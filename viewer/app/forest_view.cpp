@@ -17,7 +17,7 @@ namespace {
 
 // Time budget for baking of impostors between two events, s.
 constexpr double kBakeTime = 0.02;
-// Limit per picture, so that a flying camera does not stutter.
+// Max trees expanded into branches per picture, so that a flying camera does not stutter.
 constexpr std::uint32_t kMaxExpansions = 1000;
 // Draw time above which pictures have reduced quality during motion, s.
 constexpr double kSlowPicture = 0.12;
@@ -78,7 +78,7 @@ ForestView::ForestView(const ViewOptions& options,
 
 ForestView::~ForestView() {
     renderer_->show_lines({});
-    renderer_->show_plant(Mesh{}); // releases the plant
+    renderer_->show_plant(Mesh{}); // instead of the forest, which ends with document_
 }
 
 /// Called on the file watch's thread.
@@ -169,13 +169,13 @@ PickRequest ForestView::request_for(const Picked& picked) const {
         return {};
     }
     PickRequest request;
-    std::vector<std::uint32_t> alike;
+    std::vector<std::uint32_t> trees_of_form;
     if (picked.kind == PickedKind::Branch) {
-        alike = renderer_->trees_of(picked.form);
+        trees_of_form = renderer_->trees_of(picked.form);
     }
-    request.describe = [picked, alike = std::move(alike), document = document_,
+    request.describe = [picked, trees_of_form = std::move(trees_of_form), document = document_,
                         file = document_->files.front()](const Project& project) {
-        return view::describe(picked, alike, *document, file, project);
+        return view::describe(picked, trees_of_form, *document, file, project);
     };
     return request;
 }
@@ -317,8 +317,8 @@ void ForestView::picture_shown(double draw_seconds) {
         "loaded {}: {} trees of {} species, {:.0f} ms; changed after {:.0f} ms, seen {:.0f} ms "
         "after the change",
         file(), painting_.tree_count(), document_->scene.species.size(),
-        kMilliseconds * stats_.make_seconds, kMilliseconds * stats_.swap_seconds,
-        kMilliseconds * stats_.shown_seconds));
+        kMillisecondsPerSecond * stats_.make_seconds, kMillisecondsPerSecond * stats_.swap_seconds,
+        kMillisecondsPerSecond * stats_.shown_seconds));
 }
 
 bool ForestView::plays_smoothly() const {

@@ -159,7 +159,7 @@ private:
     std::vector<LegendEntry> legend_;
     std::optional<SceneOverrides> requested_;
     std::uint32_t default_years_ = 0;
-    std::uint32_t unedited_years_ = 0;   // years of the forest if the user edits none
+    std::uint32_t unedited_years_ = 0;   // years of the forest if the user does not edit them
     bool is_other_placement_ = false;    // edits or options change the placement of the scene file
     SteadyClock::time_point changed_at_; // time of the change that led to the forest shown
     SteadyClock::time_point last_growth_;
@@ -167,11 +167,11 @@ private:
     std::optional<GrowthMoment> grown_;
     std::unique_ptr<ForestFilm> film_;                   // made when growth is first played
     SteadyClock::time_point start_ = SteadyClock::now(); // time 0 of the wind
-    std::optional<glm::vec2> pointed_;
+    std::optional<glm::vec2> pointed_; // last place of hover(), until update() shows it
     bool has_outline_ = false;
     bool begins_stroke_ = false; // begin a stroke at the next point on the ground
     bool has_stroke_ = false;
-    bool used_tool_ = false; // since the last picture
+    bool used_tool_ = false; // a tool was applied since the last picture
     bool is_slow_ = false;   // the last picture at full quality took longer than kSlowPicture
     bool is_coarse_ = false;
     std::uint64_t max_coarse_triangles_ = 200'000;

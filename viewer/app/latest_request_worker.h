@@ -66,7 +66,7 @@ public:
         }
         return std::exchange(outcome_, std::nullopt);
     }
-    /// Whether a request is pending or running, or an outcome was not taken.
+    /// Whether a request is pending or running, or an outcome is not taken yet.
     [[nodiscard]] bool is_busy() const {
         const std::lock_guard lock(mutex_);
         return is_running_ || pending_ || outcome_;

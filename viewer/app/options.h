@@ -52,7 +52,7 @@ struct ViewOptions {
     std::uint32_t height = 720;
     std::optional<float> gravity; // m/s^2
     std::optional<Wind> wind;
-    float time = 0.0F;               // s, of the wind
+    float time = 0.0F;               // s since the wind began
     std::optional<float> visibility; // in a forest, km
     bool shadows = true;
     bool ground = true;
@@ -64,8 +64,8 @@ struct ViewOptions {
     // Folder of shaders that replace the built-in ones; empty: none.
     std::string shaders;
 
-    std::string screenshot;   // file of the picture instead of a window; `-`: standard output
-    std::uint32_t frames = 0; // count of a numbered series; 0: one picture
+    std::string screenshot;   // picture file; `-`: standard output; empty: opens a window instead
+    std::uint32_t frames = 0; // pictures of a numbered series; 0: a single picture
     float frames_per_second = 24.0F;
     bool turntable = false;           // the series orbits once
     bool grow = false;                // the series shows growth; in a window, growth starts to play
@@ -81,7 +81,7 @@ void use_other_file(ViewOptions& options, const std::string& file);
 using ParsedOptions = std::variant<ViewOptions, PrintText, UsageError>;
 [[nodiscard]] ParsedOptions parse_options(std::span<const std::string> arguments);
 
-/// Calls `visit` with all options.
+/// Calls `visit` with an app that declares all options.
 void visit_options(const std::function<void(const CLI::App& app)>& visit);
 
 } // namespace lsys::view

@@ -37,7 +37,7 @@ Area picture_area(const PanelState& panels, float scale) {
 constexpr int kNameWidth = 12; // characters
 
 void time_row(const char* name, double seconds) {
-    line(fmt::format("{:<{}}{:>9.1f} ms", name, kNameWidth, kMilliseconds * seconds));
+    line(fmt::format("{:<{}}{:>9.1f} ms", name, kNameWidth, kMillisecondsPerSecond * seconds));
 }
 
 void count_row(const char* name, std::uint64_t count) {

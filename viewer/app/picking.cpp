@@ -149,7 +149,7 @@ Outcome<std::string> trace_picked(const PickedModule& module,
 }
 
 Outcome<Description> describe(const Picked& picked,
-                              const std::vector<std::uint32_t>& alike,
+                              const std::vector<std::uint32_t>& trees_of_form,
                               const ForestDocument& document,
                               const std::string& file,
                               const Project& project) {
@@ -188,7 +188,7 @@ Outcome<Description> describe(const Picked& picked,
         return step.fail("the grammar has changed since the forest was made");
     }
     const std::optional<BranchCount> count =
-        count_branch(cache, forest.key, picked.instance, alike, project);
+        count_branch(cache, forest.key, picked.instance, trees_of_form, project);
     if (!count) {
         return step.end(Stop::Cancelled);
     }

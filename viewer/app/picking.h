@@ -23,7 +23,7 @@ namespace lsys::view {
 
 /// A triangle of a plant as it is shown.
 struct PickedTriangle {
-    std::uint64_t triangle = 0; // index in Mesh::indices
+    std::uint64_t triangle = 0; // number; corners: Mesh::indices from 3 * triangle on
     glm::vec3 place{};          // m
     const Skeleton* pose = nullptr;
     MeshOptions mesh;                   // options with which the pose was meshed
@@ -59,10 +59,10 @@ struct Description {
                                                 const Project& project);
 
 /// Describes the branch with id, age and hero, its production with place and generation, its count
-/// in the forest, and its tree; for an impostor only the tree. `alike`: numbers of the living trees
-/// of the same form, by Renderer::trees_of(). `file`: the scene, or a grammar.
+/// in the forest, and its tree; for an impostor only the tree. `trees_of_form`: numbers of the
+/// living trees of the same form, by Renderer::trees_of(). `file`: the scene, or a grammar.
 [[nodiscard]] Outcome<Description> describe(const Picked& picked,
-                                            const std::vector<std::uint32_t>& alike,
+                                            const std::vector<std::uint32_t>& trees_of_form,
                                             const ForestDocument& document,
                                             const std::string& file,
                                             const Project& project);
@@ -95,7 +95,7 @@ struct TraceRequest {
     bool is_repeat = false;
 };
 
-/// Returns the text of the trace, and messages of errors that end it.
+/// Returns the text of the trace, followed by messages; after an error only the messages.
 [[nodiscard]] std::string run_trace(const TraceRequest& request,
                                     const std::atomic<bool>& cancelled);
 

@@ -9,8 +9,8 @@
 
 namespace lsys::view {
 
-/// `camera`: ViewOptions::camera, parsed. Parts that the option leaves out are set so that the
-/// whole plant is in view, bent if it bends.
+/// `camera`: ViewOptions::camera, parsed. Parts missing in the option are set so that the whole
+/// plant is in view, as bent by gravity and wind.
 [[nodiscard]] ExitStatus take_pictures(const ViewOptions& options,
                                        const Camera& camera,
                                        const PlantDocument& document,

@@ -13,7 +13,7 @@ namespace lsys::view {
 
 namespace {
 
-/// Reports why the plant has no triangles, so that the picture is empty.
+/// Adds a note if the plant has neither triangles nor lines, so that the picture is empty.
 void report_nothing_to_draw(const PlantDocument& document,
                             const ViewOptions& options,
                             Messages& messages) {

@@ -18,7 +18,7 @@ struct FilmState {
     Grammar grammar;
     std::optional<PlantGrowth> growth;
 
-    [[nodiscard]] bool is_of(const ViewOptions& wanted) const {
+    [[nodiscard]] bool is_growth_of(const ViewOptions& wanted) const {
         return growth && options->file == wanted.file && options->grammar == wanted.grammar &&
                options->seed == wanted.seed;
     }
@@ -47,7 +47,7 @@ struct FilmState {
     [[nodiscard]] Outcome<void>
     make(const FilmRequest& request, const Project& project, FilmMoment& made) {
         Step step(project);
-        if (!is_of(request.options) && !step.take(begin(request.options, project))) {
+        if (!is_growth_of(request.options) && !step.take(begin(request.options, project))) {
             return step.end();
         }
         if (!step.take(growth->pose(request.moment, project, made.skeleton)) ||

@@ -13,7 +13,7 @@
 namespace lsys::view {
 
 struct FilmRequest {
-    ViewOptions options; // the growth ends at their number of generations
+    ViewOptions options; // the growth ends at `options.grammar.generations`
     GrowthMoment moment;
     SteadyClock::time_point changed_at;
     bool is_repeat = false;

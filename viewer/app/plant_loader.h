@@ -21,7 +21,7 @@ struct LoadOutcome {
     std::vector<std::string> files;     // all requested files, readable or not
     ViewOptions options;                // options of the request
     SteadyClock::time_point changed_at; // time of the change that caused the request
-    double seconds = 0.0;               // time of making
+    double seconds = 0.0;               // time to make the document
 };
 
 struct LoadRequest {

@@ -49,7 +49,7 @@ struct PlantMotion::State {
     std::condition_variable changed;
     std::optional<Bending> requested;
     BentPlant bent_plant;
-    bool is_made = false;
+    bool is_made = false; // bent_plant has a moment that take() has not returned
     bool stops = false;
     std::thread thread;
     // Used by the thread only.

@@ -17,7 +17,7 @@ struct BentPlant {
     Skeleton skeleton;
     Mesh mesh;
     double time = 0.0;    // s, simulated
-    double seconds = 0.0; // time of making
+    double seconds = 0.0; // wall time to make it
 };
 
 struct Bending {

@@ -74,7 +74,7 @@ PlantView::PlantView(const ViewOptions& options,
     watch_files();
 }
 
-ViewOptions PlantView::wanted() const {
+ViewOptions PlantView::options_with_settings() const {
     ViewOptions wanted = options_;
     wanted.file = settings.file;
     wanted.grammar.definitions = {};
@@ -119,7 +119,7 @@ bool PlantView::update() {
     }
     if (!requested_ || !makes_same_plant(*requested_, settings)) {
         requested_ = settings;
-        loader_.request(wanted(), SteadyClock::now());
+        loader_.request(options_with_settings(), SteadyClock::now());
     }
     return has_news;
 }
@@ -293,7 +293,7 @@ void PlantView::grow() {
             growth_position_ + passed * static_cast<double>(settings.generations_per_second), end);
     }
     const auto generation = static_cast<std::uint32_t>(growth_position_);
-    ViewOptions options = wanted();
+    ViewOptions options = options_with_settings();
     options.grammar.generations = default_generations();
     film_->request(options, {generation, growth_position_ - std::floor(growth_position_)});
     settings.generations = generation;
@@ -396,7 +396,7 @@ void PlantView::bend() {
         mesh.max_bytes = options_.run.limits.max_bytes;
         motion_ = std::make_unique<PlantMotion>(document_, settings.bending, mesh, wake_);
         bending_ = settings.bending;
-        bent_mesh_ = settings.mesh;
+        bent_mesh_options_ = settings.mesh;
     } else if (!is_same(*bending_, settings.bending)) {
         motion_->set(settings.bending);
         bending_ = settings.bending;
@@ -459,11 +459,11 @@ PickRequest PlantView::request_for(const Picked& picked) const {
         pose = std::make_shared<Skeleton>(grown_.skeleton);
         triangle.mesh = grown_.mesh_options;
         triangle.moment = grown_.moment;
-        options = wanted();
+        options = options_with_settings();
         options.grammar.generations = default_generations();
     } else if (is_bent) {
         pose = std::make_shared<Skeleton>(bent_.skeleton);
-        triangle.mesh = bent_mesh_;
+        triangle.mesh = bent_mesh_options_;
     } else {
         pose = std::shared_ptr<const Skeleton>(document_, &document_->plant.skeleton);
     }
@@ -504,12 +504,13 @@ void PlantView::picture_shown(double draw_seconds) {
         return;
     }
     stats_.shown_seconds = seconds_since(shown_outcome_.changed_at);
-    console_.detail(
-        fmt::format("loaded {}: {} modules, {} segments, {} triangles, {:.0f} ms; seen "
-                    "{:.0f} ms after the change",
-                    shown_outcome_.options.file, document_->plant.modules,
-                    document_->plant.skeleton.segments.size(), document_->mesh.indices.size() / 3,
-                    kMilliseconds * stats_.make_seconds, kMilliseconds * stats_.shown_seconds));
+    console_.detail(fmt::format("loaded {}: {} modules, {} segments, {} triangles, {:.0f} ms; seen "
+                                "{:.0f} ms after the change",
+                                shown_outcome_.options.file, document_->plant.modules,
+                                document_->plant.skeleton.segments.size(),
+                                document_->mesh.indices.size() / 3,
+                                kMillisecondsPerSecond * stats_.make_seconds,
+                                kMillisecondsPerSecond * stats_.shown_seconds));
 }
 
 void PlantView::open(const std::string& file) {

@@ -38,7 +38,7 @@ struct PlantViewSettings {
     bool ground = true;
     bool antialiasing = true;
 
-    bool simulates = false;
+    bool simulates = false; // gravity and wind move the plant
     Bending bending;
 
     bool plays = false;
@@ -114,7 +114,7 @@ private:
     void bend();
     [[nodiscard]] bool check_standing();
     void drop_unknown_definitions();
-    [[nodiscard]] ViewOptions wanted() const;
+    [[nodiscard]] ViewOptions options_with_settings() const;
     [[nodiscard]] Result<std::string> text_with_values(const StatementValues& values) const;
 
     std::shared_ptr<const PlantDocument> document_;
@@ -135,7 +135,7 @@ private:
     glm::vec4 film_ground_{0.0F};     // Frame::ground_disc while growth is shown
     std::unique_ptr<PlantFilm> film_; // made when growth is first played
     BentPlant bent_;
-    MeshOptions bent_mesh_;          // options with which bent_ was meshed
+    MeshOptions bent_mesh_options_;  // options with which bent_ was meshed
     std::optional<Bending> bending_; // settings of motion_
     std::unique_ptr<PlantMotion> motion_;
     /// Last request to the worker that checks whether the plant stands.

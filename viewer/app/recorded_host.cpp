@@ -19,7 +19,7 @@ Host record_files(Host host, std::vector<std::string>& files) {
         };
     };
     host.read_file = recorded(std::move(host.read_file));
-    host.read_named_file = recorded(std::move(host.read_named_file));
+    host.read_referenced_file = recorded(std::move(host.read_referenced_file));
     host.file_exists = [add, exists = std::move(host.file_exists)](const std::string& path) {
         add(path);
         return exists(path);

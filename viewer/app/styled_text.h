@@ -18,8 +18,8 @@ struct TextRun {
 };
 using TextLine = std::vector<TextRun>; // empty: a blank line
 
-/// The lines of `text`; a line end at its end begins no further line. Unknown codes are left out and
-/// change no colour.
+/// The lines of `text`; a final line end adds no blank line. Unknown codes are dropped and change
+/// no colour.
 [[nodiscard]] std::vector<TextLine> styled_lines(std::string_view text);
 /// The text of a line without colours.
 [[nodiscard]] std::string plain_text(const TextLine& line);

@@ -22,7 +22,7 @@
 
 namespace lsys::view {
 
-constexpr double kMilliseconds = 1e3; // per second
+constexpr double kMillisecondsPerSecond = 1e3; // per second
 /// Time that a note stays on the screen.
 constexpr std::chrono::seconds kNoteTime{10};
 
@@ -45,7 +45,7 @@ public:
     virtual ~View() = default;
 
     /// Takes finished work and requests work for changed settings, between two frames. Returns
-    /// whether messages changed.
+    /// whether panels may show something new: messages, a description or a trace.
     virtual bool update() = 0;
     /// Draws unless nothing changed. Returns whether it drew.
     virtual bool draw(std::uint32_t width, std::uint32_t height) = 0;
@@ -99,7 +99,7 @@ public:
     [[nodiscard]] const Renderer& renderer() const { return *renderer_; }
 
 protected:
-    /// The request that describes `picked`. Its function is empty if there is nothing to describe.
+    /// The request that describes `picked`; `describe` is empty if there is nothing to describe.
     /// Precondition: `picked` is not PickedKind::Nothing.
     [[nodiscard]] virtual PickRequest request_for(const Picked& picked) const = 0;
     /// Takes the outcomes of picker_ and tracer_. Returns whether picked() or traced() changed.
@@ -128,7 +128,7 @@ protected:
     std::optional<Frame> frame_;
     FrameStats drawn_;
     float aspect_ = 1.0F;
-    bool changed_ = true;
+    bool changed_ = true; // the next picture is drawn even if its frame equals frame_
 
 private:
     std::string text_;
@@ -143,9 +143,9 @@ private:
     TraceFunction trace_function_; // of the part picked last
     TraceScope trace_scope_ = TraceScope::Written;
     std::vector<TextLine> traced_;
-    bool wants_trace_ = false;            // no forget_trace() since the trace began
+    bool wants_trace_ = false;            // a trace was requested and not forgotten
     std::unique_ptr<TraceWorker> tracer_; // made by the first trace
-    bool wants_picked_ = false;           // no forget_picked() since the request of picker_
+    bool wants_picked_ = false;           // a description was requested and not forgotten
     std::unique_ptr<PickWorker> picker_;  // made by the first pick
 };
 

@@ -12,11 +12,12 @@ namespace lsys::view {
 
 inline constexpr float kLabelWidth = 110.0F;
 
+/// Draws a line of text.
 void line(const std::string& text);
 /// Digits in groups: 1,234,567.
 [[nodiscard]] std::string grouped(std::uint64_t number);
 void draw_wind(Wind& wind);
-/// Editable line of text with a button to copy it.
+/// Draws the camera as an editable line of text with a button that copies it.
 void draw_camera(Camera& camera);
 
 } // namespace lsys::view

@@ -26,7 +26,7 @@ constexpr double kIdle = 0.5; // also the max delay of Ctrl-C
 constexpr double kBusy = 0.02;
 // Max time step of a flying camera, s, so that a slow picture does not make it jump.
 constexpr double kMaxFlightStep = 0.1;
-/// Pictures until ImGui settles after input.
+/// Count of pictures that ImGui needs to settle after input.
 constexpr int kPicturesAfterInput = 3;
 
 std::string title_of(const std::string& file) {
@@ -125,7 +125,7 @@ ExitStatus run_window(const ViewOptions& options, const Console& console) {
     if (!camera) {
         return report_error(Error{fmt::format("--camera: {}", camera.error().message)}, console);
     }
-    // An unreadable file is a usage error; a file with errors is shown.
+    // An unreadable file is a usage error; errors in a readable file are shown in the window.
     if (const Result<std::string> bytes = read_file(options.file, {kMaxSourceBytes}, console);
         !bytes) {
         return report_error(bytes.error(), console);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Versions of the libraries of window and drawing, for `lsview --version --verbose`.
+// Versions of the window and drawing libraries, for `lsview --version --verbose`.
 #pragma once
 
 #include <string>
@@ -8,7 +8,7 @@
 
 namespace lsys::view {
 
-/// Names and versions. GLFW reports the version that is loaded.
+/// Names and versions; for GLFW the version loaded at run time.
 [[nodiscard]] std::vector<std::pair<std::string, std::string>> viewer_libraries();
 
 } // namespace lsys::view

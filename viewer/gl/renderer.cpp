@@ -27,7 +27,7 @@ constexpr GLuint kShadowTexture = 0;
 constexpr GLint kDisc = 0;
 constexpr GLint kGridStep = 1;
 constexpr GLint kPickedContent = 20;  // in pick.frag.glsl
-constexpr float kDiscInRadii = 14.0F; // radii of the plant
+constexpr float kDiscInRadii = 14.0F; // radius of the ground disc, in radii of the plant
 
 struct Programs {
     ProgramObject sky;
@@ -197,7 +197,7 @@ public:
         return stats;
     }
     Result<Picked> pick(const Frame& frame, std::uint32_t x, std::uint32_t y) override {
-        if (Result<void> made = make_pickable(); !made) {
+        if (Result<void> made = compile_pick_programs(); !made) {
             return made.error();
         }
         const FrameBlock block =
@@ -269,9 +269,9 @@ private:
     }
 
     /// Compiles the shaders of pick() at its first call.
-    Result<void> make_pickable() {
+    Result<void> compile_pick_programs() {
         if (is_forest_) {
-            return forest_.make_pickable(shaders_);
+            return forest_.compile_pick_programs(shaders_);
         }
         if (!pick_plant_) {
             Result<ProgramObject> made = make_program(device_, shaders_, "mesh.vert.glsl",

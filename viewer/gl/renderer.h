@@ -61,7 +61,7 @@ struct Frame {
     Light light;
     std::uint32_t width = 1280;
     std::uint32_t height = 720;
-    double time = 0.0; // s, of the wind
+    double time = 0.0; // s since the wind began
     Wind wind;
     bool shadows = true;
     bool ground = true; // disc under a single plant
@@ -71,9 +71,9 @@ struct Frame {
     PlantStyle style = PlantStyle::Surface;
     std::uint32_t samples = 4; // per pixel: 1 or 4
     // Forests only.
-    // Budget of branches; if exceeded, trees are drawn coarser.
+    // Max triangles of branches; with more, trees are drawn coarser.
     std::uint64_t max_triangles = 1'500'000;
-    std::uint32_t max_expansions = ~0U; // trees expanded into branches per picture
+    std::uint32_t max_expansions = ~0U; // max trees expanded into branches per picture
 
     friend bool operator==(const Frame&, const Frame&) = default;
 };
@@ -97,7 +97,7 @@ struct ForestFrameStats {
     std::uint64_t drawn_branches = 0;
     std::uint32_t expanded_trees = 0;
     std::uint32_t waiting_trees = 0; // near, drawn as impostors until expanded
-    float detail = 1.0F;             // factor of heights that kept max_triangles
+    float detail = 1.0F;             // factor of tree heights; below 1 to keep max_triangles
     FrameStats branches;
     FrameStats impostors;
     FrameStats terrain;
@@ -129,9 +129,9 @@ enum class PickedKind : std::uint8_t {
 struct Picked {
     PickedKind kind = PickedKind::Nothing;
     glm::vec3 place{};          // m; unless Nothing
-    std::uint64_t triangle = 0; // Plant: in Mesh::indices of show_plant()
-    std::uint32_t instance = 0; // Branch: in the cache of the form
-    std::uint32_t form = 0;     // Branch, Impostor: in ForestModel::forms
+    std::uint64_t triangle = 0; // Plant: number of the triangle in the mesh of show_plant()
+    std::uint32_t instance = 0; // Branch: index in the cache of the form
+    std::uint32_t form = 0;     // Branch, Impostor: index in ForestModel::forms
     Tree tree;                  // Branch, Impostor
     std::uint32_t trees = 0;    // Cluster: count
 };

@@ -60,7 +60,7 @@ struct Window::State {
     WindowInput input;
     glm::vec2 mouse{0.0F};
     bool has_mouse = false;
-    bool shift = false;         // at the press of the left button
+    bool shift = false;         // at the last press or release of the left button
     std::array<bool, 3> held{}; // buttons pressed outside of panels
     std::vector<std::pair<int, Key>> keys;
 

@@ -66,13 +66,13 @@ struct PointerEvent {
 struct WindowInput {
     std::vector<KeyPress> presses;
     std::vector<Key> held;
-    glm::vec2 left_drag{0.0F}; // pixels to the right and down
+    glm::vec2 left_drag{0.0F}; // window coordinates, to the right and down
     glm::vec2 right_drag{0.0F};
     glm::vec2 middle_drag{0.0F};
     std::vector<PointerEvent> pointer_events; // presses, releases, moves while pressed
     glm::vec2 mouse{0.0F};                    // pixels, from the upper left corner
     bool over_picture = false;                // the pointer is on the picture, not on a panel
-    glm::vec2 motion{0.0F};                   // pixels moved while the mouse is captured
+    glm::vec2 motion{0.0F};                   // as drags, while the mouse is captured
     float wheel = 0.0F;                       // positive away from the user
     std::vector<std::string> dropped;
     bool any = false;             // any event, also of panels
@@ -88,7 +88,7 @@ public:
     Window& operator=(const Window&) = delete;
     ~Window();
 
-    /// Cancels closing of the window.
+    /// Cancels a request of the window manager to close the window.
     void stay_open();
     /// Waits up to `seconds` for input; 0: returns pending input.
     [[nodiscard]] WindowInput wait(double seconds);

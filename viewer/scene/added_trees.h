@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // AddedTrees: trees added to a forest after it was sorted into cells, for example by painting. They
-// lie in square cells of their own; adding one costs the same for any number of trees.
+// lie in square cells of their own; adding one costs the same for any number of trees. A slot is
+// the index of an added tree, in the order of addition.
 #pragma once
 
 #include "runtime/forest/tree.h"

@@ -13,7 +13,7 @@
 namespace lsys::view {
 
 enum class BranchColours : std::uint8_t {
-    Natural, // of their materials
+    Natural, // colours of the materials
     Id,      // id of the branch in its grammar; 0: the axiom
     Age,     // age of the word in which the branch was written
     Hero,    // number of the hero from which the branch was cut

@@ -22,7 +22,7 @@ constexpr glm::vec3 kUp{0.0F, 1.0F, 0.0F};
 constexpr float kSteepest = 1.553F; // radians above or below the horizon
 constexpr float kMinField = 1.0F;
 constexpr float kMaxField = 170.0F;
-constexpr float kNearest = 0.02F;
+constexpr float kNearest = 0.02F;    // m, min distance of the near plane
 constexpr float kMaxDistance = 1e7F; // m, of eye and target
 
 /// Removes the next word from `text`.

@@ -27,7 +27,7 @@ struct Camera {
 /// Reads parts in any order; missing ones are taken from `otherwise`. Error: unknown text, eye
 /// equal to target, a field of view outside 1 to 170 degrees.
 [[nodiscard]] Result<Camera> parse_camera(std::string_view text, const Camera& otherwise);
-/// `first` with the parts replaced that `text` sets; unchanged if parse_camera() fails.
+/// `first` with the parts of `text` in place of its own; unchanged if parse_camera() fails.
 [[nodiscard]] Camera with_parts(std::string_view text, const Camera& first);
 
 /// Rotates the eye around the target by angles in radians; stops short of the poles.

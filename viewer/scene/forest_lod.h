@@ -119,7 +119,7 @@ struct DrawLists {
     std::uint64_t triangles = 0;       // of branches
     std::uint32_t expanded = 0;        // trees expanded into branches for this picture
     std::uint32_t waiting = 0;         // near trees without branches yet, drawn as impostors
-    float detail = 1.0F;               // factor of heights that keeps max_triangles
+    float detail = 1.0F;               // factor of tree heights; below 1 to keep max_triangles
 };
 
 /// A square of the ground.
@@ -198,7 +198,7 @@ private:
         std::uint32_t end = 0;
         std::uint32_t first_mesh = 0; // index in mesh_counts_
     };
-    /// Group of mesh_counts_ for blended trees; the groups before it are those of the levels.
+    /// Group of mesh_counts_ for blended trees; each level has a group before it.
     static constexpr std::uint32_t kBlending = kTreeLevels;
 
     void sort_into_cells();
@@ -207,7 +207,7 @@ private:
     }
     [[nodiscard]] std::uint64_t cell_of(const glm::vec3& place) const;
     [[nodiscard]] LodTree make_lod_tree(const Tree& tree, std::uint32_t index);
-    /// `weight`: weight of the tree's impostor; the cluster of its cell has the rest.
+    /// `weight`: weight of the tree's impostor; the cluster of its cell has 1 - `weight`.
     void visit_tree(std::uint32_t number,
                     const Frustum& frustum,
                     const LodOptions& options,
@@ -253,7 +253,7 @@ private:
     std::uint64_t alive_count_ = 0;
     BranchPool pool_;
     std::vector<TreeExpander> expanders_;   // by form
-    std::vector<std::uint32_t> first_mesh_; // by form
+    std::vector<std::uint32_t> first_mesh_; // by form: index of its first group in mesh_counts_
     DrawLists lists_;
     std::vector<Candidate> candidates_;
     std::vector<ImpostorEntry> far_;
@@ -263,7 +263,7 @@ private:
     Sway sway_;
     GroundHorizon* ground_ = nullptr;                            // during select()
     std::vector<std::pair<float, std::uint32_t>> visible_cells_; // distance and cell
-    std::vector<std::uint32_t> mesh_counts_;
+    std::vector<std::uint32_t> mesh_counts_; // visible branches by form, group and instance
 };
 
 } // namespace lsys::view

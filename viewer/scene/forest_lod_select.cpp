@@ -154,7 +154,7 @@ void ForestLod::visit_cell(std::uint32_t index,
     const ForestCell& cell = cells_[index];
     float weight = 1.0F; // weight of single trees against the cluster
     if (cell.count >= kMinClusterTrees && cell.removed == 0 && options.cluster_pixels > 0.0F) {
-        const float scale = frustum.pixels / std::max(distance, kNearest); // pixels of a metre
+        const float scale = frustum.pixels / std::max(distance, kNearest); // pixels per metre
         // The picture of a cluster is as wide as its cell: low trees far apart would cover few of
         // its texels.
         constexpr float kTallestPart = 1.0F / 6.0F;
@@ -276,7 +276,7 @@ void ForestLod::list_branches(const Frustum& frustum, const LodOptions& options)
     visible_branches_.clear();
     visible_trees_.clear();
     std::fill(mesh_counts_.begin(), mesh_counts_.end(), 0);
-    constexpr std::uint32_t kAll = BranchEntry::kBlendSteps;
+    constexpr std::uint32_t kWholeWeight = BranchEntry::kBlendSteps;
     for (const Candidate& candidate : candidates_) {
         const LodTree& tree = lod_tree(candidate.tree);
         const float pixels = candidate.pixels * lists_.detail;
@@ -289,10 +289,11 @@ void ForestLod::list_branches(const Frustum& frustum, const LodOptions& options)
             lists_.waiting += level == kTreeLevels ? 0 : 1;
             continue;
         }
-        std::uint32_t steps = kAll;
+        std::uint32_t steps = kWholeWeight;
         if (level + 1 == kTreeLevels) {
             const float weight = finer_weight(pixels, options.level_pixels.back(), options.blend);
-            steps = static_cast<std::uint32_t>(std::lround(weight * static_cast<float>(kAll)));
+            steps =
+                static_cast<std::uint32_t>(std::lround(weight * static_cast<float>(kWholeWeight)));
         }
         const auto instances =
             static_cast<std::uint32_t>(model_.forms[tree.form].cache->instances.size());
@@ -302,14 +303,14 @@ void ForestLod::list_branches(const Frustum& frustum, const LodOptions& options)
             continue;
         }
         ++lists_.trees_of_level[level];
-        if (steps != kAll) {
-            const float weight = static_cast<float>(steps) / static_cast<float>(kAll);
+        if (steps != kWholeWeight) {
+            const float weight = static_cast<float>(steps) / static_cast<float>(kWholeWeight);
             lists_.trees.push_back({candidate.tree, {weight, 1.0F}});
             ++lists_.blended;
         }
         visible_trees_.push_back(
             {first, static_cast<std::uint32_t>(visible_branches_.size()),
-             first_mesh_[tree.form] + (steps == kAll ? level : kBlending) * instances});
+             first_mesh_[tree.form] + (steps == kWholeWeight ? level : kBlending) * instances});
         for (std::uint32_t i = first; i < visible_branches_.size(); ++i) {
             const std::uint32_t mesh = pool_.branches()[visible_branches_[i].slot()].mesh;
             ++mesh_counts_[visible_trees_.back().first_mesh + mesh];

@@ -95,7 +95,7 @@ void find_impostors(TreeForm& form, std::uint64_t key, std::size_t max_count) {
     }
 }
 
-/// Measures the bounding cylinder and the mean count of branches of the trees of the impostors.
+/// Measures the bounding cylinder and the mean count of branches of form.impostor_trees.
 /// `meshes`: meshes of their branches.
 void measure_impostors(TreeForm& form, std::uint64_t key, const InstanceMeshes& meshes) {
     const LargeVector<std::uint32_t> indices = meshes.mesh.indices.expanded();

@@ -27,7 +27,7 @@ struct Sphere {
 /// Meshes by level, finest first.
 using TreeMeshes = std::array<InstanceMeshes, kTreeLevels>;
 
-/// Plants of one species with one number of generations. Lengths are those of a tree of scale 1.
+/// Plants of one species with one number of generations. Lengths are for a tree of scale 1.
 struct TreeForm {
     const InstanceCache* cache = nullptr;
     std::shared_ptr<const TreeMeshes> meshes; // may be released after upload
@@ -74,9 +74,9 @@ struct KnownModel {
     std::vector<std::optional<std::size_t>> species;
 };
 
-/// Builds the model and reuses meshes of `known`. `user_meshes`: by species. `options.level`: of
-/// the finest level. Forest and terrain must outlive the model. Returns the reason if it was
-/// stopped, as make_instance_meshes() does.
+/// Builds the model and reuses meshes of `known`. `user_meshes`: by species. `options.level`: mesh
+/// level of the finest tree level. Forest and terrain must outlive the model. Returns the reason if
+/// it was stopped, as make_instance_meshes() does.
 [[nodiscard]] std::optional<Stop>
 make_forest_model(const Forest& forest,
                   const Terrain& terrain,

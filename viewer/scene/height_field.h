@@ -29,7 +29,7 @@ public:
 
     [[nodiscard]] std::uint32_t columns() const { return columns_; }
     [[nodiscard]] std::uint32_t rows() const { return rows_; }
-    /// Rows of columns() + 1 heights, m; rows() + 1 of them.
+    /// Heights, m: rows() + 1 rows of columns() + 1 heights.
     [[nodiscard]] std::span<const float> heights() const { return heights_; }
 
     /// First point of the ray on the ground or below it; nullopt if the ray passes over or beside

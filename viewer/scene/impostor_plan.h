@@ -32,7 +32,7 @@ struct ImpostorForm {
 
 struct ImpostorPlan {
     std::vector<ImpostorLayer> layers;
-    /// One per tree form, then one cluster per tree form.
+    /// One of single trees per tree form, then one of a cluster per tree form.
     std::vector<ImpostorForm> forms;
     bool has_clusters = false;
 };

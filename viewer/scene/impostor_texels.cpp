@@ -13,7 +13,7 @@ namespace lsys::view {
 
 namespace {
 
-constexpr std::uint8_t kOpaque = 128;
+constexpr std::uint8_t kOpaque = 128; // min opacity of opaque texels
 
 } // namespace
 

@@ -99,8 +99,8 @@ std::uint32_t Painter::cell_of(float x, float z) const {
            index(static_cast<double>(x) - region_.x, columns_);
 }
 
-/// Calls `visit(index)` for living trees nearer than `radius` until it returns true; returns
-/// whether it did.
+/// Calls `visit(index)` for living trees nearer than `radius` until `visit` returns true; returns
+/// whether it has.
 template <typename Visit>
 bool Painter::any_near(float x, float z, float radius, const Visit& visit) const {
     const std::uint32_t low = cell_of(x - radius, z - radius);

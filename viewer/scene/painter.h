@@ -42,7 +42,7 @@ public:
     /// they differ.
     [[nodiscard]] bool move_to(std::span<const Tree> placed, const Terrain& terrain);
 
-    /// Count of placed trees, then of all trees ever painted.
+    /// Count of placed trees, which have the first indices, and of all trees ever painted.
     [[nodiscard]] std::uint32_t tree_count() const {
         return static_cast<std::uint32_t>(placed_.size() + painted_.size());
     }
@@ -72,11 +72,12 @@ public:
     std::span<const TreeChange> undo();
     std::span<const TreeChange> redo();
 
-    /// Changes in the form of a scene file.
+    /// All changes, as a scene file stores them.
     [[nodiscard]] Painting painting() const;
-    /// Whether painting() differs from that at the last saved(), or at the start.
+    /// Whether painting() differs from its value at the last mark_saved(), or at the start.
     [[nodiscard]] bool is_changed() const { return done_ != saved_; }
-    void saved() { saved_ = done_; }
+    /// Marks painting() as saved.
+    void mark_saved() { saved_ = done_; }
     /// Marks the initial painting as not saved.
     void set_unsaved() { saved_ = kNone; }
 

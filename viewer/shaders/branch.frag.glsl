@@ -33,7 +33,7 @@ in vec3 shadow_position;
 in vec2 fog;
 in vec3 from_eye; // m
 out vec4 colour;
-layout(binding = 5) uniform sampler2D relief_texture; // normals as in glTF
+layout(binding = 5) uniform sampler2D normal_map; // normals as in glTF
 // Normal with the relief texture applied. The axes of the texture come from differences between
 // pixels, because vertices have no tangents (Schueler 2006, "Normal Mapping without Precomputed
 // Tangents", ShaderX 5). `normal`: the normal of the visible side.
@@ -44,7 +44,7 @@ vec3 bumped(vec3 normal) {
     vec3 u = across * right.x + along * up.x;
     vec3 v = across * right.y + along * up.y;
     float size = max(dot(u, u), dot(v, v));
-    vec3 bump = texture(relief_texture, uv).xyz * 2.0 - 1.0;
+    vec3 bump = texture(normal_map, uv).xyz * 2.0 - 1.0;
     vec3 turned = size > 0.0 ? (u * bump.x - v * bump.y) * inversesqrt(size) : vec3(0.0);
     return normalize(turned + normal * bump.z);
 }

@@ -8,7 +8,7 @@ flat in vec2 blend_range;
 #ifdef CUT_OUT
 layout(binding = 2) uniform sampler2D leaf_texture;
 in vec2 uv;
-in vec3 front; // radiance of a white leaf seen from its front
+in vec3 front; // radiance of the front, dimmed by fog, where the leaf texture is white
 in vec3 back;
 in vec3 fog_light;
 flat in uint kind; // kind & 8: one colour

@@ -2,10 +2,10 @@
 #include "light.glsl"
 #ifdef PICTURE
 layout(binding = 3) uniform sampler2D colours;
-layout(binding = 4) uniform sampler2D relief; // normals as in glTF
+layout(binding = 4) uniform sampler2D normal_map; // normals as in glTF
 layout(location = 16) uniform vec4 tiles;     // a corner of a tile; its sides; m
 layout(location = 17) uniform vec3 mean;      // mean of the colours
-layout(location = 18) uniform int has_relief;
+layout(location = 18) uniform int has_normal_map;
 #else
 layout(binding = 2) uniform sampler2D noise; // tileable
 #endif
@@ -22,8 +22,8 @@ void main() {
     // Far away, use the mean colour: repeated tiles would be visible as rows.
     float far = smoothstep(25.0, 100.0, fog.z * inversesqrt(tiles.z * tiles.w));
     vec3 albedo = mix(texture(colours, uv).rgb, mean, far);
-    if (has_relief != 0) {
-        vec3 bump = texture(relief, uv).xyz * 2.0 - 1.0;
+    if (has_normal_map != 0) {
+        vec3 bump = texture(normal_map, uv).xyz * 2.0 - 1.0;
         vec3 along = normalize(vec3(up.y, -up.x, 0.0)); // x of the picture
         normal = normalize(along * bump.x + cross(up, along) * bump.y + up * bump.z);
         normal = normalize(mix(normal, up, far));

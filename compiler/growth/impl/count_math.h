@@ -14,7 +14,8 @@ namespace lsys::analysis {
 
 /// sum += value * times
 inline void add_times(Count& sum, const Count& value, std::uint64_t times) {
-    constexpr int kRoom = 60; // bits of a value whose product by 64 bits cannot overflow a sum
+    // A value of up to 60 bits times 64 bits, plus a sum below 2^126, fits 128 bits.
+    constexpr int kRoom = 60;
     if (!sum.exceeds && !value.exceeds && value.value.high == 0 && value.value.low >> kRoom == 0 &&
         sum.value.high >> 62 == 0) {
         sum.value = sum.value + full_product(value.value.low, times);

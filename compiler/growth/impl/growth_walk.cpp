@@ -21,8 +21,8 @@ Count count_of(std::uint64_t value) {
     return {value, false, 0.0};
 }
 
-/// a - b, at least 0. Counts beyond 2^128 are logarithms, which hide low_64_bits differences: the result
-/// is 0 if b is a logarithm, and a if only a is a logarithm.
+/// a - b, at least 0. Counts above 2^128 - 1 are logarithms, which hide small differences: the
+/// result is 0 if b is a logarithm, and a if only a is a logarithm.
 Count subtract(const Count& a, const Count& b) {
     if (is_zero(b)) {
         return a;
@@ -242,7 +242,7 @@ void GrowthWalk::pass(const Rule& rule) {
     const auto found = by_symbol_.find(static_cast<std::uint32_t>(rule.symbol));
     if (found != by_symbol_.end()) {
         const std::vector<ClassId> ids =
-            found->second; // modules written in a pass are not read in it
+            found->second; // a copy: a pass does not rewrite the modules that it writes
         rewrite(ids);
     }
 }

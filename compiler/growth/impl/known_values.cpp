@@ -63,7 +63,7 @@ struct Known : UnknownDomain<KnownValue> {
         return same ? y : KnownValue{};
     }
     bool take(KnownValue /*x*/, const std::uint32_t* /*at*/) const {
-        --work; // enter() has counted an Emit or Test, which compute nothing
+        --work; // undoes the count of enter(): an Emit or Test computes nothing
         return false;
     }
 };

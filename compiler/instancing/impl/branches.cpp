@@ -48,7 +48,7 @@ public:
         for (const Axiom& axiom : program_.axioms) {
             walk(axiom.word, "axiom", kNone);
         }
-        branches_.sites.clear(); // branches of an axiom are always taken
+        branches_.sites.clear(); // branches of an axiom are never replaced
         // Branches written by a decomposition get no id, because their key does not contain the
         // number of passes left for their modules. Interpreted branches are never rewritten.
         for (std::uint32_t i = 0; i < program_.productions.size(); ++i) {

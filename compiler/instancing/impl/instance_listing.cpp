@@ -16,7 +16,7 @@ namespace lsys {
 namespace {
 
 constexpr std::size_t kFormBits = 64;
-constexpr std::size_t kPieceOfListing = std::size_t{1} << 18;
+constexpr std::size_t kPieceBytes = std::size_t{1} << 18; // of the text passed to `put`
 
 /// The binary64 number nearest to the shortest decimal that reads back as this binary32.
 double as_written(float number) {
@@ -116,7 +116,7 @@ private:
             out_ += " : ";
             successor(production.successor, form, sites);
             out_ += ";\n";
-            if (out_.size() >= kPieceOfListing) {
+            if (out_.size() >= kPieceBytes) {
                 if (!put_(out_)) {
                     return false;
                 }

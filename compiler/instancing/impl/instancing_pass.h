@@ -18,8 +18,8 @@ namespace lsys {
 
 /// Replaces the `[` of each valid branch by a module SaveBranch. Its parameters are: whether to
 /// take a recorded branch, the age, the id, and the formals and local values that the branch uses.
-/// The positions of all modules stay the same, so the other modules are those of the original
-/// system. Each branch has a draw of its own. Precondition: rho in [0, 1].
+/// The positions of all modules stay the same, and all other modules equal the modules of the
+/// original system. Each branch has a draw of its own. Precondition: rho in [0, 1].
 void instance_branches(Program& program, const Branches& branches, float rho);
 
 /// The greatest form number of a production with n branches: 2^n - 1, or 2^64 - 1 for n > 64.

@@ -83,7 +83,8 @@ private:
     /// each remaining module writes an endless one.
     void remove_ending() {
         endless_ = is_certain_;
-        std::vector<std::uint32_t> kept(program_.productions.size(), 0); // endless modules written
+        // By production: number of endless modules in its successor.
+        std::vector<std::uint32_t> kept(program_.productions.size(), 0);
         std::vector<SymbolId> removed;
         const GroupedLists writers(program_.symbols.size(), [&](auto&& add_to) {
             for (const std::vector<std::uint32_t>& list : tried_) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Modules that mean something else in other programs: quotation marks around a word, a decimal comma,
-// a width as the second parameter of `F`.
+// Modules that mean something else in other programs: quotation marks around a word, a decimal
+// comma, a width as the second parameter of `F`.
 #include "compiler/lint/impl/lints.h"
 #include "compiler/lint/impl/places.h"
 
@@ -74,7 +74,7 @@ void check_comma(const CheckInput& input,
             number, false);
 }
 
-/// Reports `F(l, w)` if the name of the second parameter is that of a width.
+/// Reports `F(l, w)` if the second parameter has a usual name of a width.
 void check_width(const CheckInput& input,
                  std::string_view command,
                  const std::vector<SourceSpan>& arguments,

@@ -22,8 +22,8 @@ struct ModuleMention {
 
 struct ModuleUse {
     Reachable reachable;
-    /// Per symbol: the first place in the axioms and successors that can be used, and the first
-    /// place in any word. A null `word` means no place.
+    /// Per symbol: the first place in an axiom or in the successor of a usable production, and the
+    /// first place in any word. A null `word` means no place.
     std::vector<ModuleMention> first_place;
     std::vector<ModuleMention> any_place;
     std::vector<std::uint32_t> first_production; // per symbol: the first that rewrites it, or kNone

@@ -211,7 +211,7 @@ private:
         }
     }
 
-    /// Adds a help text that shows two productions without condition as stochastic alternatives.
+    /// Offers a fix that makes two productions with the condition `*` stochastic alternatives.
     void offer_probabilities(const Production& early,
                              const Production& late,
                              Diagnostic& diagnostic) const {

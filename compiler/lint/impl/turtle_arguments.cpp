@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Suspicious arguments of turtle commands: an angle in radians, a negative width, a part of a colour
-// that is not from 0 to 1.
+// Suspicious arguments of turtle commands: an angle in radians, a negative width, a part of a
+// colour that is not from 0 to 1.
 #include "compiler/lint/impl/lints.h"
 #include "compiler/lint/impl/places.h"
 

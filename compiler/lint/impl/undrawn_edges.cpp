@@ -71,24 +71,25 @@ class UndrawnEdges {
 public:
     UndrawnEdges(const CheckInput& input, Diagnostics& diagnostics)
         : input_(input), program_(input.program), diagnostics_(diagnostics),
-          reachable_(find_reachable(input.program)), only_(input.program.symbols.size(), kNone) {}
+          reachable_(find_reachable(input.program)),
+          plain_production_(input.program.symbols.size(), kNone) {}
 
     void check() {
         find_productions();
         for (std::uint32_t s = 0; s < program_.symbols.size(); ++s) {
             const SymbolId edge{s};
-            if (program_.symbol(edge).turtle == TurtleOperation::Nothing && has_one(edge) &&
-                reachable_.occurs(edge)) {
+            if (program_.symbol(edge).turtle == TurtleOperation::Nothing &&
+                has_plain_production(edge) && reachable_.occurs(edge)) {
                 check(edge);
             }
         }
     }
 
 private:
-    static constexpr std::uint32_t kSeveral = kNone - 1;
+    static constexpr std::uint32_t kNotPlain = kNone - 1;
 
-    /// Sets only_: for each symbol with exactly one production, that production, if it has no
-    /// contexts, conditions or parameters.
+    /// Sets plain_production_. A production is plain if it rewrites one module and has no contexts,
+    /// conditions, probabilities or parameters.
     void find_productions() {
         for (std::uint32_t p = 0; p < program_.productions.size(); ++p) {
             const Production& production = program_.productions[p];
@@ -97,17 +98,17 @@ private:
                                   production.condition == kNoValue && production.formals.empty() &&
                                   production.predecessor.items.size() == 1;
             for (const ProgramPatternItem& item : production.predecessor.items) {
-                std::uint32_t& known = only_[static_cast<std::size_t>(item.symbol)];
-                known = is_plain && known == kNone ? p : kSeveral;
+                std::uint32_t& known = plain_production_[static_cast<std::size_t>(item.symbol)];
+                known = is_plain && known == kNone ? p : kNotPlain;
             }
         }
     }
 
-    [[nodiscard]] bool has_one(SymbolId symbol) const {
-        return only_[static_cast<std::size_t>(symbol)] < kSeveral;
+    [[nodiscard]] bool has_plain_production(SymbolId symbol) const {
+        return plain_production_[static_cast<std::size_t>(symbol)] < kNotPlain;
     }
     [[nodiscard]] const Production& production_of(SymbolId symbol) const {
-        return program_.productions[only_[static_cast<std::size_t>(symbol)]];
+        return program_.productions[plain_production_[static_cast<std::size_t>(symbol)]];
     }
 
     /// The successor of `edge` as steps; sets `other` to the only other edge. Empty if there are
@@ -135,7 +136,7 @@ private:
     void check(SymbolId edge) {
         SymbolId drawn = kNoSymbol;
         const std::vector<Step> own = steps(edge, drawn);
-        if (own.empty() || !has_one(drawn) ||
+        if (own.empty() || !has_plain_production(drawn) ||
             info(program_.symbol(drawn).turtle).drawn != DrawnKind::Segment) {
             return;
         }
@@ -158,8 +159,8 @@ private:
     const Program& program_;
     Diagnostics& diagnostics_;
     Reachable reachable_;
-    std::vector<std::uint32_t>
-        only_; // by symbol; kNone: no production, kSeveral: no unique plain one
+    /// By symbol: its only production, if it is plain; kNone: no production; kNotPlain: others.
+    std::vector<std::uint32_t> plain_production_;
 };
 
 } // namespace

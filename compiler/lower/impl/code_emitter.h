@@ -54,7 +54,7 @@ private:
     struct Frame {
         ValueId value;
         Step step = Step::Operands;
-        std::size_t skip = 0; // Else, EndIf: index of the instruction that skips past it
+        std::size_t skip = 0; // Else, EndIf: index of the If or Else that skips to here
     };
     std::vector<Frame> frames_;
 };

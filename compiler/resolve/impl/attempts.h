@@ -15,7 +15,8 @@ class AttemptedStatements {
 public:
     explicit AttemptedStatements(const Resolution& resolution);
 
-    /// Whether `#keyword` occurs anywhere in the text. Only `w` and `n` are found.
+    /// Whether the text has `#keyword`, or a line with the same meaning in another notation
+    /// (`axiom: F`, `n = 5`). Finds only `w` and `n`.
     [[nodiscard]] bool has(std::string_view keyword) const;
     /// Whether `#define NAME`, `#param NAME`, `#function NAME` or `#curve NAME` occurs anywhere in
     /// the text.

@@ -30,7 +30,9 @@ void DeclarationResolver::report_bad_declaration(SourceSpan span, std::string me
 }
 
 /// Checks that a statement names one module; with `names letters` it may name several.
-bool DeclarationResolver::is_one_name(ModuleList list, SourceSpan statement, const char* keyword) {
+bool DeclarationResolver::check_one_name(ModuleList list,
+                                         SourceSpan statement,
+                                         const char* keyword) {
     if (list.count == 0) {
         report_bad_declaration(statement, fmt::format("`{}` names no module", keyword));
         return false;
@@ -63,7 +65,7 @@ bool DeclarationResolver::check_bare(const ModuleView& module, const char* state
 
 void DeclarationResolver::object(const ObjectNode& node) {
     std::optional<ObjectBinding> binding = object_of(node);
-    if (!is_one_name(node.name, node.object_span, "#object")) {
+    if (!check_one_name(node.name, node.object_span, "#object")) {
         return;
     }
     ModuleCursor cursor(resolution_.ast, resolution_.names, resolution_.sources, node.name);
@@ -238,7 +240,7 @@ void DeclarationResolver::ignore_module(const ModuleView& module,
 void DeclarationResolver::module(const ModuleDeclarationNode& node,
                                  SourceSpan statement,
                                  ModuleReading& reading) {
-    if (!is_one_name(node.modules, statement, "#module")) {
+    if (!check_one_name(node.modules, statement, "#module")) {
         return;
     }
     reading.expressions.begin_statement();

@@ -30,7 +30,7 @@ private:
                        SplitReport& splits);
     [[nodiscard]] bool check_bare(const ModuleView& module, const char* statement);
     void report_bad_declaration(SourceSpan span, std::string message);
-    [[nodiscard]] bool is_one_name(ModuleList list, SourceSpan statement, const char* keyword);
+    [[nodiscard]] bool check_one_name(ModuleList list, SourceSpan statement, const char* keyword);
 
     Resolution& resolution_;
     SymbolTable& symbols_;

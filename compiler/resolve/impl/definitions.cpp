@@ -84,7 +84,7 @@ void DefinitionResolver::generations(const GenerationsNode& node, SourceSpan sta
     resolution_.program.generations_span = span;
 }
 
-bool DefinitionResolver::is_first(NameId name, SourceSpan span) {
+bool DefinitionResolver::check_first_definition(NameId name, SourceSpan span) {
     const SourceSpan first = constants_.definition_span(name);
     if (first == span) {
         return true;
@@ -97,7 +97,7 @@ bool DefinitionResolver::is_first(NameId name, SourceSpan span) {
 void DefinitionResolver::define(const DefineNode& node) {
     expressions_.begin_statement();
     const ValueId value = expressions_.resolve(node.value, ExpressionPlace::Define);
-    if (is_first(node.name, node.name_span)) {
+    if (check_first_definition(node.name, node.name_span)) {
         Constant constant;
         constant.name = node.name;
         constant.span = node.name_span;
@@ -113,7 +113,7 @@ void DefinitionResolver::param(const ParamNode& node) {
     const std::uint32_t draws = expressions_.draw_count();
     const ValueId minimum = expressions_.resolve(node.minimum, ExpressionPlace::Bound);
     const ValueId maximum = expressions_.resolve(node.maximum, ExpressionPlace::Bound);
-    if (is_first(node.name, node.name_span)) {
+    if (check_first_definition(node.name, node.name_span)) {
         if (minimum == kPoison || maximum == kPoison) {
             constants_.fail(node.name);
         } else {

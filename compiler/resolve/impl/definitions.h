@@ -42,7 +42,7 @@ public:
     void advance_draw_position(std::uint32_t count) { draw_position_ += count; }
 
 private:
-    [[nodiscard]] bool is_first(NameId name, SourceSpan span);
+    [[nodiscard]] bool check_first_definition(NameId name, SourceSpan span);
     void add(Constant constant, ValueId value, bool is_random);
     void check_bounds(const ParamNode& node, const Constant& constant);
 

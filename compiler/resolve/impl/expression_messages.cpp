@@ -19,14 +19,14 @@ bool is_pi(std::string_view name) {
     return name == "pi" || name == "PI" || name == "Pi" || name == "M_PI";
 }
 
-/// Offers the angle in degrees for `pi`, or for `2 * pi`, as an argument of `sin`, `cos` or `tan`;
-/// returns whether it is one.
+/// Offers the angle in degrees for `pi` or `2 * pi` in the argument of `sin`, `cos` or `tan`.
+/// Returns false for a `pi` elsewhere.
 bool offer_degrees(const SourceMap& sources, SourceSpan pi, Diagnostic& error) {
     const std::string_view text = sources.file(pi.file).text();
     constexpr std::uint32_t kMaxLength = 200; // bytes of an argument
-    const std::uint32_t least = pi.begin > kMaxLength ? pi.begin - kMaxLength : 0;
+    const std::uint32_t min_open = pi.begin > kMaxLength ? pi.begin - kMaxLength : 0;
     std::uint32_t open = pi.begin;
-    for (int depth = 1; depth != 0 && open > least; --open) {
+    for (int depth = 1; depth != 0 && open > min_open; --open) {
         const char c = text[open - 1];
         depth += c == ')' ? 1 : c == '(' ? -1 : 0;
         if (c == ';' || (c == ',' && depth == 1)) {
@@ -36,7 +36,7 @@ bool offer_degrees(const SourceMap& sources, SourceSpan pi, Diagnostic& error) {
             break;
         }
     }
-    if (open < 4 || open == least || text[open - 1] != '(') {
+    if (open < 4 || open == min_open || text[open - 1] != '(') {
         return false;
     }
     const std::string_view function = text.substr(open - 4, 3);

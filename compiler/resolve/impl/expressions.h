@@ -126,7 +126,7 @@ private:
                                              Opcode opcode,
                                              std::span<const ValueId> arguments,
                                              ExpressionPlace place);
-    [[nodiscard]] bool may_draw(const Expression& expression, ExpressionPlace place);
+    [[nodiscard]] bool check_draw_allowed(const Expression& expression, ExpressionPlace place);
     [[nodiscard]] ValueId draw_value(Opcode opcode,
                                      ValueId first,
                                      ValueId second,
@@ -145,7 +145,7 @@ private:
     [[nodiscard]] ValueId
     expanded(const UserFunction& function, std::span<const ValueId> arguments, SourceSpan span);
     [[nodiscard]] bool draws(ValueId root) const;
-    [[nodiscard]] bool is_free_name(NameId name, SourceSpan span);
+    [[nodiscard]] bool check_free_name(NameId name, SourceSpan span);
     [[nodiscard]] bool read_formals(const FunctionNode& node);
     [[nodiscard]] std::optional<std::vector<CurveKnot>> read_points(const CurveNode& node);
     [[nodiscard]] ValueId pop();

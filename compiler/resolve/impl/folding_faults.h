@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Texts of the errors of constant folding.
+// Texts of the errors of constant folding, and the names of the functions.
 #pragma once
 
 #include "compiler/bytecode/bytecode.h"

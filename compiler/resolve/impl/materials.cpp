@@ -26,7 +26,8 @@ namespace {
 using KeyKind = MaterialKey::Kind;
 constexpr auto kMaxIndex = static_cast<float>(kMaxColourIndex);
 
-/// The keys, in the order in which messages list them. `color` is `colour`.
+/// The keys, in the order in which messages list them. `color`, a synonym of `colour`, is last and
+/// not listed.
 constexpr std::array<MaterialKey, 7> kKeys{{
     {"colour", KeyKind::Colour, 3, "three numbers from 0 to 1: red, green and blue"},
     {"picture", KeyKind::Picture, 1, "a file name in quotes"},

@@ -19,7 +19,7 @@ ProductionResolver::ProductionResolver(ModuleReading& reading, ConstantTable& co
     resolution_.program.productions.reserve(resolution_.ast.productions.size());
 }
 
-bool ProductionResolver::is_first_of_name(const ProductionNode& node) {
+bool ProductionResolver::check_first_of_name(const ProductionNode& node) {
     SourceSpan& first = first_of_name_[index_of(node.name)];
     if (first.file == kNoFile) {
         first = node.name_span;
@@ -48,7 +48,7 @@ bool ProductionResolver::is_first_of_name(const ProductionNode& node) {
 }
 
 void ProductionResolver::resolve(const ProductionNode& node, SourceSpan statement) {
-    bool ok = is_first_of_name(node);
+    bool ok = check_first_of_name(node);
     Production production;
     production.name = node.name;
     production.stage = node.stage;
@@ -115,7 +115,7 @@ void ProductionResolver::resolve_locals(ListRange locals, Production& production
     for (std::uint32_t i = 0; i < locals.count; ++i) {
         const LocalNode& node = resolution_.ast.locals[locals.first + i];
         const ValueId value = reading_.expressions.resolve(node.value, ExpressionPlace::Local);
-        if (is_new_local(node, production)) {
+        if (check_new_local(node, production)) {
             const auto slot = static_cast<std::uint32_t>(production.locals.size());
             reading_.expressions.add_local(node.name, value, slot);
             const SourceSpan span{node.name_span.file, node.name_span.begin,
@@ -125,8 +125,9 @@ void ProductionResolver::resolve_locals(ListRange locals, Production& production
     }
 }
 
-/// Whether no parameter or earlier local value has the name; reports the one that has it.
-bool ProductionResolver::is_new_local(const LocalNode& node, const Production& production) {
+/// Returns false after reporting that a parameter or an earlier local value has the name. Warns of
+/// a constant with the name.
+bool ProductionResolver::check_new_local(const LocalNode& node, const Production& production) {
     const auto report = [&](const char* what, SourceSpan first) {
         Diagnostic& error = resolution_.diagnostics.add(
             DiagnosticCode::DuplicateLocal, node.name_span,

@@ -24,10 +24,10 @@ public:
     void finish();
 
 private:
-    [[nodiscard]] bool is_first_of_name(const ProductionNode& node);
+    [[nodiscard]] bool check_first_of_name(const ProductionNode& node);
     void resolve_condition(const ConditionNode& node, Production& production);
     void resolve_locals(ListRange locals, Production& production);
-    [[nodiscard]] bool is_new_local(const LocalNode& node, const Production& production);
+    [[nodiscard]] bool check_new_local(const LocalNode& node, const Production& production);
     void resolve_weight(ExpressionId probability, Production& production);
     void check_draws(const ProgramWord& successor);
 

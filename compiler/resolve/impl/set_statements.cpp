@@ -42,7 +42,7 @@ void SetResolver::read_modes() {
     for (const Statement& statement : resolution_.ast.statements) {
         if (statement.kind == StatementKind::Set) {
             const SetNode& node = resolution_.ast.sets[statement.index];
-            if (is_first(node)) {
+            if (check_first_setting(node)) {
                 read_mode(node, resolution_.text(node.key));
             }
         }
@@ -59,7 +59,7 @@ std::uint64_t SetResolver::scope_of(const SetNode& node) const {
            static_cast<std::uint32_t>(node.key);
 }
 
-bool SetResolver::is_first(const SetNode& node) {
+bool SetResolver::check_first_setting(const SetNode& node) {
     const auto [first, is_new] = first_.try_emplace(scope_of(node), node.key_span);
     if (!is_new) {
         report_duplicate(resolution_, node.key_span, first->second,

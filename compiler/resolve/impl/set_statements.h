@@ -33,7 +33,7 @@ public:
 
 private:
     [[nodiscard]] std::uint64_t scope_of(const SetNode& node) const;
-    [[nodiscard]] bool is_first(const SetNode& node);
+    [[nodiscard]] bool check_first_setting(const SetNode& node);
     void read_mode(const SetNode& node, std::string_view key);
     void report_unknown_key(const SetNode& node);
     void

@@ -11,7 +11,7 @@ namespace lsys {
 namespace {
 
 constexpr std::size_t kMaxLabels = 8;
-/// Maximum of places in a fix; files with more are better fixed by `names letters`.
+/// Max number of edits in a fix; files with more are better fixed by `names letters`.
 constexpr std::size_t kMaxEdits = 10'000;
 constexpr std::size_t kMaxQuotedBytes = 60;
 

@@ -82,7 +82,7 @@ NameSplitter::parts(NameId name, std::uint32_t parameter_count, FileId file) {
     const auto [found, is_new] = decided_.try_emplace(whole);
     std::vector<NamePart>& parts = found->second;
     if (is_new) {
-        parts = split(whole); // decides parts of `whole` too, which may move `found`
+        parts = split(whole); // recursive: may invalidate `found`, not `parts`
     }
     return parts;
 }
@@ -141,8 +141,8 @@ std::vector<NamePart> NameSplitter::split(const Use& whole) {
         if (begin == 0 || work_left_ < length || !use_lengths_.contains(length)) {
             continue;
         }
-        // The last part may be an unknown name that stands alone elsewhere in the file, if it is not
-        // split there.
+        // The last part may be an unknown name that stands alone elsewhere in the file, if it is
+        // not split there.
         work_left_ -= length;
         const NameId rest = resolution_.names.find(text.substr(begin));
         if (rest != kNoName && unknown_[index_of(rest)] &&

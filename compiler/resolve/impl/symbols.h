@@ -19,8 +19,9 @@ public:
     void bind(NameId name, TurtleOperation object, std::string mesh_file);
     /// Makes contexts skip modules of this name, with any number of parameters.
     void ignore(NameId name);
+    /// Exempts modules of this name from ignore_all_but_considered().
     void consider(NameId name);
-    /// Makes contexts skip all modules but brackets and those of consider().
+    /// Makes contexts skip all modules except brackets and names given to consider().
     void ignore_all_but_considered() { others_ignored_ = true; }
     [[nodiscard]] bool is_ignored(NameId name) const;
 

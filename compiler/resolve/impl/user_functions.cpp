@@ -23,8 +23,8 @@ constexpr std::size_t kMaxExpanded = std::size_t{1} << 22;
 
 } // namespace
 
-/// Whether no other function has the name; reports the one that has it.
-bool ExpressionResolver::is_free_name(NameId name, SourceSpan span) {
+/// Returns false after reporting that another function has the name.
+bool ExpressionResolver::check_free_name(NameId name, SourceSpan span) {
     const std::string_view text = resolution_.text(name);
     UserFunction& function = user_functions_.at(name);
     if (functions_.contains(name)) {
@@ -74,7 +74,7 @@ bool ExpressionResolver::read_formals(const FunctionNode& node) {
 
 void ExpressionResolver::define_function(const FunctionNode& node) {
     begin_statement();
-    const bool is_free = is_free_name(node.name, node.name_span);
+    const bool is_free = check_free_name(node.name, node.name_span);
     const bool has_formals = read_formals(node);
     if (!has_formals) {
         set_formals_incomplete();
@@ -151,7 +151,7 @@ std::optional<std::vector<CurveKnot>> ExpressionResolver::read_points(const Curv
 
 void ExpressionResolver::define_curve(const CurveNode& node) {
     begin_statement();
-    const bool is_free = is_free_name(node.name, node.name_span);
+    const bool is_free = check_free_name(node.name, node.name_span);
     std::optional<std::vector<CurveKnot>> points = read_points(node);
     if (!is_free) {
         return;

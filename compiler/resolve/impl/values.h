@@ -24,8 +24,8 @@ public:
     /// kNoValue for a distribution of one argument.
     [[nodiscard]] ValueId
     draw(Opcode opcode, ValueId first, ValueId second, std::uint32_t number, SourceSpan span);
-    /// An operation on one or two values: a literal if all operands are literals, kPoison if one
-    /// is.
+    /// An operation on one or two values: a literal if all operands are literals, kPoison if an
+    /// operand is kPoison.
     [[nodiscard]] ValueId operation(Opcode opcode, ValueId left, ValueId right, SourceSpan span);
     /// arithmetic::mix() of three values.
     [[nodiscard]] ValueId mix(ValueId from, ValueId to, ValueId part, SourceSpan span);

@@ -21,7 +21,7 @@ std::from_chars_result read(const char* first, const char* last, Number& value) 
     if (error != std::errc()) {
         return {end, error};
     }
-    // fast_float reads numbers that are too large as infinity, and those that are too small as 0.
+    // fast_float reads a number that is too large as infinity, and one that is too small as 0.
     const std::string_view text(first, static_cast<std::size_t>(end - first));
     const bool has_digits = text.find_first_of("0123456789") != std::string_view::npos;
     if (std::isinf(number) && has_digits) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Floating-point numbers as characters without std::from_chars and std::to_chars: fast_float reads
-// them, fmt finds the shortest digits. The results are those of libstdc++ 12; a test compares them.
+// them, fmt finds the shortest digits. The results equal those of libstdc++ 12, as a test checks.
 #pragma once
 
 #include <charconv>

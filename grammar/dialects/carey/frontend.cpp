@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// .rules: the rule lists of Carey's forest generator. A header holds the settings of the
-// generator's form; each rule is a line `LHS=RHS:ratio`. Rewriting is cyclic, a left side may be
+// .rules: the rule lists of Carey's forest generator. A header holds the text fields of the
+// generator's window; each rule is a line `LHS=RHS:ratio`. Rewriting is cyclic, a left side may be
 // several symbols, ratios are normalised.
 #include "grammar/ast/reports.h"
 #include "grammar/dialects/carey/parameters.h"
@@ -57,11 +57,12 @@ void write_axiom(const CareyFile& file,
     }
 }
 
-/// How a rule is selected: properties that depend on the other rules.
+/// Properties of the selection of a rule that depend on the other rules.
 struct RuleSelection {
     std::size_t number = 0;
     bool has_alternatives = false; // other rules have the same left side
-    /// True in the generations in which the rule has its turn. If empty, `rewriting cyclic` decides.
+    /// Condition that is true in the generations in which the rule has its turn. If empty,
+    /// `rewriting cyclic` decides.
     std::string condition;
 };
 
@@ -119,7 +120,7 @@ void write_rules(const CareyFile& file,
     std::map<std::string, std::size_t> turns; // index of each left side, in file order
     std::vector<std::string> left_sides;
     for (const CareyRule& rule : file.rules) {
-        left_sides.push_back(without_blanks(context.sources.text(rule.left)));
+        left_sides.push_back(remove_blanks(context.sources.text(rule.left)));
         ++alternatives[left_sides.back()];
         turns.emplace(left_sides.back(), turns.size());
     }
@@ -157,7 +158,7 @@ void translate_carey(const DialectRow& row, const ParseContext& context, Transla
     bool any_choice = false;
     for (const CareyRule& rule : file.rules) {
         const bool is_new =
-            left_sides.insert(without_blanks(context.sources.text(rule.left))).second;
+            left_sides.insert(remove_blanks(context.sources.text(rule.left))).second;
         any_choice = any_choice || !is_new;
     }
     const LeftParameters parameters = find_left_parameters(file, context);

@@ -156,14 +156,14 @@ private:
         Diagnostic& note = context_.diagnostics.add(
             DiagnosticCode::ParameterStays, module.span,
             "rules replace text: `" + text_of(rule) + "` makes `" +
-                shown(without_blanks(context_.sources.text(rule.rule->right)) + parameters) +
+                shown(remove_blanks(context_.sources.text(rule.rule->right)) + parameters) +
                 "` of this module");
         note.help.emplace_back("a symbol that no rule rewrites keeps its parameter");
     }
 
     [[nodiscard]] std::string text_of(const RuleWithModules& rule) const {
-        return shown(without_blanks(context_.sources.text(rule.rule->left)) + "=" +
-                     without_blanks(context_.sources.text(rule.rule->right)));
+        return shown(remove_blanks(context_.sources.text(rule.rule->left)) + "=" +
+                     remove_blanks(context_.sources.text(rule.rule->right)));
     }
 
     const ParseContext& context_;

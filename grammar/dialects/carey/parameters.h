@@ -11,10 +11,10 @@
 
 namespace lsys {
 
-/// Per rule of the file, ascending: the parameter counts that can follow its left side.
+/// Parameter counts that can follow the left side of each rule of the file, ascending.
 struct LeftParameters {
     std::vector<std::vector<std::size_t>> counts_by_rule;
-    bool any = false;
+    bool any = false; // true if a rule has a count
 };
 
 /// Follows the parameters of axiom and right sides through the rules. A note reports each parameter

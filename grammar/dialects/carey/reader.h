@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Lines of a .rules file: settings of the form, `key: value`, and rules, `left=right:ratio`.
+// Lines of a .rules file: fields of the generator, `key: value`, and rules, `left=right:ratio`.
 #pragma once
 
 #include "grammar/ast/parse_context.h"
@@ -10,7 +10,7 @@
 
 namespace lsys {
 
-/// A setting that the generator's form has.
+/// A text field of the generator's window.
 struct CareyKey {
     std::string_view name;
     std::string_view lsys; // name of the setting in .lsys; empty for a statement

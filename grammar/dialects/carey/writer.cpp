@@ -15,7 +15,7 @@ constexpr std::string_view kBlanks = " \t\r\n";
 
 } // namespace
 
-std::string without_blanks(std::string_view text) {
+std::string remove_blanks(std::string_view text) {
     std::string bare(text);
     std::erase_if(bare, [](char c) { return kBlanks.find(c) != std::string_view::npos; });
     return bare;
@@ -26,7 +26,7 @@ CareyWriter::CareyWriter(const CareyFile& file,
                          Translation& translation)
     : context_(context), translation_(translation) {
     for (const CareyRule& rule : file.rules) {
-        left_sides_.push_back(without_blanks(context.sources.text(rule.left)));
+        left_sides_.push_back(remove_blanks(context.sources.text(rule.left)));
     }
     std::sort(left_sides_.begin(), left_sides_.end());
     left_sides_.erase(std::unique(left_sides_.begin(), left_sides_.end()), left_sides_.end());
@@ -54,7 +54,7 @@ bool CareyWriter::check_symbol(const LetterModule& module) {
     return true;
 }
 
-/// Reports a left side that matches within parentheses, as the forest generator replaces text.
+/// Reports a left side that matches within parentheses, because the forest generator replaces text.
 void CareyWriter::check_arguments(const LetterModule& module) {
     const std::string_view arguments = context_.sources.text(module.arguments);
     for (const std::string& left : left_sides_) {
@@ -75,7 +75,7 @@ void CareyWriter::write_arguments(const LetterModule& module, CareyText kind) {
         return;
     }
     check_arguments(module);
-    if (without_blanks(text) == "(#)" && kind == CareyText::Right) {
+    if (remove_blanks(text) == "(#)" && kind == CareyText::Right) {
         translation_.put("(step() + 1)", module.arguments);
         return;
     }

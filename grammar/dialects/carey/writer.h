@@ -16,7 +16,7 @@ namespace lsys {
 enum class CareyText : std::uint8_t { Axiom, Left, Right };
 
 /// `text` without blanks, as left sides are compared.
-[[nodiscard]] std::string without_blanks(std::string_view text);
+[[nodiscard]] std::string remove_blanks(std::string_view text);
 
 class CareyWriter {
 public:

@@ -74,8 +74,8 @@ void read_curves(std::string_view text, std::vector<CpfgCurve>& curves) {
     }
 }
 
-/// A uniform B-spline that begins and ends at its first and last point, by de Boor's recursion; `t`
-/// is from 0 to the number of its spans.
+/// The point at `t` of a uniform B-spline that begins and ends at its first and last control point,
+/// by de Boor's recursion. `t` is from 0 to the number of spans.
 CurvePoint spline(const std::vector<CurvePoint>& points, std::size_t degree, double t) {
     const std::size_t spans = points.size() - degree;
     const auto span = std::min(static_cast<std::size_t>(t), spans - 1);
@@ -154,7 +154,7 @@ std::vector<CurvePoint> chords(const std::vector<CurvePoint>& samples) {
     return kept;
 }
 
-/// `value` with six digits after the point, as in curve files.
+/// `value` with at most six digits after the point, as in curve files.
 std::string number(double value) {
     const double rounded = std::round(value * 1e6) / 1e6;
     std::array<char, 32> buffer{};

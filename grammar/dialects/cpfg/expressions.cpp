@@ -14,7 +14,7 @@ namespace lsys {
 
 namespace {
 
-/// Functions of one argument that both cpfg and .lsys have.
+/// A function of one argument: its names in cpfg and in .lsys.
 struct Function {
     std::string_view name;
     std::string_view lsys;

@@ -36,7 +36,7 @@ public:
     /// Defines a variable of the production.
     void let(const std::string& name, ForeignId value) { variables_[name] = value; }
     void run(const std::vector<int>& statements);
-    /// The expression in .lsys.
+    /// Returns the equivalent of an expression in .lsys.
     [[nodiscard]] ForeignId term(ForeignId expression);
     /// Count of random numbers of the production so far.
     [[nodiscard]] std::uint32_t draws() const { return draws_; }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Names of modules and the statements before the axiom.
+// The part of CpfgWriter for names of modules and for the statements before the axiom.
 #include "grammar/ast/number.h"
 #include "grammar/ast/reports.h"
 #include "grammar/base/paths.h"
@@ -141,7 +141,7 @@ void CpfgWriter::write_setting(const char* begin, ForeignId expression, const ch
 }
 
 /// Writes the number of passes of a stage. Random numbers in conditions take additional passes: up
-/// to one per pass of this stage, and one pass of Decompose for those of Rewrite.
+/// to one per pass if they are of this stage, and one pass of Decompose if they are of Rewrite.
 void CpfgWriter::write_depth(const char* begin, ForeignId expression, Stage stage) {
     const bool own = bound_.count(stage) != 0;
     const bool first = stage == Stage::Decompose && bound_.count(Stage::Rewrite) != 0;

@@ -15,7 +15,7 @@ namespace lsys {
 
 namespace {
 
-/// Maximum bytes of all expanded macros; only macros that expand to themselves reach it.
+/// Maximum bytes of all expanded macros; only nested macros that repeat each other reach it.
 constexpr std::size_t kMaxExpanded = std::size_t{1} << 24;
 constexpr int kMaxMacroDepth = 64;
 

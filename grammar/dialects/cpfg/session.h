@@ -44,7 +44,7 @@ struct CpfgProduction {
     std::vector<CpfgModule> predecessor;
     std::vector<CpfgModule> right;
     std::vector<int> before;          // statements
-    ForeignId condition = kNoForeign; // none: always
+    ForeignId condition = kNoForeign; // kNoForeign: always holds
     std::vector<int> after;
     std::vector<CpfgModule> successor;
     ForeignId weight = kNoForeign;
@@ -85,9 +85,9 @@ public:
     enum class Mode : std::uint8_t { Line, Symbols, Expression };
     Mode mode = Mode::Line;
     int nesting = 0; // brackets open in an expression
-    // In the arguments of a module; the `)` that closes them ends Mode::Expression.
+    // True in the arguments of a module; the `)` that closes them ends Mode::Expression.
     bool in_arguments = false;
-    bool in_label = false; // the label `Lsystem: 1`
+    bool in_label = false; // in the label `Lsystem: 1`
 
     /// The place of the next `length` bytes.
     SourceSpan take(std::uint32_t length) {

@@ -52,7 +52,7 @@ void CpfgExpressions::read_header() {
         constant.is_final = constant.is_final || tree_.has_draw(constant.value);
         constant.is_inline |= tree_.has(constant.value, [](const ForeignNode& node) {
             return node.kind == ForeignKind::Call && (node.text == "step" || node.text == "steps");
-        }); // these are known to productions only
+        }); // step() and steps() have values in productions only
     }
     read_each_step();
     for (const int index : session_.end) {
@@ -136,8 +136,8 @@ bool CpfgExpressions::depends(const std::vector<int>& statements,
     });
 }
 
-/// The expression that each step adds to the variable, or kNoForeign. It exists if the only assignment to
-/// the variable is `v = v + e;` outside of any `if`, and no step changes `e`.
+/// The expression that each step adds to the variable, or kNoForeign. It exists if the only
+/// assignment to the variable is `v = v + e;` outside of any `if`, and no step changes `e`.
 ForeignId CpfgExpressions::step_of(const std::string& variable) const {
     if (assignments(session_.start_each, variable) + assignments(session_.end_each, variable) !=
         1) {
@@ -261,9 +261,9 @@ void CpfgExpressions::assign(const std::string& variable, ForeignId value, Sourc
         ForeignLocal& old = tree_.locals()[tree_[before->second].index];
         old.is_final = old.is_final && old.name != variable;
     }
-    const bool is_other = kind == ForeignKind::Name || kind == ForeignKind::Local;
+    const bool has_name = kind == ForeignKind::Name || kind == ForeignKind::Local;
     variables_[variable] =
-        is_other ? value
+        has_name ? value
                  : tree_.local({.name = variable, .value = value, .span = span, .is_final = true});
 }
 

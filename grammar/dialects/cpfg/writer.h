@@ -22,7 +22,7 @@ class CpfgWriter {
 public:
     CpfgWriter(CpfgSession& session, Translation& out);
 
-    /// `turtle`: the profile.
+    /// Writes the system as .lsys statements. `turtle`: name of the turtle profile.
     void write(std::string_view turtle);
 
 private:
@@ -113,7 +113,7 @@ private:
     std::set<std::string> used_;    // names of all modules
     std::set<std::string> matched_; // names in predecessors and contexts
     std::set<std::string> surfaces_;
-    std::map<std::string, int> alternatives_;
+    std::map<std::string, int> alternatives_; // count of rewriting productions, by key_of()
 };
 
 } // namespace lsys

@@ -20,7 +20,7 @@ public:
                    Translation& translation)
         : lines_(lines), name_(name), context_(context), translation_(translation) {}
 
-    /// `turtle`: the profile.
+    /// Writes the system as .lsys statements. `turtle`: name of the turtle profile.
     void write(std::string_view turtle);
 
 private:

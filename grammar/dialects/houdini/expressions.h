@@ -31,7 +31,7 @@ public:
     void set_angle(std::string angle) { angle_ = std::move(angle); }
     /// Begins the premise or a variant of a rule, whose local values come next.
     void begin() { seeds_.clear(); }
-    /// The expression in .lsys.
+    /// Returns the equivalent of an expression in .lsys.
     [[nodiscard]] ForeignId term(ForeignId root, const HoudiniScope& scope);
     /// Warns once that `rand` does not depend on its seed.
     void warn_random(SourceSpan place);

@@ -119,7 +119,7 @@ std::string_view recognise_houdini(std::string_view text) {
 
 namespace {
 
-/// Reports `b = 0.7`, a value in a form of its own, which would be read as a meaningless rule.
+/// Reports `b = 0.7`, a value of the node with `=` instead of `:`, which would be read as a rule.
 void report_values(FileId root, const ParseContext& context) {
     const std::string_view text = context.sources.file(root).text();
     for (std::size_t at = 0; at < text.size();) {

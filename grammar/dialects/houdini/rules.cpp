@@ -58,7 +58,7 @@ std::string HoudiniWriter::probability_of(ForeignId condition) const {
 }
 
 /// Finds pairs of rules that together are a random choice: the only two rules of a group, the first
-/// with the condition `rand(seed) < number`, the second without a condition.
+/// with a condition that probability_of() knows, the second without a condition.
 void HoudiniWriter::find_random_pairs() {
     std::map<std::string, std::vector<const HoudiniRule*>> groups;
     std::map<std::string_view, std::size_t> rules_of; // by symbol

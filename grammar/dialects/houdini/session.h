@@ -16,7 +16,7 @@ namespace lsys {
 struct HoudiniModule {
     SourceSpan symbol;
     SourceSpan parentheses;           // with their contents; empty: none
-    std::vector<ForeignId> arguments; // Missing ones count
+    std::vector<ForeignId> arguments; // omitted ones are ForeignKind::Missing
 };
 
 /// A line `key: value`.
@@ -68,15 +68,16 @@ public:
     [[nodiscard]] static std::uint32_t length_of_key(std::string_view text);
     [[nodiscard]] bool wants_modules() const { return wants_modules_; }
     void open() { ++depth_; }
-    /// Returns true if more modules follow.
+    /// Closes a parenthesis; returns true if more modules follow.
     bool close();
     void begin_condition() { in_condition_ = true; } // condition or probability of a rule
-    /// Ends the condition or probability at a `=` outside of parentheses; returns true if modules follow.
+    /// Ends the condition or probability at a `=` outside of parentheses; returns true if modules
+    /// follow.
     bool end_condition();
     void end_line();
 
     // For the parser.
-    /// Adds a node whose text is that of `token`.
+    /// Adds a node with the text of `token`.
     ForeignId
     add_node(ForeignKind kind, SourceSpan token, std::vector<ForeignId> parts, SourceSpan span);
     /// Reports parentheses that are nested too deep.
@@ -84,6 +85,7 @@ public:
     void add_premise(std::vector<HoudiniModule> modules, SourceSpan span);
     /// Adds a rule; sets its nodes, span and formals.
     void add_rule(HoudiniRule rule, SourceSpan span);
+    /// Leaves out the nodes of a line with an error.
     void forget_rule();
 
 private:

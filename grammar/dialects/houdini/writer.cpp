@@ -242,21 +242,21 @@ HoudiniWriter::Lowered HoudiniWriter::lower_module(const HoudiniModule& module,
 std::vector<ForeignId> HoudiniWriter::random_turns(const HoudiniModule& module,
                                                    const HoudiniScope& scope) {
     const SourceSpan span = module.symbol;
-    ForeignId most = symbols_.count(module) == 0
-                         ? tree_.number("180", span)
-                         : expressions_.term(module.arguments.front(), scope);
-    if (tree_[most].kind != ForeignKind::Number) {
-        const ForeignId size = tree_.call("abs", {most}, span);
-        most = tree_.local({.name = "turn", .value = size, .span = span});
+    ForeignId limit = symbols_.count(module) == 0
+                          ? tree_.number("180", span)
+                          : expressions_.term(module.arguments.front(), scope);
+    if (tree_[limit].kind != ForeignKind::Number) {
+        const ForeignId size = tree_.call("abs", {limit}, span);
+        limit = tree_.local({.name = "turn", .value = size, .span = span});
     }
     std::vector<ForeignId> turns;
     for (int turn = 0; turn < 3; ++turn) {
-        turns.push_back(tree_.range(tree_.unary("-", most, span), most, span));
+        turns.push_back(tree_.range(tree_.unary("-", limit, span), limit, span));
     }
     return turns;
 }
 
-/// Reads symbols of the turtle that .lsys spells in another way; returns false for others.
+/// Lowers a turtle symbol that .lsys spells in another way; returns false for other symbols.
 bool HoudiniWriter::lower_special(Lowered& made, char symbol, const HoudiniScope& scope) {
     const HoudiniModule& module = *made.module;
     const std::uint32_t count = symbols_.count(module);

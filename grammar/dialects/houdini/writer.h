@@ -21,7 +21,7 @@ class HoudiniWriter {
 public:
     HoudiniWriter(HoudiniSession& session, Translation& translation);
 
-    /// Writes the system as .lsys statements. `turtle`: name of the turtle profile in `#set turtle`.
+    /// Writes the system as .lsys statements. `turtle`: name of the profile in `#set turtle`.
     void write(std::string_view turtle);
 
 private:
@@ -89,11 +89,11 @@ private:
     std::map<std::string, bool> has_probability_; // by group
     // Probability in place of a condition with `rand`.
     std::map<const HoudiniRule*, std::string> probabilities_;
-    std::map<std::string_view, bool> aged_;
-    std::vector<std::string_view> zeros_;
-    std::string warned_; // symbols that have been reported
-    std::uint32_t fresh_ = 0;
-    std::size_t constants_ = 0; // local values of the premise
+    std::map<std::string_view, bool> aged_; // symbols whose ageing rule is written
+    std::vector<std::string_view> zeros_;   // parameters that the variant of a rule lacks
+    std::string warned_;                    // symbols that have been reported
+    std::uint32_t fresh_ = 0;               // count of generated parameter names
+    std::size_t constants_ = 0;             // local values of the premise
 };
 
 } // namespace lsys

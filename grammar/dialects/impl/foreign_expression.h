@@ -62,7 +62,7 @@ struct ForeignLocal {
     std::uint32_t reads = 0; // reads by other written values; set by count_reads()
 };
 
-/// How the nodes of one statement are written.
+/// Options for writing the nodes of one statement.
 struct ForeignWriting {
     bool expands_locals =
         false; // values replace the names of locals: a condition cannot read locals
@@ -131,7 +131,7 @@ public:
     [[nodiscard]] bool has_draw(ForeignId root) const;
     /// Count of nodes written for `root` when local values are expanded, at most about 2^32.
     [[nodiscard]] std::uint64_t expanded_size(ForeignId root) const;
-    /// The nodes of the expression without those of local values, children before parents.
+    /// The nodes of the expression without the nodes of local values, children before parents.
     [[nodiscard]] std::vector<ForeignId> subtree(ForeignId root) const;
 
     void write(ForeignId root, const ForeignWriting& how, Translation& out) const;

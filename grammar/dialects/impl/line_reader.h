@@ -28,7 +28,7 @@ struct LinePiece {
 struct LineFormat {
     std::string_view blanks;  // between pieces; with `\n` the text has no LineEnd
     char comment = '\0';      // first character of a comment, before a piece; NUL: none
-    bool comment_nul = false; // a comment goes on after a NUL character
+    bool comment_nul = false; // a comment continues after a NUL character
 };
 
 struct DialectWords;
@@ -41,7 +41,7 @@ public:
 
     /// Precondition: the sources of `context` hold `text` as long as the reader is in use.
     LineReader(SourceSpan text, const LineFormat& format, const ParseContext& context);
-    /// Sets the words that messages compare with; may be null.
+    /// Sets the keywords of the dialect, which messages compare with the text; may be null.
     void set_words(const DialectWords* words) { words_ = words; }
 
     /// Skips blanks and comments; returns the next piece.

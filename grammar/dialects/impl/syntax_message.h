@@ -43,7 +43,7 @@ private:
     int count_ = 0;
 };
 
-/// Reports the character at the begin of `place` with a fix, if it looks like an ASCII character;
+/// Reports the character at the start of `place` with a fix, if it looks like an ASCII character;
 /// returns whether it does.
 bool report_foreign_look_alike(SourceSpan place, const ParseContext& context);
 /// Adds "did you mean `name`?" with a fix, if a name is similar.

@@ -14,7 +14,7 @@ namespace lsys {
 [[nodiscard]] std::size_t length_up_to(std::string_view text, std::string_view stops);
 /// Whether all of `text` is a number, which may begin with one of `signs`.
 [[nodiscard]] bool is_number(std::string_view text, std::string_view signs = "");
-/// Letters of ASCII in lower case.
+/// `text` with its ASCII letters in lower case.
 [[nodiscard]] std::string lowered(std::string_view text);
 /// The shortest text that reads back as `value`.
 [[nodiscard]] std::string text_of(float value);

@@ -32,7 +32,7 @@ float value_of(SourceSpan span, const ParseContext& context) {
     return negative ? -literal.value : literal.value;
 }
 
-/// Returns the number of generations.
+/// Writes the three numbers of the header; returns the number of generations.
 std::uint32_t
 write_header(const L3dFile& file, const ParseContext& context, Translation& translation) {
     const float generations = value_of(file.numbers[0], context);

@@ -23,11 +23,12 @@ bool is_blank(char c) {
     return is_one_of(c, kL3dBlanks);
 }
 
-/// A number with a sign, and blanks around it.
+/// Whether `text` is a number, perhaps with a sign and with blanks around it.
 bool is_parameter(std::string_view text) {
     return is_number(trimmed(text, kL3dBlanks), "+-");
 }
 
+/// Whether the number at the start of `text` is 1.
 bool is_one(std::string_view text) {
     const std::size_t first = text.find_first_not_of(" \t+");
     if (first == std::string_view::npos) {
@@ -81,7 +82,7 @@ void L3dWriter::write_key(SourceSpan text) {
     translation_.put("`", text);
 }
 
-/// Returns the start of the next character.
+/// Writes the character at `at`; returns the offset of the next character.
 std::uint32_t L3dWriter::put_character(std::uint32_t at, std::uint32_t end) {
     const char c = source_[at];
     const CodePoint point = decode_utf8(source_.substr(at, end - at));

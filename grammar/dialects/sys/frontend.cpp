@@ -182,7 +182,7 @@ Arities find_arities(const SysFile& file, const ParseContext& context) {
     return arities;
 }
 
-/// Compares the stated number of rules with those of the file.
+/// Reports a stated number of rules that differs from the number of rules in the file.
 void check_count(const SysFile& file, const ParseContext& context) {
     if (!file.count) {
         return;

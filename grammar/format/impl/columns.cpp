@@ -16,8 +16,8 @@ constexpr std::uint32_t kWidestGap = 24;
 constexpr std::uint32_t kLongHead = 50;
 
 bool has_columns(const LayoutRow& row) {
-    const bool of_cells = row.shape != StatementShape::List && row.shape != StatementShape::Other;
-    return of_cells && !row.list_below && !row.several_lines && row.column == 0 &&
+    const bool has_cells = row.shape != StatementShape::List && row.shape != StatementShape::Other;
+    return has_cells && !row.list_below && !row.several_lines && row.column == 0 &&
            row.head <= kColumns;
 }
 

@@ -36,7 +36,7 @@ struct LayoutRow {
 
 [[nodiscard]] LayoutRow measure(std::string_view text, std::size_t begin, std::uint32_t column);
 
-/// Replaces the widths of cells by blanks.
+/// Replaces the widths of cells by the blanks that align the next cells.
 void line_up(std::span<LayoutRow> rows);
 
 /// Value of a padding for a cell that is not aligned.

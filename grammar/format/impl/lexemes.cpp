@@ -135,8 +135,8 @@ char LexemeReader::next_character() const {
     return '\0';
 }
 
-/// Enters the next part of a production, `#name :` head `:` condition `:` successor, or of an axiom,
-/// `#w ~` probability `:` modules.
+/// Enters the next part of a production, `#name :` head `:` condition `:` successor, or of an
+/// axiom, `#w ~` probability `:` modules.
 void LexemeReader::next_part() {
     if (in_probability_) { // the modules of the axiom follow the probability
         in_probability_ = false;
@@ -222,7 +222,7 @@ void LexemeReader::expression() {
         ++depth_;
         after_value_ = false;
     } else if (c == ')' || c == '}') {
-        // At depth 1 of a list of modules, the `)` of the arguments of a module.
+        // At depth 1 in a list of modules the `)` closes the arguments of a module.
         const bool module = depth_ == 1 && (area_ == Area::Modules || area_ == Area::Object);
         take(module ? LexemeKind::Close : LexemeKind::Right, 1);
         depth_ -= depth_ > 0 ? 1U : 0U;

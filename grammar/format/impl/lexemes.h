@@ -97,7 +97,8 @@ private:
     bool blank_ = false;
     Area area_ = Area::Between;
     StatementShape shape_ = StatementShape::Other;
-    std::uint32_t part_ = 0; // 1 head, 3 condition and local values, 4 successor
+    // Part of a production: 1 name, 2 head, 3 condition and local values, 4 successor; else 0.
+    std::uint32_t part_ = 0;
     bool has_locals_ = false;
     bool in_probability_ = false; // in the probability of an axiom
     bool in_formals_ = false;     // in the name or the formals of a #function

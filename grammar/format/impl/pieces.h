@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Pieces of a statement, which contain no line ends: a module with its arguments, or another word
-// with its punctuation. Each piece describes the place before it: blanks, the begin of a cell, the
-// author's line end, a possible line break. Within a piece `^`, `*` and `/` have no blanks around
-// them; other binary operators have.
+// Pieces of a statement, which contain no line ends outside of comments: a module with its
+// arguments, or another word with its punctuation. Each piece describes the place before it:
+// blanks, the beginning of a cell, the author's line end, a possible line break. Within a piece the
+// operators `^`, `*` and `/` have no blanks around them; other binary operators have blanks.
 #pragma once
 
 #include "grammar/format/impl/lexemes.h"

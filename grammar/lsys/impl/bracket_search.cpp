@@ -64,7 +64,7 @@ unmatched_branch(std::string_view text, std::uint32_t begin, std::uint32_t at) {
                 open.pop_back();
             }
         } else if (c == ']' && !open.empty()) {
-            open.erase(open.begin()); // closes an outer `[`: only the innermost may match `at`
+            open.erase(open.begin()); // assumed to close an outer `[`: the innermost is the suspect
         }
         return true;
     });

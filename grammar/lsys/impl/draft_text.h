@@ -34,7 +34,7 @@ struct DraftText {
     bool is_changed = false;
     bool is_incomplete = false; // a statement is left out
     std::vector<FreeLine> lines;
-    bool has_free_lines = false; // `lines` are those of `text`
+    bool has_free_lines = false; // `lines` is up to date with `text`
 
     [[nodiscard]] SourceSpan span(std::size_t begin, std::size_t end) const {
         return {file, static_cast<std::uint32_t>(begin), static_cast<std::uint32_t>(end)};
@@ -54,8 +54,8 @@ struct DraftText {
     void blank(std::size_t begin, std::size_t end);
     /// Writes `replacement` and blanks over [begin, end) if it fits; returns whether it does.
     bool replace(std::size_t begin, std::size_t end, std::string_view replacement);
-    /// The lines between statements, in order. They stay valid, and those of the text before a
-    /// change, until the next call.
+    /// The lines between statements, in order. The reference stays valid until the next call; after
+    /// a change of `text` the lines still describe the text before the change.
     [[nodiscard]] const std::vector<FreeLine>& free_lines();
 };
 
@@ -70,7 +70,7 @@ struct StatementText {
 /// The statement whose `#` is at `at`.
 [[nodiscard]] StatementText statement_at(std::string_view text, std::size_t at);
 /// `text` without blanks at its ends.
-[[nodiscard]] std::string_view without_blanks(std::string_view text);
+[[nodiscard]] std::string_view trimmed(std::string_view text);
 /// The offset of the line end at or after `at`; the size of the text in the last line.
 [[nodiscard]] std::size_t end_of_line(std::string_view text, std::size_t at);
 /// The offset of the first character of the line of `at`.

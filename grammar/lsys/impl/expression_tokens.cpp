@@ -153,7 +153,7 @@ bool is_percent_sign(const ParseSession& session) {
            ends_percentage(text, session.scan.begin);
 }
 
-bool is_unit(ParseSession& session, std::string_view word) {
+bool report_unit_word(ParseSession& session, std::string_view word) {
     const ScanState& scan = session.scan;
     const std::string_view text = session.scanned.text;
     const Unit* const unit = find_unit(word);
@@ -222,7 +222,7 @@ Token foreign_value(ParseSession& session, std::string_view text) {
     return Token(Parser::token::TOK_BAD_VALUE, span);
 }
 
-bool is_compound_assignment(ParseSession& session) {
+bool report_compound_assignment(ParseSession& session) {
     const ScanState& scan = session.scan;
     const std::string_view text = session.scanned.text;
     const char before = scan.begin == 0 ? '\0' : text[scan.begin - 1];
@@ -340,8 +340,9 @@ void report_conditional(ParseSession& session, TextRange word) {
     }
 }
 
-/// Whether a comma is the certain fix between two values. It is not if several blanks separate
-/// them, which may have held an operator, or if the values are equal, which may be a repetition.
+/// Whether a comma is the certain fix between two values. False if several blanks separate the
+/// values, since an operator may have stood there, or if the values are equal, since one may be a
+/// repetition.
 bool lacks_comma(std::string_view text,
                  std::uint32_t before_end,
                  std::uint32_t begin,
@@ -712,7 +713,7 @@ void report_wrong_operator(ParseSession& session, std::string_view right) {
             text != "**");
 }
 
-bool is_word_for_operator(ParseSession& session, std::string_view word) {
+bool report_word_for_operator(ParseSession& session, std::string_view word) {
     const ScanState& scan = session.scan;
     if (!scan.value_before || (word != "and" && word != "or")) {
         return false;
@@ -735,7 +736,7 @@ bool is_word_for_operator(ParseSession& session, std::string_view word) {
     return true;
 }
 
-bool is_word_for_not(ParseSession& session, std::string_view word) {
+bool report_word_for_not(ParseSession& session, std::string_view word) {
     const ScanState& scan = session.scan;
     if (scan.value_before || word != "not") {
         return false;
@@ -777,7 +778,7 @@ void report_assignment(ParseSession& session) {
 
 namespace {
 
-/// Where the identifier directly before the current character begins, if it begins an argument.
+/// The offset of the identifier before the current character; nullopt if no argument begins there.
 std::optional<std::uint32_t> argument_name(const ParseSession& session) {
     const ScanState& scan = session.scan;
     const std::string_view text = session.scanned.text;

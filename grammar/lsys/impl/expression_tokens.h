@@ -24,19 +24,20 @@ Token insert_before_value(ParseSession& session);
 /// Whether a `{` would begin the bounds of #param.
 [[nodiscard]] bool begins_bounds(const ScanState& scan);
 
-/// The current `)` or `}`: nothing if no bracket is open, an empty token if another bracket must be
-/// closed first.
+/// The token of the current `)` or `}`. Nullopt if no bracket is open; an inserted, empty token for
+/// an inner bracket that must be closed first.
 std::optional<Token> closing_bracket(ParseSession& session, char character);
-/// The current opening bracket; reports excessive nesting and skips the statement.
+/// The token of the current opening bracket. Reports excessive nesting and skips the statement.
 Token opening_bracket(ParseSession& session, OpenBracket::Kind kind, Token::Kind token);
-/// The current unary operator or `^`; reports excessive nesting and skips the statement.
+/// The token of the current unary operator or `^`. Reports excessive nesting and skips the
+/// statement.
 Token nesting_operator(ParseSession& session, Token::Kind token);
 
-/// Whether the current name is `and` or `or` between two values, in place of an operator; reports
-/// it.
-bool is_word_for_operator(ParseSession& session, std::string_view word);
-/// Whether the current name is a `not` before a value, in place of `!`; reports it.
-bool is_word_for_not(ParseSession& session, std::string_view word);
+/// Reports `and` or `or` between two values, in place of an operator. Returns whether the current
+/// name is one.
+bool report_word_for_operator(ParseSession& session, std::string_view word);
+/// Reports a `not` before a value, in place of `!`. Returns whether the current name is one.
+bool report_word_for_not(ParseSession& session, std::string_view word);
 void report_split_operator(ParseSession& session, std::string_view text);
 void report_wrong_operator(ParseSession& session, std::string_view right);
 void report_remainder_operator(ParseSession& session);
@@ -46,12 +47,13 @@ void report_assignment(ParseSession& session);
 void report_named_argument(ParseSession& session);
 /// Whether the current `%` ends a percentage, which its number has reported.
 [[nodiscard]] bool is_percent_sign(const ParseSession& session);
-/// Whether the current word is a unit of measure after a number; reports it.
-[[nodiscard]] bool is_unit(ParseSession& session, std::string_view word);
-/// Reports a variable or channel of another program, `$F` or `ch("angle")`; a value without meaning.
+/// Reports a unit of measure after a number. Returns whether the current word is one.
+[[nodiscard]] bool report_unit_word(ParseSession& session, std::string_view word);
+/// Reports a variable or channel of another program, `$F` or `ch("angle")`; returns the token of a
+/// bad value.
 [[nodiscard]] Token foreign_value(ParseSession& session, std::string_view text);
-/// Whether the current `=` belongs to `+=` or its like; reports it.
-[[nodiscard]] bool is_compound_assignment(ParseSession& session);
+/// Reports `+=` and similar operators. Returns whether the current `=` belongs to one.
+[[nodiscard]] bool report_compound_assignment(ParseSession& session);
 /// Reports a back quote in an expression.
 void report_quoted_expression(ParseSession& session);
 /// Reports a `#` within an expression or setting.

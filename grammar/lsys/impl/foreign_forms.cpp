@@ -107,10 +107,11 @@ bool is_type(std::string_view word) {
     return std::find(kTypes.begin(), kTypes.end(), word) != kTypes.end();
 }
 
-/// A statement that is searched for forms of other languages.
-class Form {
+/// Searches one statement for forms of other languages and repairs them.
+class StatementRepair {
 public:
-    Form(DraftText& draft, StatementText statement) : draft_(draft), statement_(statement) {
+    StatementRepair(DraftText& draft, StatementText statement)
+        : draft_(draft), statement_(statement) {
         const std::size_t word = text().find_first_not_of(" \t", statement.begin + 1);
         word_ = leading_word(text().substr(word));
         body_ = word + word_.size();
@@ -166,6 +167,7 @@ private:
         return draft_.report(DiagnosticCode::ForeignForm, draft_.span(piece.begin, piece.end),
                              std::move(message));
     }
+    /// The offset after the statement and its `;`.
     [[nodiscard]] std::size_t after() const {
         return statement_.end + (statement_.end < text().size() && char_at(statement_.end) == ';');
     }
@@ -290,8 +292,7 @@ private:
                         draft_.span(formal.begin + first.size(), rest.end), "", false);
                 draft_.blank(rest.begin, rest.end);
             } else if (char_at(rest.begin) == ':' &&
-                       is_type(without_blanks(
-                           text().substr(rest.begin + 1, rest.end - rest.begin - 1)))) {
+                       is_type(trimmed(text().substr(rest.begin + 1, rest.end - rest.begin - 1)))) {
                 Diagnostic& diagnostic =
                     report(rest, "parameters have no types: every value is a number");
                 add_fix(diagnostic, "write `" + std::string(first) + "`",
@@ -667,7 +668,7 @@ private:
             }
             const Piece successor = trimmed(text(), at + length, statement_.end);
             const std::string_view before =
-                without_blanks(text().substr(parts[1].begin, at - parts[1].begin));
+                trimmed(text().substr(parts[1].begin, at - parts[1].begin));
             // `t = 1` in a production of three parts is a comparison rather than an arrow.
             if (length == 1 && (successor.empty() || is_digit(char_at(successor.begin)) ||
                                 before.find_first_of("<>=") == std::string_view::npos)) {
@@ -697,7 +698,7 @@ private:
         std::optional<Edit> value_edit; // edit of the condition
         const bool is_production = keyword_ != Keyword::Axiom;
         std::size_t colons = 1;
-        bool begins_part = true; // or follows a module that was repaired
+        bool begins_part = true; // true also after a repaired module
         for (std::size_t at = colon + 1; at < statement_.end; ++at) {
             const char c = char_at(at);
             if (std::string_view(" \t\r\n").find(c) != std::string_view::npos) {
@@ -782,8 +783,7 @@ private:
         if (end == std::string_view::npos) {
             return;
         }
-        const std::string label(
-            without_blanks(text().substr(statement_.begin, colon - statement_.begin)));
+        const std::string label(trimmed(text().substr(statement_.begin, colon - statement_.begin)));
         const std::string head = copy_of(draft_.text, parts[0]);
         const std::string condition = copy_of(draft_.text, trimmed(text(), open + 1, close));
         const auto production = [&](const std::string& suffix, const std::string& test,
@@ -933,6 +933,7 @@ private:
         return {};
     }
 
+    /// Blanks the statement, whose repair does not fit into its place.
     void leave_out() {
         draft_.blank(statement_.begin, after());
         draft_.is_incomplete = true;
@@ -986,7 +987,7 @@ void repair_foreign_forms(DraftText& draft) {
          at = draft.masked.find('#', at)) {
         const std::string_view text = draft.masked;
         at = is_statement_start(text, at)
-                 ? std::max(at + 1, Form(draft, statement_at(text, at)).repair())
+                 ? std::max(at + 1, StatementRepair(draft, statement_at(text, at)).repair())
                  : at + 1;
     }
 }

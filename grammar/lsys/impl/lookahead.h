@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Lookahead in the text of a .lsys file without a scan: the next character, the end of a statement.
-// Each takes time linear in the bytes passed and is called once per statement or mistake.
+// Each function takes time linear in the bytes passed and is called once per statement or mistake.
 #pragma once
 
 #include "grammar/base/synonyms.h"
@@ -13,7 +13,7 @@
 
 namespace lsys {
 
-/// The identifier at the begin of `text`; may be empty.
+/// The identifier at the start of `text`; may be empty.
 [[nodiscard]] std::string_view leading_word(std::string_view text);
 /// The end of the comment `/*` at `at`; the end of the text if it is not closed.
 [[nodiscard]] std::size_t comment_end(std::string_view text, std::size_t at);

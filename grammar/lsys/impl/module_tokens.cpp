@@ -79,8 +79,8 @@ void report_missing_open(ParseSession& session,
     add_fix(diagnostic, "close the branch with `]`", place, "]", false);
 }
 
-/// Whether the current character is an argument without its `(`; reports it.
-bool is_argument_without_open(ParseSession& session) {
+/// Reports an argument without its `(`. Returns whether the current character belongs to one.
+bool report_argument_without_open(ParseSession& session) {
     const ScanState& scan = session.scan;
     if (!may_search(session)) {
         return false;
@@ -106,7 +106,7 @@ StrayHandling report_stray_number(ParseSession& session, std::string_view text) 
         }
         return StrayHandling::SkipRange;
     }
-    if (is_argument_without_open(session)) {
+    if (report_argument_without_open(session)) {
         return StrayHandling::Discard;
     }
     if (session.wants(DiagnosticCode::SyntaxError)) {
@@ -129,8 +129,8 @@ StrayHandling report_stray_number(ParseSession& session, std::string_view text) 
 
 namespace {
 
-/// The `//` that may have been meant as a comment around the current character: before it, on its
-/// line, in the same module list, and followed by a blank.
+/// The `//` of a likely comment that contains the current character: before it on its line, in the
+/// same module list, and followed by a blank.
 std::optional<std::uint32_t> comment_before(const ParseSession& session) {
     const ScanState& scan = session.scan;
     const std::string_view text = session.scanned.text;
@@ -154,7 +154,7 @@ bool is_before_statement(const ParseSession& session) {
 
 } // namespace
 
-bool is_after_likely_comment(ParseSession& session) {
+bool report_likely_comment(ParseSession& session) {
     const std::optional<std::uint32_t> slashes = comment_before(session);
     if (slashes && session.wants_reports()) {
         const std::string_view all = session.scanned.text;
@@ -170,7 +170,7 @@ StrayHandling report_stray_in_modules(ParseSession& session, std::string_view te
     const char first = text[0];
     const ScanState& scan = session.scan;
     const bool has_modules = scan.part == Part::Successor || scan.part == Part::Axiom;
-    if (has_modules && is_after_likely_comment(session)) {
+    if (has_modules && report_likely_comment(session)) {
         return StrayHandling::Skip;
     }
     if (scan.part == Part::Head) {
@@ -183,7 +183,7 @@ StrayHandling report_stray_in_modules(ParseSession& session, std::string_view te
         return report_stray_number(session, text);
     }
     if (first == ',') {
-        if (is_argument_without_open(session)) {
+        if (report_argument_without_open(session)) {
             return StrayHandling::Discard;
         }
         const bool ends_statement = has_modules && is_before_statement(session);
@@ -208,7 +208,8 @@ Token read_as_module(ParseSession& session, std::string_view name) {
 
 namespace {
 
-/// Explains `~(20)` and `~L`, whose meaning in other programs is clear.
+/// Explains `~(20)` and `~L`, whose meaning in other programs is clear; returns false for other
+/// texts.
 bool explain_parameters_or_object(const ParseSession& session,
                                   char symbol,
                                   Diagnostic& diagnostic) {
@@ -310,7 +311,7 @@ StrayHandling report_extra_parenthesis(ParseSession& session) {
     return StrayHandling::Skip;
 }
 
-bool is_colour_symbol(ParseSession& session) {
+bool report_colour_symbol(ParseSession& session) {
     const ScanState& scan = session.scan;
     if ((scan.part != Part::Successor && scan.part != Part::Axiom) || scan.skipping ||
         !scan.open.empty() || next_character(session.scanned.text, scan.end) != '(') {

@@ -23,15 +23,17 @@ enum class StrayHandling : std::uint8_t {
 /// Reports a number or one of `@ * ~ = ? ,` in a module list; returns its handling.
 StrayHandling report_stray_in_modules(ParseSession& session, std::string_view text);
 
-/// The current match as the module `name`, as if in back quotes.
+/// The token of the current match, read as the module `name` in back quotes.
 Token read_as_module(ParseSession& session, std::string_view name);
 void report_foreign_symbol(ParseSession& session, char symbol);
-/// Whether a `//` before the current character on its line looks like a comment; reports it.
-bool is_after_likely_comment(ParseSession& session);
+/// Reports a `//` before the current character on its line that looks like a comment. Returns
+/// whether there is one.
+bool report_likely_comment(ParseSession& session);
 /// Reports one or more `)` without `(`; returns their handling.
 StrayHandling report_extra_parenthesis(ParseSession& session);
-/// Whether the current `;` sets the colour in cpfg and L-Py, as in `;(0.9)`; reports it.
-bool is_colour_symbol(ParseSession& session);
+/// Reports a `;` that sets the colour in cpfg and L-Py, as in `;(0.9)`. Returns whether the current
+/// `;` is one.
+bool report_colour_symbol(ParseSession& session);
 
 /// Reports control characters in a text whose characters are modules; `text` includes the quotes.
 void check_quoted_text(ParseSession& session, std::string_view text);
@@ -47,6 +49,8 @@ Token unclosed_quote(ParseSession& session);
 /// Reports control characters, once per sequence, and reads them as a blank.
 void control_characters(ParseSession& session);
 void report_unclosed_comment(ParseSession& session);
+/// Reads the codes that the current comment allows, and records the comment in
+/// ParseSession::comments.
 void keep_comment(ParseSession& session);
 
 } // namespace lsys::lsys_grammar

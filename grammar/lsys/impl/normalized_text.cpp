@@ -17,7 +17,7 @@ namespace {
 
 bool is_ascii(std::string_view text) {
     unsigned char bits = 0;
-    for (const char c : text) { // without an end in between, so that it becomes vector instructions
+    for (const char c : text) { // no early exit, so that the compiler vectorises the loop
         bits |= static_cast<unsigned char>(c);
     }
     return (bits & 0x80u) == 0;
@@ -64,7 +64,7 @@ check_utf8(FileId file, std::string_view text, Diagnostics& diagnostics, std::st
     return validity;
 }
 
-/// Names, diagnostics and tree of a scan before the parse, discarded after it.
+/// Names, diagnostics and tree of a scan before the parse, discarded after that scan.
 struct Scratch {
     explicit Scratch(const ParseContext& other)
         : context{other.sources, names, diagnostics, other.load} {}
@@ -252,8 +252,8 @@ void record_stray(ParseSession& session, std::uint32_t begin, bool in_quotes) {
     session.strays->push_back({session.scanned.source_begin(begin), in_quotes, in_value});
 }
 
-/// Records the closing quote of a file name with a curly opening quote if it is curly too. The name
-/// begins at `after` in the text and at `buffer` in the scanner's copy.
+/// Records the curly closing quote of a file name whose opening quote is curly. The name begins at
+/// `after` in the text and at `buffer` in the scanner's copy.
 void close_quotes(ParseSession& session, std::uint32_t after, char* buffer) {
     const std::string_view text = session.scanned.text;
     for (std::uint32_t at = after;

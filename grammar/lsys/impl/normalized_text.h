@@ -29,7 +29,7 @@ struct NormalizedText {
 /// file and has characters beyond ASCII only in comments, file names and back quotes.
 [[nodiscard]] NormalizedText normalize_source(FileId file, const ParseContext& context);
 
-/// The text of a translation, which is ASCII already outside of back quotes.
+/// The text of a translation, which already is ASCII outside of back quotes.
 [[nodiscard]] NormalizedText normalize_source(const Translation& translation,
                                               const ParseContext& context);
 

@@ -56,7 +56,7 @@ std::string normalized_form(char32_t point) {
 }
 
 void Normalizer::replace_all(std::span<const StrayCharacter> strays) {
-    // Offsets have 32 bits, and replacing letters makes a text less than twice as long.
+    // Offsets have 32 bits, and a replaced letter has up to 2.5 times its bytes: `_00E9` for two.
     const bool may_grow = text_.size() <= kMaxSourceBytes / 2;
     for (const StrayCharacter& stray : strays) {
         const CodePoint point = decode_utf8(text_.substr(stray.begin));
@@ -164,7 +164,7 @@ bool Normalizer::is_word_at(std::uint32_t at) const {
     return point.value >= 0x80 && is_letter_beyond_ascii(point.value);
 }
 
-/// Whether a Greek letter is a whole word; reports its first occurrence.
+/// Reports the first occurrence of a Greek letter that is a whole word. Returns whether it is one.
 bool Normalizer::report_greek(std::uint32_t begin, TextPart word, const CodePoint& point) {
     constexpr std::array<std::string_view, 25> kGreek{
         "alpha", "beta",   "gamma",   "delta", "epsilon", "zeta",    "eta",  "theta", "iota",

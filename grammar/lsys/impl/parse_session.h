@@ -41,7 +41,7 @@ public:
     std::vector<DiagnosticCode> allowed;        // codes that comments allow for the next statement
     bool silent = false;                        // reports nothing
     std::vector<TextRange>* comments = nullptr; // receives comments; may be null
-    std::vector<StrayCharacter>* strays = nullptr; // receives characters; null during the parse
+    std::vector<StrayCharacter>* strays = nullptr; // receives stray characters; null in the parse
     // Set by the parser too, so no token may depend on them: scans without a parser yield the same
     // tokens.
     bool failed = false;         // the statement has a syntax error and gets no further reports

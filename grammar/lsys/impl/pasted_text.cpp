@@ -128,8 +128,8 @@ void repair_fences(DraftText& draft) {
 
 // --- line numbers
 
-/// The length of a line number with its sign at the start of a line: `12`, `12:`, `12 |`; 0 if
-/// none.
+/// The length of a line number with its punctuation at the start of a line: `12`, `12:`, `12 |`; 0
+/// if there is none.
 std::size_t number_length(std::string_view line, std::uint32_t& number) {
     std::size_t at = 0;
     number = 0;
@@ -160,7 +160,7 @@ void repair_line_numbers(DraftText& draft) {
             break;
         }
         if (!line.text.empty() && length == 0 && !is_comment(line.text)) {
-            return; // the first line that is not empty has none
+            return; // the first line that is not empty has no number
         }
     }
     if (first == std::string::npos) {
@@ -274,7 +274,7 @@ constexpr std::array<Entity, 9> kEntities{{{"&lt;", '<'},
 
 /// Whether the `;` that ends before `at` cannot end a statement: text of the statement follows it.
 bool continues_statement(std::string_view text, std::size_t at) {
-    const std::string_view line = without_blanks(text.substr(at, end_of_line(text, at) - at));
+    const std::string_view line = trimmed(text.substr(at, end_of_line(text, at) - at));
     return !line.empty() && !is_comment(line) && !is_statement_start(line, 0);
 }
 
@@ -330,7 +330,7 @@ void repair_second_copy(DraftText& draft) {
     const std::size_t second = text.find(line, first + line.size());
     if (line.size() < 4 || second == std::string_view::npos ||
         text.substr(first, second - first).find("#n") == std::string_view::npos ||
-        without_blanks(text.substr(first, second - first)) != without_blanks(text.substr(second))) {
+        trimmed(text.substr(first, second - first)) != trimmed(text.substr(second))) {
         return;
     }
     const std::size_t end = text.find_last_not_of(" \t\r\n") + 1;
@@ -389,11 +389,11 @@ value_after(std::string_view line, std::string_view word, std::string_view signs
     if (!lowered(line.substr(0, word.size())).starts_with(word)) {
         return std::nullopt;
     }
-    const std::string_view rest = without_blanks(line.substr(word.size()));
+    const std::string_view rest = trimmed(line.substr(word.size()));
     if (rest.empty() || signs.find(rest[0]) == std::string_view::npos) {
         return std::nullopt;
     }
-    return without_blanks(rest.substr(1));
+    return trimmed(rest.substr(1));
 }
 
 struct Arrow {
@@ -511,7 +511,7 @@ std::optional<std::string> production_for(std::string_view line, RuleNames& name
         return std::nullopt;
     }
     const bool is_houdini = line[arrow.begin] == '=' && arrow.length == 1;
-    std::string_view head = without_blanks(line.substr(0, arrow.begin));
+    std::string_view head = trimmed(line.substr(0, arrow.begin));
     if (head.empty()) {
         return std::nullopt;
     }
@@ -520,19 +520,19 @@ std::optional<std::string> production_for(std::string_view line, RuleNames& name
     const std::string_view first = head.substr(0, std::min(colon, head.size()));
     std::string condition = "*";
     const bool has_label = colon != std::string_view::npos && leading_word(first).size() >= 1 &&
-                           without_blanks(first) == leading_word(first) &&
+                           trimmed(first) == leading_word(first) &&
                            first.find('(') == std::string_view::npos;
     if (has_label) {
-        label = without_blanks(first);
-        head = without_blanks(head.substr(colon + 1));
+        label = trimmed(first);
+        head = trimmed(head.substr(colon + 1));
     } else {
         label = names.prefix + std::to_string(names.count);
     }
     if (const std::size_t second = head.find(':'); second != std::string_view::npos) {
-        condition = without_blanks(head.substr(second + 1));
-        head = without_blanks(head.substr(0, second));
+        condition = trimmed(head.substr(second + 1));
+        head = trimmed(head.substr(0, second));
     }
-    std::string successor(without_blanks(line.substr(arrow.begin + arrow.length)));
+    std::string successor(trimmed(line.substr(arrow.begin + arrow.length)));
     while (successor.ends_with(';') || successor.ends_with(',')) {
         successor.pop_back();
     }
@@ -540,14 +540,13 @@ std::optional<std::string> production_for(std::string_view line, RuleNames& name
         // `A = B : 0.5` gives a probability; a number alone is not a successor.
         const std::size_t last = successor.rfind(':');
         if (last != std::string::npos &&
-            !leading_number(without_blanks(std::string_view(successor).substr(last + 1))).empty()) {
-            condition +=
-                " ~ " + std::string(without_blanks(std::string_view(successor).substr(last + 1)));
-            successor = without_blanks(std::string_view(successor).substr(0, last));
+            !leading_number(trimmed(std::string_view(successor).substr(last + 1))).empty()) {
+            condition += " ~ " + std::string(trimmed(std::string_view(successor).substr(last + 1)));
+            successor = trimmed(std::string_view(successor).substr(0, last));
         }
         const std::string_view name = leading_word(head);
         if (name.empty() || successor.empty() || !leading_number(successor).empty() ||
-            without_blanks(head.substr(name.size())).substr(0, 1).find_first_not_of('(') !=
+            trimmed(head.substr(name.size())).substr(0, 1).find_first_not_of('(') !=
                 std::string_view::npos) {
             return std::nullopt;
         }
@@ -575,7 +574,7 @@ std::optional<Meaning> header_meaning(std::string_view line) {
                            ? ""
                            : "#function " +
                                  std::string(line.substr(kDef.size(), close + 1 - kDef.size())) +
-                                 " " + std::string(without_blanks(line.substr(body + 7))) + ";"};
+                                 " " + std::string(trimmed(line.substr(body + 7))) + ";"};
     }
     for (const std::string_view word : {"derivation length", "derivation_length"}) {
         if (const auto value = value_after(line, word, ":=")) {
@@ -592,14 +591,14 @@ std::optional<Meaning> header_meaning(std::string_view line) {
         }
         std::string statements = "#n = " + std::string(leading_number(*value)) + ";";
         const std::string_view rest = value->substr(leading_number(*value).size());
-        if (word == "n" && without_blanks(rest) == ";") {
+        if (word == "n" && trimmed(rest) == ";") {
             return std::nullopt; // lacks only its `#`
         }
         const std::size_t sign = rest.find('=');
         if (sign != std::string_view::npos &&
             (rest.find("\u03b4") < sign || rest.find("angle") < sign ||
              rest.find("delta") < sign)) {
-            const std::string_view angle = leading_number(without_blanks(rest.substr(sign + 1)));
+            const std::string_view angle = leading_number(trimmed(rest.substr(sign + 1)));
             if (!angle.empty()) {
                 statements += " #set angle " + std::string(angle) + ";";
             }
@@ -650,8 +649,8 @@ std::optional<Meaning> line_without_meaning(std::string_view line) {
     return std::nullopt;
 }
 
-/// The begin of a `//` comment in a line in the notation of a paper; npos if there is none. Slashes
-/// between modules roll the turtle.
+/// The offset of a `//` comment in a line in the notation of a paper; npos if there is none.
+/// Slashes between modules roll the turtle.
 std::size_t comment_in(std::string_view line) {
     for (std::size_t at = line.find("//"); at != std::string_view::npos;
          at = line.find("//", line.find_first_not_of('/', at))) {
@@ -676,7 +675,7 @@ void repair_foreign_lines(DraftText& draft) {
     RuleNames names{has_names ? "rule" : "p", 0};
     bool has_statement = false;
     for (FreeLine line : draft.free_lines()) {
-        line.text = without_blanks(line.text.substr(0, comment_in(line.text)));
+        line.text = trimmed(line.text.substr(0, comment_in(line.text)));
         if (!is_foreign(line.text)) {
             has_statement = has_statement || is_statement_start(line.text, 0);
             continue;

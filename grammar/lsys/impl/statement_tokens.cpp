@@ -89,8 +89,8 @@ std::string_view text_after_semicolon(std::string_view text, std::size_t at) {
     return rest.substr(0, rest.find_first_of(";#"));
 }
 
-/// Whether the `;` at `at` is a mistyped `:`: the text after it has the `missing` other `:` of the
-/// production and begins no statement.
+/// Whether the `;` at `at` is a mistyped `:`: the text after it begins no statement and has the
+/// other colons of the production, `missing` in number.
 bool is_mistyped_colon(std::string_view text, std::size_t at, std::ptrdiff_t missing) {
     const std::string_view rest = text_after_semicolon(text, at);
     const std::size_t first = rest.find_first_not_of(" \t\r\n");
@@ -228,7 +228,7 @@ std::optional<Keyword> report_unknown_statement(ParseSession& session, std::stri
     return meant;
 }
 
-/// The `#word` that is neither a keyword nor followed by `:`.
+/// The token of a `#word` that is neither a keyword nor followed by `:`.
 Token unknown_statement(ParseSession& session, std::string_view word, char next) {
     ScanState& scan = session.scan;
     if (colons_of_statement(session) >= 2 || lacks_first_colon(session)) {
@@ -287,7 +287,7 @@ Token start(ParseSession& session, std::string_view word) {
 
 } // namespace
 
-bool is_hash_comment(ParseSession& session, std::string_view text) {
+bool report_hash_comment(ParseSession& session, std::string_view text) {
     const ScanState& scan = session.scan;
     const std::size_t name_begin = text.find_first_not_of(" \t", 1);
     const std::string_view word = text.substr(name_begin);
@@ -344,9 +344,10 @@ Token start_without_hash(ParseSession& session, std::string_view word) {
         text.substr(scan.last_end, scan.begin - scan.last_end).find('\n') == std::string_view::npos;
     const bool after_modules =
         after_statement && (scan.keyword == Keyword::Label || scan.keyword == Keyword::Axiom);
-    // Text after a `;` may belong to the statement before it, whose `;` and fixes are then wrong. So
-    // first_diagnostic stays the index of the first diagnostic of that statement, whose fixes become
-    // offers if this text is an error. A statement behind one in error may belong to it too.
+    // Text after a `;` may belong to the statement before it; then the `;` and the fixes of that
+    // statement are wrong. So first_diagnostic stays the index of the first diagnostic of that
+    // statement, and its fixes become offers if this text is an error. A statement after one with
+    // an error may belong to it, too.
     if (!after_statement || (is_statement && !session.context.diagnostics.has_doubtful_error_from(
                                                  scan.first_diagnostic))) {
         scan.first_diagnostic = session.context.diagnostics.all().size();
@@ -470,7 +471,7 @@ std::optional<Token> missing_opening(ParseSession& session) {
     return Token(Parser::token::TOK_COLON, place).as_inserted();
 }
 
-bool is_needless_sign(ParseSession& session) {
+bool report_needless_sign(ParseSession& session) {
     ScanState& scan = session.scan;
     const bool takes_none = scan.keyword == Keyword::Define || scan.keyword == Keyword::Param ||
                             scan.keyword == Keyword::Function || scan.keyword == Keyword::Curve ||
@@ -493,7 +494,7 @@ bool is_needless_sign(ParseSession& session) {
     return true;
 }
 
-bool is_doubled_colon(ParseSession& session) {
+bool report_doubled_colon(ParseSession& session) {
     ScanState& scan = session.scan;
     const std::string_view text = session.scanned.text;
     const std::uint32_t wanted = scan.part == Part::Axiom || scan.part == Part::Ignored ? 1u
@@ -572,7 +573,7 @@ Token colon_after_modules(ParseSession& session) {
     const bool ends_line = rest.find_first_not_of(" \t\r") == std::string_view::npos;
     // At the end of a line the `:` may be a mistyped `;`.
     if ((scan.part == Part::Successor || scan.part == Part::Axiom) && !ends_line &&
-        is_after_likely_comment(session)) {
+        report_likely_comment(session)) {
         return discard_statement(session);
     }
     if (session.wants(DiagnosticCode::ExtraColon) &&
@@ -734,8 +735,8 @@ std::optional<Token> semicolon(ParseSession& session) {
         const SourceSpan span = session.match();
         Diagnostic& diagnostic =
             session.report(DiagnosticCode::StraySemicolon, span, "this `;` ends no statement");
-        // After a syntax error the fix is only an offer: another `;` may have ended the statement too
-        // early.
+        // After a syntax error the fix is only an offer: another `;` may have ended the statement
+        // too early.
         add_fix(diagnostic, "remove it", span, "", session.wants_reports());
     }
     return std::nullopt;
@@ -934,9 +935,10 @@ Token discard_statement(ParseSession& session) {
 
 namespace {
 
-/// Whether `text` begins a successor. It stands in the place of a condition, and the character
-/// `stray` after it cannot occur in one. True if `text` is empty, or if it begins with a symbol or
-/// a capital letter and compares nothing.
+/// Whether `text` begins a successor. `text` stands in the place of a condition, and the character
+/// `stray` after it cannot occur in a condition. True if `text` is empty and `stray` is a symbol of
+/// modules, or if `text` compares nothing and begins with a capital letter, perhaps after `+`, `-`
+/// or `/`.
 bool begins_successor(std::string_view text, char stray) {
     const std::size_t first = text.find_first_not_of(" \t\r\n");
     if (first == std::string_view::npos) {
@@ -959,7 +961,7 @@ bool is_surely_successor(const ParseSession& session, std::uint32_t first) {
     const std::string_view parameters = head.substr(open);
     for (std::uint32_t at = first; at < scan.begin;) {
         const std::string_view word = leading_word(text.substr(at, scan.begin - at));
-        if (text[at] == '(') { // skip arguments: those of a successor may name parameters
+        if (text[at] == '(') { // skip arguments, which may name parameters in a successor
             at = static_cast<std::uint32_t>(std::min<std::size_t>(text.find(')', at), scan.begin));
         } else if (!word.empty() && parameters.find(word) != std::string_view::npos) {
             return false;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Tokens at the begin and end of statements and their parts. Mistakes are reported and missing
+// Tokens at the beginning and end of statements and their parts. Mistakes are reported and missing
 // tokens inserted, so that the parser gets complete statements.
 #pragma once
 
@@ -11,33 +11,37 @@
 
 namespace lsys::lsys_grammar {
 
-/// Whether the current `# word` begins a comment, as in other languages; reports it.
-bool is_hash_comment(ParseSession& session, std::string_view text);
-/// `#word`, between statements.
+/// Reports a `# word` that begins a comment, as in other languages. Returns whether the current
+/// match does.
+bool report_hash_comment(ParseSession& session, std::string_view text);
+/// The first token of a statement, `#word`.
 Token start_statement(ParseSession& session, std::string_view text);
 /// The first token of a statement without `#`. It begins with `word`, or with a symbol if `word` is
 /// empty.
 Token start_without_hash(ParseSession& session, std::string_view word);
 
-/// The current `:` after `#word`; in `#n : 4;` it is reported and read as `=`.
+/// The token of the current `:` after `#word`; in `#n : 4;` the `:` is reported and read as `=`.
 Token opening_colon(ParseSession& session);
 /// Enters the part after the `:` of `#word :`.
 void after_opening_colon(ParseSession& session);
 /// The token of the current `=` or `,` after `#word`.
 Token opening_sign(ParseSession& session);
-/// The missing `:` or `=` between `#word` and another character; nothing if none is required.
+/// The token of a missing `:` or `=` between `#word` and another character; nullopt if neither is
+/// required.
 std::optional<Token> missing_opening(ParseSession& session);
-/// Whether the current `=` or `:` is superfluous, as in `#define NAME = 3;`; reports it.
-bool is_needless_sign(ParseSession& session);
+/// Reports a superfluous `=` or `:`, as in `#define NAME = 3;`. Returns whether the current
+/// character is one.
+bool report_needless_sign(ParseSession& session);
 
-/// Whether the current `:` repeats the one before it in a statement with too many; reports it.
-bool is_doubled_colon(ParseSession& session);
+/// Reports a `:` that repeats the one before it in a statement with too many. Returns whether the
+/// current `:` does.
+bool report_doubled_colon(ParseSession& session);
 Token colon_after_modules(ParseSession& session);
 /// The current token if it is `let`, a name, `=` or `,` of local values outside of their
 /// expressions.
 std::optional<Token> local_value_token(ParseSession& session, std::string_view text);
 Token colon_in_expression(ParseSession& session);
-/// The current `;`; nothing for a `;` between statements, which is reported.
+/// The token of the current `;`; nullopt for a `;` between statements, which is reported.
 std::optional<Token> semicolon(ParseSession& session);
 
 /// Starts to insert the tokens missing before the event `kind`; returns the first of them.
@@ -48,8 +52,8 @@ Token insert_token(ParseSession& session);
 
 /// Discards the statement and skips its rest.
 Token discard_statement(ParseSession& session);
-/// Whether the current production has too few `:`. Reports it at the current match, with `inserted`
-/// as the fix unless it is empty.
+/// Reports, at the current match, a production with too few `:`; returns whether it is one. The fix
+/// adds `inserted` unless it is empty.
 bool lacks_colon(ParseSession& session, std::string_view inserted);
 
 } // namespace lsys::lsys_grammar

@@ -298,8 +298,8 @@ bool report_empty_condition(ParseSession& session, const Unexpected& error) {
     return true;
 }
 
-/// Whether the current `+` is the second of `t++`; reports it.
-bool is_increment(ParseSession& session) {
+/// Reports `t++`; returns whether the current `+` is its second one.
+bool report_increment(ParseSession& session) {
     const ScanState& scan = session.scan;
     const std::string_view text = session.scanned.text;
     const char next = next_character(text, scan.end);
@@ -321,7 +321,7 @@ bool is_increment(ParseSession& session) {
     return true;
 }
 
-/// Reports `t--)`.
+/// Reports `t--)`; returns whether it did.
 bool report_decrement(ParseSession& session, const Unexpected& error) {
     const std::string_view text = session.scanned.text;
     const std::uint32_t end = session.scan.last_end;
@@ -350,7 +350,7 @@ bool report_unary_plus(ParseSession& session, const Unexpected& error) {
     if (error.token != Kind::S_PLUS || !error.expects(Kind::S_NUMBER)) {
         return false;
     }
-    if (is_increment(session)) {
+    if (report_increment(session)) {
         return true;
     }
     if (session.wants(DiagnosticCode::SyntaxError)) {
@@ -367,7 +367,7 @@ bool report_unary_plus(ParseSession& session, const Unexpected& error) {
     return true;
 }
 
-bool report_parts_of_a_head(ParseSession& session, const Unexpected& error) {
+bool report_context_sign(ParseSession& session, const Unexpected& error) {
     const bool is_arrow = error.token == Kind::S_CLT || error.token == Kind::S_CGT;
     if (error.part != Part::Head || !is_arrow) {
         return false;
@@ -400,7 +400,7 @@ void report_unexpected_token(ParseSession& session,
         const bool in_production = part == Part::Head || part == Part::Condition;
         const bool reported =
             report_modules_in_parentheses(session, error) ||
-            report_empty_condition(session, error) || report_parts_of_a_head(session, error) ||
+            report_empty_condition(session, error) || report_context_sign(session, error) ||
             (in_production && scan.open.empty() && !is_inserted && lacks_colon(session, "")) ||
             report_unary_plus(session, error) || report_decrement(session, error);
         if (!reported) {

@@ -157,12 +157,12 @@ constexpr std::uint32_t kMaxPreviewLines = 6;
 /// Bytes around and between edits that a preview reads; more than an excerpt shows.
 constexpr std::size_t kReach = std::size_t{4} * kMaxColumns;
 
-/// The text after edits of adjoining lines.
+/// Adjoining lines as they read after some edits.
 struct Preview {
     std::string text;
     // Ranges [first, last) of new bytes in `text`.
     std::vector<std::pair<std::size_t, std::size_t>> added;
-    std::vector<char> characters; // `+` or `~` under each of them
+    std::vector<char> characters; // `+` or `~` under each range of `added`
     bool more_before = false;
     bool more_after = false;
 };
@@ -184,7 +184,7 @@ std::vector<const Edit*> first_edits(const Fix& fix) {
     return edits;
 }
 
-/// The text of edits [first, last) with the rest of their lines.
+/// The lines of the edits [first, last), with these edits made.
 Preview make_preview(const std::vector<const Edit*>& edits,
                      std::size_t first,
                      std::size_t last,
@@ -219,7 +219,7 @@ Preview make_preview(const std::vector<const Edit*>& edits,
     return preview;
 }
 
-/// Appends the lines of a preview, the first as line `number`; returns their number.
+/// Appends the lines of a preview, the first as line `number`; returns the count of lines.
 std::uint32_t append_preview(const Preview& preview,
                              std::uint32_t number,
                              const Palette& colours,

@@ -33,8 +33,8 @@ struct Mark {
     std::string_view colour;
 };
 
-/// Appends the lines of `primary` with marks, and the marks of those `others` that lie in the shown
-/// part of its first line; returns the remaining ones.
+/// Appends the lines of `primary` with marks, and the marks of `others` in the shown part of its
+/// first line; returns the other marks of `others`.
 [[nodiscard]] std::vector<Mark> append_frame(const Mark& primary,
                                              const std::vector<Mark>& others,
                                              const SourceFile& file,

@@ -89,10 +89,10 @@ void append_json(const Diagnostic& diagnostic, const SourceMap& sources, std::st
     append(object, out);
 }
 
-void append_json_rest(std::uint64_t errors,
-                      std::uint64_t warnings,
-                      std::uint64_t notes,
-                      std::string& out) {
+void append_json_omitted(std::uint64_t errors,
+                         std::uint64_t warnings,
+                         std::uint64_t notes,
+                         std::string& out) {
     Json object;
     object["more"] = {{"errors", errors}, {"warnings", warnings}, {"notes", notes}};
     append(object, out);

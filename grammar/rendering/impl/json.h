@@ -11,13 +11,13 @@
 
 namespace lsys::rendering {
 
-/// Appends one line.
+/// Appends the diagnostic as one line.
 void append_json(const Diagnostic& diagnostic, const SourceMap& sources, std::string& out);
 
-/// Appends one line with the numbers of the diagnostics left out.
-void append_json_rest(std::uint64_t errors,
-                      std::uint64_t warnings,
-                      std::uint64_t notes,
-                      std::string& out);
+/// Appends one line with the counts of the diagnostics that have no line of their own.
+void append_json_omitted(std::uint64_t errors,
+                         std::uint64_t warnings,
+                         std::uint64_t notes,
+                         std::string& out);
 
 } // namespace lsys::rendering

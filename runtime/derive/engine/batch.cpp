@@ -16,9 +16,10 @@ namespace lsys {
 
 namespace {
 
-/// Programs that need more rows, 64 KiB per thread, are evaluated for each module.
+/// Programs that need more rows than this (64 KiB per thread) are evaluated module by module.
 constexpr std::size_t kMaxRows = 256;
-/// Modules of the smallest batch that is run at once. It is filled up with copies of its last module.
+/// Min modules of a batch that is run in rows, filled up with copies of its last module. Smaller
+/// batches are evaluated module by module.
 constexpr std::size_t kMinBatch = 24;
 constexpr std::uint64_t kDrawsPerBlock = 4;
 

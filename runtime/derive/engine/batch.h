@@ -28,7 +28,7 @@ struct alignas(64) Lanes {
 /// The code of a production's parameters with the room that batches need for it.
 struct BatchProgram {
     std::uint32_t production = 0;
-    std::vector<std::uint32_t> formals; // that are read, ascending
+    std::vector<std::uint32_t> formals; // formals that are read, ascending
     // Rows, in this order:
     std::uint32_t formal_rows = 0; // one more than the highest formal that is read
     std::uint32_t stack_rows = 0;
@@ -100,7 +100,7 @@ private:
     const std::vector<BatchProgram>& programs_;
     BatchInputs inputs_;
     std::vector<Queue> queues_; // by program
-    std::vector<Lanes> rows_;   // of the program that runs
+    std::vector<Lanes> rows_;   // rows of the program that runs
     bool faulty_ = false;
 };
 

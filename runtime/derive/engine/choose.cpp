@@ -95,7 +95,7 @@ bool Chooser<C>::choose(const ModulePlace& place, const Row& row, std::uint32_t&
     const Family& family = plan_.family(row.source);
     const std::span<const Candidate> candidates = plan_.candidates(family);
     const float* const own = matcher_.own_parameters(place);
-    std::uint32_t group = kNone; // the last one whose contexts were searched
+    std::uint32_t group = kNone; // the last group whose contexts were searched
     bool in_context = true;
     for (std::uint32_t i = 0; i < candidates.size(); ++i) {
         const Candidate& candidate = candidates[i];

@@ -46,7 +46,7 @@ public:
     void module_draws(const std::uint64_t* positions, std::size_t count, float* units) const {
         draw_units(choice_key(), positions, count, units);
     }
-    /// choose() for a Choice row, given its draw, and for a Tests row; neither can fail.
+    /// choose() for a Choice row, given the module's draw; cannot fail.
     [[nodiscard]] std::uint32_t choose_by_chance(float u, const Row& row) const {
         const Choice& choice = plan_.choice(row.source);
         const float* const thresholds = plan_.thresholds(choice).data();
@@ -56,6 +56,7 @@ public:
         }
         return plan_.records(choice)[taken];
     }
+    /// choose() for a Tests row, given the module's parameters; cannot fail.
     [[nodiscard]] std::uint32_t choose_by_test(const float* own, const Row& row) const {
         for (const Test& test : plan_.tests(row.source)) {
             if (holds(test.comparison, own)) {
@@ -82,7 +83,7 @@ public:
     }
 
     [[nodiscard]] const EvalFault& fault() const { return fault_; }
-    /// Whether the fault is that of a weight.
+    /// Whether a weight, not a condition, is at fault.
     [[nodiscard]] bool fault_in_weight() const { return fault_in_weight_; }
     /// The candidate of the fault, an index for Plan::candidate().
     [[nodiscard]] std::uint32_t faulty_candidate() const { return faulty_candidate_; }

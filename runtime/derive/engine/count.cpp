@@ -110,7 +110,7 @@ CountResult count_active(const Plan& plan,
                 chooser.module_draws(positions.data(), draws, units.data());
             }
             const float* unit = units.data();
-            std::uint64_t stores = block.stores; // of the modules not yet counted
+            std::uint64_t stores = block.stores; // bits of the modules not yet counted
             for (std::uint64_t active = block.active; active != 0; active &= active - 1) {
                 const auto place = static_cast<std::uint64_t>(std::countr_zero(active));
                 const C code = codes[place];

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The general evaluator of conditions and arguments: a stack machine over Bytecode instructions.
-// It evaluates every expression; the common ones have faster forms (shape.h) with equal results.
+// It can evaluate every expression; the common forms are also evaluated faster, with equal results,
+// by shape.h.
 #pragma once
 
 #include "compiler/bytecode/bytecode.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // GlibcRuleDraws: the draws of `choice generation` under `random glibc`: one call of rand() per
-// rule and generation, in order, whether the rule has a choice or not. Of c alternatives, number rand()
-// mod c is taken.
+// rule and generation, in order, whether the rule has a choice or not. A rule with c alternatives
+// takes alternative number rand() mod c.
 #pragma once
 
 #include "compiler/bytecode/bytecode.h"

@@ -69,12 +69,12 @@ std::optional<Stop> Levels<C, R>::push(std::uint64_t count) {
             break;
         }
         if (at == last_ && levels_[at].count != 0) {
-            if (!is_decomposed(at) || !emit(levels_[at])) {
+            if (!check_decomposed(at) || !emit(levels_[at])) {
                 break;
             }
             levels_[at].next.index = levels_[at].count;
         } else if (at < last_ && !levels_[at].pruned && levels_[at].count != 0) {
-            if (!is_decomposed(at)) {
+            if (!check_decomposed(at)) {
                 break;
             }
             prune(at);
@@ -202,7 +202,7 @@ bool Levels<C, R>::descend(std::uint64_t index) {
 
 /// Whether no production matches after the last pass over a block; fails with TooDeep if one does.
 template <typename C, typename R>
-bool Levels<C, R>::is_decomposed(std::uint64_t index) {
+bool Levels<C, R>::check_decomposed(std::uint64_t index) {
     if (!steps_.checked || !steps_.rewrites(index)) {
         return true;
     }

@@ -104,13 +104,13 @@ private:
         std::uint64_t count = 0;          // modules in the block
         ModulePlace next;                 // the next module to rewrite
         std::uint64_t first_position = 0; // position of the block in its level's word
-        bool settled = false;             // no pass of this age changes the block
+        bool settled = false;             // no further pass of this age changes the block
         bool pruned = false;              // cuts have been made
     };
 
     [[nodiscard]] bool add_level();
     [[nodiscard]] bool descend(std::uint64_t index);
-    [[nodiscard]] bool is_decomposed(std::uint64_t index);
+    [[nodiscard]] bool check_decomposed(std::uint64_t index);
     [[nodiscard]] bool emit(Level& level);
     void pass_down(Level& level, Level& below);
     void prune(std::uint64_t index);

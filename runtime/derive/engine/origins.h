@@ -12,7 +12,7 @@
 
 namespace lsys {
 
-/// Modules [begin, end) of the word that is read, which write_modules() has just rewritten.
+/// Modules [begin, end) of the input word, which write_modules() has just rewritten.
 struct OriginRequest {
     std::uint64_t begin = 0;
     std::uint64_t end = 0;
@@ -20,7 +20,7 @@ struct OriginRequest {
     const ActiveMask* mask = nullptr; // the mask of WriteRequest
 };
 
-/// Writes origins to `out`; returns where the next one belongs. `records` as in write_modules().
+/// Writes origins to `out`; returns the place of the next one. `records` as in write_modules().
 /// Precondition: word.origins is not null.
 template <typename C, typename R>
 [[nodiscard]] Origin* trace_origins(const Plan& plan,

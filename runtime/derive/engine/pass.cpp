@@ -20,8 +20,8 @@ namespace {
 /// Programs with more codes are counted module by module.
 constexpr Code kCensusCodes = 4096;
 /// Modules of the shortest word for which counting on all threads is faster than the census, after
-/// which one thread writes in order. Batches with random draws, whose modules cost more, are worth
-/// it in every shared word.
+/// which one thread writes in order. With random draws in batches, a module costs more: all threads
+/// then count every shared word.
 constexpr std::uint64_t kMinParallelCount = 1U << 22;
 /// Threads end at about the same time if each has several chunks, none of them too small.
 constexpr std::uint64_t kChunksPerThread = 6;

@@ -29,7 +29,7 @@ public:
     run(const Word& in, Word& out, const PassKeys& keys, std::uint64_t other_bytes);
     /// Whether the current rows of the plan may rewrite some module of `word`.
     [[nodiscard]] bool may_rewrite_any(const Word& word) const;
-    /// To be called if the next word given to run() is not the one it wrote last.
+    /// Must be called if the next word given to run() is not the word that run() wrote last.
     void discard_census() { census_known_ = false; }
 
     [[nodiscard]] const RuntimeError& error() const { return error_; }
@@ -98,7 +98,7 @@ private:
     std::vector<std::uint64_t> census_; // number of modules of each code in the word
     bool census_known_ = false;
     bool by_census_ = false;    // this pass takes sizes from the census and writes in order
-    std::uint64_t modules_ = 0; // of the word to write
+    std::uint64_t modules_ = 0; // modules of the word to write
     std::uint64_t parameters_ = 0;
     std::uint64_t other_bytes_ = 0;
     std::atomic<std::uint64_t> written_{0};

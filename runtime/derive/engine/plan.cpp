@@ -38,8 +38,9 @@ std::uint64_t bytes_of(const std::vector<T>& values) {
 Plan::Plan(const Bytecode& bytecode, const PlanInputs& inputs, bool each_generation, Stage stage)
     : bytecode_(bytecode), inputs_(inputs), each_generation_(each_generation),
       productions_(bytecode.productions_of(stage)),
-      parallel_(stage != Stage::Rewrite || bytecode.settings.rewriting == RewritingMode::Parallel ||
-                bytecode.settings.rewriting == RewritingMode::Leftmost) {
+      families_by_symbol_(stage != Stage::Rewrite ||
+                          bytecode.settings.rewriting == RewritingMode::Parallel ||
+                          bytecode.settings.rewriting == RewritingMode::Leftmost) {
     if (bytecode.settings.random == RandomSource::Glibc) {
         glibc_draws_.emplace(bytecode, inputs.seed);
     }
@@ -47,7 +48,7 @@ Plan::Plan(const Bytecode& bytecode, const PlanInputs& inputs, bool each_generat
     make_families();
     make_guards();
     make_entries();
-    if (parallel_) {
+    if (families_by_symbol_) {
         if (has_parameters_ && bytecode_.code_count() <= kMaxFoldedCodes) {
             folding_.index.emplace(bytecode_);
         }
@@ -123,11 +124,12 @@ void Plan::make_families() {
     const bool one_choice = bytecode_.settings.choice == ChoiceScope::Generation;
     std::vector<std::uint32_t> family_of_production;
     family_of_production.reserve(productions_.count);
-    std::vector<std::uint32_t> family_of_symbol(parallel_ ? bytecode_.symbols.size() : 0, kNone);
+    std::vector<std::uint32_t> family_of_symbol(families_by_symbol_ ? bytecode_.symbols.size() : 0,
+                                                kNone);
     for (std::uint32_t p = productions_.first; p < productions_.first + productions_.count; ++p) {
         const BytecodeProduction& production = bytecode_.productions[p];
         std::uint32_t index = production.rule;
-        if (parallel_) {
+        if (families_by_symbol_) {
             const SymbolId symbol = bytecode_.patterns[production.predecessor.first].symbol;
             std::uint32_t& known = family_of_symbol[static_cast<std::size_t>(symbol)];
             if (known == kNone) {
@@ -220,7 +222,7 @@ void Plan::make_guards() {
             const BytecodeProduction& production = bytecode_.productions[candidate.production];
             all_left = all_left && production.has_left;
             all_right = all_right && production.has_right &&
-                        !(parallel_ && family.replaces_several) &&
+                        !(families_by_symbol_ && family.replaces_several) &&
                         bytecode_.patterns[production.right.first].kind == PatternKind::Module;
         }
         for (const Candidate& candidate : candidates(family)) {
@@ -335,7 +337,7 @@ void Plan::prepare(std::uint32_t generation) {
     }
     for (const std::uint32_t index : generation_families_) {
         families_[index].current = false;
-        if (parallel_) {
+        if (families_by_symbol_) {
             activate_family(index);
         }
     }

@@ -46,7 +46,7 @@ struct alignas(64) Entry {
     /// Otherwise, with more than kEntryTerms parameters: index of the first one in Plan::terms().
     std::uint32_t terms_or_program = 0;
     std::uint32_t candidate = kNone; // kNone: a copy of the module
-    std::uint32_t first_place = 0;   // of the successor in Bytecode::template_codes
+    std::uint32_t first_place = 0;   // index of the successor in template_codes
     bool general = false;            // parameters need a batch or evaluate()
     bool reads_own = false;          // terms read the module's parameters
     bool special = false;            // needs more than one wide store of codes or of terms
@@ -55,10 +55,11 @@ struct alignas(64) Entry {
 
 static_assert(sizeof(Entry) == 64, "an entry is one line of the cache");
 
+/// How the successor of a module is chosen.
 enum class RowKind : std::uint8_t {
-    Fixed,   // always by the entry of its code
+    Fixed,   // always the entry of the module's code
     Choice,  // by chance, among the same productions for every module
-    Tests,   // by the first comparison of its parameters that holds
+    Tests,   // by the first comparison of the module's parameters that holds
     General, // by trying the candidates of the family
 };
 
@@ -67,19 +68,19 @@ struct Row {
     std::uint32_t code_count = 0;      // Fixed: codes written
     std::uint32_t parameter_count = 0; // Fixed: parameters written
     std::uint32_t stored = 0;          // parameters of the module in the word
-    std::uint32_t constants = kNone;   // of a folded module, in Bytecode::constants
-    std::uint32_t source = 0;         // Choice: in choices; Tests: in test lists; else: in families
-    std::uint32_t left_guard = kNone; // General: accepted neighbours, in guards
+    std::uint32_t constants = kNone;   // folded module: index in Bytecode::constants
+    std::uint32_t source = 0;          // index of a choice (Choice), test list (Tests) or family
+    std::uint32_t left_guard = kNone;  // General: accepted neighbours, in guards
     std::uint32_t right_guard = kNone;
     RowKind kind = RowKind::Fixed;
     bool copies = true; // Fixed: writes the module itself
     bool slow = false;  // entries read the parameters of a folded module
 };
 
-/// The productions that are tried for a module, in file order: all those of its symbol, or in a
-/// pass of one rule those of the rule.
+/// The productions that are tried for a module, in file order: all productions of its symbol, or in
+/// a pass of one rule the productions of the rule.
 struct Family {
-    std::uint32_t first = 0; // in candidates
+    std::uint32_t first = 0; // index in candidates
     std::uint32_t count = 0;
     std::uint32_t left_guard = kNone; // codes accepted to the left of a rewritten module
     std::uint32_t right_guard = kNone;
@@ -87,7 +88,7 @@ struct Family {
     bool has_context = false;
     bool reads_context = false;         // a formal of a context is used
     bool reads_own = false;             // an entry reads the module's parameters
-    bool depends_on_generation = false; // by step(), or a choice per generation
+    bool depends_on_generation = false; // has step(), or a choice per generation
     bool current = false;               // candidates and entries are up to date
 };
 
@@ -96,17 +97,17 @@ enum class ConditionKind : std::uint8_t { Always, Never, Comparisons, Expression
 struct Candidate {
     std::uint32_t production = 0;
     std::uint32_t group = 0;
-    std::uint32_t modules = 1;   // replaced by a match
+    std::uint32_t modules = 1;   // modules that a match replaces
     std::uint32_t own_first = 0; // index of the formal of the module's first parameter
     std::uint32_t first_comparison = 0;
     std::uint32_t comparison_count = 0;
     std::uint32_t comparison_room = 0;
-    std::uint32_t first_term = 0;        // in terms, if there are more than kEntryTerms parameters
+    std::uint32_t first_term = 0;        // index in terms, if more than kEntryTerms parameters
     std::uint32_t batch_program = kNone; // if the parameters were not terms at some time
     float weight = 0.0F;
     ConditionKind condition = ConditionKind::Always;
     bool stochastic = false;
-    bool computes_weight = false; // by the code of the production, for each module
+    bool computes_weight = false; // code computes the weight for each module
     bool has_context = false;
     bool gathers = false;       // formals must be collected: some are not the module's own
     bool reads_context = false; // some formals belong to contexts
@@ -114,7 +115,7 @@ struct Candidate {
 
 /// The fixed set of a Choice row. The first record whose cumulative weight exceeds the draw is taken.
 struct Choice {
-    std::uint32_t first = 0; // in thresholds and records
+    std::uint32_t first = 0; // index in thresholds and records
     std::uint32_t count = 0;
     std::uint32_t room = 0;
 };
@@ -125,7 +126,7 @@ struct Test {
     std::uint32_t record = 0;
 };
 struct TestList {
-    std::uint32_t first = 0; // in tests
+    std::uint32_t first = 0; // index in tests
     std::uint32_t count = 0;
     std::uint32_t room = 0;
 };
@@ -189,8 +190,8 @@ public:
     }
     /// guards()[guard + code] is not 0 if a module of `code` may be the neighbour.
     [[nodiscard]] const std::uint8_t* guards() const { return guards_.data(); }
-    /// Codes at the word's width: those of the templates, then every code once, then templates with
-    /// folded modules, then kWordSlack bytes.
+    /// Codes at the word's width: the codes of the templates, then every code once, then templates
+    /// with folded modules, then kWordSlack bytes.
     [[nodiscard]] const std::byte* pool() const { return codes_.pool.data(); }
     [[nodiscard]] Code pool_code(std::uint32_t index) const;
 
@@ -218,7 +219,7 @@ public:
     }
     /// Distance from a module to the first one that its right guard may check.
     [[nodiscard]] std::uint32_t guard_distance() const {
-        return parallel_ ? 1 : active_.predecessor_count;
+        return families_by_symbol_ ? 1 : active_.predecessor_count;
     }
     /// First symbol of the predecessor of `rule`.
     [[nodiscard]] SymbolId first_symbol(std::uint32_t rule) const;
@@ -295,9 +296,9 @@ private:
     /// Templates with folded modules, where arguments are known.
     struct Folding {
         std::optional<FoldedIndex> index; // none: nothing is folded
-        std::vector<Code> codes;          // of the folded templates, at the end of the pool
+        std::vector<Code> codes;          // codes of folded templates, at the pool's end
         std::unordered_map<std::uint64_t, std::uint32_t> templates; // by code and candidate
-        std::vector<std::uint32_t> block_of_code; // first own entry; kNone: those of the family
+        std::vector<std::uint32_t> block_of_code; // first own entry; kNone: the family's
         std::uint64_t budget = 0; // candidates that may still be tried for folded modules
     };
     /// Summary of the active rows.
@@ -313,13 +314,13 @@ private:
     PlanInputs inputs_;
     bool each_generation_;
     TableRange productions_;
-    bool parallel_; // a family holds all productions of its symbol
+    bool families_by_symbol_; // a family holds all productions of its symbol
     std::uint32_t generation_ = 0;
     std::optional<GlibcRuleDraws> glibc_draws_; // with `random glibc`
 
     std::vector<Row> rows_; // by code
     std::vector<Entry> entries_;
-    std::vector<AffineTerm> terms_; // of entries with more than kEntryTerms parameters
+    std::vector<AffineTerm> terms_; // identity terms; entries with more than kEntryTerms parameters
     std::vector<Family> families_;
     std::vector<std::uint32_t>
         generation_families_; // indexes of families with depends_on_generation

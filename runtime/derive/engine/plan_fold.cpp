@@ -9,8 +9,9 @@ namespace lsys {
 
 namespace {
 
-/// Larger templates and larger families are not folded.
+/// Max codes of all folded templates together.
 constexpr std::size_t kMaxFoldedTemplateCodes = std::size_t{1} << 20;
+/// Max candidates of a family whose codes get entries of their own.
 constexpr std::uint32_t kMaxOwnEntries = 256;
 
 } // namespace

@@ -71,7 +71,7 @@ void Plan::shape_condition(Candidate& candidate) {
 void Plan::shape_entry(const Candidate& candidate, Entry& entry) {
     const WordTemplate& successor = bytecode_.productions[candidate.production].successor;
     // A random range of a local value can be at fault even if no argument uses the value, so all
-    // are evaluated.
+    // local values are evaluated.
     const bool has_drawn_locals = bytecode_.local_count != 0 && successor.draw_count != 0;
     entry.general = has_drawn_locals;
     entry.reads_own = false;
@@ -103,7 +103,7 @@ void Plan::shape_entry(const Candidate& candidate, Entry& entry) {
 }
 
 void Plan::make_batch_program(Candidate& candidate) {
-    constexpr std::size_t kMaxPrograms = 1024; // each writer has a pointer for each
+    constexpr std::size_t kMaxPrograms = 1024; // each writer has a queue for each
     if (candidate.batch_program != kNone || batch_programs_.size() == kMaxPrograms) {
         return;
     }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Cuts: a module of the turtle's operation Cut removes the rest of its branch, up to the `]` that
+// Cuts: a module with the turtle operation Cut removes the rest of its branch, up to the `]` that
 // closes the branch. Cuts are made at the start of a generation, before anything is matched.
 #pragma once
 
@@ -65,7 +65,7 @@ private:
         std::uint32_t stored = 0;
     };
     std::vector<Kind> kinds_; // by code
-    std::uint64_t depth_ = 0; // number of open branches, counted from the cut one; 0: no cut
+    std::uint64_t depth_ = 0; // open branches from the cut one inwards; 0: no cut
     bool any_ = false;
 };
 

@@ -62,7 +62,7 @@ public:
         }
         if (opcode == Opcode::Negate && x.kind == ShapeKind::Affine && !x.offset) {
             Term term =
-                x; // only without an offset: the negative of a sum of +0 is -0, no term yields it
+                x; // only without an offset: where a sum is +0, no term yields its negative -0
             term.affine.scale = -term.affine.scale;
             term.scaled = true;
             return term;
@@ -88,7 +88,8 @@ public:
                            t.kind == ShapeKind::Constant;
         return known ? constant_term(arithmetic::mix(x.constant, y.constant, t.constant)) : Term{};
     }
-    /// Comparisons stand for 0 or any other number, as conditions do.
+    /// Only the truth value of comparisons counts: they yield 0 or any other number, as conditions
+    /// do.
     Term choice(const Term& x, const Term& y, const Term& z) {
         if (x.kind == ShapeKind::Constant) {
             return x.constant != 0.0F ? y : z;
@@ -227,7 +228,7 @@ private:
     const ShapeKnowledge& knowledge_;
     std::vector<ValueShape>& shapes_;
     std::vector<Comparison> comparisons_;
-    std::uint32_t count_ = 0; // of instructions
+    std::uint32_t count_ = 0; // number of instructions
 };
 
 } // namespace

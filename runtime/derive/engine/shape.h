@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // The forms of an expression that need no stack machine, found by abstract interpretation
 // (compiler/bytecode/interpret.h): constants, one parameter times a factor plus an offset, and
-// conjunctions of comparisons of such values, written with && or if(). They yield the same binary32 values as evaluate().
-// Made when a derivation is prepared, read by the passes.
+// conjunctions of comparisons of such values, written with && or if(). They yield the same binary32
+// values as evaluate(). Made when a derivation is prepared, read by the passes.
 #pragma once
 
 #include "compiler/bytecode/bytecode.h"
@@ -47,8 +47,8 @@ struct Comparison {
 /// Inputs of an expression that are known while its shapes are found.
 struct ShapeKnowledge {
     std::uint32_t own_first = 0;          // the first formal of the module's own parameters
-    std::uint32_t own_count = 0;          // formals elsewhere are unknown
-    const float* own_constants = nullptr; // of a folded module; null: stored, so unknown
+    std::uint32_t own_count = 0;          // number of own parameters; other formals are unknown
+    const float* own_constants = nullptr; // arguments of a folded module; null: stored, unknown
     const float* globals = nullptr;
     std::optional<float> step;
     float steps = 0.0F;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The depth to which productions of a stage can nest: one may rewrite what another has written.
+// The depth to which productions of a stage can nest: one may rewrite modules that another wrote.
 #pragma once
 
 #include "compiler/bytecode/bytecode.h"

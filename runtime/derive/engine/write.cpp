@@ -60,10 +60,10 @@ struct MixedRun {
     const Row* rows;
     const Entry* entries;
     const C* pool;
-    const float* constants; // of folded modules
+    const float* constants; // arguments of folded modules
     const C* in;            // the next module
     const C* end;
-    std::uint64_t position; // of `in`
+    std::uint64_t position; // position of `in` in the word
     const float* own;
     const R* records;
     C* codes;
@@ -101,8 +101,8 @@ template <typename C, typename R>
     run = at;
 }
 
-/// Adds the parameters of a general entry to its batch, which computes them later, or evaluates them
-/// now. Returns false if one has no finite value.
+/// Adds the parameters of a general entry to its batch, which computes them later, or evaluates
+/// them now. Returns false if one cannot be evaluated to a finite value.
 template <typename C>
 [[gnu::noinline]] bool write_general(const Plan& plan,
                                      const PassKeys& keys,
@@ -294,7 +294,7 @@ private:
                 std::min<std::uint64_t>(request_.end - begin, ActiveMask::kModules));
             mask.fill(word_.codes, word_.count, begin, count, bits.data());
             for (std::size_t first = 0; first < count;) {
-                std::size_t end = first; // of the blocks without active modules
+                std::size_t end = first; // end of the blocks without active modules
                 while (end < count && bits[end / kBlock].active == 0) {
                     end += kBlock;
                 }
@@ -332,8 +332,8 @@ private:
     }
 
     /// Writes the next `size` modules: 64, or fewer at the end. A run between two active modules is
-    /// copied as 64 codes at once. Works on copies of the fields, which the compiler would read
-    /// again after each store of a code.
+    /// copied as 64 codes at once. Works on local copies of the fields, because the compiler would
+    /// reload the fields after each store of a code.
     template <TermInputs kInputs>
     bool write_block(const ActiveMask& mask, ActiveBits bits, unsigned size) {
         constexpr std::size_t kBlock = ActiveMask::kBlock;
@@ -438,7 +438,7 @@ private:
         }
     }
 
-    /// Writes an entry without wide stores and without moving on.
+    /// Writes an entry without wide stores; does not advance.
     [[gnu::noinline]] bool write_exactly(const Entry& entry) {
         std::copy_n(pool_ + entry.first_code, entry.code_count, codes_);
         return write_parameters(entry);

@@ -38,7 +38,7 @@ template <typename C, typename R>
                                  const R* records);
 
 /// Evaluates the parameters of one entry for the module at `place`, in order, with evaluate().
-/// Returns false and sets `fault` if one has no finite value.
+/// Returns false and sets `fault` if one cannot be evaluated to a finite value.
 template <typename C>
 [[nodiscard]] bool evaluate_entry(const Plan& plan,
                                   const PassKeys& keys,

@@ -98,7 +98,7 @@ private:
                 return true;
             }
         }
-        if (!follows(tried, attempt)) {
+        if (!match_neighbours(tried, attempt)) {
             return true;
         }
         if (tried.condition != kNone) {
@@ -117,8 +117,9 @@ private:
         return true;
     }
 
-    /// Whether the contexts and the modules of the predecessor after the first one match.
-    bool follows(const BytecodeProduction& tried, Attempt& attempt) const {
+    /// Matches the modules of the predecessor after the first one, and the contexts. Stores the
+    /// visited modules and, if something differs, the verdict in `attempt`.
+    bool match_neighbours(const BytecodeProduction& tried, Attempt& attempt) const {
         for (std::uint32_t i = 1; i < tried.predecessor.count; ++i) {
             const std::uint64_t at = position_ + i;
             if (at < pass_.word.count()) {
@@ -173,8 +174,8 @@ private:
                 index < names.size() ? &names[index] : nullptr};
     }
 
-    /// Computes the weights of the matching productions, and leaves out those of weight 0. Returns
-    /// false if a weight is at fault.
+    /// Computes the weights of the matching productions, and drops productions whose computed
+    /// weight is 0. Returns false if a weight is at fault.
     bool compute_weights() {
         weights_.clear();
         if (matching_.empty() || !production_of(trace_.attempts[matching_[0]]).stochastic) {

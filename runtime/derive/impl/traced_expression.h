@@ -29,7 +29,7 @@ struct SuccessorTrace {
     std::vector<float> arguments; // up to the first fault
     std::string fault;            // describes a value that cannot be used; empty: none
 };
-/// `draws`: of the module; `first_draw`: the number of range 0.
+/// `draws`: the draws of the module; `first_draw`: the draw number of range 0.
 [[nodiscard]] SuccessorTrace trace_successor(const TracedFrame& frame,
                                              const WordTemplate& word,
                                              RangeDraws draws,

@@ -185,7 +185,7 @@ ContextTrace TracedWord::right(const BytecodeProduction& production, std::uint64
 
 std::optional<std::uint64_t> TracedWord::cut_of(std::uint64_t position) const {
     std::optional<std::uint64_t> cut;
-    std::uint64_t depth = 0; // of branches that opened behind the cut
+    std::uint64_t depth = 0; // number of branches opened after the cut
     for (std::uint64_t i = 0; i <= position; ++i) {
         const SymbolKind found = kind(i);
         const bool cuts = bytecode_.symbol(symbol(i)).turtle == TurtleOperation::Cut;

@@ -29,7 +29,8 @@ public:
                                     std::uint64_t position) const;
     /// Searches the right context from gap `gap`, the place before module `gap`.
     [[nodiscard]] ContextTrace right(const BytecodeProduction& production, std::uint64_t gap) const;
-    /// The position of the `%` that cuts off the module at `position`; `position` if that is a `%`.
+    /// The position of the `%` that cuts off the module at `position`; nothing if the module stays.
+    /// A `%` that no other `%` cuts off gives its own position.
     [[nodiscard]] std::optional<std::uint64_t> cut_of(std::uint64_t position) const;
 
 private:
@@ -45,7 +46,7 @@ private:
 
     const Bytecode& bytecode_;
     const Word& word_;
-    std::vector<std::uint64_t> parameters_before_; // of each kStride-th module
+    std::vector<std::uint64_t> parameters_before_; // parameters before each kStride-th module
 };
 
 } // namespace lsys

@@ -11,7 +11,7 @@ namespace {
 constexpr std::string_view kDigits =
     "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
 
-/// The two digits of each value of twelve bits.
+/// The two digits of each 12-bit value.
 constexpr std::array<std::array<char, 2>, 4096> kPairs = [] {
     std::array<std::array<char, 2>, 4096> pairs{};
     for (std::size_t i = 0; i < pairs.size(); ++i) {
@@ -32,13 +32,13 @@ char* put_group(char* at, const std::byte* bytes) {
 } // namespace
 
 void Base64Writer::put(std::span<const std::byte> bytes) {
-    while (rest_size_ != 0 && rest_size_ < 3 && !bytes.empty()) {
-        rest_[rest_size_++] = bytes.front();
+    while (pending_size_ != 0 && pending_size_ < 3 && !bytes.empty()) {
+        pending_[pending_size_++] = bytes.front();
         bytes = bytes.subspan(1);
     }
-    if (rest_size_ == 3) {
-        out_.used(put_group(out_.room(4), rest_.data()));
-        rest_size_ = 0;
+    if (pending_size_ == 3) {
+        out_.used(put_group(out_.room(4), pending_.data()));
+        pending_size_ = 0;
     }
     constexpr std::size_t kGroups = 4096;
     while (bytes.size() >= 3 && !out_.stopped()) {
@@ -52,20 +52,20 @@ void Base64Writer::put(std::span<const std::byte> bytes) {
     }
     if (bytes.size() < 3) {
         for (const std::byte byte : bytes) {
-            rest_[rest_size_++] = byte;
+            pending_[pending_size_++] = byte;
         }
     }
 }
 
 void Base64Writer::finish() {
-    if (rest_size_ != 0) {
-        std::fill(rest_.begin() + static_cast<std::ptrdiff_t>(rest_size_), rest_.end(),
+    if (pending_size_ != 0) {
+        std::fill(pending_.begin() + static_cast<std::ptrdiff_t>(pending_size_), pending_.end(),
                   std::byte{0});
         char* const at = out_.room(4);
-        put_group(at, rest_.data());
-        std::fill(at + rest_size_ + 1, at + 4, '=');
+        put_group(at, pending_.data());
+        std::fill(at + pending_size_ + 1, at + 4, '=');
         out_.used(at + 4);
-        rest_size_ = 0;
+        pending_size_ = 0;
     }
 }
 

@@ -18,8 +18,8 @@ public:
 
 private:
     PieceWriter& out_;
-    std::array<std::byte, 3> rest_{}; // bytes of an incomplete group
-    std::size_t rest_size_ = 0;
+    std::array<std::byte, 3> pending_{}; // bytes of an incomplete group
+    std::size_t pending_size_ = 0;
 };
 
 } // namespace lsys

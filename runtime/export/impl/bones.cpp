@@ -16,8 +16,9 @@ namespace lsys {
 
 namespace {
 
-constexpr double kPlaceTolerance = 1e-5; // error that needs no joint, relative to the plant's size
-// Max error of positions due to a left-out key, relative to the max displacement of a tip in the
+// Max error of positions that needs no further joint, relative to the size of the plant.
+constexpr double kPlaceTolerance = 1e-5;
+// Max error of positions due to an omitted key, relative to the max displacement of a tip in the
 // clip.
 constexpr double kKeyTolerance = 2e-3;
 constexpr double kMaxKeyAngle = 0.01;     // rad
@@ -136,7 +137,8 @@ private:
         return glm::dvec3(place.base + plant_.segments[segment].length * heading(place.frame));
     }
 
-    /// Max distance over all frames between the tip of a segment and the tip moved rigidly with `root`.
+    /// Max distance in the sampled frames between the tip of a segment and the tip moved rigidly
+    /// with `root`.
     [[nodiscard]] double error(std::uint32_t root, std::uint32_t segment) const {
         const glm::dvec3 at_start = tip(segment, start_);
         double max_error = 0.0;
@@ -279,8 +281,8 @@ glm::dquat fitted(const glm::dquat& start,
     return turn;
 }
 
-/// Frames that need keys, so that rotations interpolated between keys are off by at max_error the angle
-/// whose half has the sine `half_sine`. Empty: the rotation never changes.
+/// Frames that need keys, so that interpolated rotations deviate by at most the angle whose half
+/// has the sine `half_sine`. Empty: all rotations are that near to the first.
 std::vector<std::uint32_t> keys_of(std::span<const glm::quat> rotations, double half_sine) {
     const auto is_near = [half_sine](const glm::dquat& a, const glm::dquat& b) {
         const glm::dquat turn = glm::conjugate(a) * b;
@@ -384,7 +386,8 @@ private:
         return moves_[std::size_t{joint} * animation_.frame_count + frame];
     }
 
-    /// Turns a joint in each frame so that its piece and its child joints are nearest to their places.
+    /// Rotates a joint in each frame so that its piece and its child joints are nearest to their
+    /// places.
     void fit(std::uint32_t joint) {
         Bone& bone = bones_.joints[joint];
         const std::vector<FitPoint>& points = points_[joint];
@@ -477,7 +480,7 @@ public:
     }
 
 private:
-    /// The axis of a piece: from its first segment on, always the thickest child.
+    /// The axis of a piece: its first segment, then always the thickest child.
     struct Axis {
         double length = 0.0;
         std::uint32_t next = kNoBone;     // joint of the next piece along the axis

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Bones: a skeleton of few joints that approximates the motion of all segments of a plant. The tree
 // of segments is cut into connected pieces. Each piece has one joint at its base, a child of the
-// joint of the piece that it grows from. Joints turn and do not shift, so that pieces stay joined
-// and an animator can pose them. Weights change linearly between the middles of pieces (linear blend
-// skinning with smooth weights).
+// joint of the piece that it grows from. Joints rotate and do not translate, so that pieces stay
+// joined and an animator can pose them. Weights change linearly between the middles of pieces
+// (linear blend skinning with smooth weights).
 #pragma once
 
 #include "runtime/meshing/mesh.h"

@@ -17,7 +17,7 @@ namespace lsys {
 
 namespace {
 
-constexpr std::size_t kSides = 8; // of a cross-section
+constexpr std::size_t kSides = 8; // corners of a cross-section
 /// Max distance of joints from the chord of a piece: the larger of kBendRadii times its thinnest
 /// radius and kBendSize times the extent of the plant.
 constexpr float kBendRadii = 1.0F;
@@ -39,8 +39,8 @@ float mean_radius(const Segment& segment) {
     return 0.5F * (segment.base_radius + segment.tip_radius);
 }
 
-/// For each segment the next segment of its bough: the linked child that is thickest, then in fewest
-/// brackets, then longest, then first.
+/// For each segment the next segment of its bough: the thickest linked child; among equals the one
+/// in the fewest brackets, then the longest, then the first.
 std::vector<std::uint32_t> find_next(const Skeleton& skeleton) {
     const auto& segments = skeleton.segments;
     std::vector<std::uint32_t> next(segments.size(), kNoSegment);
@@ -101,11 +101,11 @@ private:
             std::size_t count = 1;
             std::size_t step = 1;
             bool growing = true;
-            // Steps double while the run fits, then halve (galloping search), so that is_even() is
-            // called a logarithmic number of times per run.
+            // Steps double while the run fits, then halve (galloping search), so that
+            // fits_one_piece() is called a logarithmic number of times per run.
             while (step > 0) {
-                const bool fits =
-                    first + count + step <= axis.size() && is_even(axis, first, count + step);
+                const bool fits = first + count + step <= axis.size() &&
+                                  fits_one_piece(axis, first, count + step);
                 count += fits ? step : 0;
                 growing = growing && fits;
                 step = growing ? 2 * step : step / 2;
@@ -115,8 +115,10 @@ private:
         }
     }
 
-    [[nodiscard]] bool
-    is_even(const std::vector<std::uint32_t>& axis, std::size_t first, std::size_t count) const {
+    /// Whether the segments are nearly straight and about equally thick.
+    [[nodiscard]] bool fits_one_piece(const std::vector<std::uint32_t>& axis,
+                                      std::size_t first,
+                                      std::size_t count) const {
         const glm::vec3 from = segments_[axis[first]].base;
         const glm::vec3 chord = tip(segments_[axis[first + count - 1]]) - from;
         const float length = glm::length(chord);

@@ -25,7 +25,7 @@ struct CollisionShape {
     std::vector<std::array<std::uint32_t, 3>> triangles; // counter-clockwise from outside
 };
 
-/// A run of segments, each the child of the one before, which is nearly straight and equally thick.
+/// A nearly straight run of about equally thick segments, each the child of the one before.
 struct BoughPiece {
     std::vector<std::uint32_t> segments;
     glm::vec3 from{}; // ends of its chord
@@ -34,9 +34,9 @@ struct BoughPiece {
     double area = 0.0;   // 2 * radius * length: the area seen from the side
 };
 
-/// The pieces of trunk and boughs, by descending area: as many as have nine tenths of the area of
-/// all, but at least 10, if there are as many, and at most kMaxCollisionShapes. The trunk and each
-/// bough continue in the thickest segment that begins at their end.
+/// The largest pieces of trunk and boughs, by descending area: enough for nine tenths of the area
+/// of all pieces, but at least 10 if the plant has them, and at most kMaxCollisionShapes. The trunk
+/// and each bough continue in the thickest segment that begins at their end.
 [[nodiscard]] std::vector<BoughPiece> find_boughs(const Skeleton& skeleton);
 
 /// The shapes of find_boughs(). `info`: kind of shapes and of names, and name of the plant.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Incremental hull (Preparata and Hong 1977; de Berg et al., "Computational Geometry", chapter 11):
 // a point outside replaces the triangles that face it by a fan to their outer edge, the horizon.
-// The points have whole coordinates of at most 20 bits, so that six times the volume of a
+// The points have integer coordinates of at most 20 bits, so that six times the volume of a
 // tetrahedron fits into 64 bits.
 #include "runtime/export/impl/convex_hull.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Outcomes of exports that write no file, and their messages.
+// Outcomes of exports, and the messages of those that write no file.
 #pragma once
 
 #include "grammar/base/outcome.h"
@@ -17,7 +17,7 @@ namespace lsys {
 [[nodiscard]] Messages messages_of(std::string error);
 Outcome<void> nothing_to_draw(ExportSubject subject);
 Outcome<void> too_large_for_format(ExportSubject subject);
-/// Limit: a skin of more than kMaxJoints.
+/// Limit: a skin of more than kMaxJoints joints.
 Outcome<void> too_many_joints();
 /// Success, or Cancelled if the sink has stopped.
 Outcome<void> finish(PieceWriter& out);

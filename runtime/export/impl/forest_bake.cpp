@@ -213,11 +213,11 @@ private:
     Mesh mesh_;
     ForestPlan plan_;
     ForestMaterials materials_;
-    std::vector<InstanceVertices> instance_vertices_; // of each stage
-    std::vector<std::size_t> first_stage_;            // of each species
+    std::vector<InstanceVertices> instance_vertices_; // by stage
+    std::vector<std::size_t> first_stage_;            // by species
     std::size_t stage_count_ = 0;
     std::vector<Share> shares_;
-    LargeVector<std::uint32_t> indices_;           // of the mesh, which takes them when complete
+    LargeVector<std::uint32_t> indices_;           // moved into mesh_ when complete
     std::vector<std::uint64_t> next_ground_index_; // by material
     bool textured_ = true;
     bool tangents_ = true;

@@ -15,8 +15,9 @@ namespace {
 constexpr int kArrayBuffer = 34962;
 constexpr int kElementArrayBuffer = 34963;
 
-/// The view, in buffer 0, of an array of several slices, for which glTF requires a stride. The view
-/// of a compressed array is in buffer 1, which holds decoded items.
+/// The view of an array: in buffer 0, or for a compressed array in buffer 1, which holds decoded
+/// items. Vertices have a stride, which glTF requires because the accessors of slices share the
+/// view.
 void put_array_view(JsonWriter& json, const ForestView& view) {
     const bool is_indices = view.array == GltfArray::Indices;
     const bool compressed = !view.compressed.empty();

@@ -47,8 +47,8 @@ struct ForestBlock {
     std::vector<ForestView> attributes;
     ForestView wide_indices;    // 32 bits; no view without items
     ForestView narrow_indices;  // 16 bits; no view without items
-    std::size_t first_view = 0; // of the attributes; then wide, narrow indices
-    bool coloured = false;      // vertices have colours of their own
+    std::size_t first_view = 0; // of the attributes; wide, then narrow indices follow
+    bool coloured = false;      // has vertex colours
 };
 
 /// Arrays of a stage of a species, or of the ground.

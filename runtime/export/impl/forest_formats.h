@@ -25,7 +25,8 @@ Outcome<void> write_forest_glb(const ForestExportJob& job, PieceWriter& out);
 Outcome<void> write_forest_usda(const ForestExportJob& job, PieceWriter& out);
 Outcome<void> write_forest_usdz(const ForestExportJob& job, PieceWriter& out);
 
-/// Bytes of the transforms of a group: all translations, then all rotations, then all scales.
+/// Bytes per instance in the transforms of a group: all translations, then all rotations, then all
+/// scales.
 inline constexpr std::uint64_t kTranslationBytes = 12;
 inline constexpr std::uint64_t kRotationBytes = 16;
 inline constexpr std::uint64_t kScaleBytes = 12;
@@ -36,7 +37,7 @@ struct ItemGrid {
     glm::vec3 low{0.0F};
     float step = 1.0F;
 };
-/// The pose for the quantised items of a surface that equals `pose` for its positions.
+/// The pose that takes the quantised items of a surface to where `pose` takes its positions.
 [[nodiscard]] InstancePose pose_of_items(const InstancePose& pose, const ItemGrid& grid);
 
 /// Gives the transforms of all groups to `write`, in order, until it returns false. `grids`: by
@@ -46,9 +47,9 @@ void write_transforms(const ForestPlan& plan,
                       const ForestExportInfo& info,
                       const std::function<bool(std::span<const std::byte>)>& write);
 
-/// Calls visit(groups, floats) for runs of consecutive groups of one or more cells, in order: as
-/// many as fit into ForestExportInfo::window_bytes, at least one. `floats`: the transforms of these
-/// groups as write_transforms() writes them.
+/// Calls visit(groups, floats) for runs of consecutive groups of one or more cells, in order. A run
+/// has as many groups as fit into ForestExportInfo::window_bytes, at least one. `floats`: the
+/// transforms of these groups as write_transforms() writes them.
 void for_each_transform_window(
     const ForestPlan& plan,
     std::span<const ItemGrid> grids,

@@ -180,7 +180,7 @@ void ForestDocument::plan_texture_forms() {
     }
     for (std::size_t i = 0; i < ranges.size(); ++i) {
         const MaterialPictures& shown = pictures_.of_materials[i];
-        if ((shown.colour || shown.relief) && ranges[i].low.x <= ranges[i].high.x) {
+        if ((shown.colour || shown.normal_map) && ranges[i].low.x <= ranges[i].high.x) {
             texture_forms_[i] = texture_form_of(info_.compression, ranges[i].low, ranges[i].high);
         }
     }
@@ -204,11 +204,11 @@ void ForestDocument::add_views(ForestSurface& surface) {
         add(GltfArray::Positions);
         add(GltfArray::Normals);
         if (is_complete(mesh, mesh.texture_coordinates) &&
-            (shown.colour || shown.relief || !to.form.quantized())) {
+            (shown.colour || shown.normal_map || !to.form.quantized())) {
             add(GltfArray::TextureCoordinates);
         }
         // Only normal maps need tangents.
-        if (is_complete(mesh, mesh.tangents) && shown.relief) {
+        if (is_complete(mesh, mesh.tangents) && shown.normal_map) {
             add(GltfArray::Tangents);
         }
         if (to.coloured) {
@@ -258,7 +258,8 @@ void read_indices(const ForestSurface& surface,
     }
 }
 
-/// Calls visit(indices) for the parts of one material whose slices are wide, or for all others.
+/// Calls visit(indices) for the parts of one material whose slices are wide, or for its other
+/// parts.
 template <typename Visit>
 void for_each_part(const ForestSurface& surface,
                    std::size_t material,

@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::int32_t kMaxMantissa = (1 << 23) - 1;
 constexpr int kScaleBits = 16;
-constexpr int kMaxExponent = 100; // of the filter's items, either sign
+constexpr int kMaxExponent = 100; // max absolute exponent of the filter's items
 
 template <typename T>
 void append(std::string& items, const T& value) {
@@ -45,8 +45,8 @@ std::uint32_t exponential_item(float value, int exponent) {
 }
 
 /// An item of the filter QUATERNION: the largest component is made positive and left out, the
-/// others are fractions of the root of a half; the two lowest bits of the last number hold the
-/// index of the largest component.
+/// others are fractions of sqrt(1/2); the two lowest bits of the last number hold the index of the
+/// largest component.
 std::array<std::int16_t, 4> quaternion_item(std::span<const float> quaternion) {
     constexpr double kSteps = 32767.0;
     std::size_t largest = 0;

@@ -192,7 +192,8 @@ InstanceVertices number_vertices(const ExportedStage& stage, const ForestPlan& p
     InstanceVertices instance_vertices;
     const LargeVector<std::uint32_t> indices = mesh.indices.expanded();
     instance_vertices.indices.resize(indices.size());
-    // For each vertex the last instance that uses it, and the number of the vertex in this instance.
+    // For each vertex the last instance that uses it, and the number of the vertex in this
+    // instance.
     std::vector<std::uint32_t> last_user(mesh.positions.size(), kNone);
     std::vector<std::uint32_t> numbers(mesh.positions.size());
     for (std::uint32_t i = 0; i < stage.cache->instances.size(); ++i) {

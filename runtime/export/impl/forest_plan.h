@@ -98,7 +98,7 @@ private:
 
     const ForestScene& scene_;
     std::vector<ExportedStage> stages_;
-    std::vector<std::uint32_t> first_stage_;   // of each species
+    std::vector<std::uint32_t> first_stage_;   // by species
     LargeVector<std::uint32_t> tree_of_place_; // empty: the order of the forest
     std::vector<ForestCell> cells_;
     std::vector<ForestPiece> pieces_;
@@ -123,8 +123,8 @@ void ForestPlan::for_each_branch_of(std::uint64_t first,
     }
 }
 
-/// Distinct materials of a scene, and the numbers among these for each material of the stages and
-/// of the ground.
+/// Distinct materials of a scene, and the number among them of each material of the stages and of
+/// the ground.
 struct ForestMaterials {
     Mesh samples; // of material_samples.h: a part for each material
     std::vector<std::vector<std::uint32_t>> of_stages;
@@ -135,8 +135,8 @@ struct ForestMaterials {
 
 /// Vertices of each used instance, numbered from 0 within the instance.
 struct InstanceVertices {
-    std::vector<std::uint64_t> first;    // of each instance, in `vertices`; one more at the end
-    LargeVector<std::uint32_t> vertices; // of the mesh
+    std::vector<std::uint64_t> first;    // index in `vertices`, by instance; then its size
+    LargeVector<std::uint32_t> vertices; // indices in the mesh
     LargeVector<std::uint32_t>
         indices; // parallel to the indices of the mesh, numbered within the instance
 

@@ -47,7 +47,7 @@ std::vector<std::uint32_t> find_parents(const ExportedStage& stage, const Forest
     return parents;
 }
 
-/// Numbers the vertices of the parts of one material.
+/// Makes a SlicedMesh, material by material and list by list.
 class Slicer {
 public:
     Slicer(const Mesh& mesh, std::span<const PartList> lists)
@@ -109,8 +109,10 @@ private:
     const Mesh& mesh_;
     std::span<const PartList> lists_;
     LargeVector<std::uint32_t> indices_;
-    std::vector<std::uint64_t> begins_; // first place of each list in the block
-    /// Per vertex of the mesh: one more than the place of its last copy; 0: none.
+    /// By list: index in SlicedMesh::vertices of its first vertex of the current material.
+    std::vector<std::uint64_t> begins_;
+    /// By vertex of the mesh: one more than the index of its last copy in SlicedMesh::vertices; 0:
+    /// none.
     LargeVector<std::uint64_t> numbers_;
     SlicedMesh result_;
 };
@@ -134,8 +136,8 @@ std::vector<PartList> nested_lists(const ExportedStage& stage, const ForestPlan&
     std::vector<PartList> lists;
     struct Entered {
         std::uint32_t instance;
-        std::uint32_t child;      // the next one to enter
-        std::size_t first_nested; // number of the next list when it was entered
+        std::uint32_t child;      // the next child to enter
+        std::size_t first_nested; // number of the next list when `instance` was entered
     };
     std::vector<Entered> path{{count, first_child[count], 0}};
     while (!path.empty()) {

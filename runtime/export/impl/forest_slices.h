@@ -27,8 +27,9 @@ struct PartList {
     std::size_t first_nested = 0;
 };
 
-/// The used instances of a stage, each after the instances nested in it. The triangles of a nested
-/// list are among the triangles of the enclosing list; lists that are not nested share no triangles.
+/// The lists of the used instances of a stage, each after the lists nested in it. The triangles of
+/// a nested list are among the triangles of the enclosing list; lists that are not nested share no
+/// triangles.
 [[nodiscard]] std::vector<PartList> nested_lists(const ExportedStage& stage,
                                                  const ForestPlan& plan);
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Transforms in the order of a file: cell by cell, group by group. One pass over the trees fills a
-// window of consecutive groups; the pieces of their cells are distributed to threads. A group larger
-// than the window is written without a window, by one pass for each of its three arrays.
+// window of consecutive groups; the pieces of their cells are distributed to threads. A group
+// larger than the window is written without a window, by one pass for each of its three arrays.
 #include "runtime/base/workers.h"
 #include "runtime/export/impl/forest_formats.h"
 
@@ -44,7 +44,8 @@ public:
     }
 
 private:
-    /// Calls visit(cell of the first group, its number, groups) for each window.
+    /// Calls visit(cell, first, groups) for each window. `first`: number of its first group;
+    /// `cell`: number of the cell of this group.
     template <typename Visitor>
     void for_each_window(const Visitor& visit) {
         std::size_t cell = 0;
@@ -73,7 +74,7 @@ private:
         return groups.first(count);
     }
 
-    /// Computes the transforms of `groups`. `first`: number of the first group; `cell`: its cell.
+    /// Computes the transforms of `groups`. `first` and `cell`: as in for_each_window().
     void fill_window(std::size_t cell, std::size_t first, std::span<const ForestGroup> groups) {
         const std::size_t end = first + groups.size();
         std::vector<std::pair<const ForestCell*, const ForestPiece*>> pieces;
@@ -92,8 +93,8 @@ private:
     }
 
     /// Puts the instances of a piece that are in `groups`, all of one cell, into the window that
-    /// begins with instance `window`.
-    void fill(std::span<const ForestGroup> groups, const ForestPiece& piece, std::uint64_t window) {
+    /// begins with instance `begin`.
+    void fill(std::span<const ForestGroup> groups, const ForestPiece& piece, std::uint64_t begin) {
         struct Place {
             float* base = nullptr; // of the group; null: outside of the window
             std::uint64_t count = 0;
@@ -106,8 +107,8 @@ private:
                 ++group;
             }
             if (group != groups.end() && group->instance == instance) {
-                places[instance] = {floats_.data() + kFloats * (group->first - window),
-                                    group->count, before};
+                places[instance] = {floats_.data() + kFloats * (group->first - begin), group->count,
+                                    before};
             }
         }
         plan_.for_each_branch(piece, [&](const ExportedStage& stage, std::uint32_t instance,
@@ -171,7 +172,7 @@ private:
 
     const ForestPlan& plan_;
     std::span<const ItemGrid> grids_;
-    std::uint64_t window_; // instances
+    std::uint64_t window_; // max count of instances
     Workers workers_;
     LargeVector<float> floats_; // of the window
     bool stopped_ = false;

@@ -119,7 +119,7 @@ private:
         }
         out_->put("]\n");
         const InstanceVertices own = number_vertices(stage, plan_);
-        std::vector<float> sizes; // of the prototypes
+        std::vector<float> sizes; // m, of the prototypes
         for (const std::uint32_t i : used) {
             Bounds bounds;
             for (const std::uint32_t vertex : own.of(i)) {
@@ -157,9 +157,9 @@ private:
         out_->put("        }\n    }\n");
     }
 
-    /// Writes each part of the transforms as an array of its own, by one pass over the trees; no
-    /// scales if all are 1, because the time to read text grows with its size. `place_digits`:
-    /// digits behind the point of positions.
+    /// Writes the prototypes and transforms of all instances, each array by a pass over the trees.
+    /// Scales are left out if all are 1, because the time to read text grows with its size.
+    /// `place_digits`: decimals of positions.
     void put_branches(const ExportedStage& stage, int place_digits) {
         bool scaled = false;
         put_array("int[] protoIndices", stage, [&](const BranchInstance& branch, char* at) {
@@ -182,7 +182,7 @@ private:
             return;
         }
         put_array("float3[] scales", stage, [](const BranchInstance& branch, char* at) {
-            // Six significant digits: an error of at most 5 millionths.
+            // Six significant digits: a relative error of at most 5 millionths.
             const char* const end = fmt::format_to(at + 1, FMT_COMPILE("{:.6g}"), branch.scale);
             const std::string_view digits(at + 1, static_cast<std::size_t>(end - at - 1));
             *at = '(';
@@ -217,7 +217,7 @@ private:
     const ForestScene& scene_;
     const ForestPlan& plan_;
     const ForestExportInfo& info_;
-    PieceWriter* out_ = nullptr; // of write()
+    PieceWriter* out_ = nullptr; // set by write()
     ForestMaterials materials_;
     std::vector<std::string> names_;        // of materials
     std::vector<std::uint32_t> prototypes_; // of each instance: its number among the used instances
@@ -256,7 +256,8 @@ Outcome<void> write_forest_usdz(const ForestExportJob& job, PieceWriter& out) {
     return write_usdz_archive(
         {ExportSubject::Forest, "forest.usda",
          [&forest](PieceWriter& layer) { forest.write(layer); },
-         find_pictures(forest.material_samples(), ExportPictures::FilesWithRelief, pictures).list,
+         find_pictures(forest.material_samples(), ExportPictures::FilesWithNormalMaps, pictures)
+             .list,
          info.threads},
         out);
 }

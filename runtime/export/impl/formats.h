@@ -19,7 +19,8 @@ struct ExportJob {
     const ExportInfo& info;
 };
 
-// Stops: Cancelled; glTF: Failed for a buffer or GLB of 4 GiB, Limit for too many joints.
+// Stops: Cancelled; Failed for a glTF buffer, GLB or USDZ of 4 GiB or more; Limit for a skin of
+// more than kMaxJoints joints.
 #define LSYS_EXPORT_FORMAT(enumerator, function, ...)                                              \
     Outcome<void> function(const ExportJob& job, PieceWriter& out);
 #include "runtime/export/formats.def"
@@ -34,9 +35,9 @@ struct ExportJob {
     return up == UpAxis::Z ? "+Z up" : "+Y up";
 }
 
-/// Triangles of all parts.
+/// Count of the triangles of all parts.
 [[nodiscard]] std::uint64_t triangle_count(const Mesh& mesh);
-/// Whether an optional array is present: one item for each vertex.
+/// Whether an optional array is present and has one item for each vertex.
 template <typename Items>
 [[nodiscard]] bool is_complete(const Mesh& mesh, const Items& items) {
     return items.size() == mesh.positions.size();

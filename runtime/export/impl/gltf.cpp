@@ -96,7 +96,7 @@ private:
         }
     }
 
-    /// Whether a node of its own decodes quantised positions. In a skin the joints decode them.
+    /// Whether a separate node decodes quantised positions. In a skin the joints decode them.
     [[nodiscard]] bool has_decoding_node() const {
         return streams_.forms.front().quantized() && motion_ == nullptr;
     }
@@ -155,12 +155,12 @@ private:
         json_.end();
     }
 
-    /// Number of meshes without those of collision shapes.
+    /// Number of meshes, not counting collision shapes.
     [[nodiscard]] std::size_t mesh_count() const {
         return film_ != nullptr ? drawn_shapes(*film_).size() : 1;
     }
 
-    /// The children of the node of the plant: the shapes of a film or the node that decodes, then the
+    /// The children of the node of the plant: the shapes of a film or the decoding node, then the
     /// collision shapes, which are the last nodes.
     void put_children() {
         std::size_t shape_count = has_decoding_node() ? 1 : 0;
@@ -179,7 +179,7 @@ private:
         json_.end();
     }
 
-    /// The streams of the primitives of a shape begin at `first`; returns their end.
+    /// Returns the end of the streams of the shape whose streams begin at `first`.
     [[nodiscard]] std::size_t end_of_shape(std::size_t first) const {
         const auto shape_of = [this](std::size_t i) {
             return streams_.primitives.list[streams_.list[i].item].shape;
@@ -225,7 +225,8 @@ private:
         }
     }
 
-    /// Writes the primitives of streams `first` to `end`. Accessors are numbered as streams are.
+    /// Writes the primitives of streams `first` to `end`. Each accessor has the number of its
+    /// stream.
     void put_primitives(std::size_t first, std::size_t end) {
         for (std::size_t i = first; i < end; ++i) {
             const GltfStream& stream = streams_.list[i];
@@ -242,7 +243,7 @@ private:
                 continue;
             }
             if (i > first && streams_.list[i - 1].array == GltfArray::NormalChanges) {
-                json_.end(); // of the targets
+                json_.end(); // targets
             }
             json_.end().member("indices", i);
             json_.member("material", materials_[stream.item]).end();
@@ -269,7 +270,7 @@ private:
         json_.end();
     }
 
-    /// Returns the number of accessors before those of the motion.
+    /// Returns the number of the first accessor of the motion or film.
     std::size_t put_accessors() {
         json_.array("accessors");
         for (std::size_t i = 0; i < streams_.first_motion; ++i) {
@@ -304,8 +305,8 @@ Outcome<Contents> refused(Outcome<void> refusal) {
 Outcome<Contents> plan(const ExportJob& job) {
     const ExportInfo& info = job.info;
     Contents contents;
-    // A quick check with the min size of a vertex, before the vertices are visited: most or all of
-    // them are in the file.
+    // A quick check with the min size of a vertex, before the vertices are visited: the file holds
+    // most or all of them.
     const std::uint64_t vertex_bytes = info.compression == ExportCompression::None       ? 24
                                        : info.compression == ExportCompression::Quantize ? 12
                                                                                          : 0;

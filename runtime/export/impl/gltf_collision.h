@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Collision shapes in a glTF file: each has a mesh and a node, which is a child of the node of the
-// plant. Their arrays are two buffer views at the end of the buffer.
+// Collision shapes in a glTF file: each shape is a mesh and a node, a child of the node of the
+// plant. The arrays of all shapes are two buffer views at the end of the buffer.
 #pragma once
 
 #include "runtime/export/impl/collision.h"
@@ -23,8 +23,8 @@ struct GltfCollision {
     [[nodiscard]] std::uint64_t byte_count() const;
 };
 
-// Each function writes items of one array of the document. `first_...`: the number of the first mesh,
-// accessor or view that the items refer to.
+// Each function writes items of one array of the document. `first_...`: the number of the first
+// mesh, accessor or view that the items refer to.
 void put_collision_nodes(JsonWriter& json, const GltfCollision& collision, std::size_t first_mesh);
 void put_collision_meshes(JsonWriter& json,
                           const GltfCollision& collision,

@@ -39,9 +39,9 @@ enum class GltfArray : std::uint8_t {
 [[nodiscard]] inline bool is_unit(const glm::vec3& v) {
     return std::abs(glm::dot(v, v) - 1.0F) < 1e-3F;
 }
-/// The unit vector of a direction; an axis if it has no length.
+/// The unit vector of a direction; +Y if it has no length.
 [[nodiscard]] glm::vec3 unit_normal(const glm::vec3& normal);
-/// Like unit_normal(); w is 1 or -1.
+/// Like unit_normal(), but +X for a direction without length; w is 1 or -1.
 [[nodiscard]] glm::vec4 unit_tangent(const glm::vec4& tangent);
 
 /// The normal itself if it has unit length, else unit_normal(). Inline, because nearly all normals

@@ -35,8 +35,8 @@ void put_film_nodes(JsonWriter& json, const MeshFilm& film);
 /// left out. The views of times, scales and weights are consecutive from `first_view` on; empty
 /// views are left out.
 void put_film_accessors(JsonWriter& json, const MeshFilm& film, std::size_t first_view);
-/// The member `animations`. `first_node`: of put_film_nodes(); `accessor`: the first of
-/// put_film_accessors().
+/// The member `animations`. `first_node`: number of the first node of put_film_nodes(); `accessor`:
+/// number of the first accessor of put_film_accessors().
 void put_film_animation(JsonWriter& json,
                         const MeshFilm& film,
                         std::size_t first_node,

@@ -22,7 +22,7 @@ namespace {
 constexpr unsigned kPositionBits = 16;
 constexpr unsigned kCompressedPositionBits = 14;
 // Bits of a texture coordinate: the fewest that keep a step within half a texel of the built-in
-// textures, which are 256 texels wide. Floats are used if 16 bits leave steps of more than 4 texels.
+// textures, which are 256 texels wide. Floats are used if 16 bits leave steps of over 4 texels.
 constexpr unsigned kMinTextureBits = 12;
 constexpr unsigned kMaxTextureBits = 16;
 constexpr float kMaxTextureStep = 1.0F / 512.0F;
@@ -56,7 +56,8 @@ unsigned position_bits(ExportCompression compression) {
     return compression == ExportCompression::Meshopt ? kCompressedPositionBits : kPositionBits;
 }
 
-/// Quantises positions. In double, because floats round both the difference and the quotient.
+/// Quantises positions. Computes in double, because floats round both the difference and the
+/// quotient.
 class PositionSteps {
 public:
     explicit PositionSteps(const GltfForm& form)
@@ -72,7 +73,7 @@ public:
 
 private:
     glm::dvec3 low_;
-    double steps_; // in a unit of length
+    double steps_; // per unit of length
     glm::dvec3 max_step_;
 };
 
@@ -121,9 +122,9 @@ void write_colours(const Mesh& mesh,
     });
 }
 
-/// Selects the codec versions of EXT_meshopt_compression, once, because meshoptimizer stores them in
-/// global variables.
-void set_versions() {
+/// Selects the codec versions of EXT_meshopt_compression; only once, because meshoptimizer stores
+/// them in global variables.
+void set_codec_versions() {
     static const bool set = [] {
         meshopt_encodeVertexVersion(0);
         meshopt_encodeIndexVersion(1);
@@ -315,7 +316,7 @@ void write_wind_items(const Mesh& mesh,
 
 GltfBuffer compress_items(std::span<const std::byte> items, std::uint32_t stride) {
     const std::size_t count = items.size() / stride;
-    set_versions();
+    set_codec_versions();
     GltfBuffer bytes(meshopt_encodeVertexBufferBound(count, stride));
     bytes.resize(meshopt_encodeVertexBuffer(reinterpret_cast<unsigned char*>(bytes.data()),
                                             bytes.size(), items.data(), count, stride));
@@ -323,7 +324,7 @@ GltfBuffer compress_items(std::span<const std::byte> items, std::uint32_t stride
 }
 
 GltfBuffer compress_indices(std::span<const std::uint32_t> indices, std::uint64_t vertices) {
-    set_versions();
+    set_codec_versions();
     GltfBuffer bytes(meshopt_encodeIndexBufferBound(indices.size(), vertices));
     bytes.resize(meshopt_encodeIndexBuffer(reinterpret_cast<unsigned char*>(bytes.data()),
                                            bytes.size(), indices.data(), indices.size()));

@@ -25,7 +25,7 @@ namespace lsys {
 
 // Component types of accessors.
 inline constexpr int kGltfSignedByte = 5120;
-inline constexpr int kGltfByte = 5121; // names without Signed: unsigned
+inline constexpr int kGltfByte = 5121; // unsigned, like all names without Signed
 inline constexpr int kGltfSignedShort = 5122;
 inline constexpr int kGltfShort = 5123;
 inline constexpr int kGltfInteger = 5125;
@@ -49,15 +49,16 @@ struct GltfTextureForm {
     glm::vec2 low{0.0F};                           // coordinates whose item is 0
     glm::vec2 extent{1.0F};
 };
-/// The form of quantised coordinates from `low` to `high`: floats if 16 bits are too few. Coordinates
-/// within 0 to 1 need no transform, but compress better with a transform.
+/// The form of quantised coordinates from `low` to `high`: floats if 16 bits are too few.
+/// Coordinates within 0 to 1 need no transform, but compress better with a transform.
 [[nodiscard]] GltfTextureForm
 texture_form_of(ExportCompression compression, const glm::vec2& low, const glm::vec2& high);
 
 /// The form of the arrays of vertices.
 struct GltfForm {
     ExportCompression compression = ExportCompression::None;
-    /// Positions are `low + step * item`; step 0: items are float positions, even in quantised files.
+    /// Positions are `low + step * item`; step 0: items are float positions, even in quantised
+    /// files.
     glm::vec3 low{0.0F};
     float step = 0.0F;
     /// TEXCOORD_1 is a multiple of this; 0: not rounded.

@@ -19,8 +19,8 @@ inline constexpr const char* kMeshopt = "EXT_meshopt_compression";
 /// Takes the array `list` out of `document`; empty if there is none.
 [[nodiscard]] GltfJson take_list(GltfJson& document, const char* list);
 [[nodiscard]] std::size_t count_of(const GltfJson& document, const char* list);
-/// The part of `view` with its place in a stored buffer: its extension EXT_meshopt_compression, or the
-/// view itself.
+/// The object that states the place of a view in a stored buffer: its extension
+/// EXT_meshopt_compression, or the view itself.
 [[nodiscard]] GltfJson& stored_part(GltfJson& view);
 
 /// New numbers of items, by their numbers in the document that they come from.

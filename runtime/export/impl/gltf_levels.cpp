@@ -86,7 +86,7 @@ public:
             if (node.contains("name")) {
                 node["name"] = level_name(node["name"], level);
             }
-            node.erase("extras"); // equal to those of level 0
+            node.erase("extras"); // equal to the extras of level 0
             if (node.contains("mesh")) {
                 node["mesh"] = node["mesh"].get<std::size_t>() + meshes;
             }
@@ -208,7 +208,7 @@ Outcome<void> write_gltf_levels(const ExportJob& job, bool binary, PieceWriter& 
         return written;
     }
     JoinedFile joined(parse_glb(bytes));
-    info.collision = CollisionKind::None; // level 0 has it
+    info.collision = CollisionKind::None; // level 0 has the collision shapes
     Json ids = Json::array();
     Json coverages = Json::array();
     for (std::size_t i = 0; i < coarser.size(); ++i) {
@@ -218,8 +218,8 @@ Outcome<void> write_gltf_levels(const ExportJob& job, bool binary, PieceWriter& 
             return written;
         }
         ids.push_back(joined.add(parse_glb(bytes), i + 1));
-        // Each level is shown down to the coverage at which the next level begins; the last level is
-        // always shown.
+        // Each level is shown down to the coverage at which the next level begins; the last level,
+        // at any lower coverage.
         coverages.push_back(coarser[i].coverage);
     }
     coverages.push_back(0);

@@ -27,8 +27,8 @@ Influence influence_of(const VertexSegments& segments, const Skin& skin) {
     return first == second ? Influence{{first}, {255}} : Influence{{first, second}, {128, 127}};
 }
 
-/// Weights as bytes that add up to 255: rounded down, and the rest added to the weights that lost
-/// most by rounding.
+/// Weights as bytes that add up to 255: rounded down, and the remainder added to the weights that
+/// lost most by rounding.
 Influence influence_of(const BoneWeights& weights) {
     Influence influence;
     std::array<float, 4> lost{};
@@ -212,7 +212,7 @@ void put_bone_nodes(JsonWriter& json, const Bones& bones, std::size_t first) {
     }
 }
 
-/// Times and rotations in views `times` and `rotations`.
+/// Accessors of times and rotations, which are in the views `times` and `rotations`.
 void put_bone_accessors(JsonWriter& json,
                         const GltfMotion& motion,
                         std::size_t times,
@@ -232,7 +232,7 @@ void put_bone_accessors(JsonWriter& json,
     }
 }
 
-/// Channels and samplers of Bones. `accessor`: of the first times.
+/// Channels and samplers of Bones. `accessor`: number of the first accessor of times.
 void put_bone_animation(JsonWriter& json,
                         const Bones& bones,
                         std::size_t first_node,

@@ -26,7 +26,7 @@ struct GltfMotion {
         return bones ? bones->joints.size() : skin.joint_count();
     }
     [[nodiscard]] std::size_t moving_joints() const { return skin.segments.size(); }
-    /// Bytes of the number of a joint.
+    /// Size in bytes of a joint number.
     [[nodiscard]] std::size_t joint_bytes() const { return joint_count() <= 256 ? 1 : 2; }
     /// Counts of items in the arrays of the animation.
     [[nodiscard]] std::uint64_t time_count() const;
@@ -53,11 +53,12 @@ void write_rotations(const GltfMotion& motion, const GltfBytes& write);
 
 /// Nodes of the joints. The node of joint 0 comes first and has the number `first`.
 void put_joint_nodes(JsonWriter& json, const GltfMotion& motion, std::size_t first);
-/// Accessors: inverse binds, times, then two for each joint that moves. With `bones`: inverse
-/// binds, then times and rotations of each joint with keys. The views of the arrays that are not
-/// empty are consecutive, from `first_view` on.
+/// Accessors: inverse binds, times, then the translations of each moving joint, then the rotations.
+/// With `bones`: inverse binds, then times and rotations of each joint with keys. The views of the
+/// arrays that are not empty are consecutive, from `first_view` on.
 void put_motion_accessors(JsonWriter& json, const GltfMotion& motion, std::size_t first_view);
-/// The members `skins` and `animations`. `accessor`: the first of put_motion_accessors().
+/// The members `skins` and `animations`. `accessor`: number of the first accessor of
+/// put_motion_accessors().
 void put_skin_and_animation(JsonWriter& json,
                             const GltfMotion& motion,
                             std::size_t first_node,

@@ -78,8 +78,8 @@ void put_material(JsonWriter& json,
     }
     json.member("metallicFactor", 0);
     json.member("roughnessFactor", roughness(material)).end();
-    if (shown.relief) {
-        put_texture("normalTexture", *shown.relief);
+    if (shown.normal_map) {
+        put_texture("normalTexture", *shown.normal_map);
     }
     if (material.cut_out) {
         json.member("alphaMode", "MASK").member("alphaCutoff", 0.5);

@@ -80,8 +80,8 @@ struct GltfFile {
     std::function<void(const GltfSink&)> put_data;
     /// Name of the file that holds the buffer; empty: this file holds it.
     std::string data_name = {};
-    /// Size of the fallback buffer of EXT_meshopt_compression: it holds the decoded items and is not
-    /// stored. 0: there is none. Its number follows those of buffer 0 and of `others`.
+    /// Size of the fallback buffer of EXT_meshopt_compression, which stands for the decoded items
+    /// and is not stored; 0: no fallback. It is numbered after buffer 0 and `others`.
     std::uint64_t decoded_bytes = 0;
     std::vector<GltfOtherBuffer> others =
         {}; // buffers 1, 2, ...; their fallbacks are last, in order

@@ -21,7 +21,8 @@ constexpr std::uint32_t kUnused = ~std::uint32_t{0};
 bool differ_in_colour_only(const Material& a, const Material& b) {
     return a.kind == b.kind && a.colour.a == b.colour.a && a.two_sided == b.two_sided &&
            a.cut_out == b.cut_out && a.textured == b.textured && a.picture == b.picture &&
-           a.relief == b.relief && a.roughness == b.roughness && a.translucency == b.translucency;
+           a.normal_map == b.normal_map && a.roughness == b.roughness &&
+           a.translucency == b.translucency;
 }
 
 bool is_in_range(const glm::vec4& colour) {
@@ -106,8 +107,8 @@ bool share_edge(const std::uint32_t* a, const std::uint32_t* b) {
 /// Orders the triangles of parts for compression and numbers their vertices.
 class PartOrderer {
 public:
-    /// `users`: for each vertex of the mesh the part that used it last. `vertices`: those of the
-    /// file so far.
+    /// `users`: for each vertex of the mesh the part that used it last. `vertices`: the vertices of
+    /// the file so far.
     PartOrderer(const Mesh& mesh,
                 const GltfVertexUse& use,
                 LargeVector<std::uint32_t>& users,
@@ -121,9 +122,9 @@ public:
         mesh_.indices.read(drawn.first_index, part.indices);
         order_triangles(part.indices);
         const MaterialPictures& shown = use_.pictures.of_materials[drawn.material];
-        textured_ = (shown.colour || shown.relief || use_.segments) &&
+        textured_ = (shown.colour || shown.normal_map || use_.segments) &&
                     is_complete(mesh_, mesh_.texture_coordinates);
-        tangents_ = shown.relief && is_complete(mesh_, mesh_.tangents);
+        tangents_ = shown.normal_map && is_complete(mesh_, mesh_.tangents);
         coloured_ = primitive.colours == GltfColours::Palette;
         std::array<std::uint32_t, kSlots> near; // by hash of the position: number of a vertex
         near.fill(kUnused);
@@ -199,7 +200,7 @@ void order_triangles(std::span<std::uint32_t> triangles) {
         return share_edge(corners + 3 * a, corners + 3 * b);
     };
     const auto end_run = [&] {
-        // The last triangle may have been the first of a quad, so the triangle before it counts too.
+        // The last two triangles may be a quad, so the triangle before the last one counts too.
         const auto meets_last = [&](std::uint32_t triangle) {
             const std::size_t back = std::min<std::size_t>(ordered, 2);
             for (std::size_t i = 1; i <= back; ++i) {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// GltfPrimitives: the primitives of a glTF file and their vertices. Each primitive has arrays of its
-// own with its bounds, the attributes it needs, and indices of the smallest type possible. Vertices
-// are in the order in which triangles first use them, which suits the vertex caches of GPUs and
-// EXT_meshopt_compression. Made from a Mesh; read by gltf_streams.
+// GltfPrimitives: the primitives of a glTF file and their vertices. Each primitive has separate
+// arrays with its bounds, the attributes it needs, and indices of the smallest type possible.
+// Vertices are in the order in which triangles first use them, which suits the vertex caches of
+// GPUs and EXT_meshopt_compression. Made from a Mesh; read by gltf_streams.
 #pragma once
 
 #include "runtime/export/impl/pictures.h"
@@ -77,15 +77,16 @@ struct GltfVertexUse {
                                                   const std::optional<GltfVertexUse>& compressed,
                                                   const MeshFilm* film = nullptr);
 /// Orders triangles so that most share an edge with the previous triangle; EXT_meshopt_compression
-/// encodes such a triangle in one byte. The triangles of a quad are swapped if the second one shares
-/// an edge with the previous triangle, and every other ring of a tube is reversed. Time is linear.
+/// encodes such a triangle in one byte. The triangles of a quad are swapped if the second one
+/// shares an edge with the previous triangle, and every other ring of a tube is reversed. Time is
+/// linear.
 void order_triangles(std::span<std::uint32_t> triangles);
 
 /// The material of a primitive: all its properties except the colour.
 [[nodiscard]] const Material& material_of(const Mesh& mesh, const GltfPrimitive& primitive);
 
-/// Calls visit(indices) with the indices of the primitive in order, in spans of whole triangles
-/// that count from its first vertex.
+/// Calls visit(indices) with the indices of the primitive in order, in spans of whole triangles.
+/// The indices count from the first vertex of the primitive.
 template <typename Visit>
 void for_each_index(const Mesh& mesh,
                     const GltfPrimitives& primitives,

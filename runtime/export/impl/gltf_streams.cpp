@@ -65,7 +65,7 @@ glm::vec3 position_change(const GltfPlant& plant,
            plant.mesh.positions[vertex];
 }
 
-/// Writes the items of a stream of a primitive, uncompressed and without padding behind them.
+/// Writes the items of a stream of a primitive, uncompressed and without padding at the end.
 void write_primitive_stream(const GltfPlant& plant,
                             const GltfStreams& streams,
                             const GltfStream& stream,
@@ -125,7 +125,7 @@ class Planner {
 public:
     Planner(GltfStreams& streams, const GltfPlant& plant) : streams_(streams), plant_(plant) {}
 
-    void add_primitive(std::size_t number, bool relief, bool textured) {
+    void add_primitive(std::size_t number, bool normal_map, bool textured) {
         const Mesh& mesh = plant_.mesh;
         const GltfPrimitive& primitive = streams_.primitives.list[number];
         GltfForm& form = streams_.forms[number];
@@ -137,9 +137,9 @@ public:
         };
         add(GltfArray::Positions);
         add(GltfArray::Normals);
-        // Quantised files are for display: coordinates without a texture are left out or, if wind data
-        // follow, written as 0, because sets of coordinates are numbered from 0 on.
-        const bool shown = textured || relief;
+        // Quantised files are for display: coordinates without a texture are left out or, if wind
+        // data follow, written as 0, because sets of coordinates are numbered from 0 on.
+        const bool shown = textured || normal_map;
         if (is_complete(mesh, mesh.texture_coordinates) &&
             (shown || plant_.wind != nullptr || !form.quantized())) {
             if (form.quantized() && shown) {
@@ -150,7 +150,7 @@ public:
             }
             add(GltfArray::TextureCoordinates);
         }
-        if (relief && is_complete(mesh, mesh.tangents)) {
+        if (normal_map && is_complete(mesh, mesh.tangents)) {
             add(GltfArray::Tangents);
         }
         if (primitive.colours != GltfColours::None) {
@@ -294,7 +294,7 @@ GltfStreams plan_gltf_streams(const GltfPlant& plant,
     for (std::size_t i = 0; i < streams.primitives.list.size(); ++i) {
         const GltfPart& part = streams.primitives.list[i].parts.front();
         const MaterialPictures& shown = pictures.of_materials[mesh.parts[part.part].material];
-        planner.add_primitive(i, shown.relief.has_value(), shown.colour.has_value());
+        planner.add_primitive(i, shown.normal_map.has_value(), shown.colour.has_value());
     }
     streams.first_motion = streams.list.size();
     if (plant.motion != nullptr) {

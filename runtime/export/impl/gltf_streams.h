@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // GltfStreams: the arrays of a plant in the buffer of a glTF file: as floats and integers of full
 // size, quantised (KHR_mesh_quantization), or quantised and compressed (EXT_meshopt_compression). A
-// stream is one buffer view and, for a primitive, one accessor. Made by plan_gltf_streams(); read by
-// write_glb() and write_gltf(), which describe the streams and write the buffer.
+// stream is one buffer view and, for a primitive, one accessor. Made by plan_gltf_streams(); read
+// by write_glb() and write_gltf(), which describe the streams and write the buffer.
 #pragma once
 
 #include "runtime/export/export.h"
@@ -31,7 +31,7 @@ struct GltfPlant {
 
 struct GltfStream {
     GltfArray array = GltfArray::Positions;
-    std::size_t item = 0;    // the primitive, or the image
+    std::size_t item = 0;    // number of the primitive or of the image
     std::uint32_t frame = 0; // of a morph target, in MeshFilm::Shape::earlier
     Bounds bounds = {};      // of PositionChanges
     GltfItem type;
@@ -48,7 +48,7 @@ struct GltfStream {
 struct GltfStreams {
     GltfPrimitives primitives;
     std::vector<GltfForm> forms; // of primitives; they differ only in texture coordinates
-    /// Streams of primitives, by GltfArray within a primitive; then streams of the motion and images.
+    /// Streams of primitives, by GltfArray within a primitive; then of the motion, then of images.
     std::vector<GltfStream> list;
     std::size_t first_motion = 0; // in `list`
     std::size_t first_image = 0;
@@ -65,8 +65,8 @@ struct GltfStreams {
 /// Writes the buffer, from its first byte to its last.
 void write_gltf_streams(const GltfPlant& plant, const GltfStreams& streams, const GltfSink& write);
 
-/// The view of a stream, in buffer 0. The view of a compressed stream is in buffer 1, which holds
-/// decoded items.
+/// The view of a stream: in buffer 0, or for a compressed stream in buffer 1, which holds decoded
+/// items.
 void put_stream_view(JsonWriter& json, const GltfStream& stream);
 /// The accessor of the stream of a primitive in view `view`.
 void put_stream_accessor(JsonWriter& json,

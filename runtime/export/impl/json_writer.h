@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// JsonWriter: writes a JSON document (RFC 8259) as a stream, without white space. It adds commas and
-// closing brackets, and stores only the open brackets. Used by the writers of glTF and by the
+// JsonWriter: writes a JSON document (RFC 8259) as a stream, without white space. It adds commas
+// and closing brackets, and stores only the open brackets. Used by the writers of glTF and by the
 // statistics of forests.
 //
 //     JsonWriter json(out);
@@ -36,7 +36,7 @@ public:
 
     /// The key of the next value: plain letters, not escaped.
     JsonWriter& name(std::string_view key);
-    /// A string, escaped; bytes that are no UTF-8 become U+FFFD.
+    /// A string, escaped; bytes that are not UTF-8 become U+FFFD.
     JsonWriter& value(std::string_view text);
     JsonWriter& value(const char* text) { return value(std::string_view(text)); }
     JsonWriter& value(const std::string& text) { return value(std::string_view(text)); }

@@ -14,7 +14,7 @@ namespace {
 bool same(const Material& a, const Material& b) {
     return a.name == b.name && a.kind == b.kind && a.colour == b.colour &&
            a.two_sided == b.two_sided && a.cut_out == b.cut_out && a.textured == b.textured &&
-           a.picture == b.picture && a.relief == b.relief && a.roughness == b.roughness &&
+           a.picture == b.picture && a.normal_map == b.normal_map && a.roughness == b.roughness &&
            a.translucency == b.translucency;
 }
 

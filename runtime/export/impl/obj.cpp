@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Wavefront OBJ and MTL (Wavefront Advanced Visualizer manual, appendix B1, copied at
-// https://paulbourke.net/dataformats/obj/); `Pr` and `norm` are of its extension for physically
+// https://paulbourke.net/dataformats/obj/); `Pr` and `norm` belong to its extension for physically
 // based rendering (http://exocortex.com/blog/extending_wavefront_mtl_to_support_pbr). v of texture
 // coordinates goes upwards.
 #include "runtime/export/impl/export_outcome.h"
@@ -70,9 +70,9 @@ void put_faces(TriangleReader& indices, const MeshPart& part, bool textured, Pie
 
 /// Normals of the backs of two-sided parts.
 struct BackNormals {
-    std::uint64_t first = 0; // number in the file of the first of them
-    /// For each vertex of a two-sided part, its number among them from 1; 0: none. Empty: no part
-    /// has two sides.
+    std::uint64_t first = 0; // number of the first one in the file
+    /// By vertex of the mesh: number among the back normals, from 1; 0: the vertex is in no
+    /// two-sided part. Empty: no part is two-sided.
     LargeVector<std::uint32_t> numbers;
 };
 
@@ -191,8 +191,8 @@ Outcome<void> write_mtl(const Mesh& mesh, const ExportInfo& info, const ByteSink
             put_map("map_d", shown.opacity);
             // Readers differ: three.js and assimp take normals from `norm`, which hides the heights
             // of `map_Bump`; Blender and Babylon take normals from `map_Bump` and skip `norm`.
-            put_map("norm", shown.relief);
-            put_map("map_Bump", shown.relief);
+            put_map("norm", shown.normal_map);
+            put_map("map_Bump", shown.normal_map);
         }
         return finish(out);
     });

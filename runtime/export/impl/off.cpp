@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // OFF (Geomview's object file format, http://www.geomview.org/docs/html/OFF.html) and OFF+, which
-// L3D reads and writes: `x y z u v` for a vertex, and at the end of a face 1 if it is of a leaf,
-// else 0. Neither format states units or axes. v goes upwards.
+// L3D reads and writes: `x y z u v` for a vertex, and at the end of each face 1 for leaves, else 0.
+// Neither format states units or axes. v goes upwards.
 #include "runtime/export/impl/export_outcome.h"
 #include "runtime/export/impl/formats.h"
 #include "runtime/export/impl/text.h"

@@ -159,8 +159,8 @@ float distance_to(const glm::vec2& point, const glm::vec2& a, const glm::vec2& b
 }
 
 /// Simplifies a closed line so that no removed point is farther than `tolerance` from the new line
-/// (Douglas and Peucker, "Algorithms for the reduction of the number of points required to represent
-/// a digitized line", 1973).
+/// (Douglas and Peucker, "Algorithms for the reduction of the number of points required to
+/// represent a digitized line", 1973).
 std::vector<glm::vec2> simplified(const std::vector<glm::vec2>& loop, float tolerance) {
     const std::size_t count = loop.size();
     const auto farthest = [&](std::size_t from, std::size_t to) {

@@ -22,9 +22,9 @@ struct Outline {
     glm::vec3 colour{1.0F}; // linear
 };
 
-/// Outlines of the parts of an object, back to front. Depend on kind, mesh file and colour. Empty
-/// for a mesh file that is not among `user_meshes`. A mesh with a picture has the mean colour of the
-/// picture.
+/// Outlines of the parts of an object, back to front. They depend on kind, mesh file and colour.
+/// Empty for a mesh file that is not among `user_meshes`. A mesh with a picture has the mean colour
+/// of the picture.
 [[nodiscard]] std::vector<Outline> object_outlines(const PlacedObject& object,
                                                    const std::vector<UserMesh>& user_meshes,
                                                    const Looks* looks);

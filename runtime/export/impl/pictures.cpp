@@ -22,8 +22,8 @@ bool shows_texture(const Material& material) {
 }
 
 /// Whether the material has a normal map, from a file or of the bark texture.
-bool shows_relief(const Material& material) {
-    return material.relief != nullptr ||
+bool shows_normal_map(const Material& material) {
+    return material.normal_map != nullptr ||
            (shows_texture(material) && material.kind == MaterialKind::Bark);
 }
 
@@ -81,9 +81,9 @@ void tint(Texture& texture, const glm::vec3& colour) {
 }
 
 Texture paint(const Picture& picture) {
-    Texture texture = picture.file != nullptr               ? *picture.file
-                      : picture.kind == PictureKind::Relief ? bark_normals()
-                                                            : material_texture(picture.material);
+    Texture texture = picture.file != nullptr                  ? *picture.file
+                      : picture.kind == PictureKind::NormalMap ? bark_normals()
+                                                               : material_texture(picture.material);
     if (picture.kind == PictureKind::Opacity) {
         for (std::size_t i = 0; i < texture.texels.size(); i += 4) {
             std::fill_n(texture.texels.begin() + static_cast<std::ptrdiff_t>(i), 3,
@@ -141,12 +141,12 @@ Pictures find_pictures(const Mesh& mesh, ExportPictures kind, const ExportInfo& 
                 shown.opacity = number_of(pictures.list, wanted);
             }
         }
-        if (shows_relief(material) && (!inside || has_tangents)) {
-            wanted.kind = PictureKind::Relief;
-            wanted.file = material.relief;
+        if (shows_normal_map(material) && (!inside || has_tangents)) {
+            wanted.kind = PictureKind::NormalMap;
+            wanted.file = material.normal_map;
             wanted.name =
                 name(wanted.file != nullptr ? material.name + " normals" : "bark normals");
-            shown.relief = number_of(pictures.list, wanted);
+            shown.normal_map = number_of(pictures.list, wanted);
         }
     }
     return pictures;

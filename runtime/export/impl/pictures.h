@@ -19,7 +19,7 @@ namespace lsys {
 enum class PictureKind : std::uint8_t {
     Colour,  // with opacity
     Opacity, // in all channels, as readers of MTL differ in the one they use
-    Relief,  // normals
+    NormalMap,
 };
 
 struct Picture {
@@ -34,7 +34,7 @@ struct Picture {
 struct MaterialPictures {
     std::optional<std::size_t> colour;
     std::optional<std::size_t> opacity;
-    std::optional<std::size_t> relief;
+    std::optional<std::size_t> normal_map;
 };
 
 struct Pictures {
@@ -50,7 +50,7 @@ struct Pictures {
 [[nodiscard]] inline double six_decimals(float value) {
     return std::round(static_cast<double>(value) * 1e6) / 1e6;
 }
-/// Roughness, 0 to 1, in formats that have one.
+/// The roughness of a material as written to files, 0 to 1.
 [[nodiscard]] inline double roughness(const Material& material) {
     return six_decimals(roughness_of(material));
 }

@@ -18,7 +18,7 @@ inline constexpr std::size_t kPieceBytes = std::size_t{256} << 10;
 
 class PieceWriter {
 public:
-    explicit PieceWriter(const ByteSink& sink); // `sink` must live as long
+    explicit PieceWriter(const ByteSink& sink); // `sink` must outlive the writer
     explicit PieceWriter(ByteSink&&) = delete;
 
     /// Room for the next bytes, at most `bytes`. The caller writes them and calls used() with their

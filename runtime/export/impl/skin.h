@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Skin: the joints that move a mesh by the poses of its segments (linear blend skinning:
 // Magnenat-Thalmann, Laperriere and Thalmann, "Joint-dependent local deformations", Graphics
-// Interface 1988; glTF 2.0, section 3.7.3.3). Joints are not nested but placed in world coordinates,
-// so that depth costs nothing and rounding errors do not add up along a branch.
+// Interface 1988; glTF 2.0, section 3.7.3.3). Joints are not nested but placed in world
+// coordinates, so that depth costs nothing and rounding errors do not add up along a branch.
 #pragma once
 
 #include "runtime/meshing/mesh.h"
@@ -29,7 +29,7 @@ struct Skin {
 
 /// A segment shares the joint of its parent if this joint moves the segment to its place in all
 /// frames, within 1e-5 of the size of the plant and 1e-4 radians. Joints without vertices are left
-/// out. Returns nothing if there are more than kMaxJoints.
+/// out. Returns nothing for more than kMaxJoints moving joints.
 [[nodiscard]] std::optional<Skin>
 make_skin(const Mesh& mesh, const Skeleton& skeleton, const PlantAnimation& animation);
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // STL, binary (3D Systems, "StereoLithography interface specification", 1988): 80 bytes of text,
-// the number of triangles, and 50 bytes for each. Normals of triangles, 0 for triangles without
+// the number of triangles, and 50 bytes per triangle, with its normal: 0 for a triangle without
 // area.
 #include "runtime/export/impl/export_outcome.h"
 #include "runtime/export/impl/formats.h"

@@ -45,9 +45,9 @@ private:
     std::string bytes_;
 };
 
-/// The fields common to both headers of an entry: version, flags, method, time, date, checksum, sizes
-/// and length of the name.
-void put_facts(Record& record, const std::string& name, const EntrySize& size) {
+/// The fields common to both headers of an entry: version, flags, method, time, date, checksum,
+/// sizes and length of the name.
+void put_common_fields(Record& record, const std::string& name, const EntrySize& size) {
     constexpr std::uint16_t kStored = 0;
     record.u16(kVersion).u16(kUtf8Names).u16(kStored).u16(0).u16(kFirstDate);
     record.u32(size.checksum).u32(size.bytes).u32(size.bytes).u16(name.size());
@@ -86,7 +86,7 @@ void StoredZip::begin_entry(const std::string& name, const EntrySize& size) {
     const std::uint64_t padding = padding_of(end_ + kHeaderBytes + name.size());
     Record header;
     header.text("PK\x03\x04");
-    put_facts(header, name, size);
+    put_common_fields(header, name, size);
     header.u16(padding).text(name);
     if (padding > 0) {
         header.u16(kPaddingKind)
@@ -102,7 +102,7 @@ void StoredZip::finish() {
     Record list;
     for (const Entry& entry : entries_) {
         list.text("PK\x01\x02").u16(kVersion);
-        put_facts(list, entry.name, entry.size);
+        put_common_fields(list, entry.name, entry.size);
         // No extra field, no comment, first disk, no attributes.
         list.u16(0).u16(0).u16(0).u16(0).u32(0).u32(entry.place).text(entry.name);
     }

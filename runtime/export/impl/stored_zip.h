@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // StoredZip: a zip archive without compression, whose entries begin at multiples of 64 bytes
 // (PKWARE, "APPNOTE.TXT - .ZIP file format specification", 6.3.3; OpenUSD, "USDZ file format
-// specification"). Entries have no times but the earliest date that the format can state.
+// specification"). All entries have the earliest date that the format can state.
 #pragma once
 
 #include "runtime/export/impl/piece_writer.h"
@@ -14,7 +14,7 @@
 
 namespace lsys {
 
-/// Size and checksum of the bytes of an entry, which its header states before them.
+/// Size and checksum of the bytes of an entry, which the header states before the bytes.
 struct EntrySize {
     std::uint64_t bytes = 0;
     std::uint32_t checksum = 0; // CRC-32 of zlib
@@ -27,7 +27,7 @@ public:
     explicit StoredZip(PieceWriter& out) : out_(out) {}
 
     /// Whether entries of these sizes, with names of at most `name_bytes` altogether, fit into an
-    /// archive, which has 32 bits for sizes and places.
+    /// archive, which has 32 bits for sizes and offsets.
     [[nodiscard]] static bool holds(const std::vector<EntrySize>& sizes, std::uint64_t name_bytes);
 
     /// Writes the header of an entry; the caller then puts its `size.bytes` bytes.

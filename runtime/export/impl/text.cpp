@@ -93,7 +93,7 @@ std::string valid_utf8(std::string_view text) {
 
 char* put_rounded(char* at, float value, int decimals) {
     constexpr std::array<double, 10> kPowers{1e0, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8, 1e9};
-    constexpr double kMaxWhole = 1e15; // whole numbers of a double
+    constexpr double kMaxWhole = 1e15; // integers up to here are exact as doubles
     LSYS_CHECK(decimals >= 0 && static_cast<std::size_t>(decimals) < kPowers.size(), decimals);
     const double scaled = static_cast<double>(value) * kPowers[static_cast<std::size_t>(decimals)];
     if (!(std::fabs(scaled) < kMaxWhole)) {
@@ -105,7 +105,7 @@ char* put_rounded(char* at, float value, int decimals) {
     }
     auto left = static_cast<std::uint64_t>(std::abs(rounded));
     std::array<char, 10> fraction{};
-    std::size_t count = 0; // of its digits, without zeros at the end
+    std::size_t count = 0; // digits of the fraction, without trailing zeros
     for (int i = decimals; i > 0; --i, left /= 10) {
         const auto digit = static_cast<char>('0' + left % 10);
         fraction[static_cast<std::size_t>(i - 1)] = digit;

@@ -60,6 +60,7 @@ inline char* put_text(char* at, std::string_view text) {
 
 /// A channel of linear colour as a byte of sRGB (IEC 61966-2-1).
 [[nodiscard]] std::uint8_t srgb_byte(float linear);
+/// A channel of linear colour in sRGB, 0 to 1.
 [[nodiscard]] float srgb(float linear);
 
 } // namespace lsys

@@ -78,9 +78,9 @@ void put_mesh(const Mesh& mesh,
         [&cursor](std::uint64_t i) { return cursor.index(i); });
 }
 
-/// Writes a plant with variants. The prim of the first mesh lies outside the variant set, for readers
-/// without variants; the variants of the other meshes make it inactive. The prim itself must not set
-/// `active`, because its opinion would be stronger than the opinions of the variants.
+/// Writes a plant with variants. The prim of the first mesh lies outside the variant set, for
+/// readers without variants; the variants of the other meshes make it inactive. The prim itself
+/// must not set `active`, because its opinion would be stronger than the opinions of the variants.
 void put_choice(const ExportJob& job, const UsdaVariants& variants, PieceWriter& out) {
     put_header(job.info, nullptr, out);
     out.put(fmt::format("def Xform \"Plant\" (\n"
@@ -185,7 +185,8 @@ Outcome<void> write_usdz(const ExportJob& job, PieceWriter& out) {
         return write_usdz_archive(
             {info.subject, "plant.usda",
              [&](PieceWriter& layer) { put_layer(inside, motion, layer); },
-             find_pictures(materials, ExportPictures::FilesWithRelief, info).list, info.threads},
+             find_pictures(materials, ExportPictures::FilesWithNormalMaps, info).list,
+             info.threads},
             out);
     });
 }

@@ -30,7 +30,7 @@ void put_picture(const Picture& picture,
                  std::string_view shader,
                  const std::string& path,
                  PieceWriter& out) {
-    const bool relief = picture.kind == PictureKind::Relief;
+    const bool normal_map = picture.kind == PictureKind::NormalMap;
     const char* const wrap = picture.material == MaterialKind::Leaf ? "clamp" : "repeat";
     out.put(fmt::format("\n            def Shader \"{0}\"\n"
                         "            {{\n"
@@ -44,10 +44,10 @@ void put_picture(const Picture& picture,
                         "                float3 outputs:rgb\n"
                         "                float outputs:a\n"
                         "            }}\n",
-                        shader, asset_path(picture.name), relief ? "raw" : "sRGB", wrap, path,
-                        relief ? "                float4 inputs:scale = (2, 2, 2, 1)\n"
-                                 "                float4 inputs:bias = (-1, -1, -1, 0)\n"
-                               : ""));
+                        shader, asset_path(picture.name), normal_map ? "raw" : "sRGB", wrap, path,
+                        normal_map ? "                float4 inputs:scale = (2, 2, 2, 1)\n"
+                                     "                float4 inputs:bias = (-1, -1, -1, 0)\n"
+                                   : ""));
 }
 
 void put_material(const Material& material,
@@ -82,7 +82,7 @@ void put_material(const Material& material,
     } else {
         out.put(fmt::format("                float inputs:opacity = {}\n", colour.a));
     }
-    if (shown.relief) {
+    if (shown.normal_map) {
         out.put(fmt::format(
             "                normal3f inputs:normal.connect = <{}/Relief.outputs:rgb>\n", path));
     }
@@ -91,7 +91,7 @@ void put_material(const Material& material,
                         "                token outputs:surface\n"
                         "            }}\n",
                         material.roughness ? roughness(material) : kUsualRoughness));
-    if (shown.colour || shown.relief) {
+    if (shown.colour || shown.normal_map) {
         out.put("\n            def Shader \"Place\"\n"
                 "            {\n"
                 "                uniform token info:id = \"UsdPrimvarReader_float2\"\n"
@@ -100,8 +100,8 @@ void put_material(const Material& material,
                 "            }\n");
         put_picture(pictures[*shown.colour], "Picture", path, out);
     }
-    if (shown.relief) {
-        put_picture(pictures[*shown.relief], "Relief", path, out);
+    if (shown.normal_map) {
+        put_picture(pictures[*shown.normal_map], "Relief", path, out);
     }
     out.put("        }\n");
 }
@@ -229,7 +229,7 @@ void put_usda_materials(const Mesh& mesh,
                         const ExportInfo& info,
                         std::string_view root,
                         PieceWriter& out) {
-    const Pictures pictures = find_pictures(mesh, ExportPictures::FilesWithRelief, info);
+    const Pictures pictures = find_pictures(mesh, ExportPictures::FilesWithNormalMaps, info);
     out.put("\n    def Scope \"Materials\"\n    {\n");
     for (std::size_t i = 0; i < mesh.parts.size(); ++i) {
         const std::uint32_t material = mesh.parts[i].material;

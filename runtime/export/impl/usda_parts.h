@@ -78,7 +78,7 @@ put_tuple(char* at, const std::array<float, kCount>& values, const std::optional
 struct UsdaDigits {
     int points = 9;
     int normals = 4;             // off by at most 0.005 degrees
-    int texture_coordinates = 5; // 1/100 of a texel of 1024 in a row
+    int texture_coordinates = 5; // 1/100 of a texel in a picture 1024 texels wide
 };
 /// Decimal places needed to write positions of a surface to 1/100,000 of `size`, its largest extent
 /// in m.

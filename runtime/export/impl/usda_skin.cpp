@@ -29,7 +29,7 @@ void put_items(PieceWriter& out, std::string_view head, std::size_t count, const
     out.put("]");
 }
 
-/// Paths of the joints. Joint 0 is the parent of all other joints; with UsdaMotion::bones it is the
+/// Paths of the joints. Joint 0 is the parent of all other joints, or with UsdaMotion::bones their
 /// ancestor.
 std::vector<std::string> joint_paths(const UsdaMotion& motion) {
     std::vector<std::string> paths{std::string(kStillJoint)};

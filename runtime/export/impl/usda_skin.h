@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Motion in USDA as a skin (OpenUSD, "UsdSkel schemas"): a skeleton with the same joints as in glTF,
-// in world coordinates or nested, and an animation with a sample for each frame. Time codes are
-// frames.
+// Motion in USDA as a skin (OpenUSD, "UsdSkel schemas"): a skeleton with the same joints as in
+// glTF, in world coordinates or nested, and an animation with a sample for each frame. Time codes
+// are frames.
 #pragma once
 
 #include "runtime/export/impl/bones.h"

@@ -25,8 +25,8 @@ bool continues(const Segment& child, const Segment& other) {
            (child.base_radius == other.base_radius && child.order < other.order);
 }
 
-/// Marks the segments of the trunks of a plant: from each root, follows the child that continues the
-/// trunk.
+/// Marks the segments of the trunks of a plant: from each root, follows the child that continues
+/// the trunk.
 std::vector<bool> trunks_of(const Skeleton& plant) {
     const auto count = static_cast<std::uint32_t>(plant.segments.size());
     std::vector<std::uint32_t> next(count, kNoSegment);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// WindData: vertex attributes with which a shader moves a plant in wind without a skin. A bough is a
-// branch that leaves the trunk, with everything that grows on it. The trunk continues in the
+// WindData: vertex attributes with which a shader moves a plant in wind without a skin. A bough is
+// a branch that leaves the trunk, with everything that grows on it. The trunk continues in the
 // thickest branch; among equally thick branches, in the one in fewest brackets.
 //
 //   TEXCOORD_1: height in m of the pivot, the point where the bough begins, and distance in m from
@@ -9,10 +9,10 @@
 //               the plant that bends most; stiffness is 1 on the trunk, which a shader bends, with
 //               its boughs, by height
 //
-// Stiffness is 1 - b / max b, where b is the bending of a branch with the same stress everywhere, as
-// in plants whose width follows their load: each joint between pivot and vertex turns by the angle
-// length / radius of its segment, and moves the vertex by this angle times the distance from joint
-// to vertex.
+// Stiffness is 1 - b / max b, where b is the bending of a branch with the same stress everywhere,
+// as in plants whose width follows their load: each joint between pivot and vertex turns by the
+// angle length / radius of its segment, and moves the vertex by this angle times the distance from
+// joint to vertex.
 #pragma once
 
 #include "runtime/meshing/mesh.h"
@@ -36,8 +36,8 @@ class WindData {
 public:
     explicit WindData(const Skeleton& plant);
 
-    /// Values of a vertex at `position` that is bound to the segments `bound`; for kNoSegment the
-    /// values of the root.
+    /// Values of a vertex at `position` that is bound to the segments `bound`. For kNoSegment:
+    /// pivot, distance and phase 0, stiffness 1.
     [[nodiscard]] WindVertex at(const VertexSegments& bound, const glm::vec3& position) const;
 
 private:
@@ -51,7 +51,7 @@ private:
     [[nodiscard]] WindVertex on(std::uint32_t segment, const glm::vec3& position) const;
 
     const Skeleton* plant_;
-    std::vector<Place> places_; // of segments
+    std::vector<Place> places_; // by segment
 };
 
 } // namespace lsys

@@ -113,8 +113,8 @@ inline void hand_over(const api::Messages& messages, lsys_messages** to) {
     }
 }
 
-/// Calls `work` and gives its value, as a handle, and its messages to the caller. An exception means
-/// lack of memory: the library throws no others, and functions of C throw none.
+/// Calls `work` and gives its value, as a handle, and its messages to the caller. An exception
+/// means lack of memory: the library throws no others, and functions of C throw none.
 template <typename Handle, typename Work>
 lsys_status call(const Work& work, Handle** value, lsys_messages** messages) noexcept {
     *value = nullptr;
@@ -143,7 +143,7 @@ inline auto piece_writer(int (*write)(void* user, const char* piece, std::size_t
 
 /// Calls `work`, ignores its value, and gives its messages to the caller.
 template <typename Work>
-lsys_status call_alone(const Work& work, lsys_messages** messages) noexcept {
+lsys_status call_without_value(const Work& work, lsys_messages** messages) noexcept {
     if (messages != nullptr) {
         *messages = nullptr;
     }

@@ -43,7 +43,7 @@ Call::Call(const Project& project) {
                                                   const ReadLimit& limit) -> Result<std::string> {
             return checked(guarded([&] { return read(path); }, FileContents{}), limit);
         };
-        inner_.host.read_named_file = inner_.host.read_file;
+        inner_.host.read_referenced_file = inner_.host.read_file;
         inner_.host.file_exists = [this, read = project.host.read_file](const std::string& path) {
             return guarded([&] { return read(path).found; }, false);
         };

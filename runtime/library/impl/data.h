@@ -32,7 +32,7 @@ struct Word::Data {
     DerivedWord derived;
     std::vector<ModuleKind> kinds;
 
-    /// Has the codes of the word.
+    /// The bytecode that defines the codes of the word.
     [[nodiscard]] const Bytecode& bytecode() const {
         return derived.folded ? *derived.folded : grammar.data().grammar.bytecode;
     }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A public call that writes files: a console that collects its messages, and the files on disk or
-// into a receiver.
+// A public call that writes files to disk or passes them to a receiver. A console collects its
+// messages.
 #pragma once
 
 #include "grammar/base/outcome.h"

@@ -14,7 +14,7 @@
 
 namespace lsys::v0 {
 
-/// The inputs of a forest, for files that need another growth of it.
+/// The inputs of a forest, from which files that need other heroes or years grow it again.
 struct ForestSource {
     std::vector<std::string> files;
     SceneOverrides overrides;

@@ -2,11 +2,11 @@
 /* liblsys for C, and for languages that call C: L-systems compiled, derived, drawn and meshed.
  *
  *   - Values are handles. The caller owns each handle that a call returns, and frees it once with
-  *     lsys_..._free(). Several threads may use a handle at once.
-  *   - A call that may fail returns a status. `messages`, if not null, receives the messages of the
-  *     call, even if it succeeds; free them with lsys_messages_free().
-  *   - Texts are UTF-8 and end with a zero byte. Texts and arrays that a handle returns belong to the
-  *     handle and are valid until it is freed.
+ *     lsys_..._free(). Several threads may use a handle at once.
+ *   - A call that may fail returns a status. `messages`, if not null, receives the messages of the
+ *     call, even if it succeeds; free them with lsys_messages_free().
+ *   - Texts are UTF-8 and end with a zero byte. Texts and arrays that a handle returns belong to
+ *     the handle and are valid until it is freed.
  *   - Metres, kilograms, right-handed axes, +Y up. */
 #ifndef LSYS_H
 #define LSYS_H
@@ -49,14 +49,15 @@ typedef struct lsys_forest lsys_forest;
 typedef struct lsys_instances lsys_instances;
 typedef struct lsys_messages lsys_messages;
 
-/* Input that all calls share. Initialise with LSYS_PROJECT_DEFAULTS. The functions get `user` as their
- * first argument; they are called from any thread, but never from two at once. */
+/* Input that all calls share. Initialise with LSYS_PROJECT_DEFAULTS. The functions get `user` as
+ * their first argument; they are called from any thread, but never from two at once. */
 typedef struct lsys_project {
     uint32_t threads;     /* 0: as many as the machine has */
     uint64_t max_modules; /* of a word; 0: 2^32 */
     uint64_t max_bytes;   /* of a word, skeleton, mesh and file; 0: half of the memory */
-    /* Reads a file; null: files are read from disk. Returns 0 and sets `bytes` and `size`, which must
-     * stay valid until the next call of read_file or the end of the library call; not 0: no file. */
+    /* Reads a file; null: files are read from disk. Returns 0 and sets `bytes` and `size`, which
+     * must stay valid until the next call of read_file or the end of the library call; not 0: no
+     * file. */
     int (*read_file)(void* user, const char* path, const char** bytes, size_t* size);
     /* Returns 0 to continue, another number to end the call with LSYS_CANCELLED; may be null. */
     int (*progress)(void* user, uint32_t generation, uint32_t generations, uint64_t modules);
@@ -152,8 +153,8 @@ LSYS_C_API uint32_t lsys_word_code_bytes(const lsys_word* word);
 LSYS_C_API const float* lsys_word_parameters(const lsys_word* word);
 LSYS_C_API uint64_t lsys_word_parameter_count(const lsys_word* word);
 
-/* The meaning of a code. Each module of the code stores `stored_parameters` parameters; if this is 0,
- * all have the parameters `constants`. */
+/* The meaning of a code. Each module of the code stores `stored_parameters` parameters; if this is
+ * 0, all have the parameters `constants`. */
 typedef struct lsys_module_kind {
     const char* name;
     uint32_t stored_parameters;
@@ -163,8 +164,8 @@ typedef struct lsys_module_kind {
 LSYS_C_API uint32_t lsys_word_kind_count(const lsys_word* word);
 /* Precondition: code < lsys_word_kind_count(). */
 LSYS_C_API lsys_module_kind lsys_word_kind(const lsys_word* word, uint32_t code);
-/* Calls `write` with the text of the word in pieces, until it returns a number other than 0. Returns
- * LSYS_OK or LSYS_CANCELLED. */
+/* Calls `write` with the text of the word in pieces, until it returns a number other than 0.
+ * Returns LSYS_OK or LSYS_CANCELLED. */
 LSYS_C_API lsys_status lsys_word_text(const lsys_word* word,
                                       int (*write)(void* user, const char* piece, size_t size),
                                       void* user);
@@ -228,7 +229,7 @@ typedef struct lsys_mesh_part {
 LSYS_C_API size_t lsys_mesh_part_count(const lsys_mesh* mesh);
 /* Precondition: index < lsys_mesh_part_count(). */
 LSYS_C_API lsys_mesh_part lsys_mesh_get_part(const lsys_mesh* mesh, size_t index);
-/* Calls `write` with a file ("glb", "obj" ...) in pieces, until it returns a number other than 0. */
+/* Calls `write` with a file ("glb", "obj" ...) in pieces until it returns a number other than 0. */
 LSYS_C_API lsys_status lsys_export(const lsys_plant* plant,
                                    const lsys_mesh* mesh,
                                    const char* format,
@@ -240,19 +241,20 @@ LSYS_C_API void lsys_mesh_free(lsys_mesh* mesh); /* null is allowed */
 
 /* --- files ------------------------------------------------------------------------------------ */
 
-/* An option of `lsc export` or `lsc forest` by name without dashes, and its value; an empty value for
- * a flag: {"preset", "unreal"}, {"wind-data", ""}. */
+/* An option of `lsc export` or `lsc forest` by name without dashes, and its value; an empty value
+ * for a flag: {"preset", "unreal"}, {"wind-data", ""}. */
 typedef struct lsys_option {
     const char* name;
     const char* value;
 } lsys_option;
 
-/* Takes a piece of the file `name`. Files come one after the other; the last piece of each is empty,
- * with `is_last` 1. Returns 0 to go on, another number to end the call with LSYS_CANCELLED. */
+/* Takes a piece of the file `name`. Files come one after the other; the last piece of each is
+ * empty, with `is_last` 1. Returns 0 to continue, another number to end the call with
+ * LSYS_CANCELLED. */
 typedef int (*lsys_receive)(
     void* user, const char* name, const char* bytes, size_t size, int is_last);
 
-/* Writes `path` and the files beside it: pictures, levels of detail, frames. All appear, or none. */
+/* Writes `path` and the files beside it: pictures, levels of detail, frames. All appear or none. */
 LSYS_C_API lsys_status lsys_save_plant(const lsys_plant* plant,
                                        const char* path,
                                        const lsys_option* options,
@@ -330,7 +332,7 @@ typedef struct lsys_instance {
     uint32_t tree;  /* index in lsys_forest_trees() */
     uint32_t group; /* in the groups of the instances */
 } lsys_instance;
-/* A draw: instances of some parts of a mesh. */
+/* A draw call: instances of some parts of a mesh. */
 typedef struct lsys_instance_group {
     uint32_t mesh;       /* below lsys_instances_mesh_count() */
     uint32_t first_part; /* of the mesh */
@@ -339,7 +341,8 @@ typedef struct lsys_instance_group {
     uint64_t instance_count;
 } lsys_instance_group;
 
-/* Expands all trees and meshes their branches. `sides` of cross-sections; 0: those of the grammar. */
+/* Expands all trees and meshes their branches. `sides`: of cross-sections; 0: the values of the
+ * grammar. */
 LSYS_C_API lsys_status lsys_make_instances(const lsys_forest* forest,
                                            uint32_t sides,
                                            const lsys_project* project,
@@ -353,8 +356,8 @@ LSYS_C_API size_t lsys_instances_mesh_count(const lsys_instances* instances);
 /* A handle of its own, to be freed; null without memory. Precondition: index <
  * lsys_instances_mesh_count(). */
 LSYS_C_API lsys_mesh* lsys_instances_mesh(const lsys_instances* instances, size_t index);
-/* Writes `count` instances from `first` on as matrices of 16 floats, column by column, `stride` bytes
- * apart; 0: 64. Precondition: first + count <= lsys_instances_count(). */
+/* Writes `count` instances from `first` on as matrices of 16 floats, column by column, `stride`
+ * bytes apart; 0: 64. Precondition: first + count <= lsys_instances_count(). */
 LSYS_C_API void lsys_instances_read_matrices(
     const lsys_instances* instances, uint64_t first, uint64_t count, void* to, size_t stride);
 LSYS_C_API void lsys_instances_free(lsys_instances* instances); /* null is allowed */

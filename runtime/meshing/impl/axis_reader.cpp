@@ -15,7 +15,7 @@ namespace lsys {
 
 namespace {
 
-// Points nearer than this fraction of their coordinates are equal in floats.
+// Points nearer than this fraction of their coordinates count as equal.
 constexpr float kResolution = 4e-6F;
 // A radius below this fraction of the coordinates counts as 0.
 constexpr float kNoRadius = 1e-8F;
@@ -50,8 +50,8 @@ std::uint8_t rings_of_bend(const glm::vec3& before, const glm::vec3& after) {
 }
 
 /// An odd number near `sides`. The width of a polygon varies with the view by 1 / cos(pi / 2n) for
-/// odd n and by 1 / cos(pi / n) for even n: five sides are nearer to round than eight, three than
-/// six.
+/// odd n and by 1 / cos(pi / n) for even n: five sides are nearer to round than eight, and three
+/// are as near as six.
 std::uint32_t fewer_sides(std::uint32_t sides) {
     return sides <= 3 ? 3 : sides == 4 ? 5 : (sides - 1) | 1U;
 }
@@ -127,8 +127,8 @@ bool AxisReader::read(Run& run) {
     for (std::uint32_t after = 0; at < kForked; at = after) {
         after = axes_.next[at];
         if (after < kForked) {
-            prefetch(
-                skeleton_.segments[after]); // segments of branches lie between the two in memory
+            // Segments of branches lie between the two in memory.
+            prefetch(skeleton_.segments[after]);
         }
         const Segment& segment = skeleton_.segments[at];
         if (!(segment.length > 0.0F)) {
@@ -170,7 +170,7 @@ bool AxisReader::read(Run& run) {
               : at == kForked               ? TubeEnd::Ball
                                             : TubeEnd::Blunt;
     std::optional<CurveStart> start;
-    const bool open = attached_ && begins_in_parent(run, start);
+    const bool open = attached_ && fit_into_parent(run, start);
     run.begin = joints_.front().radius == 0.0F ? TubeEnd::Point
                 : open                         ? TubeEnd::Open
                                                : TubeEnd::Flat;
@@ -184,8 +184,8 @@ bool AxisReader::read(Run& run) {
             std::min(0.05F * static_cast<float>(1U << std::min(options_.level, kMaxLevels)), 0.5F);
         leave_out_joints(joints_, spare_, tolerance, options_.axis_error);
     }
-    const bool has_relief = options_.bark_noise > 0.0F || options_.grooves > 0.0F;
-    if (has_relief) {
+    const bool has_normal_map = options_.bark_noise > 0.0F || options_.grooves > 0.0F;
+    if (has_normal_map) {
         subdivide();
     }
     if (counts_) {
@@ -194,7 +194,7 @@ bool AxisReader::read(Run& run) {
             open ? std::min(joints_.front().radius, max_base_radius_) : joints_.front().radius;
         run.radii = radii_;
     }
-    if (!rings_final_ || counts_ || leaves_out || has_relief) {
+    if (!rings_final_ || counts_ || leaves_out || has_normal_map) {
         set_rings();
     }
     run.joints = joints_;
@@ -261,7 +261,7 @@ bool AxisReader::add_end(const glm::vec3& centre, float radius) {
 }
 
 /// Fits the base into the tube that the axis branches from; returns false if it lies outside.
-bool AxisReader::begins_in_parent(const Run& run, std::optional<CurveStart>& start) {
+bool AxisReader::fit_into_parent(const Run& run, std::optional<CurveStart>& start) {
     const Segment& child = skeleton_.segments[run.first_segment];
     if (child.parent >= run.first_segment) {
         return false;
@@ -306,7 +306,7 @@ bool AxisReader::begins_in_parent(const Run& run, std::optional<CurveStart>& sta
 }
 
 /// The tangent, at the tip of `segment`, of a curve through it. `next`: the segment that continues
-/// it, or at least kForked if there is none.
+/// it; at least kForked: none.
 glm::vec3 AxisReader::tip_tangent(const Segment& segment, std::uint32_t next) const {
     const glm::vec3 own = direction(segment.frame);
     if (next >= kForked || !(skeleton_.segments[next].length > 0.0F)) {
@@ -332,7 +332,8 @@ void AxisReader::add_collar(const Segment& parent, float parent_radius) {
         return;
     }
     if (counts_ && !(options_.bark_noise > 0.0F)) {
-        // The sides are those of the longest collar, so that they stay the same when the plant bends.
+        // The sides are those of the longest collar, so that they stay the same when the plant
+        // bends.
         const float longest = parent_radius / kMinSine + 1.5F * base.radius;
         const float widest = std::max(joints_[1].radius - base.radius, 0.0F);
         flare_ = {base.radius + kCollarSlope * longest,

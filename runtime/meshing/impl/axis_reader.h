@@ -53,7 +53,7 @@ struct Run {
 /// The radius that can be drawn around `centre`; 0 if none can.
 [[nodiscard]] float drawn_radius(float radius, const glm::vec3& centre, std::uint32_t sides);
 
-/// Whether two places are equal in floats, for joints of that radius.
+/// Whether two centres of joints with this radius are too near for floats to tell apart.
 [[nodiscard]] bool coincide(const glm::vec3& a, const glm::vec3& b, float radius);
 
 struct CurveStart; // joint_curves.h
@@ -75,7 +75,7 @@ private:
     bool read(Run& run);
     void add(const Segment& segment, float radius);
     bool add_end(const glm::vec3& centre, float radius);
-    bool begins_in_parent(const Run& run, std::optional<CurveStart>& start);
+    bool fit_into_parent(const Run& run, std::optional<CurveStart>& start);
     [[nodiscard]] glm::vec3 tip_tangent(const Segment& segment, std::uint32_t next) const;
     [[nodiscard]] float collar_length(const Segment& parent, float parent_radius) const;
     void add_collar(const Segment& parent, float parent_radius);

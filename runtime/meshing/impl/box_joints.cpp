@@ -34,8 +34,9 @@ constexpr float kRim = 0.72F;
 constexpr float kBevel = 0.28F;
 // Min half side with a rim, relative to the distance from the origin.
 constexpr float kMinRim = 2e-4F;
-// Overlap, in half sides, at a tip whose branches have surfaces of their own. The parent ends beyond
-// its tip, and branches begin before the tip: by less, so that no thick branch shows on the far side.
+// Overlap, in half sides, at a tip whose branches have separate surfaces. The parent ends
+// beyond its tip, and branches begin before the tip: by less, so that no thick branch shows on the
+// far side.
 constexpr float kParentOverlap = 0.6F;
 constexpr float kBranchOverlap = 0.1F;
 // Min relative difference of widths at which an unsmoothed box has a step.
@@ -166,7 +167,8 @@ private:
         finish(segment, w.tip, reach);
     }
 
-    /// Whether an end of this half side has a rim: it is smoothed, and floats can represent it.
+    /// Whether an end of this half side has a rim: if it is smoothed and floats can represent the
+    /// rim.
     [[nodiscard]] bool has_rim(float half, const Segment& segment) const {
         const glm::vec3 end = tip(segment);
         return shape_.smoothed &&
@@ -328,8 +330,8 @@ private:
         return true;
     }
 
-    /// Gives a child the side, among the sides with room, that its heading is nearest to; returns false
-    /// if no side has room.
+    /// Gives a child the side, among the sides with room, that its heading is nearest to; returns
+    /// false if no side has room.
     bool choose_side(const BoxJoint& joint,
                      const JointSize& size,
                      std::uint32_t child,

@@ -126,7 +126,7 @@ void BoxWriter::fade_radii() {
 }
 
 BoxOpening BoxWriter::add_opening(const glm::vec3& along, float half) {
-    // The socket is a rectangle: places in it are parts of its half sides.
+    // The socket is a rectangle: places in it are fractions of its half sides.
     const auto corner = [&](std::size_t i) { return mesh_.positions[end_.corners[i]]; };
     const glm::vec3 middle = 0.25F * (corner(0) + corner(1) + corner(2) + corner(3));
     const glm::vec3 right = 0.25F * (corner(0) - corner(1) - corner(2) + corner(3));
@@ -171,7 +171,7 @@ BoxOpening BoxWriter::add_opening(const glm::vec3& along, float half) {
     return opening;
 }
 
-/// Adds the faces between two rings. The first corner of each face is one from which a fan covers it.
+/// Adds the faces between two rings. A fan from the first corner of each face covers the face.
 void BoxWriter::join(const BoxSocket& from, const BoxSocket& to) {
     for (std::size_t i = 0; i < 4; ++i) {
         const std::size_t j = (i + 1) % 4;

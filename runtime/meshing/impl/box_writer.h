@@ -65,7 +65,7 @@ public:
     /// Adds a ring without joining it to the ring before. The four sides between them, and the new
     /// ring as the top, are the sides of the joint.
     [[nodiscard]] BoxJoint add_joint(float distance, const glm::vec3& direction, float half);
-    /// The socket of the next segment.
+    /// The socket for the next segment.
     [[nodiscard]] const BoxSocket& end_socket() const { return end_; }
     /// Closes the end; `rim` as for begin_root().
     void close(float rim);
@@ -99,7 +99,7 @@ private:
     float distance_ = 0.0F; // of end_
     float v_per_length_ = 0.0F;
 
-    std::vector<std::size_t> tile_order_; // places, by tiles
+    std::vector<std::size_t> tile_order_; // indices of places, by tile
     std::vector<Tile> tiles_;
     std::vector<glm::vec2> tile_corners_;
     std::vector<std::uint32_t> tile_vertices_;

@@ -34,11 +34,11 @@ constexpr std::uint64_t kVerticesPerPiece = 1U << 14;
 /// Triangles of the faces, by part.
 struct Parts {
     std::vector<MeshBuilder::PartSize> sizes;   // by rising material
-    std::vector<std::span<std::uint32_t>> room; // for the indices of each
+    std::vector<std::span<std::uint32_t>> room; // for the indices of each part
     std::map<ItemColour, std::size_t> of_colour;
 };
 
-/// Sizes after `steps` subdivision steps: each makes a quad for each corner of a face.
+/// The parts after `steps` subdivision steps; each step makes a quad for each corner of a face.
 Parts find_parts(const PolygonMesh& mesh, std::uint32_t steps) {
     std::map<MaterialKey, std::uint64_t> sizes;
     std::uint32_t begin = 0;
@@ -89,7 +89,7 @@ void write_vertex(const CatmullClark& surface,
     glm::vec3 edge(0.0F);
     std::uint32_t lowest = 0xFFFFFFFFu;
     VertexSegments segments{0xFFFFFFFFu, 0};
-    float tangents = 0.0F; // the sum of sizes
+    float tangents = 0.0F; // sum of the sizes of the tangents of faces
     float mirrored = 0.0F;
     surface.visit_faces(vertex, [&](std::uint32_t face, std::uint32_t half) {
         if (!block.segments.empty()) {
@@ -137,7 +137,8 @@ void write_vertex(const CatmullClark& surface,
     }
 }
 
-/// Whether a triangle of a quad, cut by the diagonal from its corner `first`, faces away from it.
+/// Whether one of the triangles into which the diagonal from corner `first` cuts a quad faces away
+/// from the quad.
 bool folds(const PolygonMesh& mesh, std::uint32_t begin, std::uint32_t first) {
     const auto at = [&](std::uint32_t i) { return mesh.positions[mesh.corners[begin + i % 4]]; };
     const glm::vec3 area = face_area(mesh, begin, begin + 4);

@@ -8,8 +8,8 @@
 namespace lsys {
 
 /// Appends all segments; `builder` must be empty. Each plant is one closed surface, subdivided
-/// `subdivisions` - `level` times, fields of MeshOptions. Texture coordinates: u goes from 0 to 1
-/// and back around a branch, v down along it. The builder's status tells whether all segments fit.
+/// `options.subdivisions` - `options.level` times. Texture coordinates: u goes from 0 to 1 and back
+/// around a branch, v down along it. MeshBuilder::stop() is set if not all segments fit.
 void append_boxes(const Skeleton& skeleton, const MeshOptions& options, MeshBuilder& builder);
 
 } // namespace lsys

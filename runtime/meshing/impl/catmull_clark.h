@@ -25,7 +25,7 @@ struct PolygonMesh {
     LargeVector<glm::vec2> texture_coordinates;
     LargeVector<float> radii;             // of the stem at vertices, smoothed too; may be empty
     LargeVector<std::uint32_t> corners;   // of all faces, one after the other
-    LargeVector<std::uint32_t> face_ends; // in corners
+    LargeVector<std::uint32_t> face_ends; // end of each face in `corners`
     LargeVector<std::uint32_t> colours;   // of faces
     LargeVector<std::uint32_t> segments;  // of faces; may be empty
 };
@@ -54,7 +54,8 @@ public:
     /// Replaces the positions of all vertices.
     void move_vertices(LargeVector<glm::vec3> positions) { mesh_.positions = std::move(positions); }
 
-    /// Calls visit(face, corner) for the faces around a vertex; `corner`: the vertex in the face.
+    /// Calls visit(face, half) for the faces around a vertex; `half`: the half-edge of the face
+    /// that begins at the vertex.
     template <typename Visit>
     void visit_faces(std::uint32_t vertex, const Visit& visit) const {
         const std::uint32_t first = vertex_half_[vertex];

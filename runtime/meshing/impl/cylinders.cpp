@@ -25,7 +25,7 @@ constexpr float kMaxRadius = 1e18F;
 
 /// The cone of a segment: rings of `sides` corners, or points.
 struct Cone {
-    std::uint32_t sides = 0; // 0: nothing
+    std::uint32_t sides = 0; // 0: nothing is drawn
     float base_radius = 0.0F;
     float tip_radius = 0.0F;
 
@@ -46,7 +46,7 @@ Cone cone_of(const Segment& segment, const MeshOptions& options) {
         usable_sides(options.sides != 0 ? options.sides : std::uint32_t{segment.sides});
     Cone cone;
     cone.sides = std::max(whole >> std::min(options.level, kMaxLevels), kMinSides);
-    // Smaller radii are points in floats.
+    // Radii too small for floats at this place count as 0.
     const glm::vec3 end = tip(segment);
     float far = 0.0F;
     for (int i = 0; i < 3; ++i) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// One closed truncated cone per segment: MeshMethod::Cylinders, the comparison of Crankshaw 2019.
+// One closed truncated cone per segment: MeshMethod::Cylinders, the method of comparison in
+// Crankshaw 2019.
 #pragma once
 
 #include "runtime/meshing/impl/mesh_builder.h"
@@ -7,8 +8,8 @@
 
 namespace lsys {
 
-/// Appends all segments; nothing may be in `builder` before. An end of radius 0 is a point;
-/// segments without length or width are left out. The builder's status tells whether all fit.
+/// Appends all segments; `builder` must be empty. An end of radius 0 is a point; segments without
+/// length or width are left out. MeshBuilder::stop() is set if not all segments fit.
 void append_cylinders(const Skeleton& skeleton, const MeshOptions& options, MeshBuilder& builder);
 
 } // namespace lsys

@@ -36,7 +36,8 @@ constexpr Direction direction_in_octant(std::uint32_t turns, std::uint32_t parts
     return {static_cast<float>(cosine), static_cast<float>(sine)};
 }
 
-/// Symmetric to the last bit: all directions are computed from the first octant.
+/// Direction of a corner. Symmetric to the last bit, as all directions are computed from the first
+/// octant.
 constexpr Direction direction_of(std::uint32_t corner, std::uint32_t sides) {
     if (corner == sides) {
         return {1.0F, 0.0F};
@@ -79,7 +80,7 @@ inline constexpr auto kDirections = make_directions();
     return detail::kDirections.data() + detail::first_direction(sides);
 }
 
-/// Clamps a number of sides to those with directions; 0 means 8.
+/// Clamps a number of sides to kMinSides ... kMaxSides; 0 means 8.
 [[nodiscard]] constexpr std::uint32_t usable_sides(std::uint32_t sides) {
     return sides == 0 ? 8 : std::clamp(sides, kMinSides, kMaxSides);
 }

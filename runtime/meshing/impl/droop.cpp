@@ -49,8 +49,8 @@ void Droop::bend(const ShapePart& part,
                  const glm::quat& frame,
                  float amount,
                  ShapePart& bent) const {
-    // The direction to the ground in the leaf's space, its component across the midrib, and the axis
-    // of the bending.
+    // The direction to the ground in the leaf's space, its component across the midrib, and the
+    // axis of the bending.
     const glm::vec3 down = glm::conjugate(frame) * glm::vec3(0.0F, -1.0F, 0.0F);
     glm::vec3 across(down.x, 0.0F, down.z);
     const float length = glm::length(across);

@@ -17,8 +17,8 @@ public:
     explicit Droop(const ShapePart& part);
 
     /// Bends `part`, in its own space, for a leaf of this frame, and writes positions, normals and
-    /// tangents to `bent`. With an `amount` of 1 the tip points straight down, unless the leaf stands
-    /// upright on its edge.
+    /// tangents to `bent`. With an `amount` of 1 the tip points straight down, unless the leaf
+    /// stands upright on its edge.
     void bend(const ShapePart& part, const glm::quat& frame, float amount, ShapePart& bent) const;
 
 private:

@@ -19,8 +19,8 @@ namespace lsys {
 
 class Grooves {
 public:
-    /// `count` grooves around a tube of this circumference, greater than 0. `seed` differs from tube
-    /// to tube. For every seed a ridge begins at arc 0 and turn 0.
+    /// `count` grooves around a tube of this circumference, greater than 0. `seed` differs from
+    /// tube to tube. For every seed a ridge begins at arc 0 and turn 0.
     Grooves(std::uint32_t count, float circumference, std::uint32_t seed);
 
     [[nodiscard]] std::uint32_t count() const { return count_; }

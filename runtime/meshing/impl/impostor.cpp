@@ -122,7 +122,7 @@ strip_around(int side, const std::vector<std::uint8_t>& marked, std::size_t coun
     if (top == bottom) {
         return {};
     }
-    // Both corners between two trapezoids are as far out as either of them needs.
+    // Both corners between two trapezoids are as far out as either trapezoid needs.
     const float height = static_cast<float>(bottom - top) / static_cast<float>(count);
     const auto row_at = [&](std::size_t k) {
         return static_cast<float>(top) + static_cast<float>(k) * height;
@@ -191,7 +191,7 @@ struct ImpostorBaker::Canvas {
 };
 
 ImpostorBaker::ImpostorBaker(const Mesh& mesh, float pixels, std::uint64_t triangles)
-    : tile_(kMinTile), slabs_(triangles < kTrianglesOfSlabs ? 1 : 3), columns_(slabs_ == 1 ? 2 : 4),
+    : tile_(kMinTile), slabs_(triangles < kMinSlabTriangles ? 1 : 3), columns_(slabs_ == 1 ? 2 : 4),
       triangles_(triangles) {
     while (tile_ < kMaxTile && static_cast<float>(2 * tile_) <= kTexelsPerPixel * pixels) {
         tile_ *= 2;
@@ -339,7 +339,7 @@ std::vector<std::uint8_t> ImpostorBaker::paint(const View& view,
                                                double cover,
                                                const glm::vec3& tint,
                                                Texture& colour,
-                                               Texture& relief) const {
+                                               Texture& normal_map) const {
     std::vector<std::uint32_t> order; // of opaque texels
     double area = 0.0;
     glm::dvec3 wanted(0.0); // sum of colours
@@ -383,7 +383,7 @@ std::vector<std::uint8_t> ImpostorBaker::paint(const View& view,
         for (int c = 0; c < 3; ++c) {
             colour.texels[to + static_cast<std::size_t>(c)] =
                 nearest_srgb_byte(view.colours[i][c] * factor[c]);
-            relief.texels[to + static_cast<std::size_t>(c)] =
+            normal_map.texels[to + static_cast<std::size_t>(c)] =
                 unit_byte(0.5F + 0.5F * view.normals[i][c]);
         }
         // Half opaque at the min coverage of an opaque texel, so that mipmaps of a viewer cover
@@ -391,13 +391,13 @@ std::vector<std::uint8_t> ImpostorBaker::paint(const View& view,
         const std::uint8_t alpha = unit_byte(0.5F * view.coverage[i] / min_coverage);
         colour.texels[to + 3] = opaque[i] != 0 ? std::max<std::uint8_t>(alpha, kOpaqueByte)
                                                : std::min<std::uint8_t>(alpha, kOpaqueByte - 1);
-        relief.texels[to + 3] = std::max<std::uint8_t>(unit_byte(view.depths[i]), 1);
+        normal_map.texels[to + 3] = std::max<std::uint8_t>(unit_byte(view.depths[i]), 1);
     }
     dilate(tile_, opaque, [&](std::size_t from, std::size_t to) {
         std::copy_n(colour.texels.begin() + static_cast<std::ptrdiff_t>(place(from)), 3,
                     colour.texels.begin() + static_cast<std::ptrdiff_t>(place(to)));
-        std::copy_n(relief.texels.begin() + static_cast<std::ptrdiff_t>(place(from)), 4,
-                    relief.texels.begin() + static_cast<std::ptrdiff_t>(place(to)));
+        std::copy_n(normal_map.texels.begin() + static_cast<std::ptrdiff_t>(place(from)), 4,
+                    normal_map.texels.begin() + static_cast<std::ptrdiff_t>(place(to)));
     });
     return opaque;
 }
@@ -408,13 +408,13 @@ Mesh ImpostorBaker::make(double cover, const glm::vec3& tint) const {
     colour.width = static_cast<std::uint32_t>(columns_) * static_cast<std::uint32_t>(tile_);
     colour.height = static_cast<std::uint32_t>(rows) * static_cast<std::uint32_t>(tile_);
     colour.texels.resize(std::size_t{4} * colour.width * colour.height);
-    Texture relief = colour;
+    Texture normal_map = colour;
     Mesh mesh;
     LargeVector<std::uint32_t> indices;
     std::vector<std::vector<std::uint8_t>> opaque;
     std::vector<std::size_t> areas;
     for (std::size_t tile = 0; tile < views_.size(); ++tile) {
-        opaque.push_back(paint(views_[tile], tile, cover, tint, colour, relief));
+        opaque.push_back(paint(views_[tile], tile, cover, tint, colour, normal_map));
         areas.push_back(static_cast<std::size_t>(
             std::count(opaque.back().begin(), opaque.back().end(), std::uint8_t{1})));
     }
@@ -436,7 +436,8 @@ Mesh ImpostorBaker::make(double cover, const glm::vec3& tint) const {
             mesh.texture_coordinates.push_back(
                 (part + glm::vec2(tile % columns_, tile / columns_)) / glm::vec2(columns_, rows));
         }
-        for (std::uint32_t k = 0; k < trapezoids[tile]; ++k) { // left and right, above and below
+        // Corners 0 to 3 of a trapezoid: left and right above, left and right below.
+        for (std::uint32_t k = 0; k < trapezoids[tile]; ++k) {
             const std::uint32_t corner = first + 2 * k;
             for (const std::uint32_t to : {0U, 2U, 1U, 1U, 2U, 3U}) {
                 indices.push_back(corner + to);
@@ -452,7 +453,7 @@ Mesh ImpostorBaker::make(double cover, const glm::vec3& tint) const {
     material.cut_out = true;
     material.textured = true;
     material.picture = std::make_shared<const Texture>(std::move(colour));
-    material.relief = std::make_shared<const Texture>(std::move(relief));
+    material.normal_map = std::make_shared<const Texture>(std::move(normal_map));
     return mesh;
 }
 

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
 // Impostors: crossed cards with pictures of a plant, for the coarsest levels of detail. There are
 // three upright directions, 60 degrees apart, and one from above. Each direction has one card, or
-// three cards that each show a third of the depth of the plant. A card is a strip of trapezoids
-// around its opaque texels. All cards share one atlas. The colour picture has the opacity. The
-// relief has the normals in the frame of the card, and as alpha the depth: 1 at the back to 255 at
-// the front of the part of the plant that the card shows, with the card halfway between.
+// three cards that each show a slab, a third of the depth of the plant. A card is a strip of
+// trapezoids around its opaque texels. All cards share one atlas. The colour picture has the
+// opacity. The relief has the normals in the frame of the card, and as alpha the depth: 1 at the
+// back to 255 at the front of the part of the plant that the card shows, with the card halfway
+// between.
 #pragma once
 
 #include "runtime/meshing/mesh.h"
@@ -20,14 +21,14 @@ namespace lsys {
 class LinearTextures;
 
 /// Min triangles of an impostor with three cards per direction.
-inline constexpr std::uint64_t kTrianglesOfSlabs = 40;
+inline constexpr std::uint64_t kMinSlabTriangles = 40;
 
 class ImpostorBaker {
 public:
     /// Renders the pictures of `mesh`, which has texture coordinates. The pictures are the same on
     /// every machine. `pixels`: size on screen of the plant's largest extent where the impostor is
-    /// first shown. Pictures have about as many texels, so that viewers do not start with mipmaps, in
-    /// which thin plants vanish. `triangles`: number of triangles of all cards, at least 2.
+    /// first shown. Pictures have about as many texels, so that viewers do not start with mipmaps,
+    /// in which thin plants vanish. `triangles`: number of triangles of all cards, at least 2.
     ImpostorBaker(const Mesh& mesh, float pixels, std::uint64_t triangles);
 
     /// Makes the cards, which have `triangles` triangles together, or one less if `triangles` is
@@ -42,9 +43,8 @@ private:
         glm::vec3 right{};
         glm::vec3 up{};
         glm::vec3 towards{};
-        glm::vec3
-            low{}; // bounds along right, up and towards; z: depth of the plant behind the card
-        glm::vec3 high{}; // z: depth of the plant in front of the card
+        glm::vec3 low{};  // bounds along right, up and towards; z: back of the slab
+        glm::vec3 high{}; // z: front of the slab
         std::vector<float> coverage;
         std::vector<glm::vec3> colours; // linear
         std::vector<glm::vec3> normals; // components along right, up and towards
@@ -61,7 +61,7 @@ private:
                                     double cover,
                                     const glm::vec3& tint,
                                     Texture& colour,
-                                    Texture& relief) const;
+                                    Texture& normal_map) const;
 
     [[nodiscard]] std::size_t texels() const {
         return static_cast<std::size_t>(tile_) * static_cast<std::size_t>(tile_);

@@ -19,7 +19,7 @@ namespace {
 
 constexpr std::uint16_t kLeafGreen = 1;
 constexpr std::size_t kLeafCorners = 8;
-/// Angles in radians up to this are 0 for L3D.
+/// Max angle in radians that L3D treats as 0.
 constexpr double kNoTurn = 0.001;
 
 /// The shortest rotation that takes +Y to `heading`. The identity where L3D finds no axis: also for

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Surfaces of the program L3D, for Skeleton::l3d_compatible_surface: each segment is a cylinder with
-// 2 * sides vertices, which its caps share with its rings; each leaf is a flat outline of 8
+// Surfaces of the program L3D, for Skeleton::l3d_compatible_surface: each segment is a cylinder
+// with 2 * sides vertices, which its caps share with its rings; each leaf is a flat outline of 8
 // vertices.
 #pragma once
 

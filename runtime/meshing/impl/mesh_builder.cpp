@@ -54,7 +54,8 @@ bool has_material(const std::vector<Material>& materials, const std::string& nam
                        [&name](const Material& each) { return each.name == name; });
 }
 
-/// "3", or "6699CC" for a colour of its own: some readers of OBJ take `#` for a comment.
+/// "3" for a palette index, "6699CC" for an own colour: without `#`, which some readers of OBJ take
+/// for a comment.
 std::string name_of_colour(ItemColour colour) {
     return is_own(colour) ? fmt::format("{:06X}", colour - kOwnColour) : fmt::format("{}", colour);
 }
@@ -278,7 +279,7 @@ std::optional<Stop> MeshBuilder::finish() {
         if (part.material.picture != 0) {
             const FilePictures& pictures = pictures_[part.material.picture - 1U];
             material.picture = pictures.colour;
-            material.relief = pictures.relief;
+            material.normal_map = pictures.normal_map;
             material.name = pictures.name;
         }
         apply_look(mesh_.looks.get(), part.material.palette, material);

@@ -35,13 +35,14 @@ struct MaterialKey {
 /// Pictures of a file; each may be null.
 struct FilePictures {
     std::shared_ptr<const Texture> colour;
-    std::shared_ptr<const Texture> relief;
+    std::shared_ptr<const Texture> normal_map;
     std::string name; // of the material
 };
 
 /// The material of wood: textured bark for palette index 0, the plain colour for any other.
 [[nodiscard]] MaterialKey wood_material(ItemColour palette);
-/// `words`: the items drawn with the material, for example "sphere"; the name of a plain material.
+/// `words`: names of the items drawn with the material, for example "sphere"; a plain material is
+/// named after them.
 [[nodiscard]] Material make_material(const MaterialKey& key,
                                      std::span<const std::string> words = {});
 
@@ -93,7 +94,7 @@ public:
     void set_pictures(std::vector<FilePictures> pictures) { pictures_ = std::move(pictures); }
     /// Sets the looks of colour indexes; null: none.
     void set_looks(std::shared_ptr<const Looks> looks) { mesh_.looks = std::move(looks); }
-    /// Nothing until a limit is exceeded; else the Stop that make_mesh() returns.
+    /// The Stop that make_mesh() returns; nullopt until a limit is exceeded.
     [[nodiscard]] std::optional<Stop> stop() const { return stop_; }
     [[nodiscard]] std::uint64_t vertex_count() const { return vertices_; }
     /// Segments of all vertices so far; empty unless MeshOptions::segments is set.
@@ -102,8 +103,8 @@ public:
     }
 
     /// Adds complete parts, by ascending material, and makes room for their vertices. Must be the
-    /// first call. WholePart::triangles count vertices from 0. Returns false, without effect, if the
-    /// parts do not fit.
+    /// first call. WholePart::triangles count vertices from 0. Returns false, without effect, if
+    /// the parts do not fit.
     [[nodiscard]] bool
     place_parts(std::vector<WholePart> parts, std::uint64_t vertices, MeshBlock& block);
     /// Like place_parts(), but makes room for the indices of each part instead of taking triangles.
@@ -139,8 +140,8 @@ private:
     std::uint64_t vertices_ = 0;
     std::uint64_t triangle_bytes_ = 0;
     std::vector<FilePictures> pictures_;
-    std::vector<Part> parts_; // first the parts of place_parts() or reserve_parts()
-    std::size_t first_parts_ = 0;
+    std::vector<Part> parts_;     // first the parts of place_parts() or reserve_parts()
+    std::size_t first_parts_ = 0; // count of these parts
 };
 
 } // namespace lsys

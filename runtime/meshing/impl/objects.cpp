@@ -25,7 +25,7 @@ constexpr std::uint64_t kVerticesPerPiece = 1U << 15;
 constexpr unsigned kColourBits = 25;
 static_assert(kTurtleOperationCount < 1U << 7); // the bits of a kind
 
-/// Kind, file and colour in one number, in the order of parts.
+/// Kind, file and colour, packed into one number that orders the parts; kNoGroup: not drawn.
 std::uint64_t key_of(const PlacedObject& object, std::size_t file_count) {
     if (object.size == 0.0F ||
         (object.kind == TurtleOperation::MeshFile && object.mesh_file >= file_count)) {
@@ -37,7 +37,8 @@ std::uint64_t key_of(const PlacedObject& object, std::size_t file_count) {
 }
 
 bool shows_pictures(const UserMesh& mesh) {
-    return (mesh.picture != nullptr || mesh.relief != nullptr) && !mesh.texture_coordinates.empty();
+    return (mesh.picture != nullptr || mesh.normal_map != nullptr) &&
+           !mesh.texture_coordinates.empty();
 }
 
 /// Writes one part of a shape for many objects.

@@ -42,7 +42,8 @@ std::span<const glm::vec3> corners_of(const Skeleton& skeleton, const Polygon& p
     return std::span(skeleton.corners).subspan(polygon.first_corner, polygon.corner_count);
 }
 
-/// Newell's normal; the normal of the largest triangle of a fan if the areas cancel each other.
+/// Newell's normal, or the normal of the largest triangle of a fan if the areas cancel each other.
+/// Returns false for a polygon without area.
 bool find_normal(std::span<const glm::vec3> corners, glm::dvec3& normal) {
     glm::dvec3 largest{0.0};
     double max_length = 0.0;
@@ -187,11 +188,11 @@ void write(const Job& job, const Piece& piece, ItemColour palette, const MeshBlo
 
 constexpr unsigned kPictureShift = 32;
 
-/// Number of the picture, from 1, and the colour, in the order of parts.
+/// Number of the picture, from 1, and colour, packed into one number that orders the parts.
 std::uint64_t
 key_of(const Polygon& polygon, const std::vector<UserMesh>& user_meshes, const Looks* looks) {
     if (polygon.picture < user_meshes.size() && user_meshes[polygon.picture].picture != nullptr) {
-        // Without a `#material` the colour is that of the picture.
+        // Without a `#material` the picture decides the colour.
         const bool has_look = looks != nullptr && looks->find(polygon.colour) != nullptr;
         return std::uint64_t{polygon.picture + 1U} << kPictureShift |
                (has_look ? std::max(polygon.colour, 1U) : 1U); // leaf green

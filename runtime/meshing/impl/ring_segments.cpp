@@ -164,7 +164,8 @@ private:
         vertex_ += count;
     }
 
-    /// Writes the segments of the vertices of a run, in the order in which TubeWriter writes vertices.
+    /// Writes the segments of the vertices of a run, in the order in which TubeWriter writes
+    /// vertices.
     void write_run(const OwnRun& own) {
         const std::vector<Joint>& joints = own.joints;
         const std::size_t last = joints.size() - 1;
@@ -199,7 +200,7 @@ private:
     Axes axes_;
     std::vector<std::uint32_t> chain_;        // segments of the run, and undrawn ones after it
     std::vector<std::uint32_t> places_;       // by joint: index in chain_
-    std::vector<VertexSegments> segments_of_; // by joint: of the edges before and after it
+    std::vector<VertexSegments> segments_of_; // by joint: segments of the edges beside it
     std::uint64_t vertex_ = 0;
 };
 

@@ -146,7 +146,7 @@ private:
     }
 
     std::vector<std::uint32_t> parent_;
-    std::vector<double> volume_; // six times, of the first vertex of each piece
+    std::vector<double> volume_; // six times the volume, at the first vertex of each piece
 };
 
 /// Normals of vertices: those of the triangles around them, weighted by area.

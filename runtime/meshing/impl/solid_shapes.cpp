@@ -11,7 +11,8 @@ namespace lsys {
 
 namespace {
 
-/// The position along the axis of a cone of its ball nearest to a point.
+/// Position, along the axis of a cone, of the ball nearest to a point `along` the axis and `across`
+/// from it.
 double nearest_ball(const SolidShape& cone, double along, double across) {
     if (cone.length == 0.0) {
         return 0.0;
@@ -75,7 +76,7 @@ SolidShape make_plate(const std::array<glm::dvec3, 3>& corners, double radius) {
     plate.corners = corners;
     plate.base_radius = radius;
     plate.tip_radius = radius;
-    // The longest side is the first axis, which has a direction also where the triangle has none.
+    // The longest side is the first axis: it has a direction even if the triangle has no area.
     glm::dvec3 longest(0.0);
     for (std::size_t i = 0; i < 3; ++i) {
         const glm::dvec3 side = corners[(i + 1) % 3] - corners[i];

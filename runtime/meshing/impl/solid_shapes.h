@@ -14,8 +14,8 @@
 
 namespace lsys {
 
-/// The union of all balls about the axis from a corner to the next, with radii between those of the
-/// ends; or of all balls of `base_radius` about a triangle.
+/// The union of all balls about an axis, with radii that change linearly from base to tip; or of
+/// all balls of `base_radius` about a triangle.
 struct SolidShape {
     std::array<glm::dvec3, 3> corners{}; // of a cone: the ends of its axis
     double base_radius = 0.0;
@@ -40,12 +40,12 @@ struct SolidShape {
     };
     std::array<glm::dvec3, 3> axes{}; // two in the plane, one across; unit length
     std::array<Side, 3> sides{};
-    bool is_flat = false; // it has no area
+    bool is_flat = false; // the triangle has no area
 };
 
-/// Measures of a shape at a point. `distance`: from the surface, negative within; changes by at most
-/// 1 per metre. `radius`: of the shape near the point, or less where it tapers fast; changes by at
-/// most kMaxTaper per metre.
+/// Measures of a shape at a point. `distance`: from the surface, negative within; changes by at
+/// most 1 per metre. `radius`: of the shape near the point, or less where it tapers fast; changes
+/// by at most kMaxTaper per metre.
 struct ShapeProbe {
     double distance = 0.0;
     double radius = 0.0;

@@ -29,8 +29,8 @@ constexpr int kMaxGeneration = 3 * kHalvings;
 constexpr int kPieceGeneration = 6; // generation of tetrahedra that are cut in parallel
 /// Growth of the cells per metre from the surface. Neighbours divide their common edge in the same
 /// way if the wanted size changes by less than 0.16 per metre: a bisection reduces kSteps by 0.206;
-/// the middles of two edges of a tetrahedron are at most 0.71 of its longest edge apart; its longest
-/// edge is less than 1.79 times its step.
+/// the middles of two edges of a tetrahedron are at most 0.71 of its longest edge apart; its
+/// longest edge is less than 1.79 times its step.
 constexpr double kGrowth = 0.1;
 constexpr double kMaxGrowth = 0.16;
 /// Size of cells at the edge of the base, as a fraction of the size elsewhere: keeps the edge
@@ -136,13 +136,13 @@ struct Probe {
 };
 
 std::uint64_t key_of(const Node& a, const Node& b) {
-    const Node sum = a + b; // names an edge: edges have different middles
+    const Node sum = a + b; // identifies the edge: no two edges have the same middle
     constexpr unsigned kBits = 21;
     return (static_cast<std::uint64_t>(sum.x) << (2 * kBits)) |
            (static_cast<std::uint64_t>(sum.y) << kBits) | static_cast<std::uint64_t>(sum.z);
 }
 
-/// Whether the corners b, c, d are counter-clockwise, seen from the side opposite to the corner a.
+/// Whether the corners b, c, d are counter-clockwise, seen from the side away from the corner a.
 bool is_positive(const std::array<Node, 4>& nodes) {
     const glm::i64vec3 a(nodes[0]);
     const glm::i64vec3 b = glm::i64vec3(nodes[1]) - a;
@@ -274,8 +274,8 @@ private:
         const double next = grid_.step(tetrahedron.generation + 1);
         for (std::size_t i = first; i < last; ++i) {
             const Size& at = probes_[i - first];
-            // A shape matters for the size of cells only if its cells may be the smallest somewhere in
-            // this tetrahedron. Among many leaves, only the nearest ones matter.
+            // A shape matters for the size of cells only if its cells may be the smallest somewhere
+            // in this tetrahedron. Among many leaves, only the nearest ones matter.
             const bool may_be_nearest =
                 at.distance <= at_middle.distance + 2.0 * kLipschitz * reach;
             const bool may_be_smallest = at.size <= size + 2.0 * kMaxGrowth * reach;
@@ -414,7 +414,7 @@ private:
 
     /// Adds the triangles that separate the nodes within the solid from those outside.
     void cut(const Tetrahedron& tetrahedron, std::span<const std::uint32_t> near) {
-        // Nodes within first.
+        // Puts the nodes within the solid first.
         std::array<std::size_t, 4> order{0, 1, 2, 3};
         const auto is_within = [&](std::size_t i) { return tetrahedron.distances[i] < 0.0; };
         const auto outside = std::stable_partition(order.begin(), order.end(), is_within);

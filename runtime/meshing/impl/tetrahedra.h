@@ -33,11 +33,11 @@ struct SolidSurface {
     std::vector<std::array<std::uint32_t, 3>> triangles; // counter-clockwise from outside
 };
 
-/// Each edge belongs to two triangles, in opposite directions, and triangles meet only at common
-/// vertices and edges, because each lies in one tetrahedron. Vertices lie on the surface, moved
-/// outwards so that faceted cones have the volume of round ones. The result is the same for any
-/// number of threads. Returns nullopt if more than `max_bytes` are needed. Throws std::bad_alloc.
-/// Precondition: the shapes have finite corners and radii above 0.
+/// The surface of a solid. Each edge belongs to two triangles, in opposite directions, and
+/// triangles meet only at common vertices and edges, because each lies in one tetrahedron. Vertices
+/// lie on the surface, moved outwards so that faceted cones have the volume of round ones. The
+/// result is the same for any number of threads. Returns nullopt if more than `max_bytes` are
+/// needed. Throws std::bad_alloc. Precondition: the shapes have finite corners and radii above 0.
 [[nodiscard]] std::optional<SolidSurface>
 extract_surface(const Solid& solid, std::uint64_t max_bytes, std::uint32_t threads);
 

@@ -16,7 +16,7 @@ namespace lsys {
 
 namespace {
 
-constexpr std::uint64_t kSeed = 0x7468696E; // fixed: the order depends on no seed of the author
+constexpr std::uint64_t kSeed = 0x7468696E; // fixed: the order depends on no seed of the user
 constexpr std::uint32_t kPathBlock = 0;
 constexpr std::uint32_t kFoliageBlock = 1;
 constexpr int kWideningSteps = 40; // halvings of the interval of the radius
@@ -28,7 +28,7 @@ std::uint32_t random_word(std::uint64_t number, std::uint32_t block) {
 void order_paths(const Skeleton& skeleton, ThinningOrder& order) {
     const std::size_t count = skeleton.segments.size();
     std::vector<double> areas(count, 0.0);   // outline of a segment and all its descendants
-    std::vector<double> reaches(count, 0.0); // of the longest path through a child
+    std::vector<double> reaches(count, 0.0); // length of the longest path through a child
     std::vector<std::uint32_t> path_children(count,
                                              kNoSegment); // the child that continues the path
     for (std::size_t i = count; i-- > 0;) {

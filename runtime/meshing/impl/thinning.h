@@ -23,8 +23,8 @@ struct FoliageGroup {
     std::uint32_t mesh_file = 0;                     // of objects
 };
 
-/// The ranks of all parts of a plant; parts of low rank stay longest. Items of foliage are numbered:
-/// objects, then polygons.
+/// The ranks of all parts of a plant; parts of low rank stay longest. Items of foliage are numbered
+/// together: objects, then polygons.
 struct ThinningOrder {
     /// Per segment: the rank of its path. A path goes from the branching point at its parent to the
     /// tip that is farthest along the wood. Paths that carry most wood come first; each path comes

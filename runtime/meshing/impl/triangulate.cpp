@@ -202,7 +202,7 @@ bool Triangulator::is_ear(std::uint32_t node) const {
     const glm::dvec2 high = glm::max(glm::max(a, own.at), c);
     const std::uint32_t first = order_of(low);
     const std::uint32_t last = order_of(high);
-    // Searched both ways at once: blocking corners are near.
+    // Searches in both directions at once, because blocking corners are near.
     std::uint32_t down = own.lower;
     std::uint32_t up = own.higher;
     const auto blocks = [&](std::uint32_t p) {

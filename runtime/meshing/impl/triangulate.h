@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Triangulates a flat polygon, concave or not, by ear clipping. Corners are indexed in Morton order,
-// so that an ear is compared only with corners near to it (the method of mapbox/earcut, after Held
-// 2001, "FIST: Fast Industrial-Strength Triangulation of Polygons", section 3.4). A convex polygon
-// becomes a fan.
+// Triangulates a flat polygon, concave or not, by ear clipping. Corners are indexed in Morton
+// order, so that an ear is compared only with corners near to it (the method of mapbox/earcut,
+// after Held 2001, "FIST: Fast Industrial-Strength Triangulation of Polygons", section 3.4). A
+// convex polygon becomes a fan.
 //
 // The triangles of a polygon that crosses itself are valid but may overlap.
 #pragma once
@@ -19,13 +19,13 @@ namespace lsys {
 class Triangulator {
 public:
     /// Appends triples of numbers of corners, counter-clockwise. Precondition: finite coordinates.
-    /// Each triangle has an area above rounding.
+    /// Each triangle has an area larger than rounding errors.
     void append(std::span<const glm::dvec2> corners, std::vector<std::uint32_t>& triangles);
 
 private:
     static constexpr std::uint32_t kNone = 0xFFFFFFFFu;
 
-    /// A remaining corner, in rings of neighbours and in a list by `order`.
+    /// A remaining corner, in the ring of corners and in a list by `order`.
     struct Node {
         glm::dvec2 at{};
         std::uint32_t corner = 0;

@@ -15,7 +15,7 @@ namespace lsys {
 
 namespace {
 
-/// An ellipse in space, or the cone of directions across it.
+/// An ellipse in space: the positions of a ring, or the ends of its normals.
 struct Ellipse {
     Float4 centre;
     Float4 at_cosine;
@@ -53,8 +53,8 @@ void TubeWriter::put_ring(const Ring& ring) {
     const std::uint64_t first = at_.vertex;
     const std::uint32_t columns = columns_of(ring.sides, options_);
     at_.vertex += columns;
-    if (has_relief()) {
-        put_relief(ring, first);
+    if (has_normal_map()) {
+        put_normal_map(ring, first);
     } else {
         const float part =
             ring.slope == 0.0F ? 1.0F : 1.0F / std::sqrt(1.0F + ring.slope * ring.slope);
@@ -89,7 +89,7 @@ void TubeWriter::put_textured(const Ring& ring, std::uint64_t first) {
     }
     glm::vec4* to = block_.tangents.data() + first;
     const Direction* at = directions(ring.sides);
-    if (!has_relief()) {
+    if (!has_normal_map()) {
         const Float4 a = float4(ring.normal);
         const Float4 b = float4(ring.binormal);
         const Float4 sign = float4(glm::vec3(0.0F), 1.0F);
@@ -105,7 +105,7 @@ void TubeWriter::put_textured(const Ring& ring, std::uint64_t first) {
     }
 }
 
-void TubeWriter::put_relief(const Ring& ring, std::uint64_t first) {
+void TubeWriter::put_normal_map(const Ring& ring, std::uint64_t first) {
     constexpr float kMinFactor = 0.05F;
     constexpr float kMeanGroove = -0.5F;
     const Direction* at = directions(ring.sides);
@@ -116,24 +116,24 @@ void TubeWriter::put_relief(const Ring& ring, std::uint64_t first) {
         const glm::vec3 out = at[i].cosine * ring.normal + at[i].sine * ring.binormal;
         const glm::vec3 around = at[i].cosine * ring.binormal - at[i].sine * ring.normal;
         const float turn = static_cast<float>(i) / static_cast<float>(ring.sides);
-        NoiseSample relief{.value = grooves_ == nullptr ? 0.0F : depth * kMeanGroove};
+        NoiseSample normal_map{.value = grooves_ == nullptr ? 0.0F : depth * kMeanGroove};
         if (shows_grooves) {
             const NoiseSample groove = grooves_->at(turn, ring.arc);
-            relief = {depth * groove.value, depth * groove.by_angle, depth * groove.by_length};
+            normal_map = {depth * groove.value, depth * groove.by_angle, depth * groove.by_length};
         }
         if (noise_ != nullptr) {
             const NoiseSample noise = noise_->at(turn, ring.arc);
-            relief.value += amount * noise.value;
-            relief.by_angle += amount * noise.by_angle;
-            relief.by_length += amount * noise.by_length;
+            normal_map.value += amount * noise.value;
+            normal_map.by_angle += amount * noise.by_angle;
+            normal_map.by_length += amount * noise.by_length;
         }
-        const float factor = std::max(1.0F + relief.value, kMinFactor);
+        const float factor = std::max(1.0F + normal_map.value, kMinFactor);
         const glm::vec3 offset = at[i].cosine * ring.wide_normal + at[i].sine * ring.wide_binormal;
         const float along =
-            std::clamp(ring.slope * factor + ring.radius * relief.by_length, -8.0F, 8.0F);
+            std::clamp(ring.slope * factor + ring.radius * normal_map.by_length, -8.0F, 8.0F);
         block_.positions[first + i] = ring.centre + (ring.radius * factor) * offset;
         block_.normals[first + i] =
-            glm::normalize(out - along * ring.tangent - (relief.by_angle / factor) * around);
+            glm::normalize(out - along * ring.tangent - (normal_map.by_angle / factor) * around);
     }
     if (seam_) {
         block_.positions[first + ring.sides] = block_.positions[first];

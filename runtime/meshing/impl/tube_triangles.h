@@ -19,7 +19,7 @@ public:
     /// `colours`: rising.
     explicit ColourSlots(std::span<const ItemColour> colours) : colours_(colours) {}
 
-    /// Precondition: one of the colours.
+    /// Precondition: `colour` is one of the colours.
     std::uint32_t operator[](ItemColour colour) const {
         if (colours_.size() == 1) {
             return 0;
@@ -34,14 +34,14 @@ private:
 
 class TubeTriangles {
 public:
-    /// Appends the triangles of a run to the list of each slot.
+    /// `lists`: by slot of colour; add() appends triangles to them.
     TubeTriangles(const MeshOptions& options,
                   const ColourSlots& slots,
                   std::span<TriangleList> lists);
 
     void add(const Run& run);
 
-    /// Vertices of all runs so far.
+    /// Count of the vertices of all runs so far.
     [[nodiscard]] std::uint64_t vertices() const { return vertices_; }
 
 private:

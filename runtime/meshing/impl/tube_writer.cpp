@@ -27,7 +27,7 @@ constexpr float kBallHeight = 0.62F;
 // Weight of the bisector in the first of three tangents of a bend: tan(30 degrees), which is exact
 // for a reversal, whose bisector is 90 degrees away.
 constexpr float kOuterBisectorWeight = 0.57735F;
-constexpr float kTurnsBack = -0.9F; // cosine of a bend
+constexpr float kTurnsBack = -0.9F; // max cosine of a bend that counts as a reversal
 // Number of grooves of a tube: the sides of its rings at level 0 over kSidesOfGroove, within
 // bounds.
 constexpr std::uint32_t kSidesOfGroove = 4;
@@ -61,7 +61,8 @@ double mean_circumference(const Run& run) {
     return 2.0 * std::numbers::pi * area / length;
 }
 
-/// The unit axis of the bend from one edge to the next; any across the normal for a reversal.
+/// The unit axis of the bend from one edge to the next; for a reversal, the axis perpendicular to
+/// edge and normal.
 glm::vec3 bend_axis(const glm::vec3& in, const glm::vec3& out, const glm::vec3& normal) {
     const glm::vec3 turn = glm::cross(in, out);
     const float sine = std::sqrt(glm::dot(turn, turn));
@@ -224,15 +225,15 @@ void TubeWriter::set_straight(const glm::vec3& edge, Ring& ring) const {
     ring.wide_binormal = ring.binormal;
 }
 
-/// Sets a ring in the plane that halves the bend from one edge to the next: an ellipse, so that both
-/// tubes keep their radius.
+/// Sets a ring in the plane that halves the bend from one edge to the next: an ellipse, so that
+/// both tubes keep their radius.
 void TubeWriter::set_mitred(const glm::vec3& in, const glm::vec3& out, Ring& ring) const {
     const glm::vec3& normal = at_.normal;
     const glm::vec3 binormal = glm::cross(in, normal);
     const float normal_part = glm::dot(normal, out);
     const float binormal_part = glm::dot(binormal, out);
     const float sum = 1.0F + glm::dot(in, out);
-    const float length = std::sqrt(2.0F * sum); // of the two edges together
+    const float length = std::sqrt(2.0F * sum); // of `in` + `out`
     ring.tangent = (in + out) * (1.0F / length);
     // Turned by half of the bend.
     const glm::vec3 turn = (in + ring.tangent) * (1.0F / (length + sum));
@@ -253,8 +254,8 @@ void TubeWriter::bend(const Joint& before, const Joint& joint, Ring& ring) {
     const glm::vec3 across_in = glm::cross(axis, in);
     const float half_cosine = std::sqrt(std::max(0.5F + 0.5F * cosine, 0.0F));
     const float half_sine = std::sqrt(std::max(0.5F - 0.5F * cosine, 0.0F));
-    // Angle between the first tangent and the edge before, and between the last tangent and the edge
-    // after: a quarter of the bend, or with three rings about a sixth.
+    // Angle between the first tangent and the edge before, and between the last tangent and the
+    // edge after: a quarter of the bend, or with three rings about a sixth.
     const float share = joint.rings == 2 ? 1.0F : kOuterBisectorWeight;
     const float whole = 1.0F / std::sqrt(1.0F + share * (2.0F * half_cosine + share));
     const float part_cosine = (1.0F + share * half_cosine) * whole;

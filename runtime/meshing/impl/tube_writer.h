@@ -25,7 +25,7 @@ class Grooves;
 
 class TubeWriter {
 public:
-    /// Sets the next vertex to write, within the block.
+    /// `vertex`: the next vertex to write, within the block.
     TubeWriter(const MeshBlock& block, const MeshOptions& options, std::uint64_t vertex);
 
     /// Progress within a run: a place between two joints, and the frame there.
@@ -33,9 +33,9 @@ public:
         std::size_t joint = 0; // index of the next joint
         std::uint64_t vertex = 0;
         double arc = 0.0;
-        double circumference = 0.0; // at the mean radius, where it is needed
+        double circumference = 0.0; // at the mean radius; 0 if not needed
         glm::vec3 normal{};         // across the edge to the joint: direction of the first corner
-        std::uint32_t steps = 0;
+        std::uint32_t steps = 0;    // edges since the begin of the run
     };
 
     void write(const Run& run);
@@ -70,10 +70,10 @@ private:
     void bend(const Joint& before, const Joint& joint, Ring& ring);
     void put_ring(const Ring& ring);
     void put_textured(const Ring& ring, std::uint64_t first);
-    void put_relief(const Ring& ring, std::uint64_t first);
+    void put_normal_map(const Ring& ring, std::uint64_t first);
     void put_tip(const glm::vec3& position, const glm::vec3& normal, const Ring& ring);
     void close(const Run& run, Ring& ring);
-    [[nodiscard]] bool has_relief() const { return noise_ != nullptr || grooves_ != nullptr; }
+    [[nodiscard]] bool has_normal_map() const { return noise_ != nullptr || grooves_ != nullptr; }
     [[nodiscard]] float v_of(double arc) const { return static_cast<float>(-arc * v_scale_); }
 
     MeshBlock block_;

@@ -132,7 +132,7 @@ private:
     TubeTriangles triangles_;
 };
 
-/// Some runs of a piece, or a part of one.
+/// Some runs of a piece, or a part of a long run.
 struct Task {
     Piece* piece = nullptr;
     std::size_t first_run = 0;
@@ -140,7 +140,7 @@ struct Task {
     std::size_t first_joint = 0;
     std::uint64_t first_vertex = 0;
     std::uint64_t end_vertex = 0;
-    LongRun* shared = nullptr;
+    LongRun* shared = nullptr; // the long run; null: whole runs
     std::size_t part = 0;
 };
 

@@ -6,8 +6,8 @@
 
 namespace lsys {
 
-/// Appends the tubes of all segments; nothing may be in `builder` before. The builder's status
-/// tells whether all fit.
+/// Appends the tubes of all segments; `builder` must be empty. MeshBuilder::stop() is set if not
+/// all tubes fit.
 void append_tubes(const Skeleton& skeleton, const MeshOptions& options, MeshBuilder& builder);
 
 } // namespace lsys

@@ -190,9 +190,9 @@ private:
     std::vector<std::uint32_t> cells_; // cell() of each place
 };
 
-/// Offset of the plant in pixels, 0 to 1. It differs from view to view, so that a trunk in the middle
-/// does not lie between the same pixel centres in all views. R2 sequence (Roberts, "The unreasonable
-/// effectiveness of quasirandom sequences", 2018).
+/// Offset of the plant in pixels, 0 to 1. It differs from view to view, so that a trunk in the
+/// middle does not lie between the same pixel centres in all views. R2 sequence (Roberts, "The
+/// unreasonable effectiveness of quasirandom sequences", 2018).
 glm::vec2 offset_of(std::uint64_t view) {
     const glm::vec2 at = static_cast<float>(view + 1) * glm::vec2(0.7548777F, 0.5698403F);
     return at - glm::floor(at);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The state shared by all files of a plant, and the steps that its parts share.
+// State and functions that plant_files.cpp and plant_motion.cpp share.
 #pragma once
 
 #include "runtime/meshing/detail_levels.h"
@@ -29,7 +29,7 @@ struct PlantRun {
     const OutputContext& context;
     const Plant& plant;
     ExportTiming timing = {};
-    Mesh mesh = {};                         // of the last file
+    Mesh mesh = {};                         // of the last frame, or of the finest level
     DetailLevels levels = {};               // of the plant; empty if only the finest is needed
     std::set<std::string> pictures = {};    // names of the written pictures, shared by all frames
     std::optional<glm::vec3> pivot = {};    // for all frames of a growth: pivot of the last plant
@@ -44,22 +44,23 @@ struct Movement {
     const MeshFilm* film = nullptr;
 };
 
-/// Pivot and unit of the plant in its files. The pivot is that of the plant at rest.
+/// Pivot and unit of the plant in its files; identity if they have been applied. The pivot is
+/// PlantRun::pivot if set, else the pivot of the plant at rest.
 [[nodiscard]] PlantPlacement placement_of(const PlantRun& run, const Skeleton& skeleton);
-/// Makes the mesh of `skeleton`. `segments`: with the segment of each vertex.
+/// Makes `run.mesh` from `skeleton`. `segments`: with the segment of each vertex.
 [[nodiscard]] ExitStatus mesh_frame(PlantRun& run, const Skeleton& skeleton, bool segments);
 /// Writes the mesh `run.mesh` and its side files to `path`.
 [[nodiscard]] ExitStatus write_mesh(PlantRun& run,
                                     const Skeleton& skeleton,
                                     const std::string& path,
                                     const Movement& movement);
-/// Meshes `skeleton` and writes the mesh to `path`. With `animation` the mesh is a skin, whose
+/// Meshes `skeleton` and writes the mesh to `path`. With `animation` the mesh has a skin, whose
 /// first pose is `skeleton`.
 [[nodiscard]] ExitStatus write_plant(PlantRun& run,
                                      const Skeleton& skeleton,
                                      const std::string& path,
                                      const PlantAnimation* animation);
-/// Writes a plant that does not move.
+/// Writes a plant that does not move, or adds its mesh to PlantRun::collected.
 [[nodiscard]] ExitStatus write_still(PlantRun& run, const Skeleton& skeleton);
 /// Reports an error if the `bytes` of an animation exceed the memory limit.
 [[nodiscard]] ExitStatus check_animation(const PlantRun& run, std::uint64_t bytes);

@@ -67,7 +67,7 @@ void order_by_depth(const Skeleton& rest, Bodies& out) {
         const std::uint32_t parent = rest.segments[segment].parent;
         return parent < segment ? parent : kNoSegment;
     };
-    // Children of all segments, parent by parent: those of s end before children[ends[s]].
+    // Children of all segments, parent by parent: the children of s end before children[ends[s]].
     std::vector<std::uint32_t> ends(std::size_t{count} + 1, 0);
     for (std::uint32_t s = 0; s < count; ++s) {
         const std::uint32_t parent = parent_of(s);
@@ -256,7 +256,7 @@ Bodies make_bodies(const Skeleton& rest, double surface_mass) {
                       sum / static_cast<double>(polygon.corner_count), out.bodies[b], loads[b]);
         }
     }
-    std::vector<double> carried(out.bodies.size(), 0.0); // kg, of a body and its descendants
+    std::vector<double> carried(out.bodies.size(), 0.0); // kg, mass of a body and its descendants
     for (std::size_t b = out.bodies.size(); b-- > 0;) {
         Body& body = out.bodies[b];
         glm::dvec3 moment = loads[b].first_moment;

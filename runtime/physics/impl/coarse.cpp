@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // A limp twig loads its branch like a mass at the base of the twig, and a run has the weight of its
-// bodies. So a coarse plant falls like the whole plant, whose Body::moment and contacts with the
-// ground it has.
+// bodies. So a coarse plant, which also keeps Body::moment and the contacts with the ground, falls
+// like the whole plant.
 #include "runtime/physics/impl/coarse.h"
 
 #include "runtime/physics/impl/ground.h"
@@ -136,7 +136,8 @@ public:
 
     [[nodiscard]] std::uint32_t count_runs() const {
         std::uint32_t count = 0;
-        std::vector<std::uint32_t> lengths(plant_->bodies.size(), 0); // of the run up to each body
+        // By body: number of bodies in its run up to it.
+        std::vector<std::uint32_t> lengths(plant_->bodies.size(), 0);
         for (std::uint32_t b = 0; b < plant_->bodies.size(); ++b) {
             if (is_kept(b)) {
                 lengths[b] = lengths[b] % longest_ + 1;
@@ -177,7 +178,7 @@ private:
         return twigs_->sizes[body] >= min_size_;
     }
 
-    /// kNoSegment if none or several children are kept.
+    /// The only kept child of `b`; kNoSegment if none or several children are kept.
     [[nodiscard]] std::uint32_t only_kept_child(std::uint32_t b) const {
         const Body& body = plant_->bodies[b];
         std::uint32_t only = kNoSegment;
@@ -220,8 +221,8 @@ private:
         Body body = out.bodies.bodies[run]; // its parent and offset are known
         std::vector<Contact> contacts;
         glm::dvec3 first_moment(0.0);
-        glm::dvec3 base(0.0); // of `last`
-        float areas = 0.0F;   // m^2, of segments in the wind
+        glm::dvec3 base(0.0); // base of `last`
+        float areas = 0.0F;   // m^2, area of segments in the wind
         std::uint32_t last = first_bodies[run];
         std::uint32_t length = 1;
         for (;; ++length) {

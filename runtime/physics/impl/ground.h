@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Ground: raises tips to the plane y = 0 that the springs of the ground (joints.cpp) leave below it.
+// Ground: raises tips that the springs of the ground (joints.cpp) leave below the plane y = 0.
 #pragma once
 
 #include "runtime/physics/impl/motion.h"

@@ -50,8 +50,8 @@ struct BodyForms {
     glm::dvec3 push{0.0};
 };
 
-/// Adds `factor` times the second derivative of the energy -arm . force of a force at the end of
-/// `arm`, by rotations of `arm`. See Forces::exactness.
+/// Adds `factor` times the second derivative, with respect to rotations of `arm`, of the energy
+/// -arm . force of a force at the end of `arm`. See Forces::exactness.
 void add_stiffness(const glm::dvec3& arm,
                    const glm::dvec3& force,
                    double factor,

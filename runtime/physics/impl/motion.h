@@ -31,7 +31,7 @@ struct Forces {
     double exactness = 0.0;
 };
 
-/// Rotation of a body since rest and displacement of its base, in the axes of the world.
+/// Rotation of a body from rest and displacement of its base, in the axes of the world.
 struct BodyPose {
     glm::dquat turn{1.0, 0.0, 0.0, 0.0};
     glm::dvec3 shift{0.0}; // m

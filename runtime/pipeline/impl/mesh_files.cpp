@@ -40,7 +40,7 @@ struct MaterialLibrary {
 Result<Texture>
 read_picture_file(const std::string& path, std::uint64_t max_bytes, const Project& project) {
     const Result<std::string> bytes =
-        project.host.read_named_file(path, {kMaxPictureBytes, max_bytes});
+        project.host.read_referenced_file(path, {kMaxPictureBytes, max_bytes});
     if (!bytes) {
         return Error{fmt::format("cannot read `{}`: {}", shown_path(path), bytes.error().message),
                      bytes.error().kind};
@@ -85,7 +85,7 @@ public:
         for (const ObjName& name : mesh_.libraries) {
             MaterialLibrary library{beside(path_, name.name), {}, {}};
             Result<std::string> read =
-                project.host.read_named_file(library.path, {kMaxSourceBytes, left()});
+                project.host.read_referenced_file(library.path, {kMaxSourceBytes, left()});
             if (!read) {
                 report(path_, text_, obj_, name,
                        Error{fmt::format("cannot read `{}`: {}", shown_path(library.path),
@@ -183,7 +183,7 @@ private:
                 continue;
             }
             const MaterialPicture& picture = found->second;
-            const ObjName& first = picture.file.name.empty() ? picture.relief : picture.file;
+            const ObjName& first = picture.file.name.empty() ? picture.normal_map : picture.file;
             return {first.name.empty() ? std::string() : beside(library.path, first.name), &library,
                     &picture};
         }
@@ -198,10 +198,10 @@ private:
     void read(const FoundPicture& found, const Project& project) {
         MaterialLibrary& library = *found.library;
         const MaterialPicture& names = *found.picture;
-        const ObjName& first = names.file.name.empty() ? names.relief : names.file;
+        const ObjName& first = names.file.name.empty() ? names.normal_map : names.file;
         std::shared_ptr<const Texture> colour = load(library, names.file, project);
-        std::shared_ptr<const Texture> relief = load(library, names.relief, project);
-        if (colour == nullptr && relief == nullptr) {
+        std::shared_ptr<const Texture> normal_map = load(library, names.normal_map, project);
+        if (colour == nullptr && normal_map == nullptr) {
             return;
         }
         if (names.has_options) {
@@ -219,10 +219,11 @@ private:
             colour = add_opacity(library, names, colour, project);
         }
         mesh_.picture = std::move(colour);
-        if (relief != nullptr) {
-            mesh_.relief = derived(
-                fmt::format("{}\nrelief {}", beside(library.path, names.relief.name), names.bump),
-                [&] { return normals_of(*relief, names.bump); });
+        if (normal_map != nullptr) {
+            mesh_.normal_map =
+                derived(fmt::format("{}\nrelief {}", beside(library.path, names.normal_map.name),
+                                    names.bump),
+                        [&] { return normals_of(*normal_map, names.bump); });
         }
     }
 
@@ -357,7 +358,7 @@ std::optional<Stop> read_looks(const std::filesystem::path& folder,
                            linear_of_srgb(material.colour[2])};
         }
         look.picture = load(material.picture);
-        look.relief = load(material.normal);
+        look.normal_map = load(material.normal);
         if (stop) {
             return stop;
         }
@@ -392,13 +393,13 @@ Outcome<MeshFiles> read_mesh_files(const std::string& grammar_file,
     }
     for (std::size_t i = 0; i < bytecode.symbols.size(); ++i) {
         const BytecodeSymbol& symbol = bytecode.symbols[i];
-        const bool is_of_polygons =
+        const bool is_polygon_picture =
             symbol.turtle == TurtleOperation::PolygonBegin && !symbol.mesh_file.empty();
-        if (symbol.turtle != TurtleOperation::MeshFile && !is_of_polygons) {
+        if (symbol.turtle != TurtleOperation::MeshFile && !is_polygon_picture) {
             continue;
         }
         const std::string path = path_text(folder / path_of(symbol.mesh_file));
-        if (is_of_polygons || is_picture(path)) {
+        if (is_polygon_picture || is_picture(path)) {
             std::shared_ptr<const Texture>& picture = budget.pictures[path];
             if (picture == nullptr) {
                 Result<Texture> read = read_picture_file(path, budget.left, project);
@@ -409,13 +410,14 @@ Outcome<MeshFiles> read_mesh_files(const std::string& grammar_file,
                 picture = std::make_shared<const Texture>(std::move(read.value()));
             }
             UserMesh& mesh =
-                files.meshes.emplace_back(is_of_polygons ? UserMesh{} : card_of(*picture));
+                files.meshes.emplace_back(is_polygon_picture ? UserMesh{} : card_of(*picture));
             mesh.picture = picture;
             budget.take(mesh.byte_count());
             files.lengths.resize(bytecode.symbols.size(), 1.0F);
             continue;
         }
-        const Result<std::string> text = step.read_named(path, {~std::uint64_t{0}, budget.left});
+        const Result<std::string> text =
+            step.read_referenced(path, {~std::uint64_t{0}, budget.left});
         if (!text) {
             return step.fail(text.error());
         }

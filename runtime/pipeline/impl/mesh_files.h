@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The mesh files of `#object`, with the pictures that their material files name, and the pictures of
-// `#material`.
+// The mesh files of `#object`, with the pictures that their material files name, and the pictures
+// of `#material`.
 #pragma once
 
 #include "grammar/base/outcome.h"

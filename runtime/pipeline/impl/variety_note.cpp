@@ -67,7 +67,7 @@ void note_variety(const Scene& scene, const GrownForest& grown, Step& step) {
         const SceneSpecies& species = scene.species[s];
         const AxiomPlace& axiom = grown.axioms[s];
         const bool is_wanted =
-            species.cache.heroes == 1 || (species.rho == 0.0F && species.written.rho);
+            species.cache.heroes == 1 || (species.rho == 0.0F && species.explicit_instancing.rho);
         if (trees[s].size() < 2 || is_wanted || axiom.is_noted) {
             continue;
         }

@@ -59,7 +59,8 @@ struct CellRange {
 };
 
 /// The cells that may have a place in `region`: all cells that touch the region, and one more on each
-/// side because of rounding. Error: one of these or of the `margin` cells around has no number.
+/// side because of rounding. Error: one of these cells, or a cell at most `margin` cells away, has
+/// no number.
 [[nodiscard]] Result<CellRange>
 cells_of(const CellGrid& grid, const Region& region, std::int64_t margin);
 

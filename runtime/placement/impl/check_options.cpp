@@ -114,7 +114,7 @@ Result<void> check_map(const PlacementOptions& options) {
     return options.map_region ? check_region(*options.map_region) : Result<void>();
 }
 
-/// The result of expected_places(), whose region and species have been checked.
+/// expected_places() for options whose region and species have been checked.
 Result<double> count_places(const PlacementOptions& options) {
     const auto check = [](const Bound& bound) -> Result<void> {
         if (!within(bound)) {

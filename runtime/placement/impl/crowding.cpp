@@ -16,7 +16,7 @@ namespace {
 
 constexpr std::uint64_t kPiece = 2048;
 
-/// Squares, both ends included.
+/// A range of squares, both ends included.
 struct SquareRange {
     std::uint32_t left = 0;
     std::uint32_t right = 0;

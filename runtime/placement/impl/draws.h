@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Random draws of placement, and their purposes. The position is the tree's number, or the cell's
-// number for draws of a cell; runtime/base/random.h defines draws.
+// Random draws of placement, and their purposes. The position of a draw is the number of a tree, of
+// a cell or of a step of PoissonDisk; runtime/base/random.h defines draws.
 #pragma once
 
 #include "runtime/base/random.h"
@@ -15,9 +15,9 @@ namespace lsys {
 inline constexpr std::uint32_t kPlacementGeneration = 0xFFFFFFFDu;
 
 /// Blocks whose position is a tree's number.
-inline constexpr std::uint32_t kPlaceBlock = 0; // words: x, z, rank, threshold
-inline constexpr std::uint32_t kLooksBlock = 1; // words: species, yaw, scale, vigour
-inline constexpr std::uint32_t kLifeBlock = 2;  // words: age of death, stage at the start
+inline constexpr std::uint32_t kPlaceBlock = 0;      // words: x, z, rank, threshold
+inline constexpr std::uint32_t kAppearanceBlock = 1; // words: species, yaw, scale, vigour
+inline constexpr std::uint32_t kLifeBlock = 2;       // words: age of death, stage at the start
 /// Blocks kCellBlock to kCellBlock + 3, whose position is a cell's number: the count of places
 /// (UniformCells), or the random order of 16 places (DensityCells).
 inline constexpr std::uint32_t kCellBlock = 8;

@@ -5,8 +5,8 @@
 // which white means one tree. The value of a square is the mean of the map over it plus the error
 // of its neighbours; half a tree or more becomes one, at a random place in the square. The
 // threshold is random around a half and rows run alternately forward and back (Ulichney 1988,
-// "Dithering with blue noise"), which breaks up the patterns of plain error diffusion and changes
-// no sum.
+// "Dithering with blue noise"), which breaks up the patterns of plain error diffusion and keeps
+// the sum.
 #include "runtime/placement/impl/draws.h"
 #include "runtime/placement/impl/grey_sampler.h"
 #include "runtime/placement/impl/methods.h"

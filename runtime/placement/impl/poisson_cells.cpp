@@ -91,8 +91,9 @@ private:
     std::vector<std::uint32_t> previous_order_;
     std::vector<std::uint8_t> accepted_in_; // the round in which a candidate is accepted
     std::vector<std::uint8_t> rejected_in_; // the round in which it is rejected
-    /// By quarter of a cell, in rows, with kNeighbourQuarters more on each side. The diagonal of a
-    /// quarter is shorter than the spacing, so at most one candidate is accepted in a quarter.
+    /// Accepted candidates by quarter of a cell, in rows, with kNeighbourQuarters more on each
+    /// side. The diagonal of a quarter is shorter than the spacing, so at most one candidate is
+    /// accepted in a quarter.
     std::vector<Accepted> accepted_at_;
     std::int64_t quarters_per_row_ = 0;
 };

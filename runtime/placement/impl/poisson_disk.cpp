@@ -29,8 +29,8 @@ constexpr std::uint32_t kNoPoint = 0xFFFFFFFFu;
 constexpr std::uint64_t kPiece = 1024;
 
 struct Offset {
-    std::int64_t cells = 0;
-    std::int64_t squared = 0; // distance
+    std::int64_t cells = 0;   // difference of cell indexes
+    std::int64_t squared = 0; // squared distance in cells
 };
 
 class DiskSampler {

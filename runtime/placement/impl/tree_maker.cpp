@@ -90,12 +90,13 @@ std::uint32_t TreeMaker::start_of(std::uint32_t number, std::uint16_t species) c
 }
 
 Tree TreeMaker::appearance_of(std::uint32_t number, std::uint16_t species) const {
-    return make_appearance(number, species, placement_draws(options_.key, number, kLooksBlock));
+    return make_appearance(number, species,
+                           placement_draws(options_.key, number, kAppearanceBlock));
 }
 
 void TreeMaker::make(std::uint32_t number, float x, float z, TreeChunk& chunk) const {
     ++chunk.places;
-    const PhiloxBlock words = placement_draws(options_.key, number, kLooksBlock);
+    const PhiloxBlock words = placement_draws(options_.key, number, kAppearanceBlock);
     const float height = terrain_.height(x, z);
     const std::uint32_t species = choose_species(words[0], x, height, z);
     if (species == kNoSpecies) {

@@ -46,7 +46,7 @@ private:
 
     const PlacementOptions& options_;
     const Terrain& terrain_;
-    double total_share_ = 0.0; // of all species
+    double total_share_ = 0.0; // sum over all species
     bool has_limits_ = false;  // some species cannot live everywhere
     bool has_steepest_ = false;
 };

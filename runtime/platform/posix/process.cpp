@@ -31,8 +31,8 @@ extern "C" void on_end_signal(int signal) {
     first_signal.compare_exchange_strong(none, signal);
     const bool again = interrupted.exchange(true);
     if (signal != SIGINT) {
-        // A second SIGTERM or SIGHUP has no further effect, because timeout(1) and a closing terminal
-        // send two.
+        // A second SIGTERM or SIGHUP has no further effect, because timeout(1) and a closing
+        // terminal send two.
         if (!has_alarm.exchange(true)) {
             ::alarm(kShutdownSeconds);
         }

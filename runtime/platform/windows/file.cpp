@@ -220,7 +220,7 @@ ByteCount write_some(const File& file, const char* bytes, std::size_t size) {
 }
 
 void remove_file(const char* path) noexcept {
-    // Allocates no memory, because a handler may call this.
+    // Allocates no memory, because a signal handler may call this.
     std::array<wchar_t, 4096> wide{};
     if (::MultiByteToWideChar(CP_UTF8, 0, path, -1, wide.data(), static_cast<int>(wide.size())) !=
         0) {

@@ -26,8 +26,8 @@ std::atomic<bool> interrupted{false};
 std::atomic<int> first_status{0};
 std::atomic<void (*)() noexcept> clean_up_first{nullptr};
 
-/// Called by the system in a thread of its own. After a closed console the system ends the process
-/// when this returns, or after five seconds.
+/// Called by the system in a thread of its own. After the console was closed, the system ends the
+/// process when this function returns, or after five seconds.
 BOOL WINAPI on_console_event(DWORD event) {
     constexpr DWORD kShutdownMilliseconds = 2000;
     int none = 0;

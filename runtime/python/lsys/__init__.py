@@ -60,7 +60,7 @@ def compile(path=None, *, text=None, name="grammar.lsys", defines=None, settings
 
     defines: values of `#define` and `#param` by name.
     settings: values of `#set` by key: numbers, texts, or sequences of numbers.
-    generations: instead of `#n`.
+    generations: replaces `#n`.
     dialect: "lsys", "cpfg" ...; empty: recognised by the contents and the name.
     options: threads, max_modules, max_bytes, progress, read_file, as for all calls.
 
@@ -139,21 +139,21 @@ def _save_forest(forest, path, *, preset=None, **options):
     return forest._save(os.fspath(path), named, **calls)
 
 
-def _write(thing, name, receive, **options):
+def _write(model, name, receive, **options):
     """Like save(), but passes each file in pieces to `receive(name, bytes, is_last)`, which ends
     the call by returning False. Returns the names of the files."""
     calls, named = _arguments.split(options)
-    return thing._write(name, receive, named, **calls)
+    return model._write(name, receive, named, **calls)
 
 
-def _files(thing, name, **options):
+def _files(model, name, **options):
     """Like save(), but returns the files: a dictionary from name to bytes."""
     files = {}
 
     def receive(part, piece, _):
         files.setdefault(part, bytearray()).extend(piece)
 
-    _write(thing, name, receive, **options)
+    _write(model, name, receive, **options)
     return {part: bytes(data) for part, data in files.items()}
 
 
@@ -241,9 +241,9 @@ def _forest_init(self, scene, *, defines=None, settings=None, generations=None, 
     """Grows the forest of a scene file (.toml), or of one grammar or several, each of which is a
     species.
 
-    defines, settings, generations: of all grammars, as for compile(). options: those of `lsc forest`
-    with underscores that replace values of the scene, as in `count=500`, `placement="poisson"`,
-    `rho=0`, and those of all calls.
+    defines, settings, generations: of all grammars, as for compile(). options: options of
+    `lsc forest`, with underscores, that replace values of the scene, as in `count=500`,
+    `placement="poisson"`, `rho=0`, and the options of all calls.
     """
     files = [os.fspath(scene)] if isinstance(scene, (str, os.PathLike)) else [
         os.fspath(path) for path in scene]
@@ -257,9 +257,9 @@ def _from_places(grammars, positions, *, rotation=0.0, scale=1.0, key=None, spec
     """Grows trees at places. Each argument of places is an array with an item for each tree, or a
     single value.
 
-    grammars: one path or several. positions: (trees, 3), m. rotation: radians about +Y. key: a number
-    that draws the branches of a tree; None: its index. species: index in `grammars`. age: years; 0: the
-    last stage. The others as for Forest().
+    grammars: one path or several. positions: (trees, 3), m. rotation: radians about +Y. key: a
+    number that determines the branches of a tree; None: its index. species: index in `grammars`.
+    age: years; 0: the last stage. Other arguments: as for Forest().
     """
     positions = np.asarray(positions, np.float32)
     if positions.ndim != 2 or positions.shape[1] != 3:

@@ -79,7 +79,7 @@ private:
     FileId file_;
     const SourceFile& source_;
     std::uint32_t line_ = 0;             // the line of offsets_
-    std::vector<std::uint32_t> offsets_; // of each character of the line, and of its end
+    std::vector<std::uint32_t> offsets_; // offset of each character of the line, then of its end
 };
 
 /// Max depth of stored values; bounds the recursion here and in ~SceneValue(). Valid scenes are less
@@ -221,8 +221,8 @@ void report_syntax(const toml::parse_error& error, Places& places, Diagnostics& 
     }
 }
 
-/// toml++ and the reader of its tables recurse over the parts of a key. toml++ limits the depth of
-/// values, but not of keys.
+/// Max parts of a key. toml++ and the reader of its tables recurse over the parts of a key; toml++
+/// limits the depth of values, but not of keys.
 constexpr std::uint32_t kMaxKeyParts = 16;
 
 bool is_bare(char c) {
@@ -253,8 +253,8 @@ std::size_t end_of_string(std::string_view text, std::size_t at) {
     return end;
 }
 
-/// The first key with too many parts, up to the first excess part. Only keys have more than one
-/// dot.
+/// The place of the first key with too many parts, from its start to the end of the first excess
+/// part. Outside of strings and comments, only keys have more than one dot.
 std::optional<SourceSpan> find_long_key(FileId file, std::string_view text) {
     std::uint32_t parts = 0;
     std::size_t begin = 0;

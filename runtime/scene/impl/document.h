@@ -19,7 +19,7 @@ struct SceneEntry;
 
 struct SceneValue {
     SceneValueKind kind = SceneValueKind::Table;
-    SourceSpan span;                 // of a table: its heading, or the whole inline table
+    SourceSpan span;                 // for a table: its heading, or the whole inline table
     std::int64_t integer = 0;        // Integer
     double real = 0.0;               // Real, and Integer rounded
     std::string text;                // Text
@@ -33,7 +33,7 @@ struct SceneEntry {
     SceneValue value;
 };
 
-/// `a text`, `a list`, ...
+/// The kind as words for messages: "a text", "a list", ...
 [[nodiscard]] std::string_view kind_text(SceneValueKind kind);
 
 /// The entry of `key`, or nullptr.

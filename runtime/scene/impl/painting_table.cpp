@@ -14,7 +14,7 @@ namespace lsys {
 
 namespace {
 
-constexpr std::size_t kNumbersPerTree = 5;
+constexpr std::size_t kItemsPerTree = 5;
 constexpr double kMinScale = 1e-3;
 constexpr double kMaxScale = 1e3;
 
@@ -23,7 +23,7 @@ void read_tree(const SceneValue& row,
                const std::vector<std::string_view>& names,
                TableReader& reader,
                Painting& painting) {
-    if (row.kind != SceneValueKind::List || row.items.size() != kNumbersPerTree ||
+    if (row.kind != SceneValueKind::List || row.items.size() != kItemsPerTree ||
         row.items[0].kind != SceneValueKind::Text) {
         reader.report_bad_value(
             row.span, "a painted tree is a list: its species' name, x, z, yaw in degrees, scale");

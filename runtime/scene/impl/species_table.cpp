@@ -213,8 +213,8 @@ void read_cache(SpeciesReader& from) {
     cache.cap = from.integer("cache_cap", {0, kMaxInteger32}, cache.cap);
     cache.tolerance = from.number("tolerance", {0.0, 1.0, false, {}}, cache.tolerance);
     from.species.rho = from.number("rho", {0.0, 1.0, false, {}}, from.species.rho);
-    from.species.written = {from.reader.has("heroes"), from.reader.has("rho"),
-                            from.reader.has("cache_cap")};
+    from.species.explicit_instancing = {from.reader.has("heroes"), from.reader.has("rho"),
+                                        from.reader.has("cache_cap")};
 }
 
 void read_placement(SpeciesReader& from) {

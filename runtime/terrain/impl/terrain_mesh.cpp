@@ -98,7 +98,8 @@ Result<Mesh> make_terrain_mesh(const Terrain& terrain, const TerrainMeshOptions&
             const auto corner = static_cast<std::uint32_t>(row * (columns + 1) + column);
             const std::uint32_t below = corner + options.columns + 1; // the next row, greater z
             std::uint32_t* const to = indices.data() + 6 * (row * columns + column);
-            // Triangles are counter-clockwise seen from above, so an edge along Z precedes an edge along X.
+            // Triangles are counter-clockwise seen from above, so an edge along Z precedes an edge
+            // along X.
             const bool diagonal_at_corner = ((row + column) & 1U) == 0;
             const std::array<std::uint32_t, 6> cell =
                 diagonal_at_corner ? std::array<std::uint32_t, 6>{corner, below,     below + 1,
@@ -117,7 +118,7 @@ Result<Mesh> make_terrain_mesh(const Terrain& terrain, const TerrainMeshOptions&
     ground.colour = tiled ? glm::vec4(1.0F) : glm::vec4(0.055F, 0.07F, 0.025F, 1.0F);
     ground.textured = tiled;
     ground.picture = pictures.colour;
-    ground.relief = tiled ? pictures.normals : nullptr;
+    ground.normal_map = tiled ? pictures.normals : nullptr;
     mesh.materials.push_back(ground);
     mesh.parts.push_back({0, 0, mesh.indices.size()});
     return mesh;

@@ -12,7 +12,7 @@ void Turtle::State::note_at(TurtleFaultKind kind, std::uint64_t place, Code modu
     }
 }
 
-bool Turtle::State::is_finite_pose() {
+bool Turtle::State::check_finite_pose() {
     const Pose& p = now.pose;
     // The comparison is also false for NaN.
     if (std::abs(p.x) <= kMaxFloat && std::abs(p.y) <= kMaxFloat && std::abs(p.z) <= kMaxFloat) {
@@ -28,12 +28,12 @@ bool Turtle::State::draw(
     if (has_tropism) {
         bend(now.pose, bytecode.settings.tropism);
     }
-    if (!has_room(skeleton.segments)) {
+    if (!make_room(skeleton.segments)) {
         return false;
     }
     const Pose base = now.pose;
     advance(now.pose, length);
-    if (!is_finite_pose()) {
+    if (!check_finite_pose()) {
         return false;
     }
     if (!(base_width <= std::numeric_limits<float>::max())) {
@@ -85,7 +85,7 @@ bool Turtle::State::draw_tapered(const Action& action, const float* arguments) {
 }
 
 bool Turtle::State::place(const Action& action, const float* arguments) {
-    if (!has_room(skeleton.objects)) {
+    if (!make_room(skeleton.objects)) {
         return false;
     }
     const float size = action.given > 0 ? arguments[0] : action.default_size;
@@ -102,7 +102,7 @@ bool Turtle::State::place(const Action& action, const float* arguments) {
     if (action.advances) {
         advance(now.pose, static_cast<double>(size) * static_cast<double>(action.unit_length));
         now.moved = true;
-        return is_finite_pose();
+        return check_finite_pose();
     }
     return true;
 }
@@ -288,12 +288,12 @@ bool Turtle::State::execute(const Action& action, const float* arguments) {
         advance(now.pose, static_cast<double>(argument(now.step) * part));
         polygons.path(now.pose);
         now.moved = true;
-        return is_finite_pose();
+        return check_finite_pose();
     }
     case TurtleOperation::MoveWithoutVertex:
         advance(now.pose, static_cast<double>(argument(now.step)));
         now.moved = true;
-        return is_finite_pose();
+        return check_finite_pose();
     case TurtleOperation::Bend:
         bend(now.pose, {0.0F, -1.0F, 0.0F, argument(0.0F)});
         return true;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Operations of the turtles of other programs only: Fractint and Houdini.
+// Operations that only the turtles of Fractint and Houdini have.
 #include "runtime/turtle/impl/state.h"
 
 namespace lsys {
@@ -34,7 +34,7 @@ void Turtle::State::turn_by(const Action& action, const float* arguments) {
     yaw(now.pose, angle(2));
 }
 
-/// Turns the first heading; the second one keeps its direction.
+/// Turns the first heading left; the second heading keeps its direction.
 void Turtle::State::turn_left(double degrees) {
     yaw(now.pose, half_angle(degrees));
     now.second_heading = std::remainder(now.second_heading - degrees, kFullTurn);
@@ -50,7 +50,7 @@ void Turtle::State::half_turn_snapped() {
     turn_left(is_mirrored ? degrees : -degrees);
 }
 
-/// Half a roll exchanges left and right, also of the second heading.
+/// Exchanges left and right by half a roll, also for the second heading.
 void Turtle::State::mirror() {
     roll(now.pose, {0.0, 1.0});
     now.second_heading = -now.second_heading;
@@ -67,7 +67,7 @@ bool Turtle::State::secondary_forward(const Action& action, const float* argumen
         advance(now.pose, static_cast<double>(now.step));
         polygons.path(now.pose);
         now.moved = true;
-        is_finite = is_finite_pose();
+        is_finite = check_finite_pose();
     }
     now.pose.qw = pose.qw;
     now.pose.qx = pose.qx;

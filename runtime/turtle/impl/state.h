@@ -82,7 +82,7 @@ struct Turtle::State {
         begin();
     }
 
-    /// The state at the start of a word.
+    /// Sets the state at the start of a word.
     void begin() {
         const Settings& settings = bytecode.settings;
         now = {};
@@ -138,7 +138,7 @@ struct Turtle::State {
     bool place(const Action& action, const float* arguments);
     bool save();
     bool restore();
-    /// Skips a module of a branch that `%` cut off; its `]` restores the turtle.
+    /// Skips a module after a `%` or in a skipped branch; its `]` restores the turtle.
     bool skip(const Action& action);
     bool save_branch(const Action& action, const float* arguments);
     [[nodiscard]] TurtlePlace current_place() const;
@@ -159,7 +159,7 @@ struct Turtle::State {
     void add_colour(float number, double sign);
 
     void note(TurtleFaultKind kind) { note_at(kind, position, code); }
-    /// Notes a fault of the module of this code at `place` in the word.
+    /// Notes a fault of the module at index `place` of the word, whose code is `module`.
     void note_at(TurtleFaultKind kind, std::uint64_t place, Code module);
     /// Notes `count` faults at the end of a word, which belong to no module.
     void note_end(TurtleFaultKind kind, std::uint64_t count) {
@@ -184,8 +184,8 @@ struct Turtle::State {
     }
     /// Makes room in `items` for one more; otherwise ends the drawing and returns false.
     template <typename Items>
-    bool has_room(Items& items);
-    bool is_finite_pose();
+    bool make_room(Items& items);
+    bool check_finite_pose();
     [[nodiscard]] std::uint16_t order() const {
         constexpr std::size_t kMaxOrder = std::numeric_limits<std::uint16_t>::max();
         return static_cast<std::uint16_t>(std::min(stack.size(), kMaxOrder));
@@ -222,7 +222,7 @@ struct Turtle::State {
 };
 
 template <typename Items>
-bool Turtle::State::has_room(Items& items) {
+bool Turtle::State::make_room(Items& items) {
     if (items.size() < items.capacity()) {
         return true;
     }
@@ -269,7 +269,7 @@ inline float Turtle::State::spring_of(double length, float base_width, float tip
     return cached_spring;
 }
 
-/// Appends the next segment of the path. Precondition: has_room(skeleton.segments).
+/// Appends the next segment of the path. Precondition: make_room(skeleton.segments).
 [[gnu::always_inline]] inline Segment& Turtle::State::put_segment(
     const Pose& base, float length, float base_width, float tip_width, float spring, float mass) {
     const auto index = static_cast<std::uint32_t>(skeleton.segments.size());

@@ -33,7 +33,7 @@ bool Turtle::State::execute_pending() {
     return cut != 0 ? skip(action) : execute(action, action.arguments.data());
 }
 
-/// Returns false once the drawing has ended.
+/// Reads the next module of the word. Returns false once the drawing has ended.
 bool Turtle::State::take_character(const Action& action, Code character, const float* arguments) {
     if (pending.in_parameter) {
         if (action.operation != TurtleOperation::ParameterEnd) {

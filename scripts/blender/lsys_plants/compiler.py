@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Grows plants by the Python module lsys or, where there is none, by the program lsc; needs no Blender."""
+"""Grows plants with the program lsc or the Python module lsys; needs no Blender."""
 import json
 import os
 import shlex
@@ -16,7 +16,7 @@ except ImportError:
 
 
 class CompilerError(Exception):
-    """There is no compiler, or it failed; the text says why."""
+    """No compiler was found, or it failed; the text says why."""
 
 
 def find_compiler(named=""):
@@ -48,7 +48,7 @@ class Program:
         self.path = path
 
     def run(self, arguments, seconds):
-        """Standard output and the messages of a run. CompilerError: it failed, with its messages."""
+        """Returns standard output and the messages of a run. CompilerError: the run failed; has its messages."""
         try:
             done = subprocess.run([self.path, *arguments], capture_output=True, text=True, encoding="utf-8",
                                   errors="replace", stdin=subprocess.DEVNULL, timeout=seconds, check=False)
@@ -63,7 +63,7 @@ class Program:
         return done.stdout, messages
 
     def read_parameters(self, file, seconds):
-        """The output of `lsc stats --parameters` for a grammar: generations, seed, parameters."""
+        """Generations, seed and parameters of a grammar, as `lsc stats --parameters` writes them."""
         try:
             output, _ = self.run(["stats", "--parameters", "--message-format", "json", "--quiet", "--", file], seconds)
             return json.loads(output)
@@ -82,11 +82,11 @@ class Program:
 class Module:
     """The Python module lsys."""
 
-    #: Options of compile(); those of grow() are `seed`, `height` and `stream`.
+    #: Options that compile() takes as text, under the same name.
     COMPILE = ("dialect", "system")
 
     def attempt(self, work, seconds):
-        """The value of work(options of calls), and its warnings as text."""
+        """Returns the value of work(calls) and its warnings as text. `calls`: arguments that set the time limit."""
         end = time.monotonic() + seconds
         calls = {"progress": lambda *_: time.monotonic() < end}
         try:
@@ -101,7 +101,7 @@ class Module:
         return value, "\n".join(str(each.message) for each in caught)
 
     def read_parameters(self, file, seconds):
-        """As of the program."""
+        """The same as Program.read_parameters."""
         grammar, _ = self.attempt(lambda calls: lsys.compile(file, **calls), seconds)
         parameters = []
         for constant in grammar.constants:
@@ -114,16 +114,16 @@ class Module:
         return {"generations": grammar.generations or 0, "seed": grammar.seed, "parameters": parameters}
 
     def write(self, arguments, path, seconds):
-        """As of the program, by the same arguments."""
+        """The same as Program.write, with the same arguments."""
         command, file, *rest = arguments
-        of_grammar, options = split_arguments(rest, command)
-        return self.attempt(lambda calls: WRITERS[command](file, of_grammar, options, path, calls), seconds)[1]
+        compile_arguments, options = split_arguments(rest, command)
+        return self.attempt(lambda calls: WRITERS[command](file, compile_arguments, options, path, calls), seconds)[1]
 
 
 def split_arguments(arguments, command):
-    """Arguments of lsc as those of compile(), and the others as a dictionary of names and values."""
+    """Splits arguments of lsc into arguments of compile() and a dictionary of the other options."""
     known = lsys.options("plant") if command == "export" else {**lsys.options("scene"), **lsys.options("forest")}
-    of_grammar = {"defines": {}, "settings": {}}
+    compile_arguments = {"defines": {}, "settings": {}}
     options = {}
     left = list(arguments)
     while left:
@@ -141,19 +141,19 @@ def split_arguments(arguments, command):
             key, equals, value = value.partition("=")
             if not equals:
                 raise CompilerError(f"options: `{key}` has no value")
-            of_grammar["defines" if name == "define" else "settings"][key] = (
+            compile_arguments["defines" if name == "define" else "settings"][key] = (
                 number(value, float) if name == "define" else value)
         elif name == "generations":
-            of_grammar["generations"] = number(value, int)
+            compile_arguments["generations"] = number(value, int)
         elif name == "threads":
             options["threads"] = number(value, int)
         elif name == "bug-compatible":
-            of_grammar["bug_compatible"] = True
+            compile_arguments["bug_compatible"] = True
         elif name in Module.COMPILE:
-            of_grammar[name] = value
+            compile_arguments[name] = value
         else:
             options[name] = True if is_flag and not equals else value
-    return of_grammar, options
+    return compile_arguments, options
 
 
 def number(text, kind):
@@ -163,19 +163,20 @@ def number(text, kind):
         raise CompilerError(f"options: `{text}` is no number") from error
 
 
-def write_plant(file, of_grammar, options, path, calls):
+def write_plant(file, compile_arguments, options, path, calls):
     threads = {"threads": options.pop("threads")} if "threads" in options else {}
     seed = number(options.pop("seed"), int) if "seed" in options else None
     height = number(options.pop("height"), float) if "height" in options else None
-    plant = lsys.compile(file, **of_grammar, **calls, **threads).grow(seed=seed, height=height, **calls, **threads)
+    grammar = lsys.compile(file, **compile_arguments, **calls, **threads)
+    plant = grammar.grow(seed=seed, height=height, **calls, **threads)
     plant.save(path, **options, **calls, **threads)
 
 
-def write_forest(file, of_grammar, options, path, calls):
+def write_forest(file, compile_arguments, options, path, calls):
     threads = {"threads": options.pop("threads")} if "threads" in options else {}
     in_files = lsys.options("forest")
     of_files = {name: options.pop(name) for name in list(options) if name in in_files}
-    lsys.Forest(file, **of_grammar, **options, **calls, **threads).save(path, **of_files, **calls, **threads)
+    lsys.Forest(file, **compile_arguments, **options, **calls, **threads).save(path, **of_files, **calls, **threads)
 
 
 WRITERS = {"export": write_plant, "forest": write_forest}

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
 """Reads GLB and glTF files of lsc into plain arrays; needs no Blender.
 
-A file of a forest is walked as placements: each names a mesh and holds one transform, or one for each instance of
+A forest is read as placements. A placement names a mesh and holds one transform, or one per instance of
 EXT_mesh_gpu_instancing. Coordinates are those of the file: metres, +Y up.
 """
 import array
@@ -27,7 +27,7 @@ class GltfError(Exception):
 
 
 def split_glb(data):
-    """The document and the binary chunk of a GLB. GltfError: the file is no complete GLB of version 2."""
+    """Returns the document and the binary chunk of a GLB. GltfError: not a complete GLB of version 2."""
     if len(data) < 20:
         raise GltfError("too short for a GLB")
     magic, version, length = struct.unpack_from("<4sII", data, 0)
@@ -244,7 +244,7 @@ class Gltf:
         return moved
 
     def primitives(self, number):
-        """Name of a mesh and, for each primitive, its attributes, the accessor of its indices, its material."""
+        """Name of a mesh and, per primitive, the accessors of its attributes and of its indices, and its material."""
         mesh = self.item("meshes", number)
         parts = []
         for primitive in mesh["primitives"]:

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
-"""Makes materials of a glTF file that Blender's own importer does not read.
+"""Makes the materials of a forest, whose glTF file Blender's own importer does not read.
 
-Written for Blender 3.4; what differs in 4.0 to 4.5 follows the release notes of Blender, and was not run there.
+Written for Blender 3.4. The code for differences of 4.0 to 4.5 follows Blender's release notes and has not been run.
 """
 
 REPEAT = 10497
@@ -25,7 +25,7 @@ class Materials:
         self.images = {}
 
     def get(self, number, has_colours):
-        """The material, multiplied with the colours of vertices if there are any."""
+        """The material `number`, or a default one if it is None; with `has_colours`, times the vertex colours."""
         key = (number, has_colours)
         if key not in self.made:
             self.made[key] = self.make(self.gltf.item("materials", number) if number is not None else {}, has_colours)

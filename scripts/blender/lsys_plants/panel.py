@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
 """Properties, operators and panels of the add-on.
 
-A plant or forest is a collection whose `lsys` settings have a kind; its contents follow the settings.
+A plant or forest is a collection whose settings, `lsys`, have a kind other than NONE; its contents follow the settings.
 """
 import os
 import struct
@@ -38,7 +38,7 @@ class Preferences(bpy.types.AddonPreferences):
 
 
 def preferences():
-    """The compiler and its time limit. CompilerError: there is none."""
+    """The compiler, and its time limit in seconds. CompilerError: no compiler was found."""
     addon = bpy.context.preferences.addons.get(__package__)
     if addon is None:  # registered by a script instead of being enabled in the preferences
         return compiler.find_compiler(), 120.0
@@ -87,7 +87,7 @@ def run_pending():
                 try:
                     bpy.ops.lsys.update(collection=name)
                 except RuntimeError:
-                    pass  # Blender has reported it, and the panel shows it
+                    pass  # Blender has reported the error, and the panel shows it
 
 
 def file_changed(self, context):
@@ -165,11 +165,11 @@ def read_file(collection, keep):
         settings.parameters.clear()
         settings.has_key = keep and settings.has_key
         return
-    told = found.read_parameters(path, seconds)
+    grammar = found.read_parameters(path, seconds)
     values = {p.name: p.value for p in settings.parameters if p.value != p.default} if keep else {}
     with PausedUpdates():
         settings.parameters.clear()
-        for one in told["parameters"]:
+        for one in grammar["parameters"]:
             if "value" not in one:
                 continue  # a random constant, which depends on the seed
             parameter = settings.parameters.add()
@@ -179,8 +179,8 @@ def read_file(collection, keep):
             parameter.minimum, parameter.maximum = one.get("min", 0.0), one.get("max", 0.0)
             parameter.value = values.get(one["name"], one["value"])
         if not keep:
-            settings.generations = min(told["generations"], MAX_INT)
-            settings.seed = min(told["seed"], MAX_INT)
+            settings.generations = min(grammar["generations"], MAX_INT)
+            settings.seed = min(grammar["seed"], MAX_INT)
 
 
 def shortest(value):
@@ -191,7 +191,7 @@ def shortest(value):
 
 
 def arguments_of(collection):
-    """Arguments of lsc without those of the output."""
+    """Arguments of lsc, except the output file."""
     settings = collection.lsys
     path = path_of(settings)
     more = compiler.split_options(settings.options)
@@ -216,7 +216,10 @@ def arguments_of(collection):
 
 
 def update(collection):
-    """Runs the compiler, replaces the contents of the collection, returns the messages. Raises FAILURES and changes nothing."""
+    """Runs the compiler, replaces the contents of the collection and returns the messages.
+
+    Raises FAILURES; the contents then stay, and the settings have the message.
+    """
     settings = collection.lsys
     try:
         found, seconds = preferences()
@@ -266,7 +269,7 @@ class Runner:
 
 
 class Creator(Runner, ImportHelper):
-    """Makes a new collection and fills it; an error removes the collection."""
+    """Base of operators that make a new collection and fill it; an error removes the collection."""
 
     def execute(self, context):
         def create():

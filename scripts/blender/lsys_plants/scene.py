@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
-"""Makes the objects of plants and forests. A failure does not change the file.
+"""Makes the objects of plants and forests. A failure leaves Blender's data unchanged.
 
-Written for Blender 3.4; what differs in 4.0 to 4.5 follows the release notes of Blender, and was not run there.
+Written for Blender 3.4. The code for differences of 4.0 to 4.5 follows Blender's release notes and has not been run.
 """
 import re
 
@@ -93,7 +93,7 @@ class MeshMaker:
             key = tuple(sorted(attributes.items()))
             sets.setdefault(key, []).append((self.gltf.accessor(indices)[0], material))
         parts = {"POSITION": [], "NORMAL": [], "TEXCOORD_0": [], "COLOR_0": []}
-        corners, slots, of_faces = [], [], []
+        corners, slots, face_slots = [], [], []
         count = 0
         for key, users in sets.items():
             attributes = dict(key)
@@ -113,11 +113,11 @@ class MeshMaker:
                 slot = (material, "COLOR_0" in attributes)
                 if slot not in slots:
                     slots.append(slot)
-                of_faces.append(numpy.full(len(indices) // 3, slots.index(slot), dtype=numpy.int32))
+                face_slots.append(numpy.full(len(indices) // 3, slots.index(slot), dtype=numpy.int32))
         columns = {part: numpy.concatenate(rows) for part, rows in parts.items()
                    if rows and sum(len(r) for r in rows) == count}
         mesh = self.assemble(name, columns, numpy.concatenate(corners).astype(numpy.int32))
-        mesh.polygons.foreach_set("material_index", numpy.concatenate(of_faces))
+        mesh.polygons.foreach_set("material_index", numpy.concatenate(face_slots))
         for material, has_colours in slots:
             mesh.materials.append(self.materials.get(material, has_colours))
         return mesh
@@ -304,7 +304,10 @@ def clear(collection, keep):
 
 
 def fill(collection, path, is_forest):
-    """Replaces the contents of a collection by a file. Raises OSError or GltfError and changes nothing."""
+    """Replaces the contents of a collection by those of a file. Returns the extras of a forest's root node.
+
+    Raises OSError or GltfError; the contents then stay.
+    """
     active = bpy.context.view_layer.objects.active
     with Changes() as changes:
         try:

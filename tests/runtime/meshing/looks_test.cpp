@@ -81,14 +81,17 @@ TEST_CASE("a material changes only the given properties of its colour index", "[
     add_look(
         1, {.colour = glm::vec3(0.5F), .roughness = {}, .translucency = 0.75F, .two_sided = false},
         *looks);
-    add_look(
-        3,
-        {.colour = {}, .relief = picture, .roughness = {}, .translucency = {}, .two_sided = true},
-        *looks);
+    add_look(3,
+             {.colour = {},
+              .normal_map = picture,
+              .roughness = {},
+              .translucency = {},
+              .two_sided = true},
+             *looks);
     const Mesh mesh = mesh_of(skeleton_of(looks));
     const Material& bark = material_named(mesh, "bark");
     CHECK(bark.picture == picture);
-    CHECK(bark.relief == nullptr);
+    CHECK(bark.normal_map == nullptr);
     CHECK(bark.colour == glm::vec4(1.0F));
     CHECK(bark.roughness == 0.25F);
     CHECK_FALSE(bark.cut_out);
@@ -102,7 +105,7 @@ TEST_CASE("a material changes only the given properties of its colour index", "[
     CHECK_FALSE(leaf.two_sided);
     const Material& wood = material_named(mesh, "wood 3");
     CHECK(glm::vec3(wood.colour) == palette_colour(3));
-    CHECK(wood.relief == picture);
+    CHECK(wood.normal_map == picture);
     CHECK(wood.two_sided);
     CHECK(material_named(mesh, "sphere 5").roughness == std::nullopt);
 }
@@ -111,7 +114,7 @@ TEST_CASE("a relief alone keeps the picture of bark", "[mesh]") {
     auto looks = std::make_shared<Looks>();
     add_look(0,
              {.colour = {},
-              .relief = grey_picture(255),
+              .normal_map = grey_picture(255),
               .roughness = {},
               .translucency = {},
               .two_sided = {}},
@@ -174,7 +177,7 @@ TEST_CASE("glTF has all properties of a material", "[mesh]") {
     add_look(0,
              {.colour = glm::vec3(0.5F, 0.25F, 0.125F),
               .picture = grey_picture(255),
-              .relief = grey_picture(255),
+              .normal_map = grey_picture(255),
               .roughness = 0.25F,
               .translucency = 0.5F,
               .two_sided = true},

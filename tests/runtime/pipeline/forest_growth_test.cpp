@@ -26,7 +26,7 @@ Project wood_project(const std::string& scene) {
         return at != files.end() ? Result<std::string>(at->second)
                                  : Error{"no such file or directory"};
     };
-    project.host.read_named_file = project.host.read_file;
+    project.host.read_referenced_file = project.host.read_file;
     project.host.file_exists = [files](const std::string& path) { return files.contains(path); };
     return project;
 }

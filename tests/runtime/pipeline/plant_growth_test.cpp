@@ -28,7 +28,7 @@ Project growth_project(std::uint32_t threads) {
         text << file.rdbuf();
         return file ? Result<std::string>(text.str()) : Error{"no such file or directory"};
     };
-    project.host.read_named_file = project.host.read_file;
+    project.host.read_referenced_file = project.host.read_file;
     project.host.file_exists = [](const std::string& path) { return std::ifstream(path).good(); };
     return project;
 }

@@ -24,7 +24,7 @@ Project setting_project(std::map<std::string, std::string> files) {
         return at != files.end() ? Result<std::string>(at->second)
                                  : Error{"no such file or directory"};
     };
-    project.host.read_named_file = project.host.read_file;
+    project.host.read_referenced_file = project.host.read_file;
     project.host.file_exists = [files](const std::string& path) { return files.contains(path); };
     return project;
 }

@@ -239,7 +239,7 @@ TEST_CASE("pictures of the ground are tiled from their origin") {
         REQUIRE(tangent.w == 1.0F);
     }
     CHECK(mesh.materials[0].picture == options.pictures.colour);
-    CHECK(mesh.materials[0].relief == options.pictures.normals);
+    CHECK(mesh.materials[0].normal_map == options.pictures.normals);
     CHECK(mesh.materials[0].textured);
     CHECK(mesh.materials[0].colour == glm::vec4(1.0F));
     options.pictures.depth = 0.0;

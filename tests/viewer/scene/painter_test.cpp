@@ -151,7 +151,7 @@ TEST_CASE("a saved painting can be continued") {
     static_cast<void>(painter.erase(50.0F, 50.0F, 40.0F));
     static_cast<void>(painter.paint(50.0F, 50.0F, Brush{}));
     const Painting painting = painter.painting();
-    painter.saved();
+    painter.mark_saved();
     CHECK_FALSE(painter.is_changed());
     CHECK_FALSE(painting.trees.empty());
     CHECK_FALSE(painting.erased.empty());

@@ -20,10 +20,11 @@ std::string text_of(GLenum name) {
 }
 
 bool draws_in_software(std::string_view renderer) {
-    constexpr std::array<std::string_view, 3> kKnown = {"llvmpipe", "softpipe", "SwiftShader"};
-    return std::any_of(kKnown.begin(), kKnown.end(), [&](std::string_view known) {
-        return renderer.find(known) != std::string_view::npos;
-    });
+    constexpr std::array<std::string_view, 3> kSoftwareRenderers = {"llvmpipe", "softpipe",
+                                                                    "SwiftShader"};
+    return std::any_of(
+        kSoftwareRenderers.begin(), kSoftwareRenderers.end(),
+        [&](std::string_view known) { return renderer.find(known) != std::string_view::npos; });
 }
 
 void GLAPIENTRY on_message(GLenum /*source*/,
@@ -36,7 +37,7 @@ void GLAPIENTRY on_message(GLenum /*source*/,
     if (type != GL_DEBUG_TYPE_ERROR && severity != GL_DEBUG_SEVERITY_HIGH) {
         return;
     }
-    // The callback has a pointer to const; the registered one is not.
+    // The callback receives a pointer to const; the registered pointer is not const.
     static_cast<Device*>(const_cast<void*>(device))
         ->report(length < 0 ? std::string(message)
                             : std::string(message, static_cast<std::size_t>(length)));
@@ -62,8 +63,8 @@ void Device::end_pass() {
     const GLsync before = std::exchange(pass_end_, glFenceSync(GL_SYNC_GPU_COMMANDS_COMPLETE, 0));
     glFlush();
     if (before != nullptr) {
-        constexpr GLuint64 kLong = 60'000'000'000; // ns
-        glClientWaitSync(before, 0, kLong);
+        constexpr GLuint64 kTimeout = 60'000'000'000; // ns
+        glClientWaitSync(before, 0, kTimeout);
         glDeleteSync(before);
     }
 }

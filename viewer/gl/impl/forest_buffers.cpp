@@ -23,7 +23,7 @@ namespace lsys::view {
 
 namespace {
 
-// Bindings in forest.glsl and branch.frag.glsl.
+// Bindings in forest.glsl and branch.vert.glsl.
 constexpr GLuint kBranches = 0;
 constexpr GLuint kTrees = 1;
 constexpr GLuint kForms = 2;
@@ -42,7 +42,7 @@ static_assert(sizeof(Vertex) == 16);
 
 struct MaterialRecord {
     glm::vec3 colour{};
-    std::uint32_t kind = 0; // kTextured, kTranslucent, kBumpy
+    std::uint32_t kind = 0; // kTextured, kTranslucent, kBumpy; from bit 8 on: translucency in 1/256
 };
 static_assert(sizeof(MaterialRecord) == 16);
 constexpr std::uint32_t kTextured = 1; // bits in branch.frag.glsl
@@ -52,7 +52,7 @@ constexpr unsigned kTranslucencyShift = 8;
 
 struct FormRecord {
     glm::vec4 cylinder{};
-    glm::vec4 pictures{};
+    glm::vec4 layers{};
 };
 
 struct TreeRecord {
@@ -63,7 +63,7 @@ struct TreeRecord {
 };
 static_assert(sizeof(TreeRecord) == 24);
 
-/// Spare records for added trees; beyond them the buffer is copied on the device.
+/// Spare records for added trees; when they are used up, the buffer is copied on the device.
 constexpr std::size_t kRoomForTrees = std::size_t{1} << 14U;
 
 TreeRecord record_of(const LodTree& tree, const Tree& full) {
@@ -95,7 +95,7 @@ std::array<std::int8_t, 2> octahedral(const glm::vec3& n) {
 }
 
 bool has_pictures(const Material& material) {
-    return material.picture != nullptr || material.relief != nullptr;
+    return material.picture != nullptr || material.normal_map != nullptr;
 }
 
 /// Appends the records of materials, equal ones once; returns their indices.
@@ -105,11 +105,11 @@ std::vector<std::uint16_t> add_materials(const std::vector<Material>& materials,
     for (const Material& material : materials) {
         MaterialRecord record;
         record.colour = glm::vec3(material.colour);
-        // Leaves, petals, and two-sided meshes from files, which are mostly leaves.
+        // Thin: leaves, petals, and two-sided meshes from files, which are mostly leaves.
         const bool is_thin = material.two_sided || material.kind == MaterialKind::Leaf ||
                              material.kind == MaterialKind::Flower;
         const auto translucency = static_cast<std::uint32_t>(translucency_step(material, is_thin));
-        const bool is_bumpy = material.relief != nullptr ||
+        const bool is_bumpy = material.normal_map != nullptr ||
                               (material.textured && material.kind == MaterialKind::Bark);
         record.kind = (material.textured ? kTextured : 0) | (translucency > 0 ? kTranslucent : 0) |
                       (is_bumpy ? kBumpy : 0) | translucency << kTranslucencyShift;
@@ -128,7 +128,7 @@ std::vector<std::uint16_t> add_materials(const std::vector<Material>& materials,
 // Texture units of branch.frag.glsl and leaf.frag.glsl.
 constexpr GLuint kBarkTexture = 1;
 constexpr GLuint kLeafTexture = 2;
-constexpr GLuint kReliefTexture = 5;
+constexpr GLuint kNormalMapTexture = 5;
 
 } // namespace
 
@@ -163,7 +163,7 @@ std::size_t ForestBuffers::class_of(const Material& material) const {
         const auto found =
             std::find_if(pictures_.begin(), pictures_.end(), [&](const BranchPicture& picture) {
                 return picture.colour_file == material.picture &&
-                       picture.relief_file == material.relief;
+                       picture.normal_map_file == material.normal_map;
             });
         return kBranchClasses + static_cast<std::size_t>(found - pictures_.begin());
     }
@@ -188,11 +188,11 @@ void ForestBuffers::upload_pictures(const ForestModel& model, const MaterialText
                 }
                 BranchPicture& added = pictures_.emplace_back();
                 added.colour_file = material.picture;
-                added.relief_file = material.relief;
+                added.normal_map_file = material.normal_map;
                 const auto same =
                     std::find_if(before.begin(), before.end(), [&](const BranchPicture& picture) {
                         return picture.colour_file == material.picture &&
-                               picture.relief_file == material.relief;
+                               picture.normal_map_file == material.normal_map;
                     });
                 if (same != before.end()) {
                     added = std::move(*same);
@@ -202,12 +202,12 @@ void ForestBuffers::upload_pictures(const ForestModel& model, const MaterialText
                         added.colour = textures.make(*material.picture);
                         added.has_holes = has_holes(*material.picture);
                     }
-                    if (material.relief != nullptr) {
-                        added.relief = textures.make_normals(*material.relief);
+                    if (material.normal_map != nullptr) {
+                        added.normal_map = textures.make_normals(*material.normal_map);
                     }
                 }
                 texture_bytes_ += added.colour_file ? bytes_of(*added.colour_file) : 0;
-                texture_bytes_ += added.relief_file ? bytes_of(*added.relief_file) : 0;
+                texture_bytes_ += added.normal_map_file ? bytes_of(*added.normal_map_file) : 0;
             }
         }
     }
@@ -466,8 +466,8 @@ std::uint64_t ForestBuffers::draw_pictures(GLuint solid, GLuint cut_out, bool bl
             glBindTextureUnit(picture.has_holes ? kLeafTexture : kBarkTexture,
                               picture.colour.name());
         }
-        if (picture.relief) {
-            glBindTextureUnit(kReliefTexture, picture.relief.name());
+        if (picture.normal_map) {
+            glBindTextureUnit(kNormalMapTexture, picture.normal_map.name());
         }
         glDisable(GL_CULL_FACE); // meshes of files have two sides
         draws += draw(commands_of(kBranchClasses + i, blends));

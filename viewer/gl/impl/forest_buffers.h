@@ -26,10 +26,11 @@ enum class BranchClass : std::uint8_t {
     Plain,  // two-sided leaves of one colour
     CutOut, // two-sided leaves with an alpha mask
 };
-/// Beside these, each picture of a mesh file is a class.
+/// Count of these classes; each picture of a mesh file is a further class.
 inline constexpr std::size_t kBranchClasses = 4;
 
-/// Target of uploads and draws: impostors are baked between pictures of the forest.
+/// Buffers that uploads and draws use. Baking of impostors has its own, because it happens between
+/// pictures of the forest.
 enum class BufferSet : std::uint8_t { Forest, Impostor };
 
 struct DrawCommand { // layout of glMultiDrawElementsIndirect
@@ -105,9 +106,9 @@ private:
     /// Pictures of a file on the device.
     struct BranchPicture {
         std::shared_ptr<const Texture> colour_file;
-        std::shared_ptr<const Texture> relief_file;
+        std::shared_ptr<const Texture> normal_map_file;
         TextureObject colour; // empty: the material has only a relief
-        TextureObject relief;
+        TextureObject normal_map;
         bool has_holes = false;
     };
 

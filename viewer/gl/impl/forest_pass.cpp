@@ -27,7 +27,7 @@ constexpr GLuint kLeafTexture = 2;
 constexpr GLuint kAlbedos = 3;
 constexpr GLuint kNormals = 4;
 constexpr GLuint kBoxes = 4; // in impostor.vert.glsl
-constexpr GLuint kReliefTexture = 5;
+constexpr GLuint kNormalMapTexture = 5;
 constexpr GLint kPickedContent = 20; // in pick.frag.glsl
 // Half side of the shadow map near the ground, and its max, m.
 constexpr float kMinShadowRange = 45.0F;
@@ -215,7 +215,7 @@ void ForestPass::draw_impostors(std::span<const ImpostorEntry> trees, FrameStats
     }
     quad_trees_.fill(trees);
     // Depth pass first: most of a quad is empty and lighting is expensive, so light only visible
-    // texels. A software renderer keeps shading after `discard`.
+    // texels. A software renderer continues to shade after `discard`.
     glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
     const auto whole = static_cast<std::size_t>(
         std::partition_point(trees.begin(), trees.end(),
@@ -281,7 +281,7 @@ void ForestPass::draw(MaterialTextures& textures, ForestFrameStats& stats) {
     for (const bool blends : {false, true}) {
         glBindTextureUnit(kBarkTexture, textures.base(MaterialKind::Bark));
         glBindTextureUnit(kLeafTexture, textures.base(MaterialKind::Leaf));
-        glBindTextureUnit(kReliefTexture, textures.bark_normals());
+        glBindTextureUnit(kNormalMapTexture, textures.bark_normals());
         draw_branches(blends ? programs().blending_branches : programs().branches, blends,
                       stats.branches);
     }
@@ -310,7 +310,7 @@ void ForestPass::draw(MaterialTextures& textures, ForestFrameStats& stats) {
     stats.cull_milliseconds = 1e3 * cull_seconds_;
 }
 
-Result<void> ForestPass::make_pickable(const ShaderSource& shaders) {
+Result<void> ForestPass::compile_pick_programs(const ShaderSource& shaders) {
     if (pick_programs_) {
         return {};
     }

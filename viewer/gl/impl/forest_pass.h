@@ -55,7 +55,7 @@ public:
     void draw(MaterialTextures& textures, ForestFrameStats& stats);
 
     /// Compiles the programs of draw_picked() at the first call. Error: a shader does not compile.
-    [[nodiscard]] Result<void> make_pickable(const ShaderSource& shaders);
+    [[nodiscard]] Result<void> compile_pick_programs(const ShaderSource& shaders);
     /// Draws the kind and index of the part that each pixel shows into the bound framebuffer. Call
     /// after prepare().
     void draw_picked(MaterialTextures& textures);

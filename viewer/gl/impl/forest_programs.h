@@ -8,7 +8,7 @@
 
 namespace lsys::view {
 
-/// Programs by draw class: ForestBuffers::draw().
+/// Programs by draw class, for ForestBuffers::draw().
 struct BranchPrograms {
     ProgramObject solid; // one-sided and two-sided
     ProgramObject plain;

@@ -94,9 +94,9 @@ using ProgramObject = Object<ProgramKind>;
     return {device, name};
 }
 
-/// A buffer on the device. Bind it after filling: its object is replaced, and contents are not
-/// overwritten, because drivers of NVIDIA (580) execute two writes of one range in the wrong order
-/// when no draw call reads the range between them.
+/// A buffer on the device. Filling replaces its object instead of overwriting the contents, so bind
+/// it afterwards: NVIDIA drivers (580) execute two writes of one range in the wrong order when no
+/// draw call reads the range between them.
 class Buffer {
 public:
     Buffer() = default;
@@ -119,7 +119,7 @@ public:
             glCopyNamedBufferSubData(before.name(), name(), 0, 0, static_cast<GLsizeiptr>(held));
         }
     }
-    /// Writes a range once, or again after a draw call that reads it.
+    /// Writes a range. Precondition: a draw call has read the range since its last write, if any.
     template <typename T>
     void write(std::span<const T> items, std::size_t offset_bytes = 0) {
         if (items.empty()) {

@@ -17,7 +17,7 @@ constexpr std::array<Attribute, 4> kAttributes = {{{0, 3}, {1, 3}, {2, 2}, {3, 4
 // Uniforms and bindings of mesh.frag.glsl.
 constexpr GLint kColour = 0;
 constexpr GLint kKind = 1;
-constexpr GLint kFirstTriangle = 2; // of pick.frag.glsl
+constexpr GLint kFirstTriangle = 2; // in pick.frag.glsl
 constexpr GLuint kBaseTexture = 1;
 constexpr GLuint kNormalTexture = 2;
 
@@ -51,12 +51,12 @@ void PlantMesh::upload(const Mesh& mesh, const MaterialTextures& textures) {
     parts_ = mesh.parts;
     materials_ = mesh.materials;
     pictures_.clear();
-    reliefs_.clear();
+    normal_maps_.clear();
     for (Material& material : materials_) {
-        TextureObject& relief = reliefs_.emplace_back();
-        if (material.relief != nullptr) {
-            relief = textures.make_normals(*material.relief);
-            material.relief.reset(); // may be large
+        TextureObject& normal_map = normal_maps_.emplace_back();
+        if (material.normal_map != nullptr) {
+            normal_map = textures.make_normals(*material.normal_map);
+            material.normal_map.reset(); // may be large
         }
         TextureObject& picture = pictures_.emplace_back();
         if (material.picture != nullptr) {
@@ -77,8 +77,8 @@ std::uint64_t PlantMesh::draw(MaterialTextures& textures, Pass pass) const {
     std::uint64_t draws = 0;
     for (const MeshPart& part : parts_) {
         const Material& material = materials_[part.material];
-        const TextureObject& relief = reliefs_[part.material];
-        const bool bumpy = relief || (material.textured && material.kind == MaterialKind::Bark);
+        const TextureObject& normal_map = normal_maps_[part.material];
+        const bool bumpy = normal_map || (material.textured && material.kind == MaterialKind::Bark);
         const TextureObject& picture = pictures_[part.material];
         const bool is_thin = material.kind == MaterialKind::Leaf ||
                              material.kind == MaterialKind::Flower ||
@@ -95,10 +95,11 @@ std::uint64_t PlantMesh::draw(MaterialTextures& textures, Pass pass) const {
                               picture ? picture.name() : textures.base(material.kind));
         }
         if (bumpy && shaded) {
-            glBindTextureUnit(kNormalTexture, relief ? relief.name() : textures.bark_normals());
+            glBindTextureUnit(kNormalTexture,
+                              normal_map ? normal_map.name() : textures.bark_normals());
         }
         (material.two_sided ? glDisable : glEnable)(GL_CULL_FACE);
-        // Draw calls count in 31 bits, in whole triangles.
+        // A draw call has at most 31 bits for its count of indices; each draws whole triangles.
         constexpr std::uint64_t kMax = std::numeric_limits<GLsizei>::max() / 3 * std::uint64_t{3};
         for (std::uint64_t first = 0; first < part.index_count; first += kMax) {
             const std::uint64_t count = std::min(part.index_count - first, kMax);

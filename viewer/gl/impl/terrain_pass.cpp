@@ -22,10 +22,10 @@ constexpr GLint kOrigins = 0;
 constexpr GLint kRanges = static_cast<GLint>(kTerrainLevels);
 constexpr GLint kLevels = kRanges + 1;
 constexpr GLuint kColour = 3;
-constexpr GLuint kRelief = 4;
+constexpr GLuint kNormalMap = 4;
 constexpr GLint kTiles = kLevels + 1;
 constexpr GLint kMean = kTiles + 1;
-constexpr GLint kHasRelief = kMean + 1;
+constexpr GLint kHasNormalMap = kMean + 1;
 constexpr std::uint32_t kNoiseTexels = 128;
 constexpr GLsizei kPatchIndices = 6 * kPatchCells * kPatchCells;
 
@@ -121,14 +121,14 @@ void TerrainPass::show(const Terrain& terrain,
         noise_ = make_noise(*device_);
         std::vector<std::array<std::uint8_t, 2>> corners;
         std::vector<std::uint8_t> indices;
-        constexpr std::uint32_t kRow = kPatchCells + 1;
-        for (std::uint32_t z = 0; z < kRow; ++z) {
-            for (std::uint32_t x = 0; x < kRow; ++x) {
+        constexpr std::uint32_t kVerticesPerRow = kPatchCells + 1;
+        for (std::uint32_t z = 0; z < kVerticesPerRow; ++z) {
+            for (std::uint32_t x = 0; x < kVerticesPerRow; ++x) {
                 corners.push_back({static_cast<std::uint8_t>(x), static_cast<std::uint8_t>(z)});
                 if (x < kPatchCells && z < kPatchCells) {
-                    const std::uint32_t a = z * kRow + x;
-                    for (const std::uint32_t i :
-                         {a, a + kRow, a + kRow + 1, a, a + kRow + 1, a + 1}) {
+                    const std::uint32_t a = z * kVerticesPerRow + x;
+                    for (const std::uint32_t i : {a, a + kVerticesPerRow, a + kVerticesPerRow + 1,
+                                                  a, a + kVerticesPerRow + 1, a + 1}) {
                         indices.push_back(static_cast<std::uint8_t>(i));
                     }
                 }
@@ -174,9 +174,9 @@ FrameStats TerrainPass::draw() {
                     static_cast<float>(pictures_.origin_z), static_cast<float>(pictures_.width),
                     static_cast<float>(pictures_.depth));
         glUniform3f(kMean, mean_.r, mean_.g, mean_.b);
-        glUniform1i(kHasRelief, normals_ ? 1 : 0);
+        glUniform1i(kHasNormalMap, normals_ ? 1 : 0);
         glBindTextureUnit(kColour, colour_.name());
-        glBindTextureUnit(kRelief, normals_ ? normals_.name() : colour_.name());
+        glBindTextureUnit(kNormalMap, normals_ ? normals_.name() : colour_.name());
     } else {
         glBindTextureUnit(kNoise, noise_.name());
     }

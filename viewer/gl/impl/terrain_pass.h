@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// TerrainPass: draws the ground of a forest: a texture of heights around the camera, and one small
-// grid drawn per patch of a TerrainLod.
+// TerrainPass: draws the ground of a forest with a texture of heights around the camera and one
+// small grid, drawn once per patch of a TerrainLod.
 #pragma once
 
 #include "grammar/base/result.h"
@@ -20,8 +20,8 @@ public:
 
     /// Error: a shader does not compile; the old one stays in use.
     [[nodiscard]] Result<void> reload(const ShaderSource& shaders);
-    /// Replaces the ground; it must outlive the pass or the next call. Pictures that are shown
-    /// already are not uploaded again.
+    /// Replaces the ground. `terrain` must outlive the pass or the next call. Pictures that are
+    /// shown already are not uploaded again.
     void show(const Terrain& terrain,
               const GroundPictures& pictures,
               float view_distance,

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The version of the library, and macros that mark its functions as public. Every other public header
-// includes this header.
+// The version of the library, and macros that mark its functions as public. Every other public
+// header includes this header.
 #pragma once
 
 #define LSYS_VERSION_MAJOR 0
@@ -22,8 +22,8 @@
 #endif
 
 // The public names are in an inline namespace: programs write lsys::Grammar, and a program and a
-// library with different interfaces do not link. For the sources of the library the namespace is not
-// inline, because namespace lsys has other types with these names.
+// library with different interfaces do not link. For the sources of the library the namespace is
+// not inline, because namespace lsys has other types with these names.
 #ifdef LSYS_BUILDS_LIBRARY
 #define LSYS_INTERFACE v0
 #else

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Export: plants as files that other programs read: the bytes of one file, or all files of an export
-// with its preset, levels of detail, pictures, motion or growth.
+// Export: plants as files for other programs. Writes the bytes of one file, or all files of an
+// export with its preset, levels of detail, pictures, motion or growth.
 #pragma once
 
 #include <cstdint>
@@ -51,7 +51,7 @@ export_plant(const Plant& plant,
 /// flags: {{"preset", "unreal"}, {"lods", "6"}, {"wind-data", ""}}. docs/commands.md lists them.
 using Options = std::vector<std::pair<std::string, std::string>>;
 
-/// An option of one of the sets below.
+/// Name, value and help of an option of an OptionSet.
 struct OptionHelp {
     std::string name;       // as in Options
     std::string value_name; // "METRES", "none|capsules|hulls"; empty for a flag
@@ -70,17 +70,17 @@ struct FilePiece {
     std::string_view bytes;
     bool is_last = false;
 };
-/// Takes files in place of a folder, one after the other; returns false to end the call with
-/// Status::Cancelled. An exception ends the call, which rethrows it.
+/// Receives files, one after the other, instead of a folder on disk; returns false to end the call
+/// with Status::Cancelled. An exception ends the call, which rethrows it.
 using FileReceiver = std::function<bool(const FilePiece& piece)>;
 
 /// Presets: "web", "unreal" ...
 [[nodiscard]] LSYS_API const std::vector<std::string>& preset_names();
 
-/// Writes `path`, whose ending tells the format, and the files beside it: pictures, materials,
+/// Writes `path`, whose extension sets the format, and the files beside it: pictures, materials,
 /// buffers, levels, frames. All appear when they are complete, or none. Returns their paths.
-/// Options are those of `lsc export` from `format` to `fps`, and `height`, with which the plant is
-/// grown anew: form, mesh, levels of detail, bending, motion, growth.
+/// Options: the options of `lsc export` from `format` to `fps` (form, mesh, levels of detail,
+/// bending, motion, growth), and `height`, which grows the plant again.
 [[nodiscard]] LSYS_API Outcome<std::vector<std::string>> save_plant(const Plant& plant,
                                                                     const std::string& path,
                                                                     const Options& options = {},

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Forest: trees of some species on a ground, from a scene file, grammars or given places; its instances
-// as arrays for renderers, and its files. Metres, right-handed axes, +Y up. Arrays are spans into the
-// forest or the instances, without a copy: they are valid as long as a copy of that value exists.
+// Forest: trees of some species on a ground, from a scene file, grammars or given places; its
+// instances as arrays for renderers, and its files. Metres, right-handed axes, +Y up. Arrays are
+// spans into the forest or the instances, without a copy: they are valid as long as a copy of that
+// value exists.
 #pragma once
 
 #include <cstddef>
@@ -31,7 +32,7 @@ struct Tree {
 
 struct Species {
     std::string name;
-    std::vector<std::uint32_t> generations; // of each stage, rising
+    std::vector<std::uint32_t> generations; // of each stage, ascending
     std::uint32_t heroes = 0;               // plants derived in full, per stage
     float height = 0.0F;                    // of `#set height`; 0: not set
 };
@@ -75,8 +76,8 @@ private:
                                                    const ForestOptions& options = {},
                                                    const Project& project = {});
 /// Grows trees at given places. Tree::species: index in `grammars`. Options of placement have no
-/// effect. Status::Failed: an unknown species, a number that is not finite, a scale that is not above
-/// 0.
+/// effect. Status::Failed: an unknown species, a number that is not finite, a scale that is not
+/// above 0.
 [[nodiscard]] LSYS_API Outcome<Forest> forest_of_places(const std::vector<std::string>& grammars,
                                                         std::span<const Tree> places,
                                                         const ForestOptions& options = {},
@@ -91,7 +92,7 @@ struct Instance {
     std::uint32_t group = 0; // index in Instances::groups()
 };
 
-/// A draw: the instances `first_instance` to `first_instance + instance_count` of the parts
+/// A draw call: the instances `first_instance` to `first_instance + instance_count` of the parts
 /// `first_part` to `first_part + part_count` of a mesh.
 struct InstanceGroup {
     std::uint32_t mesh = 0;       // index in Instances::meshes()
@@ -128,11 +129,11 @@ make_instances(const Forest& forest, const MeshOptions& mesh = {}, const Project
 /// The ground below the trees.
 [[nodiscard]] LSYS_API Outcome<Mesh> make_ground(const Forest& forest, const Project& project = {});
 
-/// Writes `path`, whose extension sets the format (json: statistics), and the pictures beside it. All
-/// files appear when they are complete, or none. Returns their paths. Options are those of `lsc
-/// forest` for files: preset, compress, expand, bake, instances, viewpoint, unit, pivot, collision,
-/// up, cell, frames, and the options of meshes. {"instances", "trees"}, {"instances", "lods"} and
-/// `frames` grow the forest again.
+/// Writes `path`, whose extension sets the format (json: statistics), and the pictures beside it.
+/// All files appear when they are complete, or none. Returns their paths. Options: the options of
+/// `lsc forest` for files: preset, compress, expand, bake, instances, viewpoint, unit, pivot,
+/// collision, up, cell, frames, and the options of meshes. {"instances", "trees"}, {"instances",
+/// "lods"} and `frames` grow the forest again.
 [[nodiscard]] LSYS_API Outcome<std::vector<std::string>> save_forest(const Forest& forest,
                                                                      const std::string& path,
                                                                      const Options& options = {},

@@ -38,8 +38,8 @@ struct Constant {
     float max = 0.0F;
 };
 
-/// Prediction of the number of modules of a word: exact if `low` equals `high`. Counts above 2^53 are
-/// rounded.
+/// Prediction of the number of modules of a word: exact if `low` equals `high`. Counts above 2^53
+/// are rounded.
 struct PredictedSize {
     double low = 0.0;
     double high = 0.0;
@@ -53,7 +53,8 @@ class LSYS_API Grammar {
 public:
     /// The file name, or the name given to compile_text().
     [[nodiscard]] const std::string& name() const;
-    /// The value of GrammarOptions::generations or `#n`; unset: give derivations a number.
+    /// The value of GrammarOptions::generations, else of `#n`. Unset: neither is given; derivations
+    /// then need DeriveOptions::generations or GrowOptions::generations.
     [[nodiscard]] std::optional<std::uint32_t> generations() const;
     [[nodiscard]] std::uint64_t seed() const;
     /// The constants in the order of the source; none for a .lsb file.

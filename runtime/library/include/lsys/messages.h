@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Messages: the diagnostics of a library call, for authors of grammars and for callers, as data and as
-// text. Messages are values, and hold the source texts to which they refer.
+// Messages: the diagnostics of a library call, for authors of grammars and for callers, as data and
+// as text. Messages are values, and hold the source texts to which they refer.
 #pragma once
 
 #include <cstdint>

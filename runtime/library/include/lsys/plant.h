@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Plant: the drawing of a word by the turtle, a skeleton of segments, objects and polygons; and its
-// Mesh, triangles with materials. Metres, kilograms, right-handed axes, +Y up. Arrays are spans into
-// the plant or mesh, without a copy: they are valid as long as any copy of the plant or mesh exists.
+// Mesh, triangles with materials. Metres, kilograms, right-handed axes, +Y up. Arrays are spans
+// into the plant or mesh, without a copy: they are valid as long as any copy of the plant or mesh
+// exists.
 #pragma once
 
 #include <cstddef>
@@ -66,8 +67,8 @@ struct Segment {
     std::uint8_t flags = 0;  // bit 0: begins where its parent ends
 };
 
-/// A leaf, flower, sphere or mesh of the object library, drawn from `position` along its frame's +Y.
-/// 56 bytes.
+/// A leaf, flower, sphere or mesh of the object library, drawn from `position` along its frame's
+/// +Y. 56 bytes.
 struct Object {
     std::uint8_t kind = 0;  // index in object_kinds()
     std::uint32_t file = 0; // index in Plant::files(), for the kind "mesh_file"
@@ -176,9 +177,9 @@ struct MeshPart {
     std::uint64_t index_count = 0;
 };
 
-/// Output arrays of read_vertices(). Each pointer is the place for the first vertex, or null to skip
-/// the attribute; the next vertex is `stride` bytes later. For interleaved vertices all pointers are
-/// within the first vertex.
+/// Output arrays of read_vertices(). Each pointer is the place for the first vertex, or null to
+/// skip the attribute; the next vertex is `stride` bytes later. For interleaved vertices all
+/// pointers are within the first vertex.
 struct VertexTarget {
     void* positions = nullptr;           // 3 floats
     void* normals = nullptr;             // 3 floats

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Project: the input that all calls share: the source of files, limits, and functions to observe and
-// cancel long calls.
+// Project: the input that all calls share: the source of files, limits, and functions to observe
+// and cancel long calls.
 #pragma once
 
 #include <atomic>
@@ -26,17 +26,17 @@ struct Progress {
     std::uint64_t modules = 0; // modules of this generation written so far
 };
 
-/// Functions of the caller. They are called from any thread, but never from two at once. An exception
-/// thrown by one of them ends the library call, which rethrows it.
+/// Functions of the caller. They are called from any thread, but never from two at once. An
+/// exception thrown by one of them ends the library call, which rethrows it.
 struct Host {
     /// Reads a file: grammars, their includes, meshes, pictures, scenes. Unset: files are read from
     /// disk.
     std::function<FileContents(const std::string& path)> read_file;
-    /// Called several times per second and after each generation; returns false to end the call with
-    /// Status::Cancelled. May be unset.
+    /// Called several times per second and after each generation; returns false to end the call
+    /// with Status::Cancelled. May be unset.
     std::function<bool(const Progress& progress)> progress;
-    /// Set to true by another thread to end the call with Status::Cancelled. The call sets it too if
-    /// a function ends the call. May be null.
+    /// Set to true by another thread to end the call with Status::Cancelled. The call sets it too
+    /// if a function ends the call. May be null.
     std::atomic<bool>* cancelled = nullptr;
 };
 

@@ -60,8 +60,8 @@ public:
                const std::function<bool(const Module& module)>& visit) const;
     /// The text of the word, which parses again as an axiom of its grammar.
     [[nodiscard]] std::string text() const;
-    /// Calls `write` with the text in pieces, until it returns false. Returns whether the whole text
-    /// was written.
+    /// Calls `write` with the text in pieces, until it returns false. Returns whether the whole
+    /// text was written.
     bool write_text(const std::function<bool(std::string_view piece)>& write) const;
 
     struct Data;
