@@ -56,9 +56,9 @@ bool keep_choice(const Scene& before, Scene& scene) {
         if (from.name != to.name || from.grammar.path != to.grammar.path) {
             return false;
         }
-        to.cache.heroes = to.written.heroes ? to.cache.heroes : from.cache.heroes;
-        to.rho = to.written.rho ? to.rho : from.rho;
-        to.cache.cap = to.written.cap ? to.cache.cap : from.cache.cap;
+        to.cache.heroes = to.explicit_instancing.heroes ? to.cache.heroes : from.cache.heroes;
+        to.rho = to.explicit_instancing.rho ? to.rho : from.rho;
+        to.cache.cap = to.explicit_instancing.cap ? to.cache.cap : from.cache.cap;
     }
     return true;
 }

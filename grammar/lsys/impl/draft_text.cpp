@@ -105,7 +105,7 @@ StatementText statement_at(std::string_view text, std::size_t at) {
     }
 }
 
-std::string_view trimmed(std::string_view text) {
+std::string_view stripped(std::string_view text) {
     const std::size_t first = text.find_first_not_of(" \t\r\n");
     if (first == std::string_view::npos) {
         return {};
@@ -147,11 +147,11 @@ std::vector<FreeLine> find_free_lines(std::string_view text) {
     std::vector<FreeLine> lines;
     for (std::size_t at = 0; at < text.size();) {
         std::size_t end = end_of_line(text, at);
-        lines.push_back({at, end, trimmed(text.substr(at, end - at))});
+        lines.push_back({at, end, stripped(text.substr(at, end - at))});
         std::size_t next = end_of_content(text, at, end);
         while (next > end && next < text.size()) {
             const std::size_t begin = start_of_line(text, next);
-            if (trimmed(text.substr(begin, next - begin)).empty()) {
+            if (stripped(text.substr(begin, next - begin)).empty()) {
                 end = begin - 1; // the next statement begins this line
                 break;
             }

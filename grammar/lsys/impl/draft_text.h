@@ -70,7 +70,7 @@ struct StatementText {
 /// The statement whose `#` is at `at`.
 [[nodiscard]] StatementText statement_at(std::string_view text, std::size_t at);
 /// `text` without blanks at its ends.
-[[nodiscard]] std::string_view trimmed(std::string_view text);
+[[nodiscard]] std::string_view stripped(std::string_view text);
 /// The offset of the line end at or after `at`; the size of the text in the last line.
 [[nodiscard]] std::size_t end_of_line(std::string_view text, std::size_t at);
 /// The offset of the first character of the line of `at`.

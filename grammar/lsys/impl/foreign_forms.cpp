@@ -292,7 +292,8 @@ private:
                         draft_.span(formal.begin + first.size(), rest.end), "", false);
                 draft_.blank(rest.begin, rest.end);
             } else if (char_at(rest.begin) == ':' &&
-                       is_type(trimmed(text().substr(rest.begin + 1, rest.end - rest.begin - 1)))) {
+                       is_type(
+                           stripped(text().substr(rest.begin + 1, rest.end - rest.begin - 1)))) {
                 Diagnostic& diagnostic =
                     report(rest, "parameters have no types: every value is a number");
                 add_fix(diagnostic, "write `" + std::string(first) + "`",
@@ -668,7 +669,7 @@ private:
             }
             const Piece successor = trimmed(text(), at + length, statement_.end);
             const std::string_view before =
-                trimmed(text().substr(parts[1].begin, at - parts[1].begin));
+                stripped(text().substr(parts[1].begin, at - parts[1].begin));
             // `t = 1` in a production of three parts is a comparison rather than an arrow.
             if (length == 1 && (successor.empty() || is_digit(char_at(successor.begin)) ||
                                 before.find_first_of("<>=") == std::string_view::npos)) {
@@ -783,7 +784,8 @@ private:
         if (end == std::string_view::npos) {
             return;
         }
-        const std::string label(trimmed(text().substr(statement_.begin, colon - statement_.begin)));
+        const std::string label(
+            stripped(text().substr(statement_.begin, colon - statement_.begin)));
         const std::string head = copy_of(draft_.text, parts[0]);
         const std::string condition = copy_of(draft_.text, trimmed(text(), open + 1, close));
         const auto production = [&](const std::string& suffix, const std::string& test,

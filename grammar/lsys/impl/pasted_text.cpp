@@ -274,7 +274,7 @@ constexpr std::array<Entity, 9> kEntities{{{"&lt;", '<'},
 
 /// Whether the `;` that ends before `at` cannot end a statement: text of the statement follows it.
 bool continues_statement(std::string_view text, std::size_t at) {
-    const std::string_view line = trimmed(text.substr(at, end_of_line(text, at) - at));
+    const std::string_view line = stripped(text.substr(at, end_of_line(text, at) - at));
     return !line.empty() && !is_comment(line) && !is_statement_start(line, 0);
 }
 
@@ -330,7 +330,7 @@ void repair_second_copy(DraftText& draft) {
     const std::size_t second = text.find(line, first + line.size());
     if (line.size() < 4 || second == std::string_view::npos ||
         text.substr(first, second - first).find("#n") == std::string_view::npos ||
-        trimmed(text.substr(first, second - first)) != trimmed(text.substr(second))) {
+        stripped(text.substr(first, second - first)) != stripped(text.substr(second))) {
         return;
     }
     const std::size_t end = text.find_last_not_of(" \t\r\n") + 1;
@@ -389,11 +389,11 @@ value_after(std::string_view line, std::string_view word, std::string_view signs
     if (!lowered(line.substr(0, word.size())).starts_with(word)) {
         return std::nullopt;
     }
-    const std::string_view rest = trimmed(line.substr(word.size()));
+    const std::string_view rest = stripped(line.substr(word.size()));
     if (rest.empty() || signs.find(rest[0]) == std::string_view::npos) {
         return std::nullopt;
     }
-    return trimmed(rest.substr(1));
+    return stripped(rest.substr(1));
 }
 
 struct Arrow {
@@ -511,7 +511,7 @@ std::optional<std::string> production_for(std::string_view line, RuleNames& name
         return std::nullopt;
     }
     const bool is_houdini = line[arrow.begin] == '=' && arrow.length == 1;
-    std::string_view head = trimmed(line.substr(0, arrow.begin));
+    std::string_view head = stripped(line.substr(0, arrow.begin));
     if (head.empty()) {
         return std::nullopt;
     }
@@ -520,19 +520,19 @@ std::optional<std::string> production_for(std::string_view line, RuleNames& name
     const std::string_view first = head.substr(0, std::min(colon, head.size()));
     std::string condition = "*";
     const bool has_label = colon != std::string_view::npos && leading_word(first).size() >= 1 &&
-                           trimmed(first) == leading_word(first) &&
+                           stripped(first) == leading_word(first) &&
                            first.find('(') == std::string_view::npos;
     if (has_label) {
-        label = trimmed(first);
-        head = trimmed(head.substr(colon + 1));
+        label = stripped(first);
+        head = stripped(head.substr(colon + 1));
     } else {
         label = names.prefix + std::to_string(names.count);
     }
     if (const std::size_t second = head.find(':'); second != std::string_view::npos) {
-        condition = trimmed(head.substr(second + 1));
-        head = trimmed(head.substr(0, second));
+        condition = stripped(head.substr(second + 1));
+        head = stripped(head.substr(0, second));
     }
-    std::string successor(trimmed(line.substr(arrow.begin + arrow.length)));
+    std::string successor(stripped(line.substr(arrow.begin + arrow.length)));
     while (successor.ends_with(';') || successor.ends_with(',')) {
         successor.pop_back();
     }
@@ -540,13 +540,14 @@ std::optional<std::string> production_for(std::string_view line, RuleNames& name
         // `A = B : 0.5` gives a probability; a number alone is not a successor.
         const std::size_t last = successor.rfind(':');
         if (last != std::string::npos &&
-            !leading_number(trimmed(std::string_view(successor).substr(last + 1))).empty()) {
-            condition += " ~ " + std::string(trimmed(std::string_view(successor).substr(last + 1)));
-            successor = trimmed(std::string_view(successor).substr(0, last));
+            !leading_number(stripped(std::string_view(successor).substr(last + 1))).empty()) {
+            condition +=
+                " ~ " + std::string(stripped(std::string_view(successor).substr(last + 1)));
+            successor = stripped(std::string_view(successor).substr(0, last));
         }
         const std::string_view name = leading_word(head);
         if (name.empty() || successor.empty() || !leading_number(successor).empty() ||
-            trimmed(head.substr(name.size())).substr(0, 1).find_first_not_of('(') !=
+            stripped(head.substr(name.size())).substr(0, 1).find_first_not_of('(') !=
                 std::string_view::npos) {
             return std::nullopt;
         }
@@ -574,7 +575,7 @@ std::optional<Meaning> header_meaning(std::string_view line) {
                            ? ""
                            : "#function " +
                                  std::string(line.substr(kDef.size(), close + 1 - kDef.size())) +
-                                 " " + std::string(trimmed(line.substr(body + 7))) + ";"};
+                                 " " + std::string(stripped(line.substr(body + 7))) + ";"};
     }
     for (const std::string_view word : {"derivation length", "derivation_length"}) {
         if (const auto value = value_after(line, word, ":=")) {
@@ -591,14 +592,14 @@ std::optional<Meaning> header_meaning(std::string_view line) {
         }
         std::string statements = "#n = " + std::string(leading_number(*value)) + ";";
         const std::string_view rest = value->substr(leading_number(*value).size());
-        if (word == "n" && trimmed(rest) == ";") {
+        if (word == "n" && stripped(rest) == ";") {
             return std::nullopt; // lacks only its `#`
         }
         const std::size_t sign = rest.find('=');
         if (sign != std::string_view::npos &&
             (rest.find("\u03b4") < sign || rest.find("angle") < sign ||
              rest.find("delta") < sign)) {
-            const std::string_view angle = leading_number(trimmed(rest.substr(sign + 1)));
+            const std::string_view angle = leading_number(stripped(rest.substr(sign + 1)));
             if (!angle.empty()) {
                 statements += " #set angle " + std::string(angle) + ";";
             }
@@ -675,7 +676,7 @@ void repair_foreign_lines(DraftText& draft) {
     RuleNames names{has_names ? "rule" : "p", 0};
     bool has_statement = false;
     for (FreeLine line : draft.free_lines()) {
-        line.text = trimmed(line.text.substr(0, comment_in(line.text)));
+        line.text = stripped(line.text.substr(0, comment_in(line.text)));
         if (!is_foreign(line.text)) {
             has_statement = has_statement || is_statement_start(line.text, 0);
             continue;
