@@ -127,13 +127,32 @@ std::string TileForest::tileset_path(const TileId& root) {
                            : fmt::format("{}/{}/{}.json", root.level, root.column, root.row);
 }
 
+TileExtent TileForest::extent(std::uint32_t level) const {
+    // The ground begins where the square does, so its tiles are the first of each row and column.
+    const auto count = [level](const auto& has_tile_at) {
+        std::uint32_t low = 0;
+        std::uint32_t high = TileGrid::tiles_across(level);
+        while (low < high) {
+            const std::uint32_t middle = low + (high - low) / 2;
+            has_tile_at(middle) ? low = middle + 1 : high = middle;
+        }
+        return low;
+    };
+    return {count([&](std::uint32_t column) {
+                return has_tile({level, column, 0});
+            }),
+            count([&](std::uint32_t row) {
+                return has_tile({level, 0, row});
+            })};
+}
+
 std::vector<TileId> TileForest::tiles(std::uint32_t level) const {
+    const TileExtent all = extent(level);
     std::vector<TileId> list;
-    for (std::uint32_t row = 0; row < TileGrid::tiles_across(level); ++row) {
-        for (std::uint32_t column = 0; column < TileGrid::tiles_across(level); ++column) {
-            if (has_tile({level, column, row})) {
-                list.push_back({level, column, row});
-            }
+    list.reserve(all.count());
+    for (std::uint32_t row = 0; row < all.rows; ++row) {
+        for (std::uint32_t column = 0; column < all.columns; ++column) {
+            list.push_back({level, column, row});
         }
     }
     return list;

@@ -75,6 +75,14 @@ struct TileFile {
     std::string bytes;
 };
 
+/// The tiles of a level: those of the first columns and rows.
+struct TileExtent {
+    std::uint32_t columns = 0;
+    std::uint32_t rows = 0;
+
+    [[nodiscard]] std::uint64_t count() const { return std::uint64_t{columns} * rows; }
+};
+
 struct TileContent {
     std::string bytes;       // a GLB
     std::uint64_t trees = 0; // that it shows one by one
@@ -92,6 +100,8 @@ public:
     [[nodiscard]] const std::vector<TileFile>& files() const;
     /// Whether the forest has this tile. Any numbers are allowed.
     [[nodiscard]] bool has_tile(const TileId& tile) const;
+    /// The columns and rows of a level that have tiles. Precondition: the level exists.
+    [[nodiscard]] TileExtent extent(std::uint32_t level) const;
     /// The tiles of a level, row by row.
     [[nodiscard]] std::vector<TileId> tiles(std::uint32_t level) const;
     /// Makes a tile. Precondition: has_tile(). May be called from several threads. Throws

@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: MIT
+// TilesetFolder: the files of a tileset, numbered, and their writer. Numbers let threads and
+// processes share out the work; the bytes of a file do not depend on who writes it. Used by
+// `lsc tiles` and lsc-mpi.
+#pragma once
+
+#include "grammar/base/result.h"
+#include "runtime/cli/options.h"
+#include "runtime/program/console.h"
+#include "runtime/tiles/tiles.h"
+
+#include <atomic>
+#include <cstdint>
+#include <functional>
+#include <mutex>
+#include <optional>
+#include <set>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace lsys::lsc {
+
+/// What has been written.
+struct TileTotals {
+    std::uint64_t files = 0;
+    std::uint64_t bytes = 0;
+    std::uint64_t trees = 0; // of the finest level
+};
+
+/// A source of work: the number of the next file to write, or none when all are taken. Called from
+/// several threads at once.
+using NextFile = std::function<std::optional<std::uint64_t>()>;
+
+/// The files of a part among those with numbers below `end`: every `part.of`-th.
+[[nodiscard]] NextFile files_of_part(const TilePart& part, std::uint64_t end);
+
+/// Refuses a file, and a folder that has files unless the command allows them.
+[[nodiscard]] Result<void> check_tileset_folder(const TilesCommand& command);
+
+/// The text of --stats. `is_whole`: whether the totals are those of all files.
+[[nodiscard]] std::string
+tileset_stats(const TileForest& forest, const TileTotals& totals, bool is_whole);
+
+/// Writes numbered files. Errors and interruptions stop it: then it writes no further file.
+class TilesetFolder {
+public:
+    /// All three must outlive the folder.
+    TilesetFolder(const TilesCommand& command, const TileForest& forest, const Console& console);
+
+    /// Number of files: shared files, tiles level by level from the root, tilesets from the finest
+    /// level up. At least one.
+    [[nodiscard]] std::uint64_t count() const { return sections_.back().end; }
+    /// Number of the last file, tileset.json of the root. Written after all others it shows that
+    /// the tileset is complete.
+    [[nodiscard]] std::uint64_t root() const { return count() - 1; }
+
+    /// Makes the folder itself.
+    void make();
+    /// Writes a file, unless the folder has it and the command resumes. May be called from several
+    /// threads with different numbers. Throws std::bad_alloc.
+    void write(std::uint64_t number);
+    /// Writes files until none is left. May be called from several threads. Throws std::bad_alloc.
+    void write_from(const NextFile& next);
+
+    /// Stops the writer, for example because of another process. The first error is kept.
+    void stop(const Error& error);
+    [[nodiscard]] bool is_stopped() const { return is_stopped_ || console_.interrupted(); }
+    /// The error that has stopped the writer.
+    [[nodiscard]] Result<void> result() const;
+    [[nodiscard]] TileTotals totals() const { return {files_, bytes_, trees_}; }
+
+private:
+    enum class Kind : std::uint8_t { Shared, Content, Tileset };
+    /// Files of one kind with consecutive numbers.
+    struct Section {
+        Kind kind = Kind::Shared;
+        std::uint32_t level = 0;
+        std::uint32_t columns = 0; // tiles of a row
+        std::uint64_t end = 0;     // one more than the last number
+    };
+
+    void add_section(Kind kind, std::uint32_t level);
+    template <typename Make>
+    void write_file_at(const std::string& path, const Make& make);
+    void make_folder(std::string_view path);
+
+    const TilesCommand& command_;
+    const TileForest& forest_;
+    const Console& console_;
+    std::vector<Section> sections_; // in ascending order
+    std::atomic<std::uint64_t> files_{0};
+    std::atomic<std::uint64_t> bytes_{0};
+    std::atomic<std::uint64_t> trees_{0};
+    std::atomic<bool> is_stopped_{false};
+    mutable std::mutex mutex_; // of the following
+    std::set<std::string> folders_;
+    Result<void> result_;
+};
+
+} // namespace lsys::lsc
