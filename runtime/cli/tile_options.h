@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: MIT
+// The options of `lsc tiles` and `lsc serve`, those of the former for lsc-mpi too.
+#pragma once
+
+#include "runtime/cli/options.h"
+
+namespace CLI {
+class App;
+}
+
+namespace lsys::lsc {
+
+/// The options of every command for its messages, and --version.
+void add_message_options(CLI::App& app, MessageOptions& options);
+void add_tiles(CLI::App& app, TilesCommand& command);
+void add_serve(CLI::App& app, ServeCommand& command);
+
+} // namespace lsys::lsc
