@@ -32,7 +32,8 @@ Crew::Crew(lsc::TilesetFolder& folder, std::uint32_t threads)
 
 void Crew::run(const std::function<bool()>& step) {
     const auto lead = [&] {
-        while (step()) {
+        for (bool goes_on = true; goes_on;) {
+            write_or_stop(folder_, [&] { goes_on = step(); });
         }
         close();
     };

@@ -96,7 +96,8 @@ private:
 
     /// Tells rank 0 that this rank has ended its work; waits for the end of the job.
     ExitStatus finish(const lsc::TileTotals& totals) {
-        ranks_.send(0, MessageKind::Done, {totals.files, totals.bytes, totals.trees},
+        ranks_.send(0, MessageKind::Done,
+                    {totals.files, totals.bytes, totals.trees, command_.run.threads},
                     Ranks::machine());
         NumberQueue nothing;
         for (;;) {

@@ -27,6 +27,7 @@ struct RankState {
     lsc::TileTotals totals;
     lsc::TileTotals reported; // in the last line of progress
     std::string machine;
+    std::uint64_t threads = 0; // 0: not known yet
     bool is_done = false;
 };
 
@@ -40,6 +41,7 @@ public:
           progress_interval_(std::chrono::seconds(kProgressSeconds + ranks.count())) {
         states_[0].is_done = true; // as far as messages are concerned
         states_[0].machine = Ranks::machine();
+        states_[0].threads = command.run.threads;
     }
 
     ExitStatus run() {
@@ -147,6 +149,7 @@ private:
                 break;
             case MessageKind::Done:
                 state.totals = {message->numbers[0], message->numbers[1], message->numbers[2]};
+                state.threads = message->numbers[3];
                 state.machine = message->text;
                 state.is_done = true;
                 break;
@@ -220,9 +223,12 @@ private:
 
     [[nodiscard]] std::string rank_line(int rank) const {
         const RankState& state = state_of(rank);
-        return fmt::format("rank {}{}: {}, {}", rank,
-                           state.machine.empty() ? "" : " on " + state.machine,
-                           counted(state.totals.files, "file"), byte_size_text(state.totals.bytes));
+        std::string text = fmt::format("rank {}", rank);
+        if (state.threads != 0) {
+            text += fmt::format(" on {}, {}", state.machine, counted(state.threads, "thread"));
+        }
+        return text + fmt::format(": {}, {}", counted(state.totals.files, "file"),
+                                  byte_size_text(state.totals.bytes));
     }
 
     void report(const TileForest& forest) {

@@ -18,8 +18,8 @@ enum class MessageKind : std::uint8_t {
     Files,   // leader to member: begin and end of their numbers; equal if none are left
     Failed,  // member to leader: exit status, 1 if it had planned the tileset; text
     Stop,    // leader to member: another rank has failed
-    Done,    // member to leader, its last message: files, bytes and trees written; its machine
-    End      // leader to member, after all are done: exit status
+    Done, // member to leader, its last message: files, bytes and trees written, threads; its machine
+    End   // leader to member, after all are done: exit status
 };
 
 struct Message {

@@ -104,6 +104,16 @@ TEST_CASE("helpers work beside the calling thread") {
     }
     Workers workers(3);
     const auto fail = [] { throw std::bad_alloc(); };
-    CHECK_THROWS_AS(workers.run([] {}, fail), std::bad_alloc);
+    std::atomic<bool> has_begun{false};
+    const auto wait = [&has_begun] {
+        while (!has_begun) {
+            std::this_thread::yield();
+        }
+    };
+    const auto begin_and_fail = [&] {
+        has_begun = true;
+        fail();
+    };
+    CHECK_THROWS_AS(workers.run(wait, begin_and_fail), std::bad_alloc);
     CHECK_THROWS_AS(workers.run(fail, [] {}), std::bad_alloc);
 }
