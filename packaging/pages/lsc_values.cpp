@@ -40,7 +40,7 @@ std::vector<std::string> forest_formats() {
 
 /// Files that a command reads.
 std::vector<std::string> input_extensions(std::string_view command) {
-    if (command == "forest") {
+    if (command == "forest" || command == "tiles" || command == "serve") {
         return and_also(grammar_extensions(), {"toml"});
     }
     if (command == "dump" || command == "export" || command == "stats" || command == "trace") {
@@ -66,7 +66,9 @@ std::vector<std::string> output_extensions(std::string_view command) {
     return {};
 }
 
-void add_values(std::string_view command, OptionText& option) {
+} // namespace
+
+void add_lsc_values(std::string_view command, OptionText& option) {
     add_common_values(option);
     const std::string& name = main_name(option);
     if (name == "FILE") {
@@ -80,15 +82,13 @@ void add_values(std::string_view command, OptionText& option) {
     }
 }
 
-} // namespace
-
 ProgramText describe_lsc() {
     ProgramText text;
     lsc::visit_commands([&text](const CLI::App& program, const CLI::App& command) {
         if (text.commands.empty()) {
-            text.program = describe(program, add_values);
+            text.program = describe(program, add_lsc_values);
         }
-        text.commands.push_back(describe(command, add_values));
+        text.commands.push_back(describe(command, add_lsc_values));
     });
     for (CommandText& command : text.commands) {
         for (OptionText& argument : command.positionals) {
