@@ -37,9 +37,10 @@ set(LSYS_LAYERS
   "runtime/program: grammar/base grammar/rendering grammar/dialects compiler/bytecode compiler/program runtime/platform runtime/base runtime/derive runtime/turtle runtime/meshing runtime/physics runtime/placement runtime/scene runtime/pipeline"
   "runtime/output: grammar/base runtime/base runtime/derive runtime/turtle runtime/meshing runtime/physics runtime/forest runtime/terrain runtime/placement runtime/scene runtime/export runtime/pipeline runtime/program"
   "runtime/cli: grammar/base grammar/rendering grammar/ast grammar/lsys grammar/format grammar/dialects compiler/bytecode compiler/growth compiler/program compiler/instancing runtime/platform runtime/base runtime/derive runtime/turtle runtime/meshing runtime/physics runtime/forest runtime/terrain runtime/placement runtime/scene runtime/export runtime/pipeline runtime/tiles runtime/serve runtime/program runtime/output"
+  "runtime/mpi: grammar/base runtime/platform runtime/base runtime/tiles runtime/program runtime/cli"
   "runtime/library: grammar/base grammar/rendering compiler/bytecode compiler/growth compiler/program runtime/base runtime/derive runtime/turtle runtime/meshing runtime/forest runtime/terrain runtime/scene runtime/export runtime/pipeline runtime/program runtime/output"
   "runtime/python:"
-  "packaging/pages: grammar/base grammar/dialects runtime/export runtime/cli viewer/app"
+  "packaging/pages: grammar/base grammar/dialects runtime/export runtime/cli runtime/mpi viewer/app"
   "viewer/scene: grammar/base runtime/base runtime/turtle runtime/physics runtime/forest runtime/terrain runtime/scene"
   "viewer/gl: grammar/base runtime/meshing runtime/physics viewer/scene"
   "viewer/app: grammar/base runtime/platform runtime/base runtime/turtle runtime/meshing runtime/physics runtime/scene runtime/pipeline runtime/program viewer/scene viewer/gl")

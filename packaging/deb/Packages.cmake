@@ -53,6 +53,16 @@ edit it, and takes pictures and films without a display.")
   set(CPACK_DEBIAN_LSVIEW_PACKAGE_SUGGESTS "lsc")
 endif()
 
+if(LSYS_MPI)
+  list(APPEND CPACK_COMPONENTS_ALL lsc-mpi)
+  lsys_deb(lsc-mpi lsc-mpi graphics "forests of L-systems as 3D Tiles, written on clusters"
+    "lsc-mpi writes a forest as 3D Tiles with all processes of an MPI job. The files
+are those of the command tiles of lsc.")
+  # mpirun, which starts the processes. Slurm can start them too.
+  set(CPACK_DEBIAN_LSC-MPI_PACKAGE_RECOMMENDS "openmpi-bin")
+  set(CPACK_DEBIAN_LSC-MPI_PACKAGE_SUGGESTS "lsc")
+endif()
+
 if(LSYS_SHARED)
   # A library's package is named after its SONAME: liblsys.so.0.1, so liblsys0.1 (Debian policy 8.1).
   set(library "liblsys${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR}")

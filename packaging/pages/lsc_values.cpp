@@ -40,7 +40,7 @@ std::vector<std::string> forest_formats() {
 
 /// Extensions of the files that a command reads.
 std::vector<std::string> input_extensions(std::string_view command) {
-    if (command == "forest") {
+    if (command == "forest" || command == "place" || command == "serve" || command == "tiles") {
         return and_also(grammar_extensions(), {"toml"});
     }
     if (command == "dump" || command == "export" || command == "stats" || command == "trace") {
@@ -57,6 +57,9 @@ std::vector<std::string> output_extensions(std::string_view command) {
     if (command == "forest") {
         return forest_formats();
     }
+    if (command == "place") {
+        return {"trees"};
+    }
     if (command == "compile") {
         return {"lsb"};
     }
@@ -66,7 +69,9 @@ std::vector<std::string> output_extensions(std::string_view command) {
     return {};
 }
 
-void add_values(std::string_view command, OptionText& option) {
+} // namespace
+
+void add_lsc_values(std::string_view command, OptionText& option) {
     add_common_values(option);
     const std::string& name = main_name(option);
     if (name == "FILE") {
@@ -75,20 +80,20 @@ void add_values(std::string_view command, OptionText& option) {
         option.extensions = output_extensions(command);
     } else if (name == "--save-state" || name == "--from") {
         option.extensions = {"lss"};
+    } else if (name == "--trees") {
+        option.extensions = {"trees"};
     } else if (name == "--fix") {
         option.words = {"certain", "offered"};
     }
 }
 
-} // namespace
-
 ProgramText describe_lsc() {
     ProgramText text;
     lsc::visit_commands([&text](const CLI::App& program, const CLI::App& command) {
         if (text.commands.empty()) {
-            text.program = describe(program, add_values);
+            text.program = describe(program, add_lsc_values);
         }
-        text.commands.push_back(describe(command, add_values));
+        text.commands.push_back(describe(command, add_lsc_values));
     });
     for (CommandText& command : text.commands) {
         for (OptionText& argument : command.positionals) {

@@ -4,8 +4,12 @@
 
 #include "packaging/pages/command_text.h"
 
+#include <string_view>
+
 namespace lsys::pages {
 
 [[nodiscard]] ProgramText describe_lsc();
+/// The words and extensions of an option of `lsc COMMAND`.
+void add_lsc_values(std::string_view command, OptionText& option);
 
 } // namespace lsys::pages

@@ -63,15 +63,15 @@ struct Workers::Team {
     Team(const Team&) = delete;
     Team& operator=(const Team&) = delete;
 
-    /// Runs `task` on the calling thread and on all helpers; returns when all have left it.
-    void run(const Task& new_task) {
+    /// Runs `own` on the calling thread and `new_task` on all helpers; returns when all have left.
+    void run(const Task& own, const Task& new_task) {
         {
             const std::lock_guard lock(mutex);
             task = &new_task;
             ++tasks_begun;
         }
         task_begun.notify_all();
-        new_task();
+        own();
         std::unique_lock lock(mutex);
         task = nullptr;
         all_left.wait(lock, [&] { return busy == 0; });
@@ -133,7 +133,7 @@ void Workers::start() {
 
 struct Workers::Team {
     template <typename Task>
-    void run(const Task&) {}
+    void run(const Task&, const Task&) {}
 };
 
 Workers::Workers(std::uint32_t) : count_(1) {}
@@ -164,11 +164,35 @@ void Workers::for_each(std::uint64_t pieces, const std::function<void(std::uint6
         }
         return true;
     };
-    team_->run([&] {
+    const std::function<void()> work = [&] {
         if (!catch_out_of_memory(take_pieces, [] { return false; })) {
             has_memory = false;
         }
-    });
+    };
+    team_->run(work, work);
+    if (!has_memory) {
+        throw std::bad_alloc();
+    }
+}
+
+void Workers::run(const std::function<void()>& caller, const std::function<void()>& helper) {
+    start();
+    if (team_ == nullptr) {
+        caller();
+        return;
+    }
+    std::atomic<bool> has_memory{true};
+    const auto checked = [&has_memory](const std::function<void()>& task) {
+        const auto work = [&task] {
+            task();
+            return true;
+        };
+        if (!catch_out_of_memory(work, [] { return false; })) {
+            has_memory = false;
+        }
+    };
+    team_->run(std::function<void()>([&] { checked(caller); }),
+               std::function<void()>([&] { checked(helper); }));
     if (!has_memory) {
         throw std::bad_alloc();
     }

@@ -47,12 +47,15 @@ foreach(path ${sources})
     if(line MATCHES "#include <boost/" AND NOT folder STREQUAL "runtime/serve")
       list(APPEND failures "${path}: only runtime/serve knows Boost: ${line}")
     endif()
+    if(line MATCHES "#include <mpi" AND NOT folder STREQUAL "runtime/mpi")
+      list(APPEND failures "${path}: only runtime/mpi knows MPI: ${line}")
+    endif()
     if(line MATCHES "#include <(sys/|linux/|mach/|windows\\.h|unistd\\.h|fcntl\\.h|poll\\.h|termios\\.h|signal\\.h|csignal>|dirent\\.h|spawn\\.h|dlfcn\\.h|pthread\\.h|sched\\.h|io\\.h)"
         AND NOT folder STREQUAL "runtime/platform")
       list(APPEND failures "${path}: only runtime/platform knows the operating system: ${line}")
     endif()
     if(line MATCHES "#include <(thread|condition_variable)>" AND NOT folder MATCHES "^(viewer/app|runtime/python|runtime/platform)$"
-        AND NOT path MATCHES "^runtime/base/(workers\\.cpp|waitable_count\\.h)$")
+        AND NOT path MATCHES "^runtime/base/(workers\\.cpp|waitable_count\\.h|number_queue\\.h)$")
       list(APPEND failures "${path}: threads are made in runtime/base, runtime/platform, viewer/app and runtime/python: ${line}")
     endif()
     if(NOT folder MATCHES "^(runtime/(cli|program)|viewer/app|packaging/pages)$" AND NOT path MATCHES "^grammar/base/contract\\.(h|cpp)$"

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
 # Installs into a folder and compares the list of files with installed.list. Documents and samples are compared with
-# the folders they come from. Usage: cmake -D BUILD=... -D SOURCE=... -D FOLDER=... -D VERSION=... -D CHECK_SIZES=0|1
-# -P installed.cmake
+# the folders they come from. With MPI=1, the files of lsc-mpi are expected too, those of installed_mpi.list.
+# Usage: cmake -D BUILD=... -D SOURCE=... -D FOLDER=... -D VERSION=... -D CHECK_SIZES=0|1 -D MPI=0|1 -P installed.cmake
 cmake_minimum_required(VERSION 3.25)
 file(REMOVE_RECURSE "${FOLDER}")
 execute_process(COMMAND "${CMAKE_COMMAND}" --install "${BUILD}" --prefix "${FOLDER}" --strip
@@ -24,8 +24,13 @@ endforeach()
 list(SORT installed)
 list(JOIN installed "\n" text)
 file(WRITE "${FOLDER}.txt" "${text}\n")
-file(READ "${CMAKE_CURRENT_LIST_DIR}/installed.list" expected)
-if(NOT "${text}\n" STREQUAL expected)
+file(STRINGS "${CMAKE_CURRENT_LIST_DIR}/installed.list" expected)
+if(MPI)
+  file(STRINGS "${CMAKE_CURRENT_LIST_DIR}/installed_mpi.list" expected_mpi)
+  list(APPEND expected ${expected_mpi})
+  list(SORT expected)
+endif()
+if(NOT installed STREQUAL expected)
   message(FATAL_ERROR "other files are installed than tests/packaging/installed.list lists; see ${FOLDER}.txt")
 endif()
 execute_process(COMMAND "${FOLDER}/bin/lsc" --version OUTPUT_VARIABLE out COMMAND_ERROR_IS_FATAL ANY)

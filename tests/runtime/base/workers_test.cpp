@@ -6,6 +6,7 @@
 #include <atomic>
 #include <chrono>
 #include <cstdint>
+#include <new>
 #include <stdexcept>
 #include <thread>
 #include <vector>
@@ -83,4 +84,36 @@ TEST_CASE("a piece that runs out of memory ends the task with std::bad_alloc") {
         CHECK_THROWS(run(false));
         CHECK_NOTHROW(run(true)); // the threads still work
     }
+}
+
+TEST_CASE("helpers work beside the calling thread") {
+    for (const std::uint32_t threads : {1U, 2U, 5U}) {
+        Workers workers(threads);
+        const std::thread::id own = std::this_thread::get_id();
+        std::atomic<std::uint32_t> helpers{0};
+        std::atomic<bool> is_own{false};
+        const auto caller = [&] {
+            is_own = std::this_thread::get_id() == own;
+            while (helpers < threads - 1) { // returns only if the helpers run at the same time
+                std::this_thread::yield();
+            }
+        };
+        workers.run(caller, [&] { helpers += std::this_thread::get_id() != own ? 1 : 0; });
+        CHECK(is_own);
+        CHECK(helpers == threads - 1);
+    }
+    Workers workers(3);
+    const auto fail = [] { throw std::bad_alloc(); };
+    std::atomic<bool> has_begun{false};
+    const auto wait = [&has_begun] {
+        while (!has_begun) {
+            std::this_thread::yield();
+        }
+    };
+    const auto begin_and_fail = [&] {
+        has_begun = true;
+        fail();
+    };
+    CHECK_THROWS_AS(workers.run(wait, begin_and_fail), std::bad_alloc);
+    CHECK_THROWS_AS(workers.run(fail, [] {}), std::bad_alloc);
 }

@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: MIT
+// NumberQueue: ranges of numbers that one thread adds and others take one by one. The adding thread
+// can wait until few are left, and add more before the others run out.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#if LSYS_THREADS
+#include <chrono>
+#include <condition_variable>
+#include <deque>
+#include <mutex>
+
+namespace lsys {
+
+class NumberQueue {
+public:
+    /// Adds begin ... end - 1.
+    void add(std::uint64_t begin, std::uint64_t end) {
+        if (begin < end) {
+            {
+                const std::lock_guard lock(mutex_);
+                ranges_.push_back({begin, end});
+                left_ += end - begin;
+            }
+            changed_.notify_all();
+        }
+    }
+    /// No number is added any more.
+    void close() {
+        {
+            const std::lock_guard lock(mutex_);
+            is_closed_ = true;
+        }
+        changed_.notify_all();
+    }
+
+    /// The next number. Waits for one; none if the queue is closed and empty.
+    std::optional<std::uint64_t> take() {
+        std::unique_lock lock(mutex_);
+        changed_.wait(lock, [this] { return is_closed_ || left_ != 0; });
+        return next(lock);
+    }
+    /// The next number, if there is one.
+    std::optional<std::uint64_t> take_now() {
+        std::unique_lock lock(mutex_);
+        return next(lock);
+    }
+
+    /// How many numbers are left.
+    [[nodiscard]] std::uint64_t left() const {
+        const std::lock_guard lock(mutex_);
+        return left_;
+    }
+    /// Returns when fewer than `count` numbers are left, or after `time`.
+    void wait_below(std::uint64_t count, std::chrono::milliseconds time) {
+        std::unique_lock lock(mutex_);
+        wanted_below_ = count;
+        is_low_.wait_for(lock, time, [&] { return left_ < count; });
+        wanted_below_ = 0;
+    }
+
+private:
+    struct Range {
+        std::uint64_t begin = 0;
+        std::uint64_t end = 0;
+    };
+
+    std::optional<std::uint64_t> next(std::unique_lock<std::mutex>& lock) {
+        if (left_ == 0) {
+            return std::nullopt;
+        }
+        const std::uint64_t number = ranges_.front().begin++;
+        if (ranges_.front().begin == ranges_.front().end) {
+            ranges_.pop_front();
+        }
+        const bool is_low = --left_ < wanted_below_;
+        lock.unlock();
+        if (is_low) {
+            is_low_.notify_one();
+        }
+        return number;
+    }
+
+    mutable std::mutex mutex_;
+    std::condition_variable changed_; // numbers have been added, or the queue is closed
+    std::condition_variable is_low_;
+    std::deque<Range> ranges_; // none of them empty
+    std::uint64_t left_ = 0;
+    std::uint64_t wanted_below_ = 0; // of the waiting thread
+    bool is_closed_ = false;
+};
+
+} // namespace lsys
+#endif

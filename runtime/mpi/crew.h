@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: MIT
+// Crew: the threads of a rank that write files, beside its main thread, which exchanges messages.
+#pragma once
+
+#include "runtime/base/number_queue.h"
+#include "runtime/base/workers.h"
+#include "runtime/cli/tileset_folder.h"
+
+#include <atomic>
+#include <chrono>
+#include <cstdint>
+#include <functional>
+
+namespace lsys::mpi {
+
+class Crew {
+public:
+    /// `threads`: at least 1. The folder must outlive the crew.
+    Crew(lsc::TilesetFolder& folder, std::uint32_t threads);
+
+    /// Writes the files that `step` adds, while the calling thread calls `step` until it returns
+    /// false. `step` may wait for a moment by wait(). Call it once.
+    void run(const std::function<bool()>& step);
+
+    /// Adds files begin ... end - 1. Only step() may call this and the following.
+    void add(std::uint64_t begin, std::uint64_t end) { queue_.add(begin, end); }
+    /// No file is added any more.
+    void close();
+    /// Whether the threads will soon have no file left.
+    [[nodiscard]] bool wants_files() const { return !is_closed_ && queue_.left() < low_; }
+    /// The number of files to ask for.
+    [[nodiscard]] std::uint64_t wanted() const { return kFilesPerThread * low_; }
+    /// Whether all files are written that were added, or the folder is stopped and no thread writes
+    /// any more. Only after close().
+    [[nodiscard]] bool is_finished() const;
+    /// Waits until few files are left, or for `time` if few are left already, and never for longer.
+    /// Without other threads it writes a file instead.
+    void wait(std::chrono::milliseconds time);
+
+private:
+    static constexpr std::uint64_t kFilesPerThread = 16;
+
+    lsc::TilesetFolder& folder_;
+    Workers workers_; // the writing threads, and the calling one
+    NumberQueue queue_;
+    std::uint64_t low_; // number of threads
+    std::atomic<std::uint32_t> writing_{0};
+    bool has_helpers_ = false;
+    bool is_closed_ = false;
+};
+
+} // namespace lsys::mpi

@@ -1,0 +1,293 @@
+// SPDX-License-Identifier: MIT
+#include "grammar/base/counted_text.h"
+#include "runtime/base/size_text.h"
+#include "runtime/cli/tileset_folder.h"
+#include "runtime/mpi/crew.h"
+#include "runtime/mpi/plan.h"
+#include "runtime/mpi/share_tiles.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <optional>
+#include <ostream>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace lsys::mpi {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+/// What rank 0 knows of a rank.
+struct RankState {
+    lsc::TileTotals totals;
+    lsc::TileTotals reported; // in the last line of progress
+    std::string machine;
+    std::uint64_t threads = 0; // 0: not known yet
+    bool is_done = false;
+};
+
+/// Rank 0.
+class Leader {
+public:
+    Leader(const lsc::TilesCommand& command, Ranks& ranks, const Console& console)
+        : command_(command), ranks_(ranks), console_(console),
+          states_(static_cast<std::size_t>(ranks.count())),
+          // Lines of many ranks come less often.
+          progress_interval_(std::chrono::seconds(kProgressSeconds + ranks.count())) {
+        states_[0].is_done = true; // as far as messages are concerned
+        states_[0].machine = Ranks::machine();
+        states_[0].threads = command.run.threads;
+    }
+
+    ExitStatus run() {
+        std::optional<TileForest> forest;
+        const ExitStatus planned = plan_tiles(command_, console_, forest);
+        if (planned == ExitStatus::Ok) {
+            write(*forest);
+        } else {
+            stop_all(planned);
+            NumberQueue nothing;
+            while (!are_others_done()) {
+                receive_messages(nullptr);
+                nothing.wait_below(0, kIdleTime);
+            }
+        }
+        if (status_ == ExitStatus::Ok && forest) {
+            report(*forest);
+        }
+        console_.io().err << std::flush; // before mpirun hears of the end
+        for (int rank = 1; rank < ranks_.count(); ++rank) {
+            ranks_.send(rank, MessageKind::End, {static_cast<std::uint64_t>(status_)}, "");
+        }
+        return status_;
+    }
+
+private:
+    static constexpr int kProgressSeconds = 10;
+    /// A rank gets at most this part of its share of the remaining files, so that all end at about
+    /// the same time.
+    static constexpr std::uint64_t kShares = 4;
+
+    void write(const TileForest& forest) {
+        lsc::TilesetFolder folder(command_, forest, console_);
+        plan_ = hash_of(forest);
+        end_ = folder.root();
+        folder.make();
+        {
+            Crew crew(folder, command_.run.threads);
+            crew.run([&] { return step(folder, crew); });
+        }
+        if (status_ == ExitStatus::Ok) {
+            folder.write(folder.root()); // complete now
+            note_failure(folder);
+        }
+        states_[0].totals = folder.totals();
+    }
+
+    /// Exchanges messages; returns false when all ranks have written all files, but the last.
+    bool step(lsc::TilesetFolder& folder, Crew& crew) {
+        receive_messages(&folder);
+        note_failure(folder);
+        if (is_stopping_ || next_ == end_) {
+            crew.close();
+        }
+        if (crew.wants_files()) {
+            const auto [begin, end] = take_files(crew.wanted());
+            crew.add(begin, end);
+        }
+        states_[0].totals = folder.totals();
+        print_progress();
+        if (crew.is_finished() && are_others_done()) {
+            return false;
+        }
+        crew.wait(are_others_done() ? kIdleTime : kAnswerTime);
+        return true;
+    }
+
+    /// Stops all ranks after an error or an interruption of this one.
+    void note_failure(const lsc::TilesetFolder& folder) {
+        if (is_stopping_ || !folder.is_stopped()) {
+            return;
+        }
+        const Result<void> written = folder.result();
+        if (!written) {
+            console_.error(fmt::format("rank 0: {}", written.error().message));
+        }
+        stop_all(written ? ExitStatus::Interrupted : kRankFailed);
+    }
+
+    void stop_all(ExitStatus status) {
+        status_ = status;
+        is_stopping_ = true;
+        for (int rank = 1; rank < ranks_.count(); ++rank) {
+            if (!state_of(rank).is_done) {
+                ranks_.send(rank, MessageKind::Stop, {}, "");
+            }
+        }
+    }
+
+    /// `folder`: null if this rank writes nothing.
+    void receive_messages(lsc::TilesetFolder* folder) {
+        while (const std::optional<Message> message = ranks_.receive()) {
+            RankState& state = state_of(message->rank);
+            switch (message->kind) {
+            case MessageKind::Request:
+                state.totals.files = message->numbers[2];
+                state.totals.bytes = message->numbers[3];
+                answer(*message, folder);
+                break;
+            case MessageKind::Failed:
+                if (!is_stopping_) {
+                    print_failure(*message);
+                    stop(static_cast<ExitStatus>(message->numbers[0]), folder);
+                }
+                break;
+            case MessageKind::Done:
+                state.totals = {message->numbers[0], message->numbers[1], message->numbers[2]};
+                state.threads = message->numbers[3];
+                state.machine = message->text;
+                state.is_done = true;
+                break;
+            case MessageKind::Files:
+            case MessageKind::Stop:
+            case MessageKind::End:
+                break; // not sent to rank 0
+            }
+        }
+    }
+
+    void answer(const Message& request, lsc::TilesetFolder* folder) {
+        if (is_stopping_) {
+            return; // the rank has been told
+        }
+        if (request.numbers[0] != plan_) {
+            console_.error(fmt::format("rank {} would write another tileset than rank 0: the "
+                                       "scene, its files or lsc-mpi differ on their machines",
+                                       request.rank));
+            stop(kRankFailed, folder);
+            return;
+        }
+        const auto [begin, end] = take_files(request.numbers[1]);
+        ranks_.send(request.rank, MessageKind::Files, {begin, end}, "");
+    }
+
+    /// Stops all ranks because of another.
+    void stop(ExitStatus status, lsc::TilesetFolder* folder) {
+        stop_all(status);
+        if (folder != nullptr) {
+            folder->stop(Error{});
+        }
+    }
+
+    /// The numbers of the next files, at most `wanted`.
+    std::pair<std::uint64_t, std::uint64_t> take_files(std::uint64_t wanted) {
+        const std::uint64_t share =
+            (end_ - next_) / (kShares * static_cast<std::uint64_t>(ranks_.count()));
+        const std::uint64_t begin = next_;
+        next_ = std::min(end_, next_ + std::min(wanted, std::max<std::uint64_t>(share, 1)));
+        return {begin, next_};
+    }
+
+    void print_failure(const Message& failed) const {
+        const auto status = static_cast<ExitStatus>(failed.numbers[0]);
+        if (status == ExitStatus::Interrupted) {
+            console_.info(fmt::format("rank {} was interrupted", failed.rank));
+        } else if (failed.numbers[1] != 0) {
+            console_.error(fmt::format("rank {}: {}", failed.rank, failed.text));
+        } else {
+            console_.io().err << failed.text;
+            console_.error(
+                fmt::format("rank {} cannot plan the tileset, which rank 0 can", failed.rank));
+        }
+    }
+
+    void print_progress() {
+        if (Clock::now() - last_progress_ < progress_interval_) {
+            return;
+        }
+        last_progress_ = Clock::now();
+        for (int rank = 0; rank < ranks_.count(); ++rank) {
+            RankState& state = state_of(rank);
+            if (state.totals.files != state.reported.files) {
+                console_.info(rank_line(rank));
+                state.reported = state.totals;
+            }
+        }
+        console_.info(fmt::format("{} of {} files are handed out", next_, end_ + 1));
+    }
+
+    [[nodiscard]] std::string rank_line(int rank) const {
+        const RankState& state = state_of(rank);
+        std::string text = fmt::format("rank {}", rank);
+        if (state.threads != 0) {
+            text += fmt::format(" on {}, {}", state.machine, counted(state.threads, "thread"));
+        }
+        return text + fmt::format(": {}, {}", counted(state.totals.files, "file"),
+                                  byte_size_text(state.totals.bytes));
+    }
+
+    void report(const TileForest& forest) {
+        lsc::TileTotals all;
+        for (int rank = 0; rank < ranks_.count(); ++rank) {
+            const lsc::TileTotals& totals = state_of(rank).totals;
+            console_.info(rank_line(rank));
+            all.files += totals.files;
+            all.bytes += totals.bytes;
+            all.trees += totals.trees;
+        }
+        const double seconds = std::chrono::duration<double>(Clock::now() - begin_).count();
+        console_.info(fmt::format("total of {}: {}, {}, in {:.1f} s",
+                                  counted(static_cast<std::uint64_t>(ranks_.count()), "rank"),
+                                  counted(all.files, "file"), byte_size_text(all.bytes), seconds));
+        if (command_.stats) {
+            status_ = report_result(
+                console_.write(lsc::tileset_stats(forest, all, !command_.resume)), console_);
+        }
+    }
+
+    [[nodiscard]] bool are_others_done() const {
+        return std::all_of(states_.begin(), states_.end(),
+                           [](const RankState& state) { return state.is_done; });
+    }
+    [[nodiscard]] RankState& state_of(int rank) { return states_[static_cast<std::size_t>(rank)]; }
+    [[nodiscard]] const RankState& state_of(int rank) const {
+        return states_[static_cast<std::size_t>(rank)];
+    }
+
+    const lsc::TilesCommand& command_;
+    Ranks& ranks_;
+    const Console& console_;
+    std::vector<RankState> states_; // by rank
+    std::uint64_t plan_ = 0;
+    std::uint64_t next_ = 0; // the next file to hand out
+    std::uint64_t end_ = 0;  // of the files to hand out
+    bool is_stopping_ = false;
+    ExitStatus status_ = ExitStatus::Ok;
+    Clock::time_point begin_ = Clock::now();
+    Clock::time_point last_progress_ = begin_;
+    Clock::duration progress_interval_;
+};
+
+} // namespace
+
+ExitStatus lead_tiles(const lsc::TilesCommand& command, Ranks& ranks, const Console& console) {
+    Result<void> usable = lsc::check_tileset_folder(command);
+    if (usable && ranks.count() > 1 &&
+        std::find(command.files.begin(), command.files.end(), "-") != command.files.end()) {
+        usable = Error{"standard input reaches one process only; write the grammar to a file that "
+                       "all machines share"};
+    }
+    const ExitStatus refused = usable ? ExitStatus::Ok : ExitStatus::Failure;
+    static_cast<void>(Ranks::leading_number(static_cast<std::uint64_t>(refused)));
+    if (!usable) {
+        return report_error(usable.error(), console);
+    }
+    return Leader(command, ranks, console).run();
+}
+
+} // namespace lsys::mpi

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: MIT
+#include "runtime/mpi/lsc_mpi.h"
+
+#include "runtime/base/out_of_memory.h"
+#include "runtime/mpi/command_line.h"
+#include "runtime/mpi/ranks.h"
+#include "runtime/mpi/share_tiles.h"
+#include "runtime/program/build_info.h"
+#include "runtime/program/process.h"
+
+#include <ostream>
+#include <variant>
+#include <vector>
+
+namespace lsys::mpi {
+
+namespace {
+
+/// Runs what has been parsed.
+class Dispatch {
+public:
+    Dispatch(Ranks& ranks, const Io& io) : ranks_(ranks), io_(io) {}
+
+    ExitStatus operator()(const PrintText& text) const {
+        if (!ranks_.leads()) {
+            return ExitStatus::Ok;
+        }
+        const Console console(io_, {});
+        const std::string build =
+            text.with_build ? describe_build(io_.revision, common_libraries()) : std::string();
+        return console.finish(report_result(console.write(text.text + build), console));
+    }
+    ExitStatus operator()(const UsageError& usage) const {
+        if (ranks_.leads()) {
+            const Console console(io_, {});
+            console.error(usage.message);
+            console.help(usage.help);
+        }
+        return ExitStatus::Failure;
+    }
+    ExitStatus operator()(lsc::TilesCommand& command) const {
+        const std::uint32_t processors = Ranks::processors_per_rank();
+        command.run.threads = command.run.threads == 0 ? processors : command.run.threads;
+        if (!ranks_.leads()) {
+            return join_tiles(command, ranks_, io_);
+        }
+        const Console console(io_, command.messages);
+        return console.finish(lead_tiles(command, ranks_, console));
+    }
+
+private:
+    Ranks& ranks_;
+    const Io& io_;
+};
+
+} // namespace
+
+int run(std::span<const std::string> arguments, const Io& io) {
+    Ranks ranks;
+    const auto run_line = [&] {
+        const std::vector<std::string> leading = ranks.leading_arguments(arguments);
+        CommandLine parsed = parse_command_line(leading);
+        const ExitStatus status = std::visit(Dispatch{ranks, io}, parsed);
+        if (ranks.leads()) {
+            io.err << (status == ExitStatus::Interrupted ? "lsc-mpi: interrupted\n" : "")
+                   << std::flush;
+        }
+        return static_cast<int>(status);
+    };
+    return catch_out_of_memory(run_line, [&] {
+        const int status = report_out_of_memory(io);
+        ranks.abort(status); // the others wait for messages of this rank
+        return status;
+    });
+}
+
+} // namespace lsys::mpi

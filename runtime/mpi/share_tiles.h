@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: MIT
+// `lsc-mpi tiles`: the ranks of a job write one tileset. Every rank plans the tileset by itself. Rank
+// 0 leads: it hands out the numbers of files, collects what has been written, and prints.
+#pragma once
+
+#include "runtime/mpi/ranks.h"
+#include "runtime/program/console.h"
+
+namespace lsys::lsc {
+struct TilesCommand;
+}
+
+namespace lsys::mpi {
+
+/// Writes the tileset; returns the exit status of the job, the same on all ranks. All ranks must call
+/// it with the same command. `command`: with a number of threads. `console`: prints on rank 0.
+/// Throws std::bad_alloc.
+[[nodiscard]] ExitStatus
+lead_tiles(const lsc::TilesCommand& command, Ranks& ranks, const Console& console);
+/// The same for the other ranks. `io`: nothing is printed on its streams.
+[[nodiscard]] ExitStatus join_tiles(const lsc::TilesCommand& command, Ranks& ranks, const Io& io);
+
+} // namespace lsys::mpi
