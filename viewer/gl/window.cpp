@@ -111,14 +111,14 @@ struct Window::State {
         mouse = to;
         has_mouse = true;
         if (captured) {
-            input.motion += way;
+            input.motion += pixels(way);
         } else if (held[GLFW_MOUSE_BUTTON_LEFT]) {
-            input.left_drag += way;
+            input.left_drag += pixels(way);
             input.pointer_events.push_back({pixels(to), PointerEvent::Kind::Move, shift});
         } else if (held[GLFW_MOUSE_BUTTON_RIGHT]) {
-            input.right_drag += way;
+            input.right_drag += pixels(way);
         } else if (held[GLFW_MOUSE_BUTTON_MIDDLE]) {
-            input.middle_drag += way;
+            input.middle_drag += pixels(way);
         }
     }
 

@@ -66,7 +66,7 @@ struct PointerEvent {
 struct WindowInput {
     std::vector<KeyPress> presses;
     std::vector<Key> held;
-    glm::vec2 left_drag{0.0F}; // window coordinates, to the right and down
+    glm::vec2 left_drag{0.0F}; // pixels, to the right and down
     glm::vec2 right_drag{0.0F};
     glm::vec2 middle_drag{0.0F};
     std::vector<PointerEvent> pointer_events; // presses, releases, moves while pressed
