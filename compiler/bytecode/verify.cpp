@@ -254,7 +254,7 @@ private:
             }
             if (!std::isfinite(global.minimum) || !std::isfinite(global.maximum) ||
                 global.minimum > global.maximum) {
-                return fail("global {} has bounds that hold nothing", i);
+                return fail("global {} has invalid bounds", i);
             }
             begin_piece();
             if (!code(CodePlace::Global, global.instruction,
@@ -352,7 +352,8 @@ private:
                   bool with_contexts) {
         const char* kind = with_contexts ? "group" : "rule";
         if (index > examples.size()) {
-            return fail("production {} is of {} {}, which nothing began", production, kind, index);
+            return fail("production {} has {} {}, which no earlier production begins", production,
+                        kind, index);
         }
         if (index == examples.size()) {
             examples.push_back(static_cast<std::uint32_t>(production));
@@ -421,7 +422,7 @@ private:
                 break;
             case PatternKind::Close:
                 if (depth == 0) {
-                    return fail("pattern item {} closes what nothing opened", i);
+                    return fail("pattern item {} closes no open bracket", i);
                 }
                 --depth;
                 break;

@@ -320,7 +320,7 @@ bool AstBuilder::check_room(SourceSpan span) {
                   ast_.calls.size(), ast_.set_values.size(), ast_.statements.size()});
     if (max_count > kMaxNodes && diagnostics_.admits(DiagnosticCode::ProgramTooLarge)) {
         diagnostics_.add(DiagnosticCode::ProgramTooLarge, span,
-                         "with this the grammar has more than 2,147,483,648 modules or values");
+                         "the grammar has more than 2,147,483,648 modules or values up to here");
     }
     return max_count <= kMaxNodes;
 }

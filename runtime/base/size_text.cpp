@@ -28,7 +28,7 @@ std::string byte_size_text(std::uint64_t bytes) {
 }
 
 Error memory_error(std::string_view subject, std::uint64_t left) {
-    return Error{fmt::format("{} takes more than the {} that are left of the memory limit", subject,
+    return Error{fmt::format("{} needs more than the {} that remain of the memory limit", subject,
                              byte_size_text(left)),
                  ErrorKind::Limit};
 }

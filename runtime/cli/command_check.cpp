@@ -175,8 +175,8 @@ ExitStatus fix_file(const std::string& path,
     const ExitStatus status =
         console.show(fixed.compiled.diagnostics, *fixed.compiled.grammar.sources);
     if (const std::size_t offers = count_fixes(fixed.compiled.diagnostics); offers != 0) {
-        console.info(offers == 1 ? "1 repair is offered, and left to you"
-                                 : fmt::format("{} repairs are offered, and left to you", offers));
+        console.info(offers == 1 ? "1 repair is offered, but not applied"
+                                 : fmt::format("{} repairs are offered, but not applied", offers));
     }
     for (const std::string& outside : fixed.out_of_scope) {
         console.info(fmt::format("`{}` is left as it is: it lies outside the folder of `{}`",

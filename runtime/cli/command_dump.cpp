@@ -118,9 +118,10 @@ ExitStatus dump_syntax(const DumpCommand& command, const Console& console) {
     }
     const Dialect dialect = grammar.dialect;
     if (command.stage == DumpStage::Tokens && dialect != Dialect::Lsys) {
-        return report_error(Error{fmt::format("--stage tokens shows those of .lsys, and `{}` is {}",
-                                              shown_path(command.file), row_of(dialect).title)},
-                            console);
+        return report_error(
+            Error{fmt::format("--stage tokens shows tokens of .lsys files, but `{}` is {}",
+                              shown_path(command.file), row_of(dialect).title)},
+            console);
     }
     if (const Result<void> allowed = check_system(command.file, dialect, command.grammar);
         !allowed) {
@@ -142,7 +143,7 @@ ExitStatus dump_syntax(const DumpCommand& command, const Console& console) {
 /// Reports that a .lsb file has no Program.
 ExitStatus report_missing_program(const DumpCommand& command, const Console& console) {
     return report_error(
-        Error{fmt::format("`{}` is compiled; its program is not in it, --stage bytecode is",
+        Error{fmt::format("`{}` is compiled and contains no program; use --stage bytecode",
                           command.file)},
         console);
 }

@@ -146,7 +146,7 @@ ExitStatus run_command(const ExplainCommand& command, const Console& console) {
         const auto found = std::find_if(
             all.begin(), all.end(), [&](const Explanation& e) { return e.code == command.code; });
         if (!code || found == all.end()) {
-            console.error(fmt::format("`{}` is no code of a diagnostic", command.code));
+            console.error(fmt::format("there is no diagnostic `{}`", command.code));
             std::vector<std::string_view> names;
             for (std::uint32_t i = 0; i < diagnostic_code_count(); ++i) {
                 names.push_back(info(static_cast<DiagnosticCode>(i)).name);

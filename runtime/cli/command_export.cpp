@@ -159,7 +159,7 @@ ExitStatus run_command(const ExportCommand& command, const Console& console) {
     if (!format) {
         const std::string meant = nearest_output(command.output);
         return report_error(
-            Error{fmt::format("the name `{}` does not tell a format: {}; {}", command.output,
+            Error{fmt::format("`{}` has no extension of a known format: {}; {}", command.output,
                               format_names("or", [](const FormatTraits&) { return true; }),
                               meant.empty() ? "say which with --format"
                                             : fmt::format("did you mean `{}`?", meant))},

@@ -57,8 +57,7 @@ std::string stats_text(const GrownForest& grown,
                 misses += slot.misses;
             }
             text += fmt::format(
-                "  {} generations: {} instances of {} keys, {} segments; {} taken, {} recorded "
-                "because there was none to take\n",
+                "  {} generations: {} instances of {} keys, {} segments; {} hits, {} misses\n",
                 stage.generations, cache.instances.size(), cache.slots.size(),
                 cache.skeleton.segments.size(), hits, misses);
             // Sum over the slots with the same id and age.
@@ -107,9 +106,7 @@ ExitStatus run_command(const ForestCommand& command, const Console& console) {
         return report_error(target.error(), console);
     }
     if (command.output.empty() && !command.stats && !command.check) {
-        return report_error(Error{"nothing is asked for; say where to write with -o, or --stats, "
-                                  "or --check"},
-                            console);
+        return report_error(Error{"nothing to do: give -o FILE, --stats or --check"}, console);
     }
     if (const std::string conflict = find_conflict(command, target.value(), command.overrides.rho);
         !conflict.empty()) {

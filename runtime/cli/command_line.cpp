@@ -36,12 +36,12 @@ void add_check(CLI::App& app, CheckCommand& command) {
     app.add_option("FILE", command.files, "Grammars; `-` is standard input")->required();
     app.add_flag("--fix{certain}", command.fix,
                  "Apply all certain repairs to FILE and to files included from its folder or "
-                 "below; --fix=offered: those that are only offered too")
+                 "below; --fix=offered also applies uncertain repairs")
         ->type_name("")
         ->check([](const std::string& choice) {
             return choice == "certain" || choice == "offered"
                        ? std::string()
-                       : fmt::format("`{}` is none of certain|offered", choice);
+                       : fmt::format("`{}` is neither certain nor offered", choice);
         });
     app.add_flag("--diff", command.diff,
                  "With --fix: print the repairs as a unified diff, and write no file");
@@ -53,15 +53,16 @@ void add_check(CLI::App& app, CheckCommand& command) {
     add_base(app, command.run);
     add_message_options(app, command.messages);
     add_levels(app, command.messages);
-    app.footer("A repair is certain if no other is plausible and its statement is correct "
-               "afterwards; other\n"
-               "repairs are shown as help. --fix changes no file outside the folder of FILE "
-               "(symbolic links\n"
-               "resolved) that is not named too. Of a grammar and its included files all are "
-               "written or none.\n"
-               "Exit status: 0 no errors, 1 errors in a grammar, 2 file or command line error, 3 "
-               "limit reached.\n"
-               "Example: lsc check --fix tree.lsys");
+    app.footer(
+        "A repair is certain if no other is plausible and its statement is correct "
+        "afterwards; other\n"
+        "repairs are shown as help. --fix changes only named files and files in the folder of "
+        "FILE or below\n"
+        "(symbolic links resolved). A grammar and its included files are all written, or "
+        "none.\n"
+        "Exit status: 0 no errors, 1 errors in a grammar, 2 file or command line error, 3 "
+        "limit reached.\n"
+        "Example: lsc check --fix tree.lsys");
 }
 
 void add_compile(CLI::App& app, CompileCommand& command) {
@@ -224,7 +225,7 @@ void add_export(CLI::App& app, ExportCommand& command) {
     add_levels(app, command.messages);
     app.footer(
         "Presets:\n" + preset_table(PresetCommand::Export) +
-        "A flag of a preset is taken back by `--wind-data=false`.\n\n"
+        "To clear a flag that a preset sets, write `--wind-data=false`.\n\n"
         "Units are metres and +Y is up, unless --unit and --up say otherwise. The output is "
         "complete or\n"
         "absent. OBJ writes a .mtl file beside it, OBJ and USDA write bark and leaf textures\n"
@@ -350,16 +351,17 @@ void add_trace(CLI::App& app, TraceCommand& command) {
     add_run_limits(app, command.run);
     add_message_options(app, command.messages);
     add_levels(app, command.messages);
-    app.footer("Tells of a module of generation N every production that was tried in the next "
-               "generation, why it\n"
-               "applies or not, and what was written; of the last word also what is drawn. -n N is "
-               "the generation\n"
-               "of the module; steps() is #n, or N if that is more.\n"
-               "Examples: lsc trace tree.lsys -n 3 --at 17\n"
-               "          lsc trace tree.lsys -n 3 --module 'A(3)'\n"
-               "          lsc trace tree.lsys -n 3 --all A --rows 2 --format json\n"
-               "          lsc trace tree.lsys --at 100 --written\n"
-               "          lsc trace tree.lsys --at 100 --back");
+    app.footer(
+        "Lists every production tried for a module of generation N in the next generation, "
+        "with the reason\n"
+        "why it applies or not and the modules it writes; for the last word also the modules "
+        "drawn. -n N is\n"
+        "the generation of the module; steps() is #n, or N if that is more.\n"
+        "Examples: lsc trace tree.lsys -n 3 --at 17\n"
+        "          lsc trace tree.lsys -n 3 --module 'A(3)'\n"
+        "          lsc trace tree.lsys -n 3 --all A --rows 2 --format json\n"
+        "          lsc trace tree.lsys --at 100 --written\n"
+        "          lsc trace tree.lsys --at 100 --back");
 }
 
 void add_format(CLI::App& app, FormatCommand& command) {

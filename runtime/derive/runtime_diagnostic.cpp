@@ -167,11 +167,9 @@ std::string reason_for(const RuntimeError& error, const Bytecode& bytecode) {
                "stop with a condition";
     }
     if ((has(Opcode::Divide) || has(Opcode::Mod)) && !has(Opcode::Log) && !has(Opcode::Power)) {
-        return is_nan
-                   ? "0 divided by 0 is not a number: leave out the values for which the divisor "
-                     "is 0 with a condition"
-                   : "a division by 0 is infinite: leave out the values for which the divisor is "
-                     "0 with a condition, or choose with `if(condition, a, b)`";
+        return is_nan ? "0 divided by 0 is not a number: exclude a divisor of 0 by a condition"
+                      : "a division by 0 is infinite: exclude a divisor of 0 by a condition, or "
+                        "choose with `if(condition, a, b)`";
     }
     if (!is_nan && error.production != kNoProduction && !has(Opcode::Divide) &&
         (has(Opcode::Multiply) || has(Opcode::Power) || has(Opcode::Exp))) {
@@ -200,7 +198,7 @@ Diagnostic not_finite(const RuntimeError& error, const Bytecode& bytecode) {
         diagnostic.help.emplace_back(
             error.in_weight ? "bound the weight with `min` and `max`"
             : error.in_condition
-                ? "let an earlier production take the modules for which it has no value"
+                ? "add an earlier production for the modules for which the condition has no value"
                 : "guard the production with a condition, or bound the value with `min` and "
                   "`max`");
     }
@@ -324,11 +322,11 @@ Diagnostic unbalanced(const RuntimeError& error, const Bytecode& bytecode) {
         const std::string own = repeated_module(error, bytecode);
         diagnostic.notes.push_back(
             own.empty()
-                ? fmt::format("{} {}, and no `{}` before it is left to pair with",
+                ? fmt::format("{} {}, and every `{}` before it already has its `{}`",
                               owner(error, bytecode),
                               is_branch ? "closes a branch that it does not open"
                                         : "ends a polygon that it does not begin",
-                              is_branch ? "[" : "{")
+                              is_branch ? "[" : "{", close.name)
                 : fmt::format("{} writes `{}` again, and with it one more `{}` in each generation",
                               owner(error, bytecode), own, close.name));
     }
@@ -352,17 +350,17 @@ Diagnostic too_deep(const RuntimeError& error, const Bytecode& bytecode) {
     for (const float parameter : error.parameters) {
         constexpr float kTiny = 1e-6F;
         if (parameter != 0.0F && std::fabs(parameter) < kTiny) {
-            diagnostic.help.push_back(
-                fmt::format("a value that is multiplied never becomes 0, here it is {}: let the "
-                            "condition compare it with a small number, for example 0.01",
-                            number(parameter)));
+            diagnostic.help.push_back(fmt::format(
+                "repeated multiplication never reaches 0; the value is {} here: let the "
+                "condition compare it with a small number, for example 0.01",
+                number(parameter)));
             break;
         }
     }
     const std::string key = draws ? "interpret_depth" : "decompose_depth";
     diagnostic.help.push_back(
         fmt::format("let its productions end, raise the number of passes with `#set {} {};`, or "
-                    "leave what remains as it is with `#set at_depth stop;`",
+                    "keep the remaining modules unchanged with `#set at_depth stop;`",
                     key, std::min(depth * 10, kMaxDepth)));
     return diagnostic;
 }

@@ -96,7 +96,7 @@ Outcome<std::vector<std::string>> write_plant_to(const Plant& plant,
             given.format ? given.format : ::lsys::format_of_path(path);
         if (!format) {
             return report_error(
-                Error{fmt::format("the name `{}` does not tell a format: {}", path,
+                Error{fmt::format("`{}` has no extension of a known format: {}", path,
                                   format_names("or", [](const FormatTraits&) { return true; }))},
                 context.console);
         }

@@ -56,7 +56,7 @@ Result<Texture> read_picture(std::string_view bytes, std::uint64_t max_bytes) {
         texture = {samples.columns, samples.rows, std::move(samples.bytes)};
     }
     if (std::max(texture.width, texture.height) > kMaxTextureSide) {
-        return Error{fmt::format("a picture of {} by {} pixels; the most along a side is {}",
+        return Error{fmt::format("a picture of {} by {} pixels; the maximum is {} per side",
                                  texture.width, texture.height, kMaxTextureSide)};
     }
     return texture;

@@ -33,13 +33,13 @@ void add_collision(CLI::App& app, CollisionKind& kind, CollisionNames& names) {
                                {"hulls", CollisionKind::Hulls}},
                               "Shapes of trunk and boughs for the physics of engines, as nodes of "
                               "glTF (default none)");
-    add_choice<CollisionNames>(
-        app, "--collision-names", names,
-        {{"unreal", CollisionNames::Unreal},
-         {"godot", CollisionNames::Godot},
-         {"unity", CollisionNames::Unity}},
-        "Names of these nodes: UCP_tree_00 and UCX_tree_00; tree_00-convcolonly; tree_collider_00 "
-        "(default unreal)");
+    add_choice<CollisionNames>(app, "--collision-names", names,
+                               {{"unreal", CollisionNames::Unreal},
+                                {"godot", CollisionNames::Godot},
+                                {"unity", CollisionNames::Unity}},
+                               "Names of the collision nodes: UCP_tree_00 and UCX_tree_00; "
+                               "tree_00-convcolonly; tree_collider_00 "
+                               "(default unreal)");
 }
 
 /// Adds the options of unit, pivot and collision shapes of plant files.
@@ -72,7 +72,7 @@ void add_surface(CLI::App& app, SurfaceOptions& options) {
     add_choice<UpAxis>(app, "--up", options.up, {{"y", UpAxis::Y}, {"z", UpAxis::Z}}, up.c_str());
     app.add_flag(
         "--both-sides", options.both_sides,
-        fmt::format("Write leaves a second time as seen from behind, in {}: for readers that show "
+        fmt::format("Write leaves a second time, reversed, in {}: for readers that show "
                     "front faces only",
                     format_names("and", [](const FormatTraits& each) { return each.back_faces; })));
 }
@@ -150,8 +150,8 @@ void add_preset(CLI::App& app, PresetCommand command, std::string& target) {
         }
     }
     add_choice<std::string>(app, "--preset", target, std::move(names),
-                            "Options for the program that the file is for, listed below; an option "
-                            "that is given too wins");
+                            "Options for the program that the file is for, listed below; options "
+                            "given on the command line have priority");
 }
 
 void add_plant_form(CLI::App& app, PlantFileOptions& options) {
@@ -199,7 +199,7 @@ void add_plant_motion(CLI::App& app, PlantFileOptions& options) {
         ->type_name("G")
         ->group("Physics");
     add_parsed(app, "--wind", options.wind, parse_wind,
-               "Bend the plant in wind, in m/s; GUST is the fraction that varies")
+               "Bend the plant in wind, in m/s; GUST is the fraction of the speed that varies")
         ->type_name("X,Y,Z[,GUST]")
         ->group("Physics");
     app.add_flag("--settle", options.settle,
@@ -227,12 +227,13 @@ void add_plant_motion(CLI::App& app, PlantFileOptions& options) {
                  "Pivot, distance, phase and stiffness in TEXCOORD_1 and TEXCOORD_2 of glTF, for "
                  "the shaders in scripts/wind")
         ->group("Physics");
-    app.add_flag("--loop", options.loop,
-                 "With gusts: the last frame equals the first, and the motion goes on through it")
+    app.add_flag(
+           "--loop", options.loop,
+           "With gusts: the last frame equals the first, so that the motion repeats without a jump")
         ->group("Physics");
     app.add_flag("--grow", options.grow,
-                 "The frames show the plant from its axiom to its last generation, with parts of "
-                 "generations between whole ones");
+                 "The frames show the plant from its axiom to its last generation, with growth "
+                 "between generations");
     const auto rate = [](const std::string& text) { return parse_number(text, 0.1F, 1000.0F); };
     add_parsed(app, "--fps", options.frames_per_second, rate, "Frames per second (default 24)")
         ->type_name("F")

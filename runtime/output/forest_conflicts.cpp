@@ -25,7 +25,7 @@ std::string find_option_conflict(const ForestFileOptions& options, const ForestT
     if (options.collision != CollisionKind::None) {
         if (target.kind != ForestOutputKind::Instances || !traits_of(target.format).collision) {
             return fmt::format(
-                "--collision has a place in {} with instances",
+                "--collision is for {} with instances",
                 format_names("and", [](const auto& each) { return each.collision; }));
         }
         if (options.instances != ForestInstances::Trees) {
@@ -67,8 +67,8 @@ Result<ForestTarget> target_of(const ForestFileOptions& options) {
         return ForestTarget{ForestOutputKind::Mesh, *format};
     }
     if (!format || !has_instances(traits_of(*format))) {
-        return Error{fmt::format("the name of `{}` does not tell a format with instances: {}, or "
-                                 "json for statistics; --bake writes others",
+        return Error{fmt::format("`{}` has no extension of a format with instances ({}), nor json "
+                                 "for statistics; --bake writes other formats",
                                  options.output, format_names("or", has_instances))};
     }
     return ForestTarget{ForestOutputKind::Instances, *format};
@@ -108,7 +108,7 @@ std::string find_conflict(const ForestFileOptions& options,
                "one moment; --instances trees writes a series";
     }
     if (lods && target.kind == ForestOutputKind::Statistics) {
-        return "--instances lods writes a forest; its statistics are those of --instances trees";
+        return "--instances lods has no statistics of its own; use --instances trees";
     }
     if (options.mesh.method == MeshMethod::Solid) {
         return "--method solid is for a single plant: the branches of a forest are instances";

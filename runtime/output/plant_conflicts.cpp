@@ -26,10 +26,9 @@ std::string find_lod_conflict(const PlantFileOptions& options,
                "of them";
     }
     if (options.frames != 0) {
-        return "--lods and --frames do not go together: levels have other vertices, and only one "
-               "set "
-               "of them can have the skin or the shapes; --level K writes one coarser level that "
-               "moves";
+        return "--lods and --frames do not go together: each level has different vertices, and the "
+               "skin or the shapes fit only one level; --level K writes one coarser, animated "
+               "level";
     }
     if (options.mesh.method == MeshMethod::Solid) {
         return "--lods and --method solid do not go together: a solid has no coarser levels; a "
@@ -42,7 +41,7 @@ std::string find_lod_conflict(const PlantFileOptions& options,
     }
     const bool one_file = traits_of(format).lods && !options.lod_files;
     if (one_file && options.buffers == BufferPlace::Separate) {
-        return "--lods in one file holds its buffer and pictures, so --buffers separate needs "
+        return "--lods embeds buffer and pictures in its one file; --buffers separate needs "
                "--lod-files";
     }
     if (!one_file && !context.is_regular(options.output)) {
@@ -99,8 +98,9 @@ find_conflict(const PlantFileOptions& options, ExportFormat format, const Output
     }
     constexpr std::uint32_t kMinLoopFrames = 3;
     if (options.loop && options.frames < kMinLoopFrames) {
-        return fmt::format("--loop needs --frames N of at least {}: the last is the first again",
-                           kMinLoopFrames);
+        return fmt::format(
+            "--loop needs --frames N of at least {}, because the last frame equals the first",
+            kMinLoopFrames);
     }
     if (options.bones && (options.frames == 0 || !traits_of(format).motion)) {
         return fmt::format(
@@ -109,7 +109,7 @@ find_conflict(const PlantFileOptions& options, ExportFormat format, const Output
     }
     if (options.wind_data && !traits_of(format).wind_data) {
         return fmt::format(
-            "--wind-data is for shaders, and has a place in {}",
+            "--wind-data is for {}",
             format_names("and", [](const FormatTraits& each) { return each.wind_data; }));
     }
     if (options.unit != LengthUnit::Metres && !traits_of(format).units) {
@@ -122,7 +122,7 @@ find_conflict(const PlantFileOptions& options, ExportFormat format, const Output
     }
     if (options.collision != CollisionKind::None && !traits_of(format).collision) {
         return fmt::format(
-            "--collision has a place in {}",
+            "--collision is for {}",
             format_names("and", [](const FormatTraits& each) { return each.collision; }));
     }
     if (options.grow && options.collision != CollisionKind::None) {
@@ -130,7 +130,8 @@ find_conflict(const PlantFileOptions& options, ExportFormat format, const Output
                "shapes from a file of the plant that has grown, without --grow";
     }
     if (options.loop && options.grow) {
-        return "--loop and --grow do not go together, because a plant that has grown is another";
+        return "--loop and --grow do not go together, because the grown plant differs from the "
+               "first frame";
     }
     if (options.loop && (!options.wind || !(options.wind->gust > 0.0F))) {
         return "--loop needs gusts, without which a plant comes to rest: --wind 8,0,0,0.5";

@@ -45,8 +45,8 @@ ExitStatus write_loop(PlantRun& run, PlantPhysics& physics) {
     }
     const PlantLoop loop = record_loop(physics, given.frames, given.frames_per_second);
     run.context.console.detail(
-        fmt::format("the loop ends within {:.3g} % of the plant's size of where it "
-                    "begins, after {} before it",
+        fmt::format("the last frame of the loop differs from the first by {:.3g} % of the plant's "
+                    "size before blending, after a run-in of {}",
                     100.0 * loop.mismatch, counted(loop.run_in, "loop")));
     Skeleton pose;
     pose_at(physics.rest(), loop.animation.frame(0), pose);
@@ -202,10 +202,9 @@ ExitStatus write_growth(PlantRun& run, PlantGrowth& growth, Skeleton& grown) {
     const std::uint32_t start = first == 0 ? 0 : first - 1;
     const std::uint32_t skipped = first == 0 ? 0 : 1;
     if (first > 0) {
-        run.context.console.info(
-            fmt::format("nothing is drawn before generation {}; the first frame is on "
-                        "the way to it",
-                        first));
+        run.context.console.info(fmt::format(
+            "nothing is drawn before generation {}; the frames start after generation {}", first,
+            start));
     }
     if (const ExitStatus status = find_growth_pivot(run, growth); status != ExitStatus::Ok) {
         return status;

@@ -72,7 +72,7 @@ Result<Dialect> dialect_of(const std::string& path,
         return is_explained ? Result<Dialect>(Dialect::Lsys) : unknown_dialect(path);
     }
     if (*detected.dialect != Dialect::Lsys) {
-        messages.add_detail(fmt::format("`{}` is read as {}: {} tells", shown_path(path),
+        messages.add_detail(fmt::format("`{}` is read as {} because of {}", shown_path(path),
                                         row_of(*detected.dialect).title, detected.evidence));
     }
     return *detected.dialect;

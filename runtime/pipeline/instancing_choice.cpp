@@ -279,10 +279,10 @@ std::string nearest_goals(const std::vector<Search>& searches, const InstancingG
         return text;
     }
     if (goal.max_bytes != 0 && all_fit_budget) {
-        return fmt::format("`--variety {}` can be had in this memory ({})",
-                           floor_text(min_part_in_budget), in_budget_text);
+        return fmt::format("`--variety {}` fits this memory ({})", floor_text(min_part_in_budget),
+                           in_budget_text);
     }
-    return fmt::format("`--variety {}` is the most that can be had", floor_text(min_best_part));
+    return fmt::format("`--variety {}` is the maximum", floor_text(min_best_part));
 }
 
 void apply(const Choice& choice, SceneSpecies& species) {

@@ -109,11 +109,11 @@ std::string placement_note(const PlacementReport& report) {
         return "there are no trees: the density map is black all over the region";
     }
     if (report.places == 0) {
-        return "there are no trees: the placement has no place for one";
+        return "there are no trees: the method makes no place in the region";
     }
     if (report.refused == report.places) {
-        return fmt::format("there are no trees: at none of {} places can a species live, by its "
-                           "limits of altitude and slope",
+        return fmt::format("there are no trees: the altitude and slope limits of all species "
+                           "exclude all {} places",
                            report.places);
     }
     if (report.refused > 0) {

@@ -32,8 +32,7 @@ Result<void> check_size(std::uint64_t size, const ReadLimit& limit) {
         return memory_error("it", limit.memory);
     }
     if (size > limit.max_bytes) {
-        return Error{
-            fmt::format("it has more than {} bytes, the most that can be read", limit.max_bytes)};
+        return Error{fmt::format("it is larger than {} bytes, the maximum", limit.max_bytes)};
     }
     return {};
 }

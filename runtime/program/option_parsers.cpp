@@ -151,8 +151,8 @@ void add_base(CLI::App& app, RunOptions& run) {
         ->type_name("FOLDER")
         ->group("Grammar");
     app.add_option("--stdin-name", run.stdin_name,
-                   "For a grammar from standard input: the file that it is, for messages, its "
-                   "language and its #include and #object files")
+                   "For a grammar from standard input: its file name, used in messages, for the "
+                   "language and for #include and #object files")
         ->type_name("FILE")
         ->group("Grammar");
 }
@@ -160,7 +160,7 @@ void add_base(CLI::App& app, RunOptions& run) {
 std::optional<UsageError> apply_base(const RunOptions& run, std::span<std::string> files) {
     if (!run.stdin_name.empty()) {
         if (!run.base.empty()) {
-            return UsageError{"--stdin-name and --base are for the same thing",
+            return UsageError{"--stdin-name and --base both set the folder of the grammar",
                               "the folder of the name is the folder of the grammar"};
         }
         if (std::find(files.begin(), files.end(), "-") == files.end()) {
@@ -211,7 +211,7 @@ void add_tree_height(CLI::App& app, std::optional<HeightRange>& height) {
             return min ? max.error() : min.error();
         }
         if (max.value() < min.value()) {
-            return Error{fmt::format("`{}` is not a min and a max height: {} is above {}", text,
+            return Error{fmt::format("`{}` is not MIN,MAX: min {} is above max {}", text,
                                      min.value(), max.value())};
         }
         return HeightRange{min.value(), max.value()};

@@ -50,7 +50,7 @@ Result<std::vector<std::uint32_t>> parse_stages(const std::string& text) {
             return stage.error();
         }
         if (!stages.empty() && stage.value() <= stages.back()) {
-            return Error{fmt::format("stages rise: {} does not come after {}", stage.value(),
+            return Error{fmt::format("stages must ascend: {} is not above {}", stage.value(),
                                      stages.back())};
         }
         stages.push_back(static_cast<std::uint32_t>(stage.value()));
@@ -106,9 +106,8 @@ void add_placement(CLI::App& app, SceneOverrides& overrides, const char* size) {
                    "Grey PNG of the density over the ground")
         ->type_name("FILE")
         ->group(group);
-    add_parsed(
-        app, "--years", overrides.years, integer(0, kMaxYears),
-        "Years of growth of a domination forest; of others the stages passed since the start")
+    add_parsed(app, "--years", overrides.years, integer(0, kMaxYears),
+               "Years of growth of a domination forest; for other methods, stages since the start")
         ->type_name("N")
         ->group(group);
     add_parsed(app, "--stages", overrides.stages, parse_stages,
@@ -125,10 +124,11 @@ void add_placement(CLI::App& app, SceneOverrides& overrides, const char* size) {
         app, "--years-of-stage", overrides.years_of_stage,
         [](const std::string& text) -> Result<float> {
             const Result<float> years = parse_number(text, 0.0F, static_cast<float>(kMaxYears));
-            return !years || years.value() > 0.0F ? years
-                                                  : Result<float>(Error{"a stage takes some time"});
+            return !years || years.value() > 0.0F
+                       ? years
+                       : Result<float>(Error{"a stage must last longer than 0 years"});
         },
-        "Years that a plant of a domination forest has each stage")
+        "Years per stage of a plant in a domination forest")
         ->type_name("Y")
         ->group(group);
     add_parsed(app, "--tile", overrides.tile, parse_tile,
@@ -171,7 +171,7 @@ void add_cache(CLI::App& app, SceneOverrides& overrides) {
         ->group(group);
     add_parsed(app, "--memory", overrides.memory, parse_size,
                "Memory of the heroes and their branches, without meshes: the limit of --variety; "
-               "alone as many different trees as fit")
+               "without --variety, as many different trees as fit")
         ->type_name("SIZE")
         ->group(group);
 }
@@ -183,7 +183,7 @@ void add_ground(CLI::App& app, SceneOverrides& overrides) {
         ->type_name("FILE")
         ->group(group);
     app.add_option("--ground-normals", overrides.ground_normals,
-                   "PNG of its relief: normals as in glTF")
+                   "PNG of the normal map of the ground, as in glTF")
         ->type_name("FILE")
         ->group(group);
     add_parsed(

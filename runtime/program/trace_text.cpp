@@ -429,10 +429,10 @@ private:
             line("{} does not apply: other modules follow{}", who, why);
             break;
         case Verdict::LeftContext:
-            line("{} does not apply: its left context is not there{}", who, why);
+            line("{} does not apply: its left context does not match{}", who, why);
             break;
         case Verdict::RightContext:
-            line("{} does not apply: its right context is not there{}", who, why);
+            line("{} does not apply: its right context does not match{}", who, why);
             break;
         case Verdict::Condition:
             line("{} does not apply: its condition is 0{}", who, why);
@@ -480,13 +480,14 @@ private:
             line("not tried, since one before was taken: {}", later);
         }
         if (trace.attempts.empty() && trace.fate == Fate::Copied) {
-            line("no production {}is for modules of this name{}",
+            line("no production {}rewrites modules of this name{}",
                  trace.kind == DerivationPass::Kind::Decompose   ? "of `#decompose` "
                  : trace.kind == DerivationPass::Kind::Interpret ? "of `#interpret` "
                                                                  : "",
-                 trace.other_names == 0
-                     ? std::string()
-                     : fmt::format(", {} for others", number_of(trace.other_names, "is", "are")));
+                 trace.other_names == 0 ? std::string()
+                                        : fmt::format("; {} for modules of other names",
+                                                      number_of(trace.other_names, "production is",
+                                                                "productions are")));
         } else if (trace.other_names != 0 && !is_later) {
             line("{} for modules of other names",
                  number_of(trace.other_names, "production is", "productions are"));
@@ -496,14 +497,14 @@ private:
     void choice(const ModuleTrace& trace, const ChoiceTrace& choice) {
         const std::string unit = value_text(choice.unit);
         if (choice.by_glibc) {
-            line("chance, one for all modules: number {} of rand(), as u = {}", choice.number,
+            line("random choice for all modules: number {} of rand(), as u = {}", choice.number,
                  unit);
         } else if (choice.by_generation) {
-            line("chance, one for all modules: draw 0 of rule {} in generation {}, u = {}",
+            line("random choice for all modules: draw 0 of rule {} in generation {}, u = {}",
                  choice.rule, trace.generation, unit);
         } else {
-            line("chance: {} at position {} in generation {}, u = {}", draw_text(choice.number),
-                 choice.position, trace.generation, unit);
+            line("random choice: {} at position {} in generation {}, u = {}",
+                 draw_text(choice.number), choice.position, trace.generation, unit);
         }
         alternatives(
             choice, [this](const ChoiceTrace::Alternative& each) { return name(each.production); });
@@ -514,7 +515,8 @@ private:
             text += fmt::format("{}{} below {}", text.empty() ? "" : ", ", name(each.production),
                                 value_text(each.cumulative));
         }
-        line("chance: {}, u = {}: {}", draw_text(choice.number), value_text(choice.unit), text);
+        line("random choice: {}, u = {}: {}", draw_text(choice.number), value_text(choice.unit),
+             text);
     }
     /// Prints the alternatives of a choice with the sums of their weights. `name_of`: the name of
     /// an alternative.
@@ -615,7 +617,7 @@ private:
             }
             return;
         case Fate::Consumed:
-            line("used up by the match of {} that begins at position {}", name(trace.production),
+            line("consumed by the match of {} that begins at position {}", name(trace.production),
                  trace.cause);
             return;
         case Fate::Failed:
@@ -716,7 +718,7 @@ private:
             }
             if (trace.parent == kNoTrace && trace.position != start && title.empty() &&
                 trace.kind == DerivationPass::Kind::Rewrite) {
-                line("at position {} without what cuts have taken out", trace.position);
+                line("at position {} after the cuts of `%`", trace.position);
             }
             attempts(trace, is_later, std::nullopt);
             if (trace.choice && is_later) {
@@ -729,7 +731,7 @@ private:
             outcome(trace, is_later ? std::string()
                            : plain  ? fmt::format(" of generation {}", generation)
                            : trace.kind == DerivationPass::Kind::Interpret
-                               ? std::string(" of what is drawn")
+                               ? std::string(" of the drawn word")
                                : std::string(" of the word of this pass"));
         }
         if (hidden != 0) {
@@ -748,13 +750,13 @@ private:
     void step(const TracedPlace& place) {
         out_ += '\n';
         if (trace_.is_last) {
-            line("what generation {} would make of it:", trace_.generation + 1);
+            line("if generation {} followed:", trace_.generation + 1);
         }
         traces(place.step, place.position, trace_.generation + 1);
         const bool several = place.step.size() > 1;
         if (several && !trace_.stop) {
             if (place.next.empty()) {
-                line("nothing of it is in generation {}", trace_.generation + 1);
+                line("generation {} has no module of it", trace_.generation + 1);
             } else {
                 list(fmt::format("in generation {} at {}:", trace_.generation + 1,
                                  range_text(place.first_next, place.next.size())),

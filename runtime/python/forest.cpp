@@ -70,8 +70,7 @@ void bind_forest(py::module_& module) {
         .def_readonly("objects", &lsys::ForestCounts::objects)
         .def_readonly("polygons", &lsys::ForestCounts::polygons)
         .def_readonly("max_branches", &lsys::ForestCounts::max_branches);
-    py::class_<lsys::Instances>(module, "Instances",
-                                "The branches of all trees, those with the same mesh together.")
+    py::class_<lsys::Instances>(module, "Instances", "The branches of all trees, grouped by mesh.")
         .def("__len__", [](const lsys::Instances& self) { return self.all().size(); })
         .def_property_readonly("meshes", &lsys::Instances::meshes)
         .def_property_readonly("array",

@@ -101,7 +101,8 @@ void bind_plant(py::module_& module) {
         .def_readonly("volume", &lsys::PlantSize::volume)
         .def_readonly("mass", &lsys::PlantSize::mass)
         .def_readonly("segments_by_order", &lsys::PlantSize::segments_by_order);
-    py::class_<lsys::Plant> plant(module, "Plant", "What the turtle draws.");
+    py::class_<lsys::Plant> plant(module, "Plant",
+                                  "A drawn plant: segments, objects and polygons.");
     plant.def_property_readonly("modules", &lsys::Plant::modules)
         .def_property_readonly("generations", &lsys::Plant::generations)
         .def_property_readonly("seed", &lsys::Plant::seed)

@@ -58,7 +58,7 @@ private:
 } // namespace
 
 void bind_word(py::module_& module) {
-    py::class_<lsys::ModuleKind>(module, "ModuleKind", "What a code of a word stands for.")
+    py::class_<lsys::ModuleKind>(module, "ModuleKind", "The meaning of a code of a word.")
         .def_readonly("name", &lsys::ModuleKind::name)
         .def_readonly("stored_parameters", &lsys::ModuleKind::stored_parameters)
         .def_readonly("constants", &lsys::ModuleKind::constants);

@@ -130,7 +130,7 @@ Result<std::string> with_painting(std::string_view scene,
     Diagnostics ignored;
     const std::optional<SceneValue> root = read_toml(file, sources, ignored);
     if (!root) {
-        return Error{"the file is no scene any more"};
+        return Error{"the file is no longer valid TOML"};
     }
     std::string text(scene);
     const std::string table = painting.empty() ? std::string() : table_text(painting, species);

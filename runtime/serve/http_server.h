@@ -15,7 +15,7 @@ struct ServerOptions {
     std::string address = "127.0.0.1"; // IPv4 or IPv6
     std::uint16_t port = 8080;         // 0: the system chooses
     bool is_public = false;            // whether an address beyond this machine is allowed
-    std::uint32_t threads = 0;         // that make tiles; 0: as many as the machine has
+    std::uint32_t threads = 0;         // to make tiles; 0: one per hardware thread
     std::uint32_t max_connections = 1024;
 };
 

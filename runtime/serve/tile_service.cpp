@@ -273,7 +273,7 @@ TileResponse TileService::answer(const TileRequest& request) {
     return response;
 }
 
-/// Finds or makes a file; false: there is none.
+/// Finds or makes a file; returns false if the forest has no such file.
 bool TileService::find(const std::string& path, bool wants_packed, Representation& file) {
     std::shared_ptr<Entry> entry;
     std::optional<MadeFile> made; // none: a shared file

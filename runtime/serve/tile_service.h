@@ -35,9 +35,9 @@ struct TileResponse {
     unsigned status = 200;
     std::vector<std::pair<std::string_view, std::string>> fields; // of the header
     std::shared_ptr<const std::string> body;                      // null: none
-    std::size_t first = 0; // the part of the body that is sent
-    std::size_t length = 0;
-    bool is_head = false; // the body is not sent, only its length
+    std::size_t first = 0;  // index of the first byte of `body` to send
+    std::size_t length = 0; // number of bytes to send
+    bool is_head = false;   // send the length of the body, but not the body
 };
 
 /// Counts since the start, for /metrics.
@@ -46,10 +46,10 @@ struct TileCounts {
 
     std::array<std::atomic<std::uint64_t>, 6> responses{}; // by first digit of the status
     std::atomic<std::uint64_t> bytes{0};                   // of bodies
-    std::atomic<std::uint64_t> made{0};                    // tiles and tilesets
-    std::atomic<std::uint64_t> hits{0};                    // answered from the cache
-    std::array<std::atomic<std::uint64_t>, kSeconds.size() + 1> times{}; // made, by time
-    std::atomic<std::uint64_t> microseconds{0};                          // to make all of them
+    std::atomic<std::uint64_t> made{0};                    // tiles and tilesets made
+    std::atomic<std::uint64_t> hits{0};                    // requests answered from the cache
+    std::array<std::atomic<std::uint64_t>, kSeconds.size() + 1> times{}; // files made, by time
+    std::atomic<std::uint64_t> microseconds{0};                          // spent on making files
     std::atomic<std::int64_t> connections{0};
     std::atomic<std::uint64_t> refused_connections{0};
 };
@@ -105,7 +105,7 @@ private:
     TileCounts counts_;
     std::unordered_map<std::string, std::shared_ptr<Entry>>
         shared_;               // files of all tiles, and the page
-    mutable std::mutex mutex_; // of the following
+    mutable std::mutex mutex_; // guards the members below
     std::unordered_map<std::string, Cached> cache_;
     std::list<std::string> uses_; // paths of cache_, the latest first
     std::uint64_t used_bytes_ = 0;

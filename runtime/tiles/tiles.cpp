@@ -242,7 +242,7 @@ Outcome<void> TileForest::State::sample_trees(const Project& project) {
     return step.done();
 }
 
-/// Says why there are fewer trees than places, as placement_note() for a forest that is placed.
+/// Adds a message about the places without trees, like placement_note() for a placed forest.
 void TileForest::State::note_missing_trees(Messages& messages) const {
     if (places == 0.0) {
         messages.add_info("there are hardly any trees: the density map is black nearly all over "
@@ -305,7 +305,7 @@ std::vector<PictureFile> TileForest::State::pictures_of(const Mesh& mesh) const 
     Outcome<std::vector<PictureFile>> pictures =
         make_picture_files(mesh, ExportFormat::Gltf, info_of(""));
     if (!pictures) {
-        throw std::bad_alloc(); // its only stop
+        throw std::bad_alloc(); // make_picture_files() stops for no other reason
     }
     return std::move(pictures.value());
 }
@@ -361,7 +361,7 @@ Outcome<void> TileForest::State::make_models(const Project& project) {
         }
         for (std::size_t detail = 0; detail < details; ++detail) {
             std::string buffer;
-            std::size_t begin = first; // of the heroes in the buffer
+            std::size_t begin = first; // the first hero in the buffer
             std::size_t part = 0;
             const auto end_file = [&](std::size_t last) {
                 const std::string path =
@@ -505,7 +505,7 @@ std::uint64_t TileForest::State::add_trees(const TileId& tile,
     }
     for (const auto& [hero, group] : groups) {
         const MeshDocument& model = models[hero][plan.detail[tile.level][hero]];
-        if (!model.json.is_null()) { // else it draws nothing
+        if (!model.json.is_null()) { // null: the hero draws nothing
             document.add_trees(model, group);
         }
     }

@@ -81,7 +81,7 @@ struct TileFile {
     std::string bytes;
 };
 
-/// The tiles of a level: those of the first columns and rows.
+/// The tiles of a level: its first `columns` columns and `rows` rows.
 struct TileExtent {
     std::uint32_t columns = 0;
     std::uint32_t rows = 0;
@@ -91,7 +91,7 @@ struct TileExtent {
 
 struct TileContent {
     std::string bytes;       // a GLB
-    std::uint64_t trees = 0; // that it shows one by one
+    std::uint64_t trees = 0; // number of trees shown as instances
 };
 
 class TileForest {
@@ -136,10 +136,10 @@ private:
 /// tree is painted or erased.
 [[nodiscard]] bool is_placed_by_tile(const Scene& scene);
 
-/// Grows the heroes of a scene, plans its tiles, and makes the files that they share. The trees of a
-/// scene with is_placed_by_tile() are placed when their tile is made, those of others at once, or
-/// read from TileOptions::tree_file. Precondition: the scene has rho 0. Stops for the reasons of
-/// grow_species(), place_forest(), read_tree_file() and mesh_forest().
+/// Grows the heroes of a scene, plans its tiles, and makes the files that they share. The trees of
+/// a scene with is_placed_by_tile() are placed when their tile is made; the trees of other scenes
+/// are all placed here, or read from TileOptions::tree_file. Precondition: the scene has rho 0.
+/// Stops for the reasons of grow_species(), place_forest(), read_tree_file() and mesh_forest().
 [[nodiscard]] Outcome<TileForest>
 make_tile_forest(LoadedScene loaded, const TileOptions& options, const Project& project);
 

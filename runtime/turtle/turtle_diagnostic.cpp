@@ -26,7 +26,8 @@ Wording wording_of(TurtleFaultKind kind) {
         return {DiagnosticCode::UnbalancedWord, "closes a branch that nothing opens",
                 "balance the brackets of every successor and of the axiom"};
     case TurtleFaultKind::NotFinite:
-        return {DiagnosticCode::NotFinite, "takes the turtle beyond every number",
+        return {DiagnosticCode::NotFinite,
+                "gives a position, length or width that is infinite or not a number",
                 "bound lengths and widths with `min` and `max`"};
     case TurtleFaultKind::TooMany:
         return {DiagnosticCode::LimitReached,
@@ -51,13 +52,13 @@ Wording wording_of(TurtleFaultKind kind) {
                 "close each `{` with a `}`"};
     case TurtleFaultKind::SidesOutOfRange:
         return {DiagnosticCode::SidesOutOfRange,
-                "asks for fewer than 3 or more than 64 sides, and gets the nearest of them", ""};
+                "sets fewer than 3 or more than 64 sides; the nearest allowed number is used", ""};
     case TurtleFaultKind::ColourOutOfRange:
         return {DiagnosticCode::ColourOutOfRange,
-                "chooses a colour outside of 0 to 65,535, and gets the nearest of them", ""};
+                "chooses a colour outside of 0 to 65,535; the nearest allowed number is used", ""};
     case TurtleFaultKind::RgbOutOfRange:
         return {DiagnosticCode::ColourOutOfRange,
-                "sets a colour with a part below 0 or above 1, and gets the nearest of these",
+                "sets a colour component below 0 or above 1; the nearest allowed value is used",
                 "red, green and blue are from 0 to 1; bound them with `clamp`"};
     }
     return {DiagnosticCode::NotFinite, "", ""};
@@ -99,10 +100,10 @@ void note_writer(Code code, const Bytecode& bytecode, Diagnostic& diagnostic) {
                         production.successor.codes.count,
                     [&](Code each) { return bytecode.symbol_of(each) == own; });
     if (repeats && diagnostic.code == DiagnosticCode::UnbalancedPolygon) {
-        diagnostic.help.push_back(fmt::format("`{}` writes its own predecessor again, and so "
-                                              "another `}}` in the next generation: end "
-                                              "it without that",
-                                              production.name));
+        diagnostic.help.push_back(
+            fmt::format("`{}` writes its own predecessor again, and with it another `}}` in the "
+                        "next generation: leave the predecessor out of the successor",
+                        production.name));
     }
 }
 

@@ -35,7 +35,8 @@ using lsys::bench::median;
 using lsys::bench::PageSize;
 using lsys::bench::seconds;
 
-/// Derives into buffers of codes a and b and of parameters; returns a number that is not 0.
+/// Derives into the code buffers `a` and `b` and the parameter buffers; returns a number other
+/// than 0.
 using LimitProgram = std::function<std::size_t(const FreshPages& a,
                                                const FreshPages& b,
                                                const FreshPages& parameters_a,

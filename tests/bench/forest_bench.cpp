@@ -27,7 +27,7 @@ using bench::fail;
 using bench::median;
 using bench::seconds;
 
-/// s; after a forest that takes longer, larger forests are skipped.
+/// Time limit in s: larger forests are skipped after a forest that takes longer.
 constexpr double kMaxSeconds = 4.0;
 
 struct Kind {

@@ -48,8 +48,8 @@ derive_plain(const PlainSystem& system, int generations, std::uint8_t* a, std::u
     int generations, std::uint8_t* a, std::uint8_t* b, float* parameters_a, float* parameters_b);
 /// Derives W4; draws random numbers by a cheap hash instead of Philox.
 [[nodiscard]] std::size_t derive_w4(int generations, std::uint8_t* a, std::uint8_t* b);
-/// Derives W7 from `count` modules; draws random numbers by a cheap hash instead of Philox: one number for both
-/// parameters, or one for each.
+/// Derives W7 from `count` modules; draws random numbers by a cheap hash instead of Philox.
+/// `shared`: one number for both parameters, else one for each.
 [[nodiscard]] std::size_t derive_w7(int generations,
                                     std::size_t count,
                                     bool shared,

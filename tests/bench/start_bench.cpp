@@ -22,7 +22,7 @@ namespace {
 
 struct Program {
     const char* name;
-    std::vector<std::string> arguments; // first the file of the program
+    std::vector<std::string> arguments; // first the path of the program
     std::vector<double> times;          // seconds
 };
 

@@ -78,8 +78,8 @@ struct Compiled {
     }
 };
 
-/// Compiles files["main.lsys"], which may include the other files. The number of generations is
-/// set, so that the grammar needs no `#n`.
+/// Compiles files["main.lsys"], which may include the other files. Without `options.generations`
+/// there are 4 generations, so that the grammar needs no `#n`.
 inline Compiled compile_files(const std::map<std::string, std::string>& files,
                               CompileOptions options) {
     Compiled compiled;

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: MIT
 """Installs the add-on in Blender from its zip and uses it. Usage: addon_in_blender.py ROOT LSC FOLDER
 
-ROOT: the source tree. Starts Blender on itself with folders of its own; exit status 77 where there is none.
+ROOT: the source tree. Runs itself in Blender with user folders below FOLDER; exit status 77 without Blender.
 """
 import json
 import os
@@ -29,7 +29,7 @@ class Bench:
                 ("collections", "objects", "meshes", "materials", "images", "node_groups", "actions", "armatures")}
 
     def written(self, *arguments):
-        """The file that lsc writes by itself, read by the plain reader of the add-on."""
+        """The file that lsc writes without the add-on, parsed by the add-on's glTF reader."""
         from lsys_plants.gltf import read_gltf
 
         path = os.path.join(self.folder, "direct.glb")
@@ -77,7 +77,7 @@ def check_plant(bench, collection, *arguments):
 
 
 def plant(bench):
-    """Create, change a parameter, its bounds, generations, an error of lsc; all in one collection."""
+    """Creates a plant and changes parameters (kept within bounds), generations and options, in one collection."""
     bpy = bench.bpy
     file = bench.sample("teach-param")
     assert bpy.ops.lsys.new_plant(filepath=file) == {"FINISHED"}
@@ -175,7 +175,7 @@ def count_instances(bpy):
 
 
 def forest(bench):
-    """A thousand trees in at most a thousand objects, and each of their triangles; another key."""
+    """Checks the objects of 1,000 trees, the branches and triangles of 20 trees with two keys, and a scene."""
     bpy = bench.bpy
     file = bench.sample("carey-type-2")
     start = processor_time()
@@ -244,7 +244,7 @@ def write_glb(path, document, binary):
 
 
 def layouts(bench):
-    """Parts of a mesh with arrays of their own, indices of 8 and 16 bits, colours of vertices, no picture."""
+    """Imports a mesh whose parts have separate arrays, 8- and 16-bit indices, vertex colours and no picture."""
     bpy = bench.bpy
     path = os.path.join(bench.folder, "layouts.glb")
     corners = [(0, 0, 0), (1, 0, 0), (0, 2, 0), (0, 0, 3), (1, 0, 3), (0, 2, 3)]
@@ -276,7 +276,7 @@ def layouts(bench):
 
 
 def face_the_leaf(bpy, is_forest):
-    """A camera before the first triangle that is drawn, wide enough for the leaf."""
+    """Adds a camera that faces the first triangle drawn and shows the whole leaf."""
     points = []
     for drawn in bpy.context.evaluated_depsgraph_get().object_instances:
         if drawn.object.type == "MESH" and drawn.is_instance == is_forest:

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: MIT
 """Has Blender import files of write_forest by the add-on. Usage: import_forest_in_blender.py SCRIPT FOLDER
 
-Starts Blender on itself; exit status 77 where there is none.
+Runs itself in Blender; exit status 77 without Blender.
 """
 import importlib.util
 import json

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""The part of the add-on for Blender that needs no Blender, on files of write_forest.
+"""Tests the part of the add-on for Blender that needs no Blender, with files of write_forest.
 
 Usage: import_forest_test.py ADDON FOLDER
 """

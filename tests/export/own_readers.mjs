@@ -8,7 +8,7 @@ function assert(condition, message) {
     }
 }
 
-/// `OFF`, counts, `x y z u v` for each vertex, `3 a b c leaf` for each face.
+/// Parses OFF+: `OFF`, counts, `x y z u v` for each vertex, `3 a b c leaf` for each face.
 export function readOffPlus(text) {
     const lines = text.split('\n');
     assert(lines[0] === 'OFF', 'no OFF in the first line');
@@ -339,7 +339,7 @@ function turned([w, x, y, z], [a, b, c]) {
             c + w * t[2] + x * t[1] - y * t[0]];
 }
 
-// The nearest half float: USD stores quath values in them.
+// The nearest half float, because USD stores quath values as half floats.
 function halfFloat(x) {
     const step = 2 ** (Math.max(Math.floor(Math.log2(Math.abs(x) || 1e-9)), -14) - 10);
     return Math.round(x / step) * step;

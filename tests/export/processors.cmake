@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-# Compares files that lsc writes with the mathematical functions that glibc takes on this processor, and with those for
-# processors without AVX2 and FMA, whose last bits differ.
+# Compares two sets of files that lsc writes: with the mathematical functions that glibc selects on this processor, and
+# with its functions for processors without AVX2 and FMA, whose results differ in the last bits.
 # Usage: cmake -D LSC=FILE -D SAMPLES=FOLDER -D OUT=FOLDER -P processors.cmake
 file(MAKE_DIRECTORY "${OUT}")
 foreach(sample abop-1-24a abop-1-24c crankshaw-2-8-bush)

@@ -4,7 +4,7 @@
 //                              usdz | usd-three | usd-motion | tinyusdz |
 //                              forest-three | forest-transform | forest-usda) FOLDER
 // MODULES is the node_modules of package.json beside this file. FOLDER has counts.txt, with a line
-// `NAME VERTICES TRIANGLES PARTS` for each mesh, or `NAME FRAMES FPS METRES` for each that moves.
+// `NAME VERTICES TRIANGLES PARTS` for each mesh, or `NAME FRAMES FPS METRES` for each moving mesh.
 import { existsSync, readdirSync, readFileSync } from 'node:fs';
 import { createRequire } from 'node:module';
 import { join, resolve } from 'node:path';
@@ -59,7 +59,7 @@ function counts() {
         .map(line => {
             const [name, ...numbers] = line.split(' ');
             const [vertices, triangles, parts] = numbers.map(Number);
-            // The same columns for meshes that move.
+            // The meaning of the columns for moving meshes.
             const [frames, fps, metres] = numbers.map(Number);
             return { name, vertices, triangles, parts, frames, fps, metres };
         });
@@ -579,7 +579,8 @@ const checks = {
                    Math.round(group.animations[0].duration * mesh.fps * 1e3) / 1e3, mesh.frames - 1);
             const frame = number => readFileSync(
                 join(folder, `${mesh.name}.${String(number + 1).padStart(4, '0')}.ply`));
-            // From the first frame: bent boxes split their faces along other diagonals.
+            // All frames use the triangles of the first one, because bent boxes split their faces
+            // along other diagonals.
             const corners = readPlyTriangles(frame(0));
             for (const number of [0, 1, Math.floor(mesh.frames / 2), mesh.frames - 1]) {
                 const positions = readPlyPositions(frame(number));
@@ -626,8 +627,8 @@ const checks = {
         });
     },
 
-    // There are as many instances as branches, and their bounds are those of the forest as one
-    // mesh.
+    // The number of instances is the number of branches, and their bounds are the bounds of the
+    // forest as one mesh.
     async 'forest-three'() {
         const { three, GLTFLoader } = await threeAndLoader();
         const { MeshoptDecoder } = await transformer();

@@ -11,7 +11,8 @@
 // compared with that of the file without compression; the table has the greatest difference as a
 // part of the shortest side. Fails if it is more than 0.1 %, or if a tree is missing.
 //
-// As its own helper: node read_forest.mjs MODULES --reader NAME FILE prints what one reader finds as JSON.
+// The script starts itself as `node read_forest.mjs MODULES --reader NAME FILE`, which prints the
+// measurements of one reader as JSON.
 import { execFileSync } from 'node:child_process';
 import { existsSync, mkdtempSync, readFileSync, rmSync, statSync } from 'node:fs';
 import { tmpdir } from 'node:os';

@@ -57,7 +57,7 @@ export function readPlyTriangles(bytes) {
 
 /// Functions that read the bytes of a file: `open` returns its meshes, `layer` its text, `composed`
 /// its text with the variants selected.
-/// tinyusdz is built for web workers, so the function defines the objects of one.
+/// tinyusdz is built for web workers, so this function defines the global objects of a web worker.
 export async function tinyUsdz(module, modules) {
     process.type = 'renderer';
     globalThis.WorkerGlobalScope ??= class {};
@@ -93,8 +93,8 @@ export async function tinyUsdz(module, modules) {
     };
 }
 
-/// Number of instances and bounding box of a forest. `loader` has the points, `text` of the layer
-/// the instances, which tinyusdz does not expand.
+/// Number of instances and bounding box of a forest. The points come from `loader`, the instances
+/// from `text`, the text of the layer, because tinyusdz does not expand instances.
 export function instancedBox(loader, text, { ground = true } = {}) {
     const meshes = new Map();
     for (let i = 0; i < loader.numMeshes(); ++i) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Writes the meshes of tests/support/meshes.h and a drawing in every format. Usage: write_meshes
-// FOLDER counts.txt in it has a line `NAME VERTICES TRIANGLES PARTS` for each mesh.
+// Writes the meshes of tests/support/meshes.h and a drawing in every format.
+// Usage: write_meshes FOLDER
+// FOLDER/counts.txt gets a line `NAME VERTICES TRIANGLES PARTS` for each mesh.
 #include "runtime/export/export.h"
 #include "tests/support/meshes.h"
 

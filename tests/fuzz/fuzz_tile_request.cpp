@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Requests to the tile server: the first line is the target, the second names the method, the others
-// are fields of the header. Each answer is one that HTTP allows, and parts lie within their file.
+// Requests to the tile server: the first line is the target, the second the method, the others are
+// header fields. Every response must have an expected status, and ranges must lie within their
+// file.
 #include "runtime/serve/tile_service.h"
 #include "tests/support/tile_forest.h"
 

@@ -132,7 +132,7 @@ TEST_CASE("a plant bends, moves and grows in files") {
     REQUIRE(
         lsys::write_plant(tree(), "a.ply", growing.receiver(), {{"grow", ""}, {"frames", "3"}}));
     CHECK(growing.complete == std::vector<std::string>{"a.0001.ply", "a.0002.ply", "a.0003.ply"});
-    Received print; // 150 mm high: grown again
+    Received print; // grown again, because the preset makes it 150 mm high
     REQUIRE(lsys::write_plant(tree(), "a.obj", print.receiver(), {{"preset", "print"}}));
     CHECK(print.files["a.obj"].find("# millimetres, +Z up") != std::string::npos);
 }
@@ -150,7 +150,7 @@ TEST_CASE("invalid options are refused with the messages of lsc") {
     CHECK(text_of("a.glb", {{"lod", "3"}}) == "unknown option `--lod=3`; did you mean `--lods`?");
     CHECK(text_of("a.glb", {{"lods", "many"}}).find("many") != std::string::npos);
     CHECK(text_of("a.glb", {{"grow", ""}}) == "--grow needs the number of its frames: --frames N");
-    CHECK(text_of("a.xyz", {}).find("the name `a.xyz` does not tell a format") == 0);
+    CHECK(text_of("a.xyz", {}).find("`a.xyz` has no extension of a known format") == 0);
 }
 
 TEST_CASE("a receiver can end a call, and its exceptions are rethrown") {
@@ -361,7 +361,7 @@ TEST_CASE("forests and files of the C interface") {
     lsys_instances_read_matrices(instances, 0, 1, matrix.data(), 0);
     CHECK(matrix[15] == 1.0F);
     lsys_instances_free(instances);
-    CHECK(lsys_mesh_part_count(mesh) > 0); // a handle of its own
+    CHECK(lsys_mesh_part_count(mesh) > 0); // the mesh does not depend on the freed instances
     lsys_mesh_free(mesh);
 
     const auto receive = [](void* user, const char* name, const char* bytes, size_t size, int) {

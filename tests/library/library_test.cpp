@@ -56,7 +56,7 @@ TEST_CASE("a text is compiled and derived") {
     CHECK(grammar->name() == "grammar.lsys");
     const auto word = lsys::derive(*grammar, {.generations = 2, .seed = {}});
     REQUIRE(word);
-    CHECK(word->text() == "F[+F[+A]F A]F F[+A]F A"); // two names in a row would be one
+    CHECK(word->text() == "F[+F[+A]F A]F F[+A]F A"); // a blank separates adjacent names
     CHECK(word->size() == 19);
     CHECK(word->generation() == 2);
     CHECK(word->parameters().empty());

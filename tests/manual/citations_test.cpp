@@ -24,7 +24,7 @@ constexpr std::string_view kExtension = ".md";
 bool is_word(char c) {
     return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_';
 }
-bool is_of_path(char c) {
+bool is_path_char(char c) {
     return is_word(c) || c == '-' || c == '.' || c == '/';
 }
 
@@ -52,7 +52,7 @@ std::string number_at(std::string_view text, std::size_t& at) {
 }
 
 /// `section 5`, `sections 4 to 6`, `sections 6 and 9`: returns the numbers.
-std::vector<std::string> sections_behind(std::string_view text, std::size_t at) {
+std::vector<std::string> sections_after(std::string_view text, std::size_t at) {
     at = next_word(text, at);
     if (text.substr(at, 7) != "section") {
         return {};
@@ -84,7 +84,7 @@ std::vector<Citation> citations_in(std::string_view text) {
          at = text.find(kExtension, at + 1)) {
         const std::size_t end = at + kExtension.size();
         std::size_t begin = at;
-        while (begin > 0 && is_of_path(text[begin - 1])) {
+        while (begin > 0 && is_path_char(text[begin - 1])) {
             --begin;
         }
         const bool is_url = begin > 0 && text[begin - 1] == ':' && text[begin] == '/';
@@ -98,7 +98,7 @@ std::vector<Citation> citations_in(std::string_view text) {
         if (!is_name || is_pattern || is_url) {
             continue;
         }
-        found.push_back({std::string(text.substr(begin, end - begin)), sections_behind(text, end)});
+        found.push_back({std::string(text.substr(begin, end - begin)), sections_after(text, end)});
     }
     return found;
 }

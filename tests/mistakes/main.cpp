@@ -23,7 +23,7 @@ using Row = std::vector<std::string>;
 /// Mean grade that the mistakes of each persona should reach.
 constexpr double kGoal = 2.7;
 
-/// The rows of a table; columns stand between tabs.
+/// The rows of a table, whose columns are separated by tabs.
 std::vector<Row> read_table(const fs::path& path) {
     std::vector<Row> rows;
     std::ifstream file(path);

@@ -43,7 +43,7 @@ std::string plain(std::string page) {
     return page;
 }
 
-/// The lines of a script that begin with `begin`, up to a line that is `end`.
+/// The part of a script from `begin` to the next `end`, without `end`.
 std::string part_of(const std::string& script, const std::string& begin, const std::string& end) {
     const std::size_t at = script.find(begin);
     REQUIRE(at != std::string::npos);

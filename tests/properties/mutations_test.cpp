@@ -329,7 +329,7 @@ private:
     std::string kept_;
 };
 
-/// Repairs the mutants `first` to `end` - 1 of the samples, each of the next sample.
+/// Repairs the mutants `first` to `end` - 1, each of another sample in turn.
 void check_characters(Census& census, std::uint64_t first, std::uint64_t end) {
     const std::vector<RightGrammar> grammars = right_grammars_in({LSYS_SOURCE_DIR "/samples"});
     REQUIRE(!grammars.empty());
@@ -342,7 +342,7 @@ void check_characters(Census& census, std::uint64_t first, std::uint64_t end) {
 } // namespace
 
 TEST_CASE("a repaired grammar equals the original") {
-    // Test one of kOneOf mutants, the same in every run.
+    // Test every kOneOf-th mutant, the same ones in every run.
     constexpr std::uint64_t kOneOf = 16;
     Census census(false);
     std::uint64_t number = 0;
@@ -357,8 +357,8 @@ TEST_CASE("a repaired grammar equals the original") {
     CHECK(census.total().wrong == 0);
     CHECK(census.total().unfinished == 0);
     // Changes with only one plausible repair are repaired. Where a `;` is missing, the character
-    // before it may be a mistyped `;`, as the last digit of a number may. After a digit, the second
-    // `)` may be a mistyped digit.
+    // before may be a mistyped `;`, for example the last digit of a number. After a digit, the
+    // second `)` may be a mistyped digit.
     struct Repaired {
         const char* kind;
         std::uint32_t least_tenths;
@@ -383,7 +383,7 @@ TEST_CASE("a repaired character is the one that was meant") {
     CHECK(census.total().unfinished == 0);
 }
 
-// LSYS_MUTANTS is `FIRST-LAST`, the numbers of other mutants than the first 10,000.
+// LSYS_MUTANTS is `FIRST-LAST`: the numbers of the mutants to test instead of the first 10,000.
 TEST_CASE("all mutants of one character", "[.]") {
     const char* const range_text = std::getenv("LSYS_MUTANTS");
     unsigned long long first = 0;

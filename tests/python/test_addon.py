@@ -19,7 +19,7 @@ TREE = os.path.join(SAMPLES, "carey-type-0", "carey-type-0.lsys")
 
 
 def binary(path):
-    """The arrays of a GLB: the document names the program."""
+    """The arrays of a GLB, without its document, which names the program."""
     with open(path, "rb") as file:
         return bytes(gltf.split_glb(file.read())[1])
 

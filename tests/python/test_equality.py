@@ -28,7 +28,7 @@ SEGMENT = re.compile(
 
 
 def grammars():
-    """The .lsys files of samples and tests/ui, the benchmark systems left out."""
+    """The .lsys files of samples and tests/ui, except the benchmark systems."""
     for folder in ("samples", os.path.join("tests", "ui")):
         for place, folders, files in os.walk(os.path.join(ROOT, folder)):
             folders[:] = sorted(name for name in folders if not name.startswith("bench-"))

@@ -37,7 +37,7 @@ def read(tree=TREE):
 
 
 class Files(unittest.TestCase):
-    """Files are those of `lsc`, but for the name of the program."""
+    """Files equal those of `lsc`, except for the name of the program."""
 
     def compare(self, command, options, make, name, **more):
         with tempfile.TemporaryDirectory() as folder:
@@ -238,7 +238,7 @@ class Pictures(unittest.TestCase):
 
 class Memory(unittest.TestCase):
     def test_ten_million_modules(self):
-        """The arrays of 10^7 modules are made without memory of their own."""
+        """The arrays of 10^7 modules need no additional memory."""
         def memory():
             with open("/proc/self/statm", encoding="ascii") as file:
                 return 4096 * int(file.read().split()[1])

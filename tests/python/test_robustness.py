@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
 """No leak and no crash of the module: exceptions in callbacks, an interpreter that ends in the middle, many
-threads, many mistakes. Run with libasan (scripts/nightly python), the bytes of its heap are counted; else
-the memory of the process.
+threads, many mistakes. With libasan (scripts/nightly python) the tests count the bytes of its heap, else the
+resident memory of the process.
 
 Usage: python3 test_robustness.py [unittest options], with the module on PYTHONPATH.
 """
@@ -27,7 +27,7 @@ FILES = {"tree.lsys": TREE, "part.lsys": '#include "tree.lsys";'}
 
 
 def heap():
-    """Bytes in use: those of libasan's heap, or else resident ones; and the growth that counts as a leak."""
+    """Bytes in use, in libasan's heap or else resident, and the growth in bytes that counts as a leak."""
     gc.collect()
     try:
         count = ctypes.CDLL(None).__sanitizer_get_current_allocated_bytes

@@ -30,7 +30,7 @@ def stub_parameters(function):
 
 
 def python_parameters(function):
-    """The same of a function of Python."""
+    """Names of the parameters of a function of Python, with their kind and default."""
     kinds = {inspect.Parameter.POSITIONAL_OR_KEYWORD: "positional",
              inspect.Parameter.KEYWORD_ONLY: "keyword", inspect.Parameter.VAR_KEYWORD: "rest"}
     return [(parameter.name, kinds[parameter.kind],
@@ -39,7 +39,7 @@ def python_parameters(function):
 
 
 def native_parameters(function):
-    """The same of a function of pybind11, whose documentation begins with its signature."""
+    """Names, kinds and defaults of the parameters of a pybind11 function, whose docstring begins with its signature."""
     inside = re.match(r"\w+\((.*)\)", function.__doc__.split("\n")[0].rsplit(" -> ", 1)[0]).group(1)
     rows = []
     for part in re.split(r", (?=[*\w]+(?::| = |$))", inside):
@@ -53,7 +53,7 @@ def native_parameters(function):
 
 
 def first_names(rows):
-    """pybind11 calls the object `self` or `arg0`."""
+    """Renames `arg0` to `self`, because pybind11 uses both names for the object."""
     return [("self" if name == "arg0" else name, kind, value) for name, kind, value in rows]
 
 

@@ -68,8 +68,8 @@ double score_of(const Case& test_case, const Derivation& derivation) {
     return score;
 }
 
-// Chooses the number of generations, at most `max_generations`: words have at most `cap` modules, and an error
-// occurs only if `keep_error`.
+// Chooses the number of generations, at most `max_generations`, so that words have at most `cap`
+// modules and an error occurs only if `keep_error`.
 Sized size_up(Case test_case,
               std::size_t cap,
               std::uint32_t max_generations,

@@ -356,8 +356,8 @@ private:
         add_statement(statement, file);
     }
 
-    // Replaces the places of bundles by their productions, repairs their probabilities, adds
-    // settings and the declarations that keep names from being read split.
+    // Replaces the placeholders of bundles by their productions, repairs their probabilities, adds
+    // settings and the declarations that prevent names from being split.
     void finish() {
         expand_bundles();
         repair_probabilities();
@@ -416,7 +416,7 @@ private:
         }
     }
 
-    // Adds some `#material`, each of another index.
+    // Adds some `#material` statements with different indices.
     void add_materials() {
         static const std::vector<std::string> kValues = {
             "0 colour 0.4 0.3 0.2", "(2-1) color 1 0 .5 roughness 0.9",

@@ -50,7 +50,7 @@ private:
     const Constants& constants_;
     // Index of the next active species, so that productions rewrite each of them.
     std::size_t turn_ = 0;
-    // Successors are often made of these, and contexts cut out of them, so that contexts match.
+    // Skeletons from which successors are often made and contexts are cut, so that contexts match.
     std::vector<Skeleton> skeletons_;
     std::vector<Skeleton> skeletons_of_letters_;
 };

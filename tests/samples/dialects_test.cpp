@@ -30,7 +30,7 @@ struct Lengths {
     std::vector<std::uint64_t> lengths;
 };
 
-const std::vector<Lengths> kOfL3d{
+const std::vector<Lengths> kL3dLengths{
     {"koch.l", false, {1, 9, 49, 249, 1249, 6249, 31249}},
     {"fractal_plant.l", false, {1, 19, 94, 400, 1636, 6604}},
     {"seaweed.l", false, {1, 20, 172, 1388, 11116}},
@@ -94,7 +94,7 @@ std::vector<fs::path> grammars() {
 } // namespace
 
 TEST_CASE("words have the same lengths as in L3D") {
-    for (const Lengths& each : kOfL3d) {
+    for (const Lengths& each : kL3dLengths) {
         const std::string path = (kCases / "l3d/parts" / each.file).string();
         std::string expected;
         for (const std::uint64_t length : each.lengths) {

@@ -31,7 +31,7 @@ struct UiCase {
     std::filesystem::path file;
     std::vector<UiRun> runs;
     std::vector<UiAnnotation> annotations;
-    bool needs_posix = false;          // is not run on Windows
+    bool needs_posix = false;          // skipped on Windows
     std::vector<std::string> mistakes; // mistakes in the first lines or annotations of the case
 };
 

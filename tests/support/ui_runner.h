@@ -27,7 +27,7 @@ struct UiOutcome {
 struct ListedCase {
     std::string name;
     std::filesystem::path file;
-    std::vector<std::string> words; // of the command, with `%` for the file and `%t` as in a case
+    std::vector<std::string> words; // the command, with `%` for the file and `%t` as in a case
 };
 
 /// Runs each listed case in its folder and compares standard error with `<file>.stderr` and the text

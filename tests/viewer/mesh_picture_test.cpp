@@ -129,6 +129,6 @@ TEST_CASE("a PNG is read and has a mean colour, and other or too large files are
     const Result<Texture> large = lsys::read_picture(encode_png(picture), 255);
     REQUIRE_FALSE(large);
     CHECK(large.error().kind == ErrorKind::Limit);
-    CHECK(large.error().message == "a picture of 8 by 8 pixels (256 B) takes more than the 255 B "
-                                   "that are left of the memory limit");
+    CHECK(large.error().message == "a picture of 8 by 8 pixels (256 B) needs more than the 255 B "
+                                   "that remain of the memory limit");
 }

@@ -101,14 +101,14 @@ std::string ForestPainting::set_document(std::shared_ptr<const ForestDocument> d
     const bool same_names = painter_ && names_ == names_of(document->scene);
     if (painter_ && painter_->is_changed()) {
         if (is_other_file) {
-            note = "the file's painting has changed; what was painted here stays, and Ctrl+S "
-                   "writes it in its place";
+            note = "the painting in the file has changed; your painting stays, and Ctrl+S replaces "
+                   "the one in the file";
         }
         if (!same_names || !painter_->move_to(grown.forest.trees, *grown.terrain)) {
             const Painting kept = painter_->painting();
             const Painting wanted = renamed(kept);
             if (wanted.trees.size() != kept.trees.size()) {
-                note = "painted trees of a species that is gone are left out";
+                note = "painted trees of species that no longer exist are removed";
             }
             painter_.reset();
             in_file_ = wanted;

@@ -86,7 +86,7 @@ void draw_numbers(const ForestView& view) {
     }
     const PlacementReport& placed = document->grown.placed;
     if (placed.refused != 0) {
-        line(fmt::format("{} places where no species grows", grouped(placed.refused)));
+        line(fmt::format("{} places without a species that grows there", grouped(placed.refused)));
     }
 }
 

@@ -314,8 +314,7 @@ void ForestView::picture_shown(double draw_seconds) {
     }
     stats_.shown_seconds = seconds_since(changed_at_);
     console_.detail(fmt::format(
-        "loaded {}: {} trees of {} species, {:.0f} ms; changed after {:.0f} ms, seen {:.0f} ms "
-        "after the change",
+        "loaded {}: {} trees of {} species, {:.0f} ms; reload {:.0f} ms, first frame {:.0f} ms",
         file(), painting_.tree_count(), document_->scene.species.size(),
         kMillisecondsPerSecond * stats_.make_seconds, kMillisecondsPerSecond * stats_.swap_seconds,
         kMillisecondsPerSecond * stats_.shown_seconds));
@@ -564,10 +563,9 @@ void ForestView::save() {
     // The scene file identifies erased trees by number only.
     const bool is_doubtful = is_other_placement_ && painting_.has_erased();
     set_note(fmt::format("saved {}{}", scene,
-                         is_doubtful
-                             ? "; but trees were erased from another placement than the file's, "
-                               "where other trees may have their numbers"
-                             : ""));
+                         is_doubtful ? "; but erased trees are saved by number, and the placement "
+                                       "in the file may give these numbers to other trees"
+                                     : ""));
 }
 
 bool ForestView::is_busy() const {

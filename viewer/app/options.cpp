@@ -112,11 +112,10 @@ void add_picture(CLI::App& app, ViewOptions& options) {
         ->group("Picture");
     app.add_flag("--turntable", options.turntable, "The series goes once around the plant")
         ->group("Picture");
-    app.add_flag(
-           "--grow", options.grow,
-           "The series grows: a plant from its axiom to its last generation, with parts of "
-           "generations between whole ones, or a forest of domination year by year, or one of "
-           "trees with stages; in a window growth plays at once")
+    app.add_flag("--grow", options.grow,
+                 "Show growth: a plant from its axiom to its last generation, also between "
+                 "generations; a forest placed by domination year by year; a forest of trees with "
+                 "stages stage by stage. In a window growth starts to play at once")
         ->group("Picture");
     add_parsed(app, "--pick", options.pick, parse_pixel,
                "Describe what the pixel of the picture shows: the module of a plant or the "
@@ -135,11 +134,10 @@ void add_picture(CLI::App& app, ViewOptions& options) {
         ->type_name("FILE")
         ->group("Picture");
     app.add_flag_callback(
-           "--no-shadows", [&options] { options.shadows = false; }, "Without shadows")
+           "--no-shadows", [&options] { options.shadows = false; }, "Draw no shadows")
         ->group("Picture");
     app.add_flag_callback(
-           "--no-ground", [&options] { options.ground = false; },
-           "Without the ground under a plant")
+           "--no-ground", [&options] { options.ground = false; }, "Draw no ground under a plant")
         ->group("Picture");
     add_choice<PlantStyle>(app, "--style", options.style,
                            {{"surface", PlantStyle::Surface},
@@ -199,8 +197,8 @@ void add_bending(CLI::App& app, ViewOptions& options) {
         ->type_name("G")
         ->group("Bending");
     add_parsed(app, "--wind", options.wind, parse_wind,
-               "Bend the plant, or move the forest, in wind, in m/s; GUST is the fraction that "
-               "varies")
+               "Bend the plant, or move the forest, in wind, in m/s; GUST is the fraction of the "
+               "speed that varies")
         ->type_name("X,Y,Z[,GUST]")
         ->group("Bending");
 }

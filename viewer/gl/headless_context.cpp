@@ -19,7 +19,7 @@ std::string version_error() {
     const int version = epoxy_gl_version();
     return version >= 45
                ? std::string()
-               : fmt::format("OpenGL {}.{} is there, 4.5 is needed", version / 10, version % 10);
+               : fmt::format("OpenGL {}.{} found, 4.5 required", version / 10, version % 10);
 }
 
 bool has_extension(const char* list, std::string_view name) {
@@ -51,7 +51,7 @@ struct HeadlessContext::State {
         EGLint major = 0;
         EGLint minor = 0;
         if (eglInitialize(which, &major, &minor) == EGL_FALSE) {
-            return "it does not start";
+            return "EGL does not initialize";
         }
         display = which;
         if (eglBindAPI(EGL_OPENGL_API) == EGL_FALSE) {
@@ -78,7 +78,7 @@ struct HeadlessContext::State {
     std::string use_surfaceless() {
         const char* const extensions = eglQueryString(EGL_NO_DISPLAY, EGL_EXTENSIONS);
         if (!has_extension(extensions, "EGL_MESA_platform_surfaceless")) {
-            return "the library does not have it";
+            return "the EGL library lacks the extension";
         }
         return use_display(
             eglGetPlatformDisplayEXT(EGL_PLATFORM_SURFACELESS_MESA, nullptr, nullptr));
@@ -87,7 +87,7 @@ struct HeadlessContext::State {
         const char* const extensions = eglQueryString(EGL_NO_DISPLAY, EGL_EXTENSIONS);
         if (!has_extension(extensions, "EGL_EXT_platform_device") ||
             !has_extension(extensions, "EGL_EXT_device_enumeration")) {
-            return "the library does not have it";
+            return "the EGL library lacks the extension";
         }
         std::array<EGLDeviceEXT, 16> devices{};
         EGLint count = 0;

@@ -133,8 +133,7 @@ private:
                 return info(symbol.turtle).has(TurtleInfo::DependsOnPlace);
             })) {
             refuse(program_.axiom_span(), "a system that aims at points cannot be instanced")
-                .notes.emplace_back("where a branch is put elsewhere, it would aim at another "
-                                    "point");
+                .notes.emplace_back("a branch moved to another place would aim at another point");
         }
         for (const Production& production : program_.productions) {
             const std::string_view name = names_.text(production.name);
@@ -154,8 +153,8 @@ private:
                        fmt::format("production `{}` has a context, so its system cannot be "
                                    "instanced",
                                    name))
-                    .notes.emplace_back("a branch with a context depends on its neighbours, and "
-                                        "has others where it is put");
+                    .notes.emplace_back("a branch with a context depends on its neighbours, which "
+                                        "differ in another place");
             }
         }
     }

@@ -52,11 +52,11 @@ void check_colour(const CheckInput& input,
         Diagnostic& diagnostic = diagnostics.add(
             DiagnosticCode::ColourOutOfRange,
             i < spans.size() ? spans[i] : module_name_span(input, word, index),
-            fmt::format("a part of a colour is from 0 to 1, not {}", number_text(part)));
+            fmt::format("a colour component is from 0 to 1, not {}", number_text(part)));
         diagnostic.notes.emplace_back("the nearest of these values is drawn");
         if (part >= 2.0F && part <= 255.0F) {
             diagnostic.help.push_back(
-                fmt::format("of colours from 0 to 255 write `{} / 255`", number_text(part)));
+                fmt::format("for components from 0 to 255, write `{} / 255`", number_text(part)));
         }
         return;
     }

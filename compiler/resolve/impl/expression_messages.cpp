@@ -228,7 +228,7 @@ void ExpressionResolver::report_unknown_name(const Expression& expression) {
             DiagnosticCode::UsedBeforeDefinition, expression.span(),
             fmt::format("the local value `{}` is not known here", text));
         error.help.emplace_back("local values are computed after the condition, from left to "
-                                "right, and serve the values after them and the successor");
+                                "right; later local values and the successor may use them");
         return;
     }
     if (formals_incomplete_ || files_missing_ ||

@@ -235,8 +235,8 @@ std::optional<float> MaterialResolver::number_of(const Entry& entry, const SetVa
             fmt::format("`{}` takes {}; found {}", key.name, key.wanted, number_text(*number)));
         error.labels.push_back({entry.span, "the key"});
         if (key.kind == KeyKind::Colour && *number >= 2.0F && *number <= 255.0F) {
-            error.help.push_back(
-                fmt::format("of colours from 0 to 255 write `({} / 255)`", number_text(*number)));
+            error.help.push_back(fmt::format("for components from 0 to 255, write `({} / 255)`",
+                                             number_text(*number)));
         }
         return std::nullopt;
     }

@@ -35,7 +35,7 @@ void SplitReport::add(SourceSpan name, SourceSpan module, std::span<const NamePa
         warning_ = make_diagnostic(
             DiagnosticCode::SplitName, name,
             fmt::format("{} is read as {}", quoted(resolution_.sources.text(name)), quoted(read)));
-        warning_->label = "no module has this name, but it is a row of known names";
+        warning_->label = "no module has this name, but it is a sequence of known names";
         warning_->help.emplace_back(
             "separate the modules by blanks, or declare the name: `#module NAME;`");
         warning_->fixes.push_back({"insert the blanks", {}, true});

@@ -95,9 +95,10 @@ void CareyWriter::write(SourceSpan text, CareyText kind) {
         }
         const bool has_arguments = module.arguments.begin != module.arguments.end;
         if (module.character == U'#' && kind == CareyText::Right && !has_arguments) {
-            context_.diagnostics.add(DiagnosticCode::ForeignQuirk, module.span,
-                                     "outside of parentheses the forest generator writes the age "
-                                     "as digits; here it is the parameter of a module");
+            context_.diagnostics.add(
+                DiagnosticCode::ForeignQuirk, module.span,
+                "outside of parentheses `#` is the age, which the forest generator writes as "
+                "digits; here it is the parameter of a module");
             translation_.put("`#`(step() + 1)", module.span);
             return;
         }

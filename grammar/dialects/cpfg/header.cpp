@@ -273,8 +273,7 @@ void CpfgWriter::write_names(const char* begin, const std::vector<CpfgModule>& l
         if (!session_.considers && (module.name == "[" || module.name == "]")) {
             expressions_.warn_left_out(
                 module.span, "ignored bracket",
-                "brackets always count in contexts: that they are ignored is "
-                "left out");
+                "brackets always count in contexts; `ignore` has no effect on them");
         }
     }
     std::set<std::string> spelled_names;

@@ -189,8 +189,8 @@ bool CpfgWriter::can_bind(const std::vector<std::size_t>& members) {
         draws += lowered_[i].draws;
         if (draws > kMaxDraws) {
             session_.report_unsupported(production.span,
-                                        "more than 1000 random numbers, here and before, that the "
-                                        "choice among the productions of one module needs");
+                                        "the choice among the productions of one module, up to "
+                                        "here, needs more than 1000 random numbers");
             return false;
         }
     }
@@ -232,7 +232,7 @@ void CpfgWriter::weigh_group(const std::vector<std::size_t>& members) {
             tree_.expanded_size(conditions.back()) > kMaxCondition) {
             session_.report_unsupported(
                 session_.productions[members.front()].span,
-                "so many productions for one module that the sum of their weights is "
+                "one module has so many productions that the sum of their weights is "
                 "too long for one expression");
             return;
         }
@@ -540,7 +540,7 @@ void CpfgWriter::warn_weight(const CpfgProduction& production) {
     if (production.weight != kNoForeign && session_.seed == kNoForeign) {
         expressions_.warn_left_out(
             expression(production.weight).span, "weight",
-            "without `seed:` the first production that matches is taken: this is left out");
+            "without `seed:` the first matching production is taken, so this weight is ignored");
     }
     if (is_random_choice(production) && (!production.left.empty() || !production.right.empty())) {
         expressions_.warn_left_out(production.span, "choice " + key_of(production),

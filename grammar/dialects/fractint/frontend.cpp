@@ -60,7 +60,7 @@ choose(const std::vector<NamedEntry>& systems, FileId root, const ParseContext& 
     if (systems.empty()) {
         if (!context.diagnostics.has_errors()) {
             context.diagnostics.add(DiagnosticCode::ForeignSyntax, start,
-                                    "no system, `name { ... }`, is in this file");
+                                    "this file has no system `name { ... }`");
         }
         return nullptr;
     }
@@ -76,7 +76,7 @@ choose(const std::vector<NamedEntry>& systems, FileId root, const ParseContext& 
             } else {
                 context.diagnostics
                     .add(DiagnosticCode::ForeignQuirk, system.entry->name,
-                         "of two systems with one name Fractint takes the first")
+                         "two systems have this name; Fractint takes the first")
                     .labels.push_back({found->entry->name, "this is the first"});
             }
         }

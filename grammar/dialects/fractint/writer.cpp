@@ -119,8 +119,8 @@ void FractintWriter::write_angle(const FractintLine& line) {
         return;
     }
     if (end != text.data() + text.size() || line.texts.size() > first + 1) {
-        warn_quirk(place, "Fractint takes " + std::to_string(parts) +
-                              " for the angle and the text after it for a mistake");
+        warn_quirk(place, "Fractint reads the angle " + std::to_string(parts) +
+                              " and rejects the text after it");
     }
     if (parts < kMinAngle || parts > kMaxAngle) {
         warn_quirk(place, "Fractint takes angles from " + std::to_string(kMinAngle) + " to " +
@@ -158,7 +158,7 @@ bool FractintWriter::check_key(const FractintLine& line) {
     }
     if (is_one_of(symbol, kReserved)) {
         warn_quirk(line.key,
-                   "present versions of Fractint let no rule replace `" + shown(key) + "`");
+                   "in current versions of Fractint no rule can replace `" + shown(key) + "`");
     }
     return true;
 }
@@ -176,8 +176,7 @@ void FractintWriter::check_texts(const FractintLine& line) {
         }
         word_count += equals ? 0U : 1U;
         if (word_count == 2 && !equals && is_rule) {
-            warn_quirk(text,
-                       "Fractint takes a text with blanks for a mistake; here they mean nothing");
+            warn_quirk(text, "Fractint rejects a text with blanks; lsc ignores the blanks");
             ++word_count; // warn only once
         }
         begun = begun || !equals;

@@ -117,9 +117,10 @@ ForeignId HoudiniExpressions::name(const ForeignNode& node, const HoudiniScope& 
                            "except as the seed of `rand`");
     }
     if (name.size() == 1 && kTurtleVariables.find(name[0]) != std::string_view::npos) {
-        return unsupported(node.span,
-                           "`" + name +
-                               "` is of the turtle, which draws when all rules have been applied");
+        return unsupported(
+            node.span,
+            "`" + name +
+                "` is a variable of the turtle, which draws after all rules have been applied");
     }
     session_.context.diagnostics.add(
         DiagnosticCode::ForeignSyntax, node.span,

@@ -99,8 +99,7 @@ bool HoudiniWriter::check_head(const HoudiniRule& rule) {
     }
     const HoudiniSymbol& symbol = symbols_.symbol(rule.predecessor.front());
     if (symbol.has_age && symbol.is_command) {
-        report_unsupported(rule.span,
-                           "the age `g` of a symbol that the turtle obeys is not known to lsc");
+        report_unsupported(rule.span, "lsc does not know the age `g` of a turtle command");
         is_valid = false;
     }
     return is_valid;

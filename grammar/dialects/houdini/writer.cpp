@@ -117,8 +117,8 @@ void HoudiniWriter::write_values() {
             session_.context.diagnostics.add(
                 DiagnosticCode::ForeignLoss, session_.premise_span,
                 "the value of `" + std::string(value) +
-                    "` is not in this file, and taken for 0; give -D value_" + std::string(value) +
-                    "=NUMBER");
+                    "` is missing in this file and taken as 0; set it with -D value_" +
+                    std::string(value) + "=NUMBER");
         }
         translation_.put("#define value_" + std::string(value) + " " + number(value, "0") + ";\n",
                          found != settings_.end() ? found->second : session_.premise_span);
@@ -223,8 +223,7 @@ void HoudiniWriter::warn_lost(char symbol, SourceSpan place) {
                              : symbol == 'J' ? "values that are stamped on a leaf"
                                              : "coordinates of a colour map";
     session_.context.diagnostics.add(DiagnosticCode::ForeignLoss, place,
-                                     "lsc has no " + what +
-                                         "; the module stays in the word and that is left out");
+                                     "lsc ignores " + what + "; the module stays in the word");
 }
 
 HoudiniWriter::Lowered HoudiniWriter::lower_module(const HoudiniModule& module,
@@ -326,10 +325,10 @@ ForeignId HoudiniWriter::omitted_argument(const HoudiniModule& module,
         report_syntax(place, "a parameter is missing");
     } else if (index == 0 && (symbols_.occurs("\"") || symbols_.occurs("_"))) {
         report_unsupported(place,
-                           "the length that the turtle then has cannot be written as a parameter");
+                           "the current length of the turtle cannot be written as a parameter");
     } else if (index == 1 && (symbols_.occurs("!") || symbols_.occurs("?"))) {
         report_unsupported(place,
-                           "the width that the turtle then has cannot be written as a parameter");
+                           "the current width of the turtle cannot be written as a parameter");
     } else if (index < 2) {
         value = index == 0 ? number("step", "1") : number("width", "0.1");
     } else {

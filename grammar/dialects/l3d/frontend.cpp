@@ -44,7 +44,7 @@ write_header(const L3dFile& file, const ParseContext& context, Translation& tran
     }
     if (generations != std::trunc(generations)) {
         context.diagnostics.add(DiagnosticCode::ForeignQuirk, file.numbers[0],
-                                "the number of generations is cut down to a whole one");
+                                "the number of generations is rounded down to a whole number");
     }
     translation.put("#n = " + std::to_string(static_cast<std::uint32_t>(generations)) + ";\n",
                     file.numbers[0]);

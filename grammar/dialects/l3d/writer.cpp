@@ -70,7 +70,7 @@ SourceSpan L3dWriter::key(SourceSpan text) {
     }
     const auto last = static_cast<std::uint32_t>(text.begin + end);
     warn(last, text.end,
-         "L3D takes the blanks before `=` for a part of the left side; here they are none");
+         "L3D counts the blanks before `=` as part of the left side; lsc ignores them");
     return {text.file, text.begin, last};
 }
 
@@ -120,15 +120,14 @@ void L3dWriter::check_parameter(char command, Parameter parameter) {
     } else if (is_one_of(command, kWithHeaderDefault) && is_one(inner) &&
                !context_.bug_compatible) {
         warn(parameter.open, parameter.end,
-             "L3D takes a parameter of 1 for none, which means the angle of the header; here it "
-             "is 1");
+             "L3D treats a parameter of 1 as missing and uses the angle of the header; lsc uses 1");
     }
 }
 
 void L3dWriter::check_command(char command, std::uint32_t at) {
     if (command == '|' && !has_warned_half_turn_ && !context_.bug_compatible) {
         has_warned_half_turn_ = true;
-        warn(at, at + 1, "L3D turns by pi degrees here; half a turn is meant");
+        warn(at, at + 1, "L3D turns by pi degrees (3.14) here; lsc turns by 180 degrees");
     } else if (command >= '0' && command <= '9' && !has_warned_digit_) {
         has_warned_digit_ = true;
         warn(at, at + 1, "L3D has no counts: a digit outside of parentheses does nothing");
@@ -159,7 +158,8 @@ void L3dWriter::write(SourceSpan text) {
                 open < whole.size() && whole[open] == '(' ? next_close(open) : whole.size();
             if (end < whole.size() && is_parameter(whole.substr(open + 1, end - open - 1))) {
                 warn(at, static_cast<std::uint32_t>(open),
-                     "for L3D a blank parts the command from its parameter; here it does not");
+                     "in L3D a blank separates the command from its parameter; in lsc the "
+                     "parameter belongs to the command");
                 at = static_cast<std::uint32_t>(open);
                 continue;
             }
@@ -170,7 +170,7 @@ void L3dWriter::write(SourceSpan text) {
             if (is_closed) {
                 check_parameter(command, {at, end});
             } else {
-                warn(at, at + 1, "this parameter ends nowhere in its text");
+                warn(at, at + 1, "this parameter has no `)` in its text");
             }
             put_characters(at, end);
             at = end;

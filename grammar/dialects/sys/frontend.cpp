@@ -195,8 +195,9 @@ void check_count(const SysFile& file, const ParseContext& context) {
                                 "expected the number of rules, found `" + shown(text) + "`");
     } else if (count != file.rules.size() && !context.diagnostics.has_errors()) {
         context.diagnostics.add(DiagnosticCode::ForeignValue, *file.count,
-                                "the file says that it has " + std::string(text) +
-                                    " rules, and has " + std::to_string(file.rules.size()));
+                                "the file states " + std::string(text) +
+                                    " as its number of rules, but has " +
+                                    std::to_string(file.rules.size()));
     }
 }
 

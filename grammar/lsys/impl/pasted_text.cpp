@@ -355,7 +355,7 @@ void repair_comment_ends(DraftText& draft) {
                                               draft.span(at, at + 2), "this `*/` ends no comment");
         if (before != std::string::npos && before < line.begin) {
             diagnostic.labels.push_back(
-                {draft.span(before, before + 2), "the comment ended here already"});
+                {draft.span(before, before + 2), "the comment has already ended here"});
             diagnostic.help.emplace_back("comments cannot be nested: remove this "
                                          "`*/`, or the inner comment");
         } else {

@@ -757,8 +757,8 @@ void report_unclosed(ParseSession& session) {
         DiagnosticCode::UnclosedParenthesis, session.scanned.span(inner.begin, inner.begin + 1),
         std::string("`") + character(inner) + "` is never closed");
     if (scan.open.size() > 1) {
-        diagnostic.notes.push_back("at this place " + std::to_string(scan.open.size()) +
-                                   " are open, one inside the other");
+        diagnostic.notes.push_back(std::to_string(scan.open.size()) +
+                                   " brackets are open here, one inside the other");
     }
     std::string closing;
     constexpr std::size_t kMaxInserted = 100;

@@ -273,7 +273,7 @@ bool report_modules_in_parentheses(ParseSession& session, const Unexpected& erro
         if (scan.open.size() == 1) {
             const std::size_t last =
                 session.scanned.text.find_last_not_of(" \t\r\n", scan.begin - 1);
-            add_fix(diagnostic, "close it before that",
+            add_fix(diagnostic, "add `)` before `" + std::string(error.text) + "`",
                     session.scanned.after(static_cast<std::uint32_t>(last) + 1), ")", false);
         }
     }

@@ -269,8 +269,8 @@ struct PrintedNumbers : UnknownDomain<PrintedValue> {
             return range.text + " has its minimum " + number_text(minimum) + " above its maximum " +
                    number_text(maximum);
         default:
-            return range.text + " reaches from " + number_text(minimum) + " to " +
-                   number_text(maximum);
+            return range.text + " has the bounds " + number_text(minimum) + " and " +
+                   number_text(maximum) + ", which must be finite, as must be their difference";
         }
     }
     static std::string distribution_fault(const TracedRange& range, float x, float y) {

@@ -434,7 +434,7 @@ Outcome<void> write(const ForestExportJob& job, bool binary, PieceWriter& out) {
             Stop::Limit,
             messages_of(plant_limit_diagnostic(
                 "the expanded forest", fmt::format("{} nodes", grouped_digits(2 * kMaxForestNodes)),
-                "each tree has nodes for its shapes of collision: leave out --collision"))};
+                "each tree has nodes for its collision shapes; omit --collision"))};
     }
     if (document.data_bytes() > kMaxGltfBytes || document.decoded_bytes() > kMaxGltfBytes) {
         return too_large_for_format(ExportSubject::Forest);

@@ -20,8 +20,7 @@ Result<std::string> checked(FileContents contents, const ReadLimit& limit) {
     }
     const std::uint64_t size = contents.bytes.size();
     if (size > limit.max_bytes) {
-        return Error{
-            fmt::format("it has more than {} bytes, the most that can be read", limit.max_bytes)};
+        return Error{fmt::format("it is larger than {} bytes, the maximum", limit.max_bytes)};
     }
     if (size > limit.memory) {
         return Error{fmt::format("it has {} bytes, more than Limits::max_bytes leaves", size),

@@ -111,7 +111,8 @@ public:
         for (const ObjName& material : mesh_.materials) {
             if (find(material).path != first.path) {
                 warn(path_, text_, obj_, material,
-                     "faces of several pictures: all of the mesh looks as its first face");
+                     "the faces have several pictures; the whole mesh shows the picture of its "
+                     "first face");
                 break;
             }
         }

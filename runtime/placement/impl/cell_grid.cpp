@@ -17,7 +17,7 @@ Result<CellRange> cells_of(const CellGrid& grid, const Region& region, std::int6
         !grid.has_number({last.column + margin, last.row + margin})) {
         return Error{fmt::format(
             "the region from ({}, {}) to ({}, {}) m has trees whose numbers do not fit into 32 "
-            "bits; with cells of {} m they do up to {} m from the origin",
+            "bits; with cells of {} m, numbers fit up to {} m from the origin",
             region.x, region.z, region.x + region.width, region.z + region.depth, grid.side(),
             std::floor(grid.reach(margin + 2)))};
     }

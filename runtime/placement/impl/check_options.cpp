@@ -83,9 +83,9 @@ Result<void> check_species(const PlacementOptions& options) {
                 i, species.min_height, species.max_height)};
         }
         if (!(species.lowest <= species.highest) || std::isnan(species.steepest)) {
-            return Error{fmt::format(
-                "species {} lives from {} to {} m and up to a slope of {}: that is no range", i,
-                species.lowest, species.highest, species.steepest)};
+            return Error{
+                fmt::format("species {} has no valid range: altitude {} to {} m, slope up to {}", i,
+                            species.lowest, species.highest, species.steepest)};
         }
         if (options.method == PlacementMethod::Domination) {
             if (const Result<void> checked = check_growth(i, species.growth); !checked) {
@@ -93,9 +93,10 @@ Result<void> check_species(const PlacementOptions& options) {
             }
             const float years = static_cast<float>(species.stages - 1) * species.years_of_stage;
             if (species.stages > 1 && !(species.years_of_stage > 0.0F && years <= kMaxStageYears)) {
-                return Error{fmt::format("the stages of species {} take {} years each, {} in all; "
-                                         "they must take some, and at most {}",
-                                         i, species.years_of_stage, years, kMaxStageYears)};
+                return Error{
+                    fmt::format("the stages of species {} take {} years each, {} in all; "
+                                "each must take more than 0 years, and all together at most {}",
+                                i, species.years_of_stage, years, kMaxStageYears)};
             }
         }
     }
@@ -163,8 +164,8 @@ Result<double> count_places(const PlacementOptions& options) {
             break;
         }
         if (area * options.density > kMaxMapPlaces) {
-            checked = Error{fmt::format("a white density map would have {:.0f} trees; the most "
-                                        "that a map is asked about is {:.0f}",
+            checked = Error{fmt::format("a white density map would have {:.0f} trees; the maximum "
+                                        "for a density map is {:.0f}",
                                         area * options.density, kMaxMapPlaces)};
             break;
         }
@@ -183,8 +184,9 @@ Result<double> expected_places(const PlacementOptions& options) {
         return checked.error();
     }
     if (options.region.width < kMinSide || options.region.depth < kMinSide) {
-        return Error{fmt::format("a region of {} by {} m is too small for trees; the least is {} m",
-                                 options.region.width, options.region.depth, kMinSide)};
+        return Error{fmt::format(
+            "a region of {} by {} m is too small for trees; each side must be at least {} m",
+            options.region.width, options.region.depth, kMinSide)};
     }
     if (const Result<void> checked = check_species(options); !checked) {
         return checked.error();

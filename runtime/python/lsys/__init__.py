@@ -120,7 +120,7 @@ def _save(plant, path, *, mesh=None, preset=None, **options):
         raise TypeError("a preset makes meshes of its own: leave out either preset or mesh")
     kind = options.pop("format", None) or _lsys.format_of_path(path)
     if not kind:
-        raise LsysError(f"the name `{path}` does not tell a format: {', '.join(FORMATS)}")
+        raise LsysError(f"`{path}` has no extension of a known format: {', '.join(FORMATS)}")
     stem = os.path.splitext(os.path.basename(path))[0]
     _write_atomically(path, plant.export(mesh, kind, name=stem, **options))
     return [path]

@@ -184,13 +184,13 @@ std::string quotes_help(const Places& places, SourceSpan span) {
     const std::size_t equals = line.find('=');
     if (equals == std::string_view::npos ||
         line.find_first_of("\"'[{#") != std::string_view::npos) {
-        return "a text stands in quotes: `kind = \"noise\"`";
+        return "put a text in quotes: `kind = \"noise\"`";
     }
     const std::size_t value = line.find_first_not_of(" \t", equals + 1);
     const std::size_t end = line.find_last_not_of(" \t\r") + 1;
     return value == std::string_view::npos || value >= end
-               ? std::string("a text stands in quotes: `kind = \"noise\"`")
-               : fmt::format("a text stands in quotes: `{}\"{}\"`", line.substr(0, value),
+               ? std::string("put a text in quotes: `kind = \"noise\"`")
+               : fmt::format("put a text in quotes: `{}\"{}\"`", line.substr(0, value),
                              line.substr(value, end - value));
 }
 
@@ -199,21 +199,21 @@ void report_syntax(const toml::parse_error& error, Places& places, Diagnostics& 
     const bool at_end = message.reason == "encountered end-of-file";
     const std::string article =
         message.what.find_first_of("aeiou") == 0 ? std::string("an ") : std::string("a ");
-    Diagnostic& diagnostic =
-        diagnostics.add(DiagnosticCode::SceneSyntax, places.span(error.source()),
-                        message.reason.starts_with("could not determine value type")
-                            ? std::string("this is no value: a number, `true`, or a text in quotes")
-                        : at_end && !message.what.empty()
-                            ? fmt::format("the file ends within {}{}", article, message.what)
-                            : message.reason);
+    Diagnostic& diagnostic = diagnostics.add(
+        DiagnosticCode::SceneSyntax, places.span(error.source()),
+        message.reason.starts_with("could not determine value type")
+            ? std::string("this is not a value: write a number, `true`, or a text in quotes")
+        : at_end && !message.what.empty()
+            ? fmt::format("the file ends within {}{}", article, message.what)
+            : message.reason);
     if (!at_end && !message.what.empty()) {
         diagnostic.notes.push_back(fmt::format("while reading {}{}", article, message.what));
     }
     if (message.reason.starts_with("cannot redefine existing table")) {
         diagnostic.help.emplace_back(
-            "a table stands once; another species begins with `[[species]]`");
+            "a table may appear only once; each species begins with `[[species]]`");
     } else if (message.reason.starts_with("cannot redefine")) {
-        diagnostic.help.emplace_back("a key stands once in its table");
+        diagnostic.help.emplace_back("a key may appear only once in its table");
     } else if (message.reason.starts_with("expected `true`") ||
                message.reason.starts_with("expected `false`") ||
                message.reason.starts_with("could not determine value type")) {

@@ -106,7 +106,7 @@ void read_grammar(SpeciesReader& from) {
         from.species.grammar = std::move(*grammar);
         from.species.name = stem_of(from.species.grammar.path);
     } else if (!from.reader.has("grammar")) {
-        from.reader.report_missing("grammar", "the species is to be drawn")
+        from.reader.report_missing("grammar", "the species")
             .help.emplace_back("name a grammar beside the scene: `grammar = \"pine.lsys\"`");
     }
     const auto optional_name = [&](std::string_view key, SceneName& name) {
@@ -165,7 +165,7 @@ void read_stage_list(SpeciesReader& from) {
         }
         if (!from.species.stages.empty() && *stage <= from.species.stages.back()) {
             from.reader.report_bad_value(item.span,
-                                         fmt::format("stages rise: {} does not come after {}",
+                                         fmt::format("stages must ascend: {} is not above {}",
                                                      *stage, from.species.stages.back()));
             continue;
         }
@@ -194,8 +194,8 @@ void read_stages(SpeciesReader& from, bool has_ages) {
         from.species.start = static_cast<StageStart>(*start);
     }
     if (!has_ages) {
-        reader.report_conflicting_key("years_of_stage",
-                                      "plants have an age with the method `domination` alone", {});
+        reader.report_conflicting_key(
+            "years_of_stage", "only with the method `domination` do plants have an age", {});
         return;
     }
     if (years) {
@@ -267,10 +267,10 @@ void read_growth(const SceneValue* table, PlacementSpecies& placement, Diagnosti
     number("seed_distance", {0.0, 1.0e5, false, "m"}, growth.seed_distance);
     if (growth.rate > growth.max_radius) {
         const SourceSpan at = reader.span_of(reader.has("rate") ? "rate" : "greatest_radius");
-        reader.report_bad_value(
-            at, fmt::format("plants grow by {} m in a year, farther than their greatest "
-                            "radius of {} m",
-                            growth.rate, growth.max_radius));
+        reader.report_bad_value(at,
+                                fmt::format("plants grow by {} m a year, more than their greatest "
+                                            "radius of {} m",
+                                            growth.rate, growth.max_radius));
     }
     reader.finish();
 }
@@ -288,7 +288,7 @@ void read_one_species(const SceneValue& table, Scene& scene, Diagnostics& diagno
     read_growth(from.reader.table("growth"), placement, diagnostics);
     if (!has_ages) {
         from.reader.report_conflicting_key("growth",
-                                           "plants grow with the method `domination` alone", {});
+                                           "only with the method `domination` do plants grow", {});
     }
     from.reader.finish();
 }
@@ -322,7 +322,7 @@ void check_shares(const SceneValue& list, const Scene& scene, Diagnostics& diagn
     if (none) {
         const SceneEntry* const share = find_entry(list.items.front(), "share");
         diagnostics.add(DiagnosticCode::BadSceneValue, share->value.span,
-                        "the shares of all species are 0, so no tree can be of any");
+                        "the shares of all species are 0, so no tree has a species");
     }
 }
 

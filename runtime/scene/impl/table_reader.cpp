@@ -297,7 +297,7 @@ void TableReader::report_conflicting_key(std::string_view key,
     }
     Diagnostic& error =
         diagnostics_.add(DiagnosticCode::ConflictingSceneKeys, find_entry(*table_, key)->key_span,
-                         fmt::format("`{}` says nothing here: {}", key, reason));
+                         fmt::format("`{}` has no effect here: {}", key, reason));
     if (cause.file != kNoFile) {
         error.labels.push_back({cause, "this decides"});
     }

@@ -66,7 +66,7 @@ void read_map_size(TableReader& reader, SceneTerrain& terrain) {
         return;
     }
     if (terrain.map.path.ends_with(".png")) {
-        reader.report_conflicting_key("map_size", "a PNG file knows its size", terrain.map.span);
+        reader.report_conflicting_key("map_size", "a PNG file contains its size", terrain.map.span);
         return;
     }
     const SourceSpan span = reader.span_of("map_size");

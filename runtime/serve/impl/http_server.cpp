@@ -54,7 +54,7 @@ struct Shared {
     std::set<Session*> sessions;
     bool is_stopping = false;
     asio::thread_pool pool;      // makes tiles
-    asio::io_context network{1}; // destroyed first, with the sessions that are left
+    asio::io_context network{1}; // destroyed first, with the remaining sessions
 
     Shared(TileService& tiles, std::size_t threads) : service(tiles), pool(threads) {}
 };
@@ -194,7 +194,7 @@ public:
         : shared_(shared), acceptor_(shared.network), retry_(shared.network),
           max_connections_(max_connections) {}
 
-    /// Returns the mistake.
+    /// Returns the error message; empty on success.
     std::string open(const tcp::endpoint& endpoint) {
         beast::error_code error;
         acceptor_.open(endpoint.protocol(), error);
@@ -317,7 +317,7 @@ Result<void> serve_tiles(TileService& service,
     while (!shared.network.stopped()) {
         try {
             shared.network.run();
-        } catch (const std::bad_alloc&) { // the connection is cut, others go on
+        } catch (const std::bad_alloc&) { // cuts the connection; the others continue
         }
     }
     shared.pool.join();

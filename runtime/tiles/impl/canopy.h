@@ -14,7 +14,7 @@
 
 namespace lsys {
 
-inline constexpr std::uint32_t kCanopyLevels = 6; // a cell is a tile of a deeper level
+inline constexpr std::uint32_t kCanopyLevels = 6; // a cell is a tile this many levels deeper
 inline constexpr std::uint32_t kCanopyCells = 1U << kCanopyLevels; // along a side of a tile
 
 /// The crowns over a place, as means of its surroundings.
@@ -43,7 +43,7 @@ struct CrownSums {
 /// The cells of one level, with trees that have been counted.
 class Canopy {
 public:
-    /// `side`: number of cells along X and Z. `cell`: m.
+    /// `side`: number of cells along X and Z. `cell`: side of a cell in m.
     Canopy(std::uint32_t side, double cell);
 
     /// Adds a tree of the given scale in a cell.

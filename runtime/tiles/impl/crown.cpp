@@ -114,7 +114,7 @@ Crown crown_of(const Mesh& mesh) {
                                                            w2 * (at[2].y - at[0].y));
                     Sample& sample = samples[static_cast<std::size_t>(row) * kCrownLines +
                                              static_cast<std::size_t>(column)];
-                    // A triangle with holes covers the same fraction of what others leave uncovered.
+                    // A triangle with holes covers its opaque fraction of the area left uncovered.
                     sample.cover = 1.0 - (1.0 - sample.cover) * (1.0 - shade.opacity);
                     if (height > sample.height) {
                         sample.height = height;

@@ -13,9 +13,9 @@ namespace lsys {
 
 namespace {
 
-constexpr double kA = 6378137.0;           // m, half of the major axis of WGS 84
+constexpr double kA = 6378137.0;           // m, semi-major axis of WGS 84
 constexpr double kF = 1.0 / 298.257223563; // flattening
-constexpr double kB = kA * (1.0 - kF);     // m, half of the minor axis
+constexpr double kB = kA * (1.0 - kF);     // m, semi-minor axis
 constexpr double kE2 = kF * (2.0 - kF);    // square of the eccentricity
 constexpr double kDegree = std::numbers::pi / 180.0;
 
@@ -51,14 +51,14 @@ GeoPlace along_geodesic(const GeoPlace& start, double east, double north, double
     const double sin_u = (1.0 - kF) * sin_lat / length;
     const double cos_u = cos_lat / length;
     const double sigma_1 = angle_of(sin_u, cos_u * north);
-    const double sin_alpha = cos_u * east; // of the azimuth at the equator
+    const double sin_alpha = cos_u * east; // sine of the azimuth at the equator
     const double cos2_alpha = 1.0 - sin_alpha * sin_alpha;
     const double u2 = cos2_alpha * (kA * kA - kB * kB) / (kB * kB);
     const double a = 1.0 + u2 / 16384.0 * (4096.0 + u2 * (-768.0 + u2 * (320.0 - 175.0 * u2)));
     const double b = u2 / 1024.0 * (256.0 + u2 * (-128.0 + u2 * (74.0 - 47.0 * u2)));
     double sigma = distance / (kB * a);
     SineCosine at;
-    double cos_2m = 0.0;      // of twice the angle from the equator to the middle of the line
+    double cos_2m = 0.0;      // cosine of twice the angle from the equator to the middle
     constexpr int kSteps = 8; // each makes the correction 300 times smaller
     for (int i = 0; i < kSteps; ++i) {
         at = sine_cosine(sigma);

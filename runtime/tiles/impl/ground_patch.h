@@ -32,7 +32,7 @@ struct PatchPlan {
 /// The mesh in the frame of the tile, with +Y up.
 [[nodiscard]] Mesh make_patch(const PatchPlan& plan);
 
-/// From east, north, up to east, up, south: glTF has +Y up.
+/// Converts (east, north, up) to (east, up, south), because glTF has +Y up.
 [[nodiscard]] inline glm::dvec3 y_up(const glm::dvec3& z_up) {
     return {z_up.x, z_up.z, -z_up.y};
 }

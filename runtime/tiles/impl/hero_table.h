@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// HeroTable: which hero each tree of a forest is.
+// HeroTable: maps each tree of a forest to its hero.
 #pragma once
 
 #include "runtime/forest/forest.h"
@@ -13,7 +13,7 @@ namespace lsys {
 
 class HeroTable {
 public:
-    /// `heroes`: those of plan_heroes(). `forest` must outlive the table.
+    /// `heroes`: the result of plan_heroes(). `forest` must outlive the table.
     HeroTable(const Forest& forest, std::span<const Hero> heroes);
 
     /// The index of the tree's hero.

@@ -9,8 +9,9 @@ namespace lsys {
 
 namespace {
 
-constexpr double kMinTileTrees = 4.0; // mean number in a tile that is not divided for its triangles
-constexpr double kGroundError = 0.1;  // m, tolerated error of the ground in every tile
+/// Too many triangles do not divide a tile whose parts would have fewer trees than this on average.
+constexpr double kMinTileTrees = 4.0;
+constexpr double kGroundError = 0.1;        // m, tolerated error of the ground in every tile
 constexpr std::uint32_t kGroundCells = 128; // max along a side of a tile with trees
 
 class Planner {
@@ -56,7 +57,7 @@ private:
         return static_cast<double>(hero.levels.levels[detail].error) *
                needs_.max_scales[hero.species];
     }
-    /// The coarsest level of detail within the tolerated error.
+    /// The level of detail for the finest tiles: the coarsest one within the tolerated error.
     [[nodiscard]] std::size_t finest_detail(const Hero& hero) const {
         std::size_t detail = 0;
         while (detail + 1 < hero.levels.levels.size() && error_of(hero, detail + 1) <= tolerated_) {
@@ -94,7 +95,7 @@ private:
         return depth;
     }
 
-    /// Returns the error.
+    /// Plans a level whose tiles show a canopy; returns its error in m.
     double plan_canopy(std::uint32_t number) {
         const double cell = plan_.levels[number].side / kCanopyCells;
         plan_.cells[number] = kCanopyCells;
@@ -103,7 +104,7 @@ private:
         return std::max({needs_.largest_extent, ground_errors_[number], cell / 2.0});
     }
 
-    /// Returns the error.
+    /// Plans a level whose tiles show single trees; returns its error in m.
     double plan_trees(std::uint32_t number) {
         TileLevel& level = plan_.levels[number];
         plan_.first_tree_level = number;

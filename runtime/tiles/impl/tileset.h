@@ -11,7 +11,7 @@
 
 namespace lsys {
 
-inline constexpr std::uint32_t kSubtreeLevels = 4; // of a tileset
+inline constexpr std::uint32_t kSubtreeLevels = 4; // number of levels that a tileset lists
 
 struct TilesetPlan {
     const std::string& generator;
@@ -20,7 +20,7 @@ struct TilesetPlan {
     const TileBoxes& boxes;
 };
 
-/// TileForest::tileset().
+/// Implements TileForest::tileset().
 [[nodiscard]] std::string make_tileset(const TilesetPlan& plan, const TileId& root);
 
 } // namespace lsys

@@ -13,7 +13,7 @@ namespace lsys {
 
 namespace {
 
-constexpr double kMargin = 0.5; // m, around a tile; above the rounding of its borders
+constexpr double kMargin = 0.5; // m, around a tile; more than the rounding error of its borders
 
 /// The position of a tile on the Z-order curve. The tiles below a tile are consecutive,
 /// at every level of the quadtree.

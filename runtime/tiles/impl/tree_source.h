@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // TreeSource: the trees of the tiles of a scene. Trees of a placement on an unbounded grid are made
-// tile by tile, those of other placements once for all tiles.
+// tile by tile; trees of other placements are made once for all tiles.
 #pragma once
 
 #include "runtime/base/large_vector.h"
@@ -53,7 +53,7 @@ public:
               const TileGrid& grid);
     [[nodiscard]] std::vector<Tree> trees_of(const TileId& tile) const override;
 
-    /// Errors: those of place_trees(), except for too many trees in all.
+    /// Errors: the errors of place_trees(), except too many trees in total.
     [[nodiscard]] static Result<void> check(const PlacementOptions& options,
                                             const Terrain& terrain);
 

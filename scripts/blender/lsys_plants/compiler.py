@@ -130,7 +130,7 @@ def split_arguments(arguments, command):
         name, equals, value = left.pop(0).partition("=")
         name = {"-n": "--generations", "-D": "--define", "-s": "--seed"}.get(name, name)
         if not name.startswith("--"):
-            raise CompilerError(f"options: `{name}` is none")
+            raise CompilerError(f"options: `{name}` is not an option")
         name = name[2:]
         is_flag = name == "bug-compatible" or known.get(name, ("VALUE",))[0] == ""
         if not equals and not is_flag:

@@ -196,7 +196,7 @@ class Gltf:
             if "mesh" in node:
                 yield self.placement(node, number, here, cell, depth < 2)
             if depth > 1000:
-                raise GltfError("nodes within nodes without end")
+                raise GltfError("nodes are nested more than 1,000 deep")
             stack += [(c, here, cell, depth + 1) for c in reversed(node.get("children", []))]
 
     def transform(self, node, number):

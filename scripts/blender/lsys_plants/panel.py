@@ -128,12 +128,12 @@ class Settings(bpy.types.PropertyGroup):
     file: StringProperty(name="File", subtype="FILE_PATH", update=file_changed,
                          description="A grammar; for a forest also a scene (.toml)")
     seed: IntProperty(name="Seed", min=0, update=changed,
-                      description="Equal seeds give equal plants; of a forest, the key")
+                      description="Equal seeds give equal plants; for a forest this is the key")
     generations: IntProperty(name="Generations", min=0, soft_max=30, update=changed,
                              description="Rounds of rewriting")
     height: FloatProperty(name="Height", min=0.0, soft_max=100.0, unit="LENGTH", update=changed,
-                          description="Height of the plant, of a forest that of full-grown trees; "
-                                      "0: as the grammar says")
+                          description="Height of the plant, or of full-grown trees of a forest; "
+                                      "0: height of the grammar")
     count: IntProperty(name="Trees", default=1000, min=1, soft_max=10000, update=changed,
                        description="Number of trees of a forest of a grammar")
     size: FloatProperty(name="Side", default=100.0, min=0.01, soft_max=10000.0, unit="LENGTH", update=changed,
@@ -142,7 +142,7 @@ class Settings(bpy.types.PropertyGroup):
                             description="More options of lsc, such as --sides 12 --smooth-joints")
     parameters: CollectionProperty(type=Parameter)
     has_key: BoolProperty(description="The key of the scene is known, and was shown as the seed")
-    message: StringProperty(description="What lsc said last")
+    message: StringProperty(description="Last messages of lsc")
 
     @property
     def is_scene(self):

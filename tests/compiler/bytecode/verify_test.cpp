@@ -16,7 +16,7 @@ using test::op;
 namespace {
 
 /// The message of verify() for the small program after a change; empty if it verifies.
-std::string said_of(const std::function<void(Bytecode&)>& change) {
+std::string verdict(const std::function<void(Bytecode&)>& change) {
     Bytecode bytecode = test::small_bytecode();
     change(bytecode);
     return verify(bytecode).value_or("");
@@ -25,47 +25,47 @@ std::string said_of(const std::function<void(Bytecode&)>& change) {
 } // namespace
 
 TEST_CASE("a well-formed program verifies") {
-    CHECK(said_of([](Bytecode&) {}).empty());
+    CHECK(verdict([](Bytecode&) {}).empty());
 }
 
 TEST_CASE("symbols and folded modules are checked") {
-    CHECK(said_of([](Bytecode& b) { b.symbols[0].name.clear(); }) ==
+    CHECK(verdict([](Bytecode& b) { b.symbols[0].name.clear(); }) ==
           "symbol 0 has no printable name");
-    CHECK(said_of([](Bytecode& b) { b.symbols[0].name = "a\x1B[2J"; }) ==
+    CHECK(verdict([](Bytecode& b) { b.symbols[0].name = "a\x1B[2J"; }) ==
           "symbol 0 has no printable name");
-    CHECK(said_of([](Bytecode& b) { b.symbols[3].parameter_count = 1; }) ==
+    CHECK(verdict([](Bytecode& b) { b.symbols[3].parameter_count = 1; }) ==
           "symbol 3 has 1 parameters");
-    CHECK(said_of([](Bytecode& b) { b.folded[0].symbol = SymbolId{9}; }) ==
+    CHECK(verdict([](Bytecode& b) { b.folded[0].symbol = SymbolId{9}; }) ==
           "folded module 0 is of no symbol with parameters");
-    CHECK(said_of([](Bytecode& b) { b.folded[0].first_constant = 1; }) ==
+    CHECK(verdict([](Bytecode& b) { b.folded[0].first_constant = 1; }) ==
           "folded module 0 does not follow the one before it");
-    CHECK(said_of([](Bytecode& b) { b.constants[0] = HUGE_VALF; }) ==
+    CHECK(verdict([](Bytecode& b) { b.constants[0] = HUGE_VALF; }) ==
           "a folded argument is not finite");
-    CHECK(said_of([](Bytecode& b) { b.template_codes[1] = 6; }) == "code 6 does not exist");
+    CHECK(verdict([](Bytecode& b) { b.template_codes[1] = 6; }) == "code 6 does not exist");
 }
 
 TEST_CASE("heads are checked") {
-    CHECK(said_of([](Bytecode& b) { b.patterns[1].first_formal = 0; }) ==
+    CHECK(verdict([](Bytecode& b) { b.patterns[1].first_formal = 0; }) ==
           "pattern item 1 is malformed");
-    CHECK(said_of([](Bytecode& b) { b.patterns[4].kind = PatternKind::Open; }) ==
+    CHECK(verdict([](Bytecode& b) { b.patterns[4].kind = PatternKind::Open; }) ==
           "production 0 has an open bracket in its context");
-    CHECK(said_of([](Bytecode& b) { b.productions[1].left.first = 0; }) ==
+    CHECK(verdict([](Bytecode& b) { b.productions[1].left.first = 0; }) ==
           "production 1 has a pattern out of place");
-    CHECK(said_of([](Bytecode& b) { b.productions[0].has_left = false; }) ==
+    CHECK(verdict([](Bytecode& b) { b.productions[0].has_left = false; }) ==
           "production 0 has an empty context");
-    CHECK(said_of([](Bytecode& b) { b.productions[0].formal_count = 3; }) ==
+    CHECK(verdict([](Bytecode& b) { b.productions[0].formal_count = 3; }) ==
           "production 0 has 2 formals, not 3");
-    CHECK(said_of([](Bytecode& b) { b.productions[1].weight = 1.5F; }) ==
+    CHECK(verdict([](Bytecode& b) { b.productions[1].weight = 1.5F; }) ==
           "production 1 has a probability of 1.5");
-    CHECK(said_of([](Bytecode& b) {
+    CHECK(verdict([](Bytecode& b) {
               b.productions[1].weight = 1.5F;
               b.settings.weights = WeightRule::Any;
           }).empty());
-    CHECK(said_of([](Bytecode& b) { b.productions[1].rule = 2; }) ==
-          "production 1 is of rule 2, which nothing began");
-    CHECK(said_of([](Bytecode& b) { b.patterns[8].symbol = SymbolId{4}; }) ==
+    CHECK(verdict([](Bytecode& b) { b.productions[1].rule = 2; }) ==
+          "production 1 has rule 2, which no earlier production begins");
+    CHECK(verdict([](Bytecode& b) { b.patterns[8].symbol = SymbolId{4}; }) ==
           "production 1 does not fit group 0");
-    CHECK(said_of([](Bytecode& b) { b.context_group_count = 2; }) ==
+    CHECK(verdict([](Bytecode& b) { b.context_group_count = 2; }) ==
           "1 rules and 2 groups are named, 1 and 1 found");
 }
 
@@ -83,8 +83,8 @@ TEST_CASE("predecessors of several modules are allowed in the modes with rules o
             b.patterns[at] = {PatternKind::Module, SymbolId{1}, 2};
         }
     };
-    CHECK(said_of(two) == "production 0 has 2 modules to rewrite");
-    CHECK(said_of([&](Bytecode& b) {
+    CHECK(verdict(two) == "production 0 has 2 modules to rewrite");
+    CHECK(verdict([&](Bytecode& b) {
               two(b);
               b.settings.rewriting = RewritingMode::Sequential;
           }).empty());
@@ -94,7 +94,7 @@ TEST_CASE("code is checked") {
     const std::size_t condition = 10; // after the global's 7 words and the axiom's 3
     REQUIRE(test::small_bytecode().productions[0].condition == condition);
     const auto with = [&](std::size_t at, std::uint32_t word) {
-        return said_of([&](Bytecode& b) { b.instructions[at] = word; });
+        return verdict([&](Bytecode& b) { b.instructions[at] = word; });
     };
     CHECK(with(condition, op(Opcode::Formal, 2)) == "instruction 10 (formal) is not allowed there");
     CHECK(with(condition, op(Opcode::Global, 1)) == "instruction 10 (global) is not allowed there");
@@ -107,18 +107,18 @@ TEST_CASE("code is checked") {
     CHECK(with(condition + 3, op(Opcode::Greater, 1)) ==
           "instruction 13 (greater) is not allowed there");
     CHECK(with(0, op(Opcode::Global, 0)) == "instruction 0 (global) is not allowed there");
-    CHECK(said_of([](Bytecode& b) { b.instructions.pop_back(); }) == "the code at 16 has no end");
-    CHECK(said_of([](Bytecode& b) { b.instructions.push_back(op(Opcode::End)); }) ==
+    CHECK(verdict([](Bytecode& b) { b.instructions.pop_back(); }) == "the code at 16 has no end");
+    CHECK(verdict([](Bytecode& b) { b.instructions.push_back(op(Opcode::End)); }) ==
           "a table holds more than the productions use");
-    CHECK(said_of([](Bytecode& b) { b.productions[0].successor.draw_count = 0; }) ==
+    CHECK(verdict([](Bytecode& b) { b.productions[0].successor.draw_count = 0; }) ==
           "instruction 21 (range) is not allowed there");
-    CHECK(said_of([](Bytecode& b) { b.productions[0].successor.parameter_count = 2; }) ==
+    CHECK(verdict([](Bytecode& b) { b.productions[0].successor.parameter_count = 2; }) ==
           "a successor stores 1 parameters, not 2");
 }
 
 TEST_CASE("the depth of the stack is that of the deepest expression") {
     const auto deep = [](std::uint32_t pushes, std::uint32_t depth) {
-        return said_of([&](Bytecode& b) {
+        return verdict([&](Bytecode& b) {
             std::vector<std::uint32_t> words;
             for (std::uint32_t i = 0; i < pushes; ++i) {
                 words.push_back(op(Opcode::Formal, 1));
@@ -153,37 +153,37 @@ TEST_CASE("a random number is drawn once") {
 }
 
 TEST_CASE("sites are checked") {
-    CHECK(said_of([](Bytecode& b) { b.sites[1].span.file = FileId{1}; }) ==
+    CHECK(verdict([](Bytecode& b) { b.sites[1].span.file = FileId{1}; }) ==
           "site 1 lies in no file");
-    CHECK(said_of([](Bytecode& b) { b.site_ranges[0].site = 5; }) ==
+    CHECK(verdict([](Bytecode& b) { b.site_ranges[0].site = 5; }) ==
           "site range 0 is out of place");
-    CHECK(said_of([](Bytecode& b) { b.site_ranges.push_back(b.site_ranges[0]); }) ==
+    CHECK(verdict([](Bytecode& b) { b.site_ranges.push_back(b.site_ranges[0]); }) ==
           "site range 1 is out of place");
 }
 
 TEST_CASE("places of modules are checked") {
-    CHECK(said_of([](Bytecode& b) { b.template_places.clear(); }).empty());
-    CHECK(said_of([](Bytecode& b) { b.template_places[1].first = 0; }) == "place run 0 is empty");
-    CHECK(said_of([](Bytecode& b) { b.template_places[2].first = 8; }) == "place run 2 is empty");
-    CHECK(said_of([](Bytecode& b) { b.template_places[0].line = 0; }) ==
+    CHECK(verdict([](Bytecode& b) { b.template_places.clear(); }).empty());
+    CHECK(verdict([](Bytecode& b) { b.template_places[1].first = 0; }) == "place run 0 is empty");
+    CHECK(verdict([](Bytecode& b) { b.template_places[2].first = 8; }) == "place run 2 is empty");
+    CHECK(verdict([](Bytecode& b) { b.template_places[0].line = 0; }) ==
           "place run 0 is malformed");
-    CHECK(said_of([](Bytecode& b) { b.template_places[0].column = 0; }) ==
+    CHECK(verdict([](Bytecode& b) { b.template_places[0].column = 0; }) ==
           "place run 0 is malformed");
-    CHECK(said_of([](Bytecode& b) { b.template_places[0].length = 0; }) ==
+    CHECK(verdict([](Bytecode& b) { b.template_places[0].length = 0; }) ==
           "place run 0 is malformed");
-    CHECK(said_of([](Bytecode& b) { b.template_places[0].stride = 1; }) ==
+    CHECK(verdict([](Bytecode& b) { b.template_places[0].stride = 1; }) ==
           "place run 0 is malformed");
-    CHECK(said_of([](Bytecode& b) { b.template_places[1].begin = kNone - 2; }) ==
+    CHECK(verdict([](Bytecode& b) { b.template_places[1].begin = kNone - 2; }) ==
           "place run 1 ends beyond every file");
-    CHECK(said_of([](Bytecode& b) { b.template_places[1].column = kNone - 2; }) ==
+    CHECK(verdict([](Bytecode& b) { b.template_places[1].column = kNone - 2; }) ==
           "place run 1 ends beyond every file");
-    CHECK(said_of([](Bytecode& b) { b.template_places[0].first = 1; }) ==
+    CHECK(verdict([](Bytecode& b) { b.template_places[0].first = 1; }) ==
           "the modules of an axiom have no places");
-    CHECK(said_of([](Bytecode& b) { b.axioms.front().site = kNone; }) ==
+    CHECK(verdict([](Bytecode& b) { b.axioms.front().site = kNone; }) ==
           "the modules of an axiom have no places");
-    CHECK(said_of([](Bytecode& b) { b.template_places.pop_back(); }) ==
+    CHECK(verdict([](Bytecode& b) { b.template_places.pop_back(); }) ==
           "the modules of production 1 have no places");
-    CHECK(said_of([](Bytecode& b) { b.productions[1].name_site = kNone; }) ==
+    CHECK(verdict([](Bytecode& b) { b.productions[1].name_site = kNone; }) ==
           "the modules of production 1 have no places");
 }
 

@@ -9,12 +9,12 @@
 using namespace lsys;
 
 TEST_CASE("the first of several characters is found at every position") {
-    constexpr std::size_t kSize = 100; // blocks and a rest
+    constexpr std::size_t kSize = 100; // several blocks and a remainder
     for (std::size_t at = 0; at <= kSize; ++at) {
         for (std::size_t found = 0; found < kSize; ++found) {
             std::string text(kSize, 'a');
             text[found] = found % 2 == 0 ? ';' : '\n';
-            text.replace(0, found / 2, found / 2, ';'); // before `at`, or the first one
+            text.replace(0, found / 2, found / 2, ';'); // skipped if before `at`
             const std::size_t expected = std::min(text.find_first_of(";\n", at), kSize);
             REQUIRE(find_any<';', '\n'>(text, at) == expected);
         }

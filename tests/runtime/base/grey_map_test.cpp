@@ -162,8 +162,8 @@ TEST_CASE("a map that needs more memory than is left is refused before it is dec
     const auto refused = lsys::read_grey_png(png, 3'999'999);
     REQUIRE(!refused.ok());
     CHECK(refused.error().kind == lsys::ErrorKind::Limit);
-    CHECK(refused.error().message == "a map of 1000 by 1000 pixels (3.8 MiB) takes more than the "
-                                     "3.8 MiB that are left of the memory limit");
+    CHECK(refused.error().message == "a map of 1000 by 1000 pixels (3.8 MiB) needs more than the "
+                                     "3.8 MiB that remain of the memory limit");
     const std::string raw(20'000, '\0');
     CHECK(lsys::read_grey_raw(raw, 100, 100, 20'000).ok());
     CHECK(lsys::read_grey_raw(raw, 100, 100, 19'999).error().kind == lsys::ErrorKind::Limit);

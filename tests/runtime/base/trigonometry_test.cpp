@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The trigonometry of runtime/base against that of the standard library with 64-bit mantissas.
+// Compares the trigonometry of runtime/base with the standard library's at 64-bit mantissas.
 #include "runtime/base/trigonometry.h"
 
 #include <catch2/catch.hpp>

@@ -13,10 +13,10 @@ using namespace lsys::lsc;
 
 namespace {
 
-std::vector<std::string> others(DiagnosticCode code,
-                                std::string_view broken,
-                                std::string_view repaired,
-                                std::string_view file_text = {}) {
+std::vector<std::string> alternatives(DiagnosticCode code,
+                                      std::string_view broken,
+                                      std::string_view repaired,
+                                      std::string_view file_text = {}) {
     const auto place =
         std::mismatch(broken.begin(), broken.end(), repaired.begin(), repaired.end()).first -
         broken.begin();
@@ -32,47 +32,50 @@ bool has(const std::vector<std::string>& texts, std::string_view text) {
 
 TEST_CASE("another place of a bracket with the same meaning is no alternative") {
     using Code = DiagnosticCode;
-    CHECK(others(Code::ExtraParenthesis, "#w : F(2));", "#w : F(2);").empty());
-    CHECK(others(Code::ExtraParenthesis, "#w : F(2*(k + 1)));", "#w : F(2*(k + 1));").empty());
-    CHECK(others(Code::UnclosedParenthesis, "#w : F(k + 1;", "#w : F(k + 1);").empty());
-    CHECK(others(Code::UnclosedParenthesis, "#w : F((k + 1)*2;", "#w : F((k + 1)*2);").empty());
+    CHECK(alternatives(Code::ExtraParenthesis, "#w : F(2));", "#w : F(2);").empty());
+    CHECK(
+        alternatives(Code::ExtraParenthesis, "#w : F(2*(k + 1)));", "#w : F(2*(k + 1));").empty());
+    CHECK(alternatives(Code::UnclosedParenthesis, "#w : F(k + 1;", "#w : F(k + 1);").empty());
+    CHECK(
+        alternatives(Code::UnclosedParenthesis, "#w : F((k + 1)*2;", "#w : F((k + 1)*2);").empty());
 }
 
 TEST_CASE("every other place of a bracket with a different meaning is an alternative") {
     using Code = DiagnosticCode;
-    CHECK(has(others(Code::ExtraParenthesis, "#w : F(k/2*(k + 1)));", "#w : F(k/2*(k + 1));"),
+    CHECK(has(alternatives(Code::ExtraParenthesis, "#w : F(k/2*(k + 1)));", "#w : F(k/2*(k + 1));"),
               "#w : F(k/(2*(k + 1)));"));
-    CHECK(has(others(Code::ExtraParenthesis, "#w : Fsin(90));", "#w : Fsin(90);"),
+    CHECK(has(alternatives(Code::ExtraParenthesis, "#w : Fsin(90));", "#w : Fsin(90);"),
               "#w : F(sin(90));"));
-    CHECK(has(others(Code::UnclosedParenthesis, "#w : F(k+(30);", "#w : F(k+(30));"),
+    CHECK(has(alternatives(Code::UnclosedParenthesis, "#w : F(k+(30);", "#w : F(k+(30));"),
               "#w : F(k)+(30);"));
-    CHECK(has(others(Code::BadRange, "#w : &(0, 9});", "#w : &(0, 9);"), "#w : &({0, 9});"));
-    CHECK(others(Code::UnclosedParenthesis, "#w : F({1, k*2);", "#w : F({1, k*2});") ==
+    CHECK(has(alternatives(Code::BadRange, "#w : &(0, 9});", "#w : &(0, 9);"), "#w : &({0, 9});"));
+    CHECK(alternatives(Code::UnclosedParenthesis, "#w : F({1, k*2);", "#w : F({1, k*2});") ==
           std::vector<std::string>{"#w : F({1, k}*2);"});
 }
 
 TEST_CASE("a comma may stand for a product unless a number follows") {
     using Code = DiagnosticCode;
-    CHECK(others(Code::MissingComma, "#w : F(km 20);", "#w : F(km, 20);").empty());
+    CHECK(alternatives(Code::MissingComma, "#w : F(km 20);", "#w : F(km, 20);").empty());
     // A single character may have been typed by mistake.
-    CHECK(has(others(Code::MissingComma, "#w : F(km 2);", "#w : F(km, 2);"), "#w : F(km );"));
-    CHECK(has(others(Code::MissingComma, "#w : F(2 k);", "#w : F(2, k);"), "#w : F(2 *  k);"));
-    CHECK(others(Code::MissingComma, "#w : F({10 km});", "#w : F({10, km});").empty());
+    CHECK(has(alternatives(Code::MissingComma, "#w : F(km 2);", "#w : F(km, 2);"), "#w : F(km );"));
+    CHECK(
+        has(alternatives(Code::MissingComma, "#w : F(2 k);", "#w : F(2, k);"), "#w : F(2 *  k);"));
+    CHECK(alternatives(Code::MissingComma, "#w : F({10 km});", "#w : F({10, km});").empty());
 }
 
 TEST_CASE("a statement is parsed with the setting `names` of its file") {
     // A text of more than 16 characters in back quotes is legal only with `names characters`.
     const std::string_view broken = "#w : `seventeen modules`(2));";
     const std::string_view repaired = "#w : `seventeen modules`(2);";
-    CHECK(others(DiagnosticCode::ExtraParenthesis, broken, repaired,
-                 "#n = 1;\n#set names characters;\n")
+    CHECK(alternatives(DiagnosticCode::ExtraParenthesis, broken, repaired,
+                       "#n = 1;\n#set names characters;\n")
               .empty());
-    CHECK(others(DiagnosticCode::ExtraParenthesis, broken, broken, "#n = 1;\n").empty());
+    CHECK(alternatives(DiagnosticCode::ExtraParenthesis, broken, broken, "#n = 1;\n").empty());
 }
 
 TEST_CASE("a long statement is not compared") {
     const std::string modules(kMaxComparedStatement, 'F');
-    CHECK(others(DiagnosticCode::ExtraParenthesis, "#w : " + modules + "k/2*(k + 1)));",
-                 "#w : " + modules + "k/2*(k + 1));")
+    CHECK(alternatives(DiagnosticCode::ExtraParenthesis, "#w : " + modules + "k/2*(k + 1)));",
+                       "#w : " + modules + "k/2*(k + 1));")
               .empty());
 }

@@ -487,7 +487,8 @@ TEST_CASE("the last numbered file of a loop equals the first and is not at rest"
                                 "6", "--wind", "8,0,0,0.5", "--loop", "-v"},
                                kTree);
     REQUIRE(run.status == 0);
-    CHECK(run.err.find("the loop ends within") != std::string::npos);
+    CHECK(run.err.find("the last frame of the loop differs from the first by") !=
+          std::string::npos);
     CHECK(count_files(folder) == 7);
     CHECK(read_text(folder / "tree.0001.stl") == read_text(folder / "tree.0007.stl"));
     CHECK(read_text(folder / "tree.0001.stl") != read_text(folder / "tree.0004.stl"));

@@ -59,8 +59,7 @@ TEST_CASE("the message about an unreadable file has the reason") {
           "cannot read `" + f.folder.path().string() + "`: it is a directory");
     write_text(f.folder / "large", "12345");
     CHECK(read_file(f.folder / "large", {4}, f.console).error().message ==
-          "cannot read `" + f.folder / "large" +
-              "`: it has more than 4 bytes, the most that can be read");
+          "cannot read `" + f.folder / "large" + "`: it is larger than 4 bytes, the maximum");
     CHECK(read_file(f.folder / "large", {5}, f.console).value() == "12345");
 }
 

@@ -157,7 +157,7 @@ TEST_CASE("the message about a forest without plants has the reason") {
         CHECK(run.err.find(what) != std::string::npos);
         CHECK(run.out.empty());
     };
-    fails(kBush, {}, 2, "nothing is asked for");
+    fails(kBush, {}, 2, "nothing to do");
     fails(kBush, {"--stats", "--heroes", "0"}, 2, "--heroes");
     fails(kBush, {"--stats", "--rho", "1.5"}, 2, "--rho");
     fails(kBush, {"--stats", "--count", "1000000000"}, 2, "--count");

@@ -41,7 +41,7 @@ std::vector<glm::vec3> positions_of(const std::string& ply) {
 
 /// Largest distance of a vertex from its place at rest in an animation of 4 s with gusts of 4 to 12
 /// m/s, as a fraction of the height of the plant.
-float largest_way(const std::string& sample) {
+float largest_sway(const std::string& sample) {
     const ScratchFolder folder;
     const std::string grammar =
         std::string(LSYS_SOURCE_DIR "/samples/") + sample + "/" + sample + ".lsys";
@@ -75,7 +75,7 @@ float largest_way(const std::string& sample) {
 TEST_CASE("trees sway in a fresh breeze by a plausible fraction of their height") {
     const std::string name = GENERATE("carey-type-0", "carey-type-1"); // carey-type-2 takes minutes
     CAPTURE(name);
-    const float way = largest_way(name);
-    CHECK(way > 0.03F);
-    CHECK(way < 0.15F);
+    const float sway = largest_sway(name);
+    CHECK(sway > 0.03F);
+    CHECK(sway < 0.15F);
 }

@@ -38,7 +38,8 @@ struct Child {
     int ignored_signal = 0; // signal to ignore, as nohup(1) does; 0: none
 };
 
-/// Starts lsc; returns when it has replaced the copy of this process, which has handlers of Catch2.
+/// Starts lsc; returns after execv(), because the forked process has the signal handlers of Catch2
+/// until then.
 pid_t start(const Child& child) {
     std::vector<std::string> words{LSC_EXECUTABLE};
     words.insert(words.end(), child.arguments.begin(), child.arguments.end());
@@ -47,7 +48,7 @@ pid_t start(const Child& child) {
         raw.push_back(word.data());
     }
     raw.push_back(nullptr);
-    int started[2]; // a pipe whose end of writing is closed by `execv`
+    int started[2]; // a pipe whose write end `execv` closes
     REQUIRE(::pipe2(started, O_CLOEXEC) == 0);
     const pid_t process = ::fork();
     if (process == 0) {

@@ -46,7 +46,7 @@ std::string check_every_way(const std::string& text, std::uint32_t generations) 
     return test::derived_every_way(bytecode_of_batches(text), generations, 7);
 }
 
-/// Derives A(x) to v as -1 where it is not finite.
+/// Rewrites modules A(x) to F(`value`), or to F(-1) where the value is not finite, in every way.
 void check_value(const std::string& locals, const std::string& value) {
     check_every_way(axiom_of_many() + "#p : A(x) : * : let " + locals + "v = " + value +
                         " : F(if(v*0 == 0, v, -1)) G(x);\n",

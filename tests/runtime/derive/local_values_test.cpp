@@ -46,7 +46,7 @@ TEST_CASE("a choice evaluates the chosen side only") {
     const std::string choice = "#w : A(0) A(4);\n"
                                "#p : A(x) : * : F(if(x > 0, {x/8, x}*0 + 8/x, 3)) "
                                "G(if(x, if(x > 3, 1, 2), {2, x}*0 + 5));\n";
-    // Only for x = 0 is the range {2, x} chosen, and then it is an error.
+    // The range {2, x} is chosen only for x = 0, which is an error.
     CHECK(test::error_every_way(compiled(choice), 1, 7).position == 0);
     CHECK(word_of("#w : A(0) A(4);\n#p : A(x) : * : F(if(x > 0, {x/8, x}*0 + 8/x, 3));\n", 1) ==
           "F(3)F(2)");

@@ -27,16 +27,16 @@ Skeleton forked() {
     return plant;
 }
 
-/// Displacement of the end of `way` for a branch of even stress, by definition: each segment turns
+/// Displacement of the end of `path` for a branch of even stress, by definition: each segment turns
 /// by length / radius about its base, and this angle times the length from the base of the segment
-/// to the end of `way` is added to the displacement.
-double bending(const Skeleton& plant, const std::vector<std::uint32_t>& way) {
+/// to the end of `path` is added to the displacement.
+double bending(const Skeleton& plant, const std::vector<std::uint32_t>& path) {
     double sum = 0.0;
-    for (std::size_t i = 0; i < way.size(); ++i) {
-        const Segment& joint = plant.segments[way[i]];
+    for (std::size_t i = 0; i < path.size(); ++i) {
+        const Segment& joint = plant.segments[path[i]];
         double lever = 0.0;
-        for (std::size_t k = i; k < way.size(); ++k) {
-            lever += static_cast<double>(plant.segments[way[k]].length);
+        for (std::size_t k = i; k < path.size(); ++k) {
+            lever += static_cast<double>(plant.segments[path[k]].length);
         }
         sum += lever * static_cast<double>(joint.length) / static_cast<double>(joint.base_radius);
     }

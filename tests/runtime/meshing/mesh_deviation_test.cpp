@@ -229,7 +229,7 @@ TEST_CASE("a deviation of 0 gives the mesh without the option", "[mesh][tubes]")
     const Skeleton skeleton = test::random_tree(5, 2);
     MeshOptions options{.segments = true, .bark_noise = noise, .threads = 1};
     const Mesh whole = tubes(skeleton, options);
-    options.deviation = 1e-9F; // so small that every ring has the maximum of sides
+    options.deviation = 1e-9F; // so small that every ring has the max number of sides
     CHECK(same(whole, tubes(skeleton, options)));
     options.deviation = 0.0F;
     CHECK(same(whole, tubes(skeleton, options)));

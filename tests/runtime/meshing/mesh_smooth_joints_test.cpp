@@ -32,7 +32,7 @@ Mesh tubes(const Skeleton& skeleton, const MeshOptions& options) {
 }
 
 /// Thin segments in a plane, each turned by `degrees` from the one before; `winds`: alternately to
-/// both sides.
+/// the left and to the right.
 Skeleton chain(int count, float degrees, bool winds, float radius) {
     Plant plant;
     std::uint32_t last = kNoSegment;

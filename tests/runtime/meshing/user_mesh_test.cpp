@@ -207,7 +207,7 @@ TEST_CASE("an OBJ with any text stays within the limit of memory") {
         REQUIRE(!refused.ok());
         CHECK(refused.error().kind == ErrorKind::Limit);
         CHECK(refused.error().message ==
-              "its mesh takes more than the 97.7 KiB that are left of the memory limit");
+              "its mesh needs more than the 97.7 KiB that remain of the memory limit");
     }
     CHECK(read(kSquare + "f 1 2 3\n").byte_count() < 1000);
 }

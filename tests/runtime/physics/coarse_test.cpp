@@ -150,7 +150,8 @@ TEST_CASE("the runs of a curve have the masses, contacts and energy of the joint
         const glm::dvec3 moment =
             root.mass * root.centre + (stage_mass - root.mass) * bodies[1].offset;
         CHECK(glm::length(moment - root.moment) <= 1e-9 * mass);
-        // Given to the members, the bend has the same energy, and the runs get their poses back.
+        // Spread over the members, the bend has the same energy, and coarse_poses() returns the
+        // poses of the runs.
         std::vector<BodyPose> poses(whole.bodies.size());
         spread_poses(stage, runs, poses);
         double spread = 0.0;
@@ -160,7 +161,8 @@ TEST_CASE("the runs of a curve have the masses, contacts and energy of the joint
             spread += 0.5 * whole.bodies[b].spring * 4.0 * half * half;
             before = poses[b].turn;
         }
-        CHECK(spread == Approx(energy).epsilon(0.08)); // a joint in the middle bends with both
+        // Approximate, because a member in the middle bends with two joints of the stage.
+        CHECK(spread == Approx(energy).epsilon(0.08));
         const std::vector<BodyPose> back = coarse_poses(stage, poses);
         for (std::size_t b = 2; b + 2 < bodies.size(); ++b) {
             REQUIRE(std::abs(glm::dot(back[b].turn, runs[b].turn)) >= 1.0 - 1e-7);

@@ -446,9 +446,8 @@ TEST_CASE("species grow only at their altitudes and slopes, and other species ta
     options.species[0].lowest = 1000.0F;
     const Placement nobody = place_trees(options, ground).value();
     CHECK(nobody.trees.empty());
-    CHECK(placement_note(nobody.report) ==
-          "there are no trees: at none of 12000 places can a species live, by its limits of "
-          "altitude and slope");
+    CHECK(placement_note(nobody.report) == "there are no trees: the altitude and slope limits of "
+                                           "all species exclude all 12000 places");
 }
 
 TEST_CASE("a species with a share of 0 is not chosen where others can live") {
@@ -480,8 +479,8 @@ TEST_CASE("too many trees are refused before memory is allocated") {
                    Catch::Matchers::EndsWith("one placement has at most 10000000"));
     }
     options.density = 1.0;
-    CHECK(error_of(options) == "a white density map would have 10000000000 trees; the most that a "
-                               "map is asked about is 1000000000");
+    CHECK(error_of(options) == "a white density map would have 10000000000 trees; the maximum "
+                               "for a density map is 1000000000");
 }
 
 TEST_CASE("the message about an invalid option names it") {
@@ -496,7 +495,7 @@ TEST_CASE("the message about an invalid option names it") {
     CHECK(with(PlacementMethod::Uniform, [](Options& o) { o.region.width = 0.0; }) ==
           "a ground of 0 by 50 m; both sides must be above 0");
     CHECK(with(PlacementMethod::Uniform, [](Options& o) { o.region.width = 0.1; }) ==
-          "a region of 0.1 by 50 m is too small for trees; the least is 0.25 m");
+          "a region of 0.1 by 50 m is too small for trees; each side must be at least 0.25 m");
     CHECK(with(PlacementMethod::Uniform, [](Options& o) { o.species.clear(); }) ==
           "a placement of 0 species; it takes 1 to 65,536");
     CHECK(with(PlacementMethod::Uniform, [&](Options& o) { o.species[1].share = nan; }) ==
@@ -510,7 +509,7 @@ TEST_CASE("the message about an invalid option names it") {
     CHECK(with(PlacementMethod::Uniform, [](Options& o) {
               o.species[0].lowest = 5.0F;
               o.species[0].highest = 4.0F;
-          }) == "species 0 lives from 5 to 4 m and up to a slope of inf: that is no range");
+          }) == "species 0 has no valid range: altitude 5 to 4 m, slope up to inf");
     CHECK(with(PlacementMethod::PoissonDisk, [](Options& o) { o.spacing = 0.0; }) ==
           "the spacing of the placement is 0; it must be from 0.001 to 1000000");
     CHECK(with(PlacementMethod::PoissonCells, [&](Options& o) { o.spacing = nan; }) ==
@@ -533,7 +532,8 @@ TEST_CASE("forests of no trees and of one tree") {
     options.count = 0;
     const Placement empty = place_trees(options, flat_ground()).value();
     CHECK(empty.trees.empty());
-    CHECK(placement_note(empty.report) == "there are no trees: the placement has no place for one");
+    CHECK(placement_note(empty.report) ==
+          "there are no trees: the method makes no place in the region");
     options.count = 1;
     const Placement one = place_trees(options, flat_ground()).value();
     CHECK(one.trees.size() == 1);

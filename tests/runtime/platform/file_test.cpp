@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Calls of the system for files, alike on all systems.
+// System calls for files, which have the same results on all systems.
 #include "runtime/platform/file.h"
 #include "runtime/platform/process.h"
 

@@ -299,14 +299,14 @@ TEST_CASE("a file that is not TOML gives one message") {
                       "  note: while reading a key-value pair\n"},
         {"[terrain]\nkind = flat\n", "2:9-9: expected `false`, saw `fl` [scene-syntax]\n"
                                      "  note: while reading a boolean\n"
-                                     "  help: a text stands in quotes: `kind = \"flat\"`\n"},
+                                     "  help: put a text in quotes: `kind = \"flat\"`\n"},
         {"[terrain]\n[terrain]\n",
          "2:1-1: cannot redefine existing table `terrain` [scene-syntax]\n"
          "  note: while reading a table header\n"
-         "  help: a table stands once; another species begins with `[[species]]`\n"},
+         "  help: a table may appear only once; each species begins with `[[species]]`\n"},
         {"key = 1\nkey = 2\n", "2:7-7: cannot redefine existing integer `key` [scene-syntax]\n"
                                "  note: while reading a key-value pair\n"
-                               "  help: a key stands once in its table\n"},
+                               "  help: a key may appear only once in its table\n"},
         {"\n[=x]\n", "2:2-2: expected bare key starting character or string delimiter, saw `=` "
                      "[scene-syntax]\n"
                      "  note: while reading a key\n"},
@@ -374,12 +374,12 @@ TEST_CASE("stages set the first stage of plants with every method") {
     CHECK(lsys::years_of_stage(scene, 0) == 0.0F);
     CHECK(lsys::last_year(scene) == 0);
     CHECK(parsed(species + "years_of_stage = 5\nstarting_stage = \"last\"\n").messages ==
-          "4:1-15: `years_of_stage` says nothing here: plants have an age with the method "
-          "`domination` alone [conflicting-scene-keys]\n"
+          "4:1-15: `years_of_stage` has no effect here: only with the method `domination` do "
+          "plants have an age [conflicting-scene-keys]\n"
           "5:18-24: there is no starting_stage `last` [bad-scene-value]\n"
           "  help: `starting_stage` is one of `first`, `random`\n");
     CHECK(parsed("[[species]]\ngrammar = \"a\"\nstarting_stage = \"first\"\n").messages ==
-          "3:1-15: `starting_stage` says nothing here: the species has no `stages` "
+          "3:1-15: `starting_stage` has no effect here: the species has no `stages` "
           "[conflicting-scene-keys]\n");
 }
 
@@ -394,7 +394,7 @@ TEST_CASE("missing required keys are reported") {
           "  help: name a picture beside the scene: `map = \"heights.png\"`\n"
           "3:1-12: the method is `density-map` and has no `map` [missing-scene-key]\n"
           "  help: name a picture beside the scene: `map = \"density.png\"`\n"
-          "5:1-12: the species is to be drawn and has no `grammar` [missing-scene-key]\n"
+          "5:1-12: the species has no `grammar` [missing-scene-key]\n"
           "  help: name a grammar beside the scene: `grammar = \"pine.lsys\"`\n");
     CHECK(parsed(with_species("[terrain]\nkind = \"height-map\"\nmap = \"h.raw\"")).messages ==
           "1:1-10: the terrain has a map of raw samples and has no `map_size` "
@@ -449,10 +449,10 @@ TEST_CASE("messages about values out of range have the range") {
          "`cache_cap` is 4,294,967,296; it must be from 0 to 4,294,967,295"},
         {"[placement]\nmethod = \"domination\"\n[[species]]\ngrammar = \"b\"\n[species.growth]\n"
          "rate = 7",
-         "plants grow by 7 m in a year, farther than their greatest radius of 6 m"},
+         "plants grow by 7 m a year, more than their greatest radius of 6 m"},
         {"[placement]\nmethod = \"domination\"\n[[species]]\ngrammar = \"b\"\nyears_of_stage = 5\n"
          "stages = [3, 3]",
-         "stages rise: 3 does not come after 3"},
+         "stages must ascend: 3 is not above 3"},
     };
     for (const auto& [text, message] : cases) {
         const Parsed result = parsed(with_species(text));
@@ -463,7 +463,7 @@ TEST_CASE("messages about values out of range have the range") {
             (message.empty() || result.messages.find("[bad-scene-value]\n") != std::string::npos));
     }
     CHECK(parsed("[[species]]\ngrammar = \"a\"\nshare = 0\n").messages ==
-          "3:9-10: the shares of all species are 0, so no tree can be of any "
+          "3:9-10: the shares of all species are 0, so no tree has a species "
           "[bad-scene-value]\n");
 }
 
@@ -504,9 +504,9 @@ spacing = 5
           "  help: it belongs in `[placement]`\n"
           "12:1-7: `[[species]]` has no key `turtle` [unknown-scene-key]\n"
           "  help: a grammar names its turtle itself: `#set turtle abop;`\n"
-          "14:1-7: `growth` says nothing here: plants grow with the method `domination` alone "
+          "14:1-7: `growth` has no effect here: only with the method `domination` do plants grow "
           "[conflicting-scene-keys]\n"
-          "17:1-8: `spacing` says nothing here: the method `uniform` reads `count` "
+          "17:1-8: `spacing` has no effect here: the method `uniform` reads `count` "
           "[conflicting-scene-keys]\n");
 }
 
@@ -583,7 +583,7 @@ TEST_CASE("a species has heights or scales") {
     CHECK(scene.placement.species.at(0).min_scale == 1.0F);
     CHECK(scene_of(with_species("")).placement.species.at(0).max_height == 0.0F);
     CHECK(parsed("[[species]]\ngrammar = \"a.lsys\"\nheight = [4, 9]\nscale = [1, 2]\n").messages ==
-          "4:1-6: `scale` says nothing here: `height` says how high the trees are "
+          "4:1-6: `scale` has no effect here: `height` says how high the trees are "
           "[conflicting-scene-keys]\n  this decides: [4, 9]\n");
 }
 

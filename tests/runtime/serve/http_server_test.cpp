@@ -171,7 +171,7 @@ TEST_CASE("connections beyond the limit are closed, and requests cut short do no
         CHECK(server.service().counts().connections == 8);
         CHECK(idle.back()->read_all().empty());
         idle.front()->send("GET /0/0/0.glb HTTP/1.1\r\nHo");
-        idle[1]->send(request_of("/0/0/0.glb")); // and does not read the answer
+        idle[1]->send(request_of("/0/0/0.glb")); // without reading the answer
     }
     while (server.service().counts().connections != 0) {
         std::this_thread::yield();

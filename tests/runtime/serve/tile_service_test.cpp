@@ -223,7 +223,7 @@ TEST_CASE("the cache keeps what was used last, within its limit") {
     CHECK_FALSE(ask(0));
     for (std::size_t i = 2; i < tiles.size(); ++i) {
         CHECK(ask(i));
-        CHECK_FALSE(ask(0)); // used all the time
+        CHECK_FALSE(ask(0)); // still cached, because it is used in every round
     }
     CHECK(ask(1));
     const std::string metrics = body_of(service.respond(get("/metrics")));

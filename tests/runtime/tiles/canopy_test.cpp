@@ -55,7 +55,7 @@ TEST_CASE("a coarser canopy has the same cover and height on average") {
         double sum = 0.0;
         for (std::uint32_t row = 0; row <= level.side(); ++row) {
             for (std::uint32_t column = 0; column <= level.side(); ++column) {
-                // A corner on the border stands for a half of what one inside stands for.
+                // A corner on the border represents half of the area of an inner corner.
                 const double part = (row % level.side() == 0 ? 0.5 : 1.0) *
                                     (column % level.side() == 0 ? 0.5 : 1.0);
                 sum += part * value(level.at_corner(column, row));

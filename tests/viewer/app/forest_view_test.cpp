@@ -401,7 +401,7 @@ TEST_CASE("saving reports erased trees that belong to another placement than the
     forest.settings.edits.key = 4;
     REQUIRE(viewed.until_swaps(2));
     forest.save();
-    CHECK(forest.note().find("erased from another placement") != std::string::npos);
+    CHECK(forest.note().find("erased trees are saved by number") != std::string::npos);
 }
 
 TEST_CASE("painted trees are saved to the scene shown, not to a scene with errors opened later") {

@@ -33,7 +33,8 @@ TEST_CASE("text is split at line ends and at colour codes") {
     CHECK(styled_lines("a\n\nb")[1].empty());
     CHECK(shown("x \x1b[1;32mapplies\x1b[0m y") == "0:x ;3:applies;0: y;");
     CHECK(shown("\x1b[1;34m  7 |\x1b[0m #a") == "5:  7 |;0: #a;");
-    // A colour goes on over a line end; an unknown code changes nothing, a broken one ends the text.
+    // A colour continues past a line end; an unknown code changes nothing, a broken one ends the
+    // text.
     CHECK(shown("\x1b[1;36ma\nb\x1b[m c") == "6:a;/6:b;0: c;");
     CHECK(shown("\x1b[1ma\x1b[9mb") == "1:ab;");
     CHECK(shown("a\x1b[1") == "0:a;");

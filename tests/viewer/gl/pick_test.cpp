@@ -66,15 +66,16 @@ struct Hit {
     std::uint32_t instance = 0;
 };
 
-/// The nearest triangle on a ray and the nearest one of another branch (Moeller and Trumbore 1997).
+/// The nearest triangle on a ray, and the nearest triangle of another branch behind it (Moeller and
+/// Trumbore 1997).
 std::pair<Hit, Hit>
-nearest(const std::vector<Triangle>& triangles, const glm::vec3& eye, const glm::vec3& way) {
+nearest(const std::vector<Triangle>& triangles, const glm::vec3& eye, const glm::vec3& direction) {
     Hit first;
     Hit second;
     for (const Triangle& each : triangles) {
         const glm::vec3 u = each.b - each.a;
         const glm::vec3 v = each.c - each.a;
-        const glm::vec3 p = glm::cross(way, v);
+        const glm::vec3 p = glm::cross(direction, v);
         const float d = glm::dot(u, p);
         if (std::abs(d) < 1e-12F) {
             continue;
@@ -82,7 +83,7 @@ nearest(const std::vector<Triangle>& triangles, const glm::vec3& eye, const glm:
         const glm::vec3 from = eye - each.a;
         const float s = glm::dot(from, p) / d;
         const glm::vec3 q = glm::cross(from, u);
-        const float t = glm::dot(way, q) / d;
+        const float t = glm::dot(direction, q) / d;
         const float distance = glm::dot(v, q) / d;
         if (s < 0.0F || t < 0.0F || s + t > 1.0F || distance <= 0.0F) {
             continue;
@@ -131,7 +132,7 @@ struct PickedWood {
         REQUIRE(picked);
         return picked.value();
     }
-    glm::vec3 way(std::uint32_t x, std::uint32_t y) const {
+    glm::vec3 direction(std::uint32_t x, std::uint32_t y) const {
         const float half = 0.5F * static_cast<float>(kHeight);
         return direction_at(
             frame.camera, (static_cast<float>(x) + 0.5F - 0.5F * static_cast<float>(kWidth)) / half,
@@ -160,11 +161,11 @@ TEST_CASE("a picked branch is the first one on the ray through the middle of the
             const Result<Picked> picked = wood.renderer->pick(large, at_x, at_y);
             REQUIRE(picked);
             const float half = 0.5F * static_cast<float>(large.height);
-            const glm::vec3 way = glm::normalize(direction_at(
+            const glm::vec3 direction = glm::normalize(direction_at(
                 large.camera,
                 (static_cast<float>(at_x) + 0.5F - 0.5F * static_cast<float>(large.width)) / half,
                 (static_cast<float>(at_y) + 0.5F - half) / half));
-            const auto [first, second] = nearest(wood.triangles, large.camera.eye, way);
+            const auto [first, second] = nearest(wood.triangles, large.camera.eye, direction);
             const bool is_hit =
                 std::isfinite(first.distance) && first.tree == wood.wood->forest.trees[0].number;
             const bool is_branch = picked.value().kind == PickedKind::Branch &&

@@ -25,8 +25,8 @@ constexpr float kReach = 1500.0F; // m
 /// Whether the ground is above the line between two points at any step.
 bool is_blocked(const TerrainLod& ground, const glm::vec3& eye, const glm::vec3& at) {
     const float length = glm::distance(eye, at);
-    for (float way = 1.0F; way < length; way += 0.2F + 0.002F * way) {
-        const glm::vec3 on_line = eye + (at - eye) * (way / length);
+    for (float along = 1.0F; along < length; along += 0.2F + 0.002F * along) {
+        const glm::vec3 on_line = eye + (at - eye) * (along / length);
         if (drawn_height(ground, eye, on_line.x, on_line.z) > on_line.y) {
             return true;
         }

@@ -45,7 +45,8 @@ TEST_CASE("lines of a skeleton are its segments and outlines") {
 
 TEST_CASE("the path of the turtle shows where it jumped") {
     const std::vector<LineVertex> path = make_lines(forked(), LineKind::TurtlePath);
-    // The first line is the jump back to the fork; those of stem, stem and branch are drawn over it.
+    // The first line is the jump back to the fork; the lines of the two stem segments and of the
+    // branch are drawn over it.
     REQUIRE(path.size() == 8);
     CHECK(path[0].position == glm::vec3(0.0F, 2.0F, 0.0F));
     CHECK(path[1].position == glm::vec3(0.0F, 1.0F, 0.0F));
