@@ -75,9 +75,9 @@ struct Expression {
         std::uint32_t bits = 0xFFFFFFFFu;
     };
     union {
-        ExpressionId right;      // Binary, Range
-        std::uint32_t arguments; // Call: index into Ast::argument_lists
-        std::uint32_t more = 0xFFFFFFFFu;
+        ExpressionId right;                     // Binary, Range
+        std::uint32_t arguments;                // Call: index into Ast::argument_lists
+        std::uint32_t right_bits = 0xFFFFFFFFu; // initialises the union
     };
 
     [[nodiscard]] SourceSpan span() const { return {file, begin, end}; }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Signs that a repair adds may have been typed as another character: `F A` before the next
-// statement lacks its `;`, unless `A` is a mistyped `;`.
+// Finds other repairs for a sign that a repair adds: the author may have typed another character in
+// its place. `F A` before the next statement lacks its `;`, unless `A` is a mistyped `;`.
 #pragma once
 
 #include <cstdint>

@@ -73,7 +73,7 @@ TilesetFolder::TilesetFolder(const TilesCommand& command,
         add_section(Kind::Content, level);
     }
     for (std::uint32_t level = levels; level-- > 0;) {
-        if (TileForest::has_tileset(level)) {
+        if (forest_.has_tileset(level)) {
             add_section(Kind::Tileset, level);
         }
     }

@@ -61,8 +61,8 @@ bool draws_at_entry(const InstanceCache& cache, const Instance& instance) {
     return false;
 }
 
-/// Per slot: whether its instances begin with a segment at the entry: their own, or a segment of an
-/// instance at an exit.
+/// Per slot: whether a segment begins at the entry of its instances. The segment belongs to the
+/// instance itself, or to an instance at an exit that lies at the entry.
 std::vector<bool> find_slots_with_segments(const InstanceCache& cache) {
     std::vector<bool> begins(cache.slots.size());
     // Repeats until nothing changes: exits at the entry of their instance form chains, which are

@@ -30,8 +30,8 @@ public:
     [[nodiscard]] bool wants_files() const { return !is_closed_ && queue_.left() < low_; }
     /// The number of files to ask for.
     [[nodiscard]] std::uint64_t wanted() const { return kFilesPerThread * low_; }
-    /// Whether all files are written that were added, or the folder is stopped and no thread writes
-    /// any more. Only after close().
+    /// Whether all added files are written, or TilesetFolder::is_stopped() (after an error or an
+    /// interruption) and no thread writes any more. Only after close().
     [[nodiscard]] bool is_finished() const;
     /// Waits until few files are left, or for `time` if few are left already, and never for longer.
     /// Without other threads it writes a file instead.

@@ -220,7 +220,8 @@ glm::dquat bent_by_itself(const Body& body, const glm::dquat& start, const Force
     return turn;
 }
 
-/// A period in s: `own`, or with a positive `period` the whole fraction of `period` nearest to `own`.
+/// A period in s: `own`, or if `period` is positive, `period` / n with n = round(period / own), at
+/// least 1, so that it divides `period`.
 double part_of(double period, double own) {
     return period > 0.0 ? period / std::max(std::round(period / own), 1.0) : own;
 }
@@ -316,8 +317,8 @@ struct PlantPhysics::State {
         double energy_loss = 0.0; // J, decrease of the energy plus the work done by the wind
         double slide = 0.0;       // J, work of the ground friction
     };
-    /// Moves the plant to rest if each joint bears its own segment only: joint by joint, from the
-    /// root to the tips.
+    /// Moves the plant to rest under LoadRule::Own, where each joint bears its own segment only:
+    /// joint by joint, from the root to the tips.
     void settle_own_loads() {
         const std::vector<Body>& bodies = plant.rest.bodies;
         plant.schedule.outward(workers, [&](std::uint32_t begin, std::uint32_t end, std::uint32_t) {
@@ -425,7 +426,7 @@ struct PlantPhysics::State {
                           .starts_from_stage = &stage != &stages.front()};
             make_rounds(current_forces, tolerance, rounds);
             spread_poses(stage, plant.poses, poses);
-            for (const std::uint32_t b : stage.whole) {
+            for (const std::uint32_t b : stage.run_bodies) {
                 known[b] = 1;
             }
         }

@@ -36,7 +36,8 @@ public:
     void help(std::string_view message) const;
     /// Prints a note, for example about written files, unless --quiet.
     void info(std::string_view message) const;
-    /// Prints a line to standard error without a prefix, `file:line:col: ...`, unless --quiet.
+    /// Prints a line such as `file:line:col: ...` to standard error, without the name of the
+    /// program before it, unless --quiet.
     void line(std::string_view text) const;
     /// Prints lines of JSON to standard error, unless --quiet.
     void records(std::string_view lines) const;

@@ -337,8 +337,8 @@ std::optional<TileService::MadeFile> TileService::made_file(std::string_view pat
         return MadeFile{tile, false};
     }
     // The tileset of the root has another path.
-    if (parse_tile_path(path, ".json", tile) && tile.level != 0 &&
-        TileForest::has_tileset(tile.level) && forest_.has_tile(tile)) {
+    if (parse_tile_path(path, ".json", tile) && tile.level != 0 && forest_.has_tile(tile) &&
+        forest_.has_tileset(tile.level)) {
         return MadeFile{tile, true};
     }
     return std::nullopt;

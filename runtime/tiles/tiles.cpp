@@ -119,8 +119,8 @@ const std::vector<TileFile>& TileForest::files() const {
 bool TileForest::has_tile(const TileId& tile) const {
     return tile.level < levels().size() && state_->grid.has_ground(tile);
 }
-bool TileForest::has_tileset(std::uint32_t level) {
-    return level % kSubtreeLevels == 0;
+bool TileForest::has_tileset(std::uint32_t level) const {
+    return is_subtree_root(level, state_->plan.finest());
 }
 std::string TileForest::content_path(const TileId& tile) {
     return fmt::format("{}/{}/{}.glb", tile.level, tile.column, tile.row);
@@ -494,7 +494,8 @@ std::uint64_t TileForest::State::add_trees(const TileId& tile,
             y_up(glm::dvec3(to_tile * glm::dvec4(earth.place(place.x, place.y, place.z), 1.0))));
         const glm::vec3 above(y_up(
             glm::dvec3(to_tile * glm::dvec4(earth.place(place.x, place.y + 1.0, place.z), 1.0))));
-        // Trees stand upright at their place, not at the middle of the tile.
+        // A tree follows the vertical at its own place, which differs from that at the middle of
+        // the tile.
         const glm::vec3 up = glm::normalize(above - foot);
         const glm::quat tilt =
             glm::normalize(glm::quat(1.0F + up.y, up.z, 0.0F, -up.x)); // from +Y to `up`

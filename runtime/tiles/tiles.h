@@ -118,7 +118,7 @@ public:
     /// threads.
     [[nodiscard]] std::string tileset(const TileId& root) const;
     /// Whether tiles of the level are roots of a tileset.
-    [[nodiscard]] static bool has_tileset(std::uint32_t level);
+    [[nodiscard]] bool has_tileset(std::uint32_t level) const;
     /// The path of the content of a tile, "3/5/2.glb", and that of its tileset, "4/7/1.json" or
     /// "tileset.json".
     [[nodiscard]] static std::string content_path(const TileId& tile);

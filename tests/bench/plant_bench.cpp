@@ -52,7 +52,7 @@ struct Plant {
 };
 
 void measure_plant(const Plant& plant) {
-    // The word of the limit program.
+    // Derives the word by the hand-written program of limits.h.
     constexpr std::size_t kRoom = std::size_t{64} << 20;
     const FreshPages a(kRoom, PageSize::Huge);
     const FreshPages b(kRoom, PageSize::Huge);

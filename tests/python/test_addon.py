@@ -83,7 +83,7 @@ class Addon(unittest.TestCase):
                 file.write("#n = 30; #w : A(1); #p : A(x) : * : A(x*{1, 2}) F A(x);")
             with self.assertRaisesRegex(compiler.CompilerError, "stopped after 0.2 s"):
                 self.module.write(["export", path], path + ".glb", 0.2)
-        for arguments, text in ((["--sides"], "no value"), (["sides"], "is none"), (["--lots", "1"], "unknown option")):
+        for arguments, text in ((["--sides"], "no value"), (["sides"], "is not an option"), (["--lots", "1"], "unknown option")):
             with self.assertRaisesRegex(compiler.CompilerError, text):
                 self.module.write(["export", TREE, *arguments], "/nowhere/a.glb", 60)
 

@@ -41,6 +41,8 @@ const server = createServer(async (request, response) => {
     try {
         if (path === '/') {
             response.setHeader('Content-Type', 'text/html').end(page);
+        } else if (path === '/favicon.ico') {
+            response.writeHead(204).end();
         } else if (path === '/page.js') {
             response.setHeader('Content-Type', 'text/javascript').end(script.outputFiles[0].text);
         } else {

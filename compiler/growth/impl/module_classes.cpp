@@ -279,7 +279,8 @@ ModuleClasses::Matches ModuleClasses::match(SymbolId symbol,
             continue;
         }
         const bool certain = first == Holds::Yes;
-        bool is_taken = true; // a match replaces the module: some weight is surely above 0
+        // True if a match is certain to replace the module: a weight is known to be above 0.
+        bool is_taken = true;
         if (!production.stochastic) {
             matches.list.push_back({p, 1.0});
         } else if (const auto added = groups.find(production.group); added != groups.end()) {

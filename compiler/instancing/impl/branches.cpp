@@ -410,7 +410,7 @@ private:
                     {static_cast<std::uint32_t>(branches_.sites.size()), kind.formals, kind.locals,
                      kind.effects.depends_on_vertical, kind.effects.is_random});
             }
-            found.site.id = kind.id;
+            found.site.kind_id = kind.id;
             found.site.number = number++;
             branches_.sites.push_back(found.site);
         }

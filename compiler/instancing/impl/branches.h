@@ -17,10 +17,10 @@ namespace lsys {
 /// A `[...]` of a successor in which, at any depth, some production can rewrite a module.
 struct BranchSite {
     std::uint32_t production = 0;
-    std::uint32_t number = 0; // within its successor, in text order
-    std::uint32_t open = 0;   // index of `[` among the modules of the successor
-    std::uint32_t close = 0;  // index of `]`, likewise
-    std::uint32_t id = 0;
+    std::uint32_t number = 0;  // within its successor, in text order
+    std::uint32_t open = 0;    // index of `[` among the modules of the successor
+    std::uint32_t close = 0;   // index of `]`, likewise
+    std::uint32_t kind_id = 0; // 1 + index in Branches::kinds
 };
 
 /// A set of branches that are equal after names are resolved.
@@ -42,7 +42,7 @@ struct Branches {
 };
 
 /// Returns nothing if the system cannot be instanced, after reporting the reasons. Also reports a
-/// system whose plants would all be equal, or all be copies of heroes (DiagnosticCode::NoVariety).
+/// system whose plants would all be equal, or all be copies of heroes, the plants whose branches are recorded (DiagnosticCode::NoVariety).
 /// Precondition: program.complete.
 [[nodiscard]] std::optional<Branches>
 find_branches(const Program& program, const Names& names, Diagnostics& diagnostics);

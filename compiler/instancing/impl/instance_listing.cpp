@@ -134,7 +134,7 @@ private:
         std::vector<std::string> after(word.module_count);
         for (const BranchSite& site : sites) {
             const bool uses_instance = takes(form, site.number);
-            before[site.open] += fmt::format("{}({},#)", uses_instance ? '<' : '@', site.id);
+            before[site.open] += fmt::format("{}({},#)", uses_instance ? '<' : '@', site.kind_id);
             after[site.close] = uses_instance ? ">" : "$";
         }
         std::uint32_t end = word.span.begin; // end of the previous module

@@ -55,7 +55,7 @@ private:
     /// Appends the arguments of the SaveBranch that replaces `bracket`; returns the symbol of the
     /// SaveBranch.
     SymbolId add_arguments(SourceSpan span, SymbolId bracket, const BranchSite& site) {
-        const BranchKind& kind = branches_.kinds[site.id - 1];
+        const BranchKind& kind = branches_.kinds[site.kind_id - 1];
         Value draw;
         draw.opcode = Opcode::BranchDraw;
         draw.index = site.number;
@@ -65,7 +65,7 @@ private:
         step.opcode = Opcode::Step;
         program_.arguments.push_back(
             operation(span, Opcode::Add, add(span, step), literal(span, 1.0F)));
-        program_.arguments.push_back(literal(span, static_cast<float>(site.id)));
+        program_.arguments.push_back(literal(span, static_cast<float>(site.kind_id)));
         for (const std::uint32_t formal : kind.formals) {
             Value value;
             value.opcode = Opcode::Formal;

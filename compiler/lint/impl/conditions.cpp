@@ -105,8 +105,8 @@ private:
         return cell.low == cell.high || equal_axis(point, axis);
     }
 
-    /// Another axis with the value of `axis` at a point, if conditions compare both with other
-    /// parameters (GridAxis::compared).
+    /// An axis other than `axis` that has the same value at `point`. Conditions compare both with
+    /// another parameter (GridAxis::compared).
     std::optional<std::size_t> equal_axis(std::uint64_t point, std::size_t axis) const {
         const std::vector<analysis::GridAxis>& axes = table_.grid.axes;
         const auto value = [&](std::size_t i) {

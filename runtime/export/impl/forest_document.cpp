@@ -267,12 +267,12 @@ void ForestDocument::put_part_accessors(JsonWriter& json,
     const std::size_t wide_view = block.first_view + block.attributes.size();
     const std::size_t narrow_view = wide_view + (block.wide_indices.count > 0 ? 1 : 0);
     if (slice.is_wide()) {
-        begin_accessor(json, {wide_view, sizeof(std::uint32_t) * slice.first_index, kGltfInteger,
-                              drawn.index_count, "SCALAR"})
+        begin_accessor(json, {wide_view, sizeof(std::uint32_t) * slice.first_index,
+                              kGltfUnsignedInt, drawn.index_count, "SCALAR"})
             .end();
     } else {
-        begin_accessor(json, {narrow_view, sizeof(std::uint16_t) * slice.first_index, kGltfShort,
-                              drawn.index_count, "SCALAR"})
+        begin_accessor(json, {narrow_view, sizeof(std::uint16_t) * slice.first_index,
+                              kGltfUnsignedShort, drawn.index_count, "SCALAR"})
             .end();
     }
 }

@@ -215,10 +215,10 @@ void ForestDocument::add_views(ForestSurface& surface) {
             add(GltfArray::Colours);
         }
         to.wide_indices = {.array = GltfArray::Indices,
-                           .type = {kGltfInteger, "SCALAR", false, 4},
+                           .type = {kGltfUnsignedInt, "SCALAR", false, 4},
                            .count = from.wide_indices};
         to.narrow_indices = {.array = GltfArray::Indices,
-                             .type = {kGltfShort, "SCALAR", false, 2},
+                             .type = {kGltfUnsignedShort, "SCALAR", false, 2},
                              .count = from.narrow_indices};
         view_count_ += to.attributes.size();
         view_count_ += (from.wide_indices > 0 ? 1U : 0U) + (from.narrow_indices > 0 ? 1U : 0U);
@@ -305,7 +305,7 @@ void write_view(const ForestSurface& surface,
             *surface.mesh,
             std::span(surface.sliced.vertices).subspan(block.first_vertex, block.vertex_count),
             view.array, form, write);
-    } else if (view.type.component == kGltfInteger) {
+    } else if (view.type.component == kGltfUnsignedInt) {
         write_indices<std::uint32_t>(surface, material, ordered, write);
     } else {
         write_indices<std::uint16_t>(surface, material, ordered, write);
@@ -336,7 +336,7 @@ void ForestDocument::compress_views() {
         }
         LargeVector<std::uint32_t> indices;
         indices.reserve(view.count);
-        for_each_part(surface, material, view.type.component == kGltfInteger, true,
+        for_each_part(surface, material, view.type.component == kGltfUnsignedInt, true,
                       [&indices](std::span<const std::uint32_t> part) {
                           indices.insert(indices.end(), part.begin(), part.end());
                       });

@@ -77,7 +77,7 @@ PackedTransforms pack_transforms(std::span<const ForestGroup> groups,
     packed.views[0].type = {kGltfFloat, "VEC3", false, 12};
     packed.views[0].filter = "EXPONENTIAL";
     packed.views[1].array = GltfArray::Rotations;
-    packed.views[1].type = {kGltfSignedShort, "VEC4", true, 8};
+    packed.views[1].type = {kGltfShort, "VEC4", true, 8};
     packed.views[1].filter = "QUATERNION";
     packed.views[2].array = GltfArray::Scales;
     packed.views[2].type = {kGltfFloat, "VEC3", false, 12};

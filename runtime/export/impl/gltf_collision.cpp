@@ -61,7 +61,8 @@ void put_collision_accessors(JsonWriter& json,
             .member("max", {high.x, high.y, high.z})
             .end();
         const std::uint64_t corners = 3 * shape.triangles.size();
-        begin_accessor(json, {first_view + 1, indices, kGltfShort, corners, "SCALAR"}).end();
+        begin_accessor(json, {first_view + 1, indices, kGltfUnsignedShort, corners, "SCALAR"})
+            .end();
         positions += shape.vertices.size() * sizeof(glm::vec3);
         indices += corners * sizeof(std::uint16_t);
     }

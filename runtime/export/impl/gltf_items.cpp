@@ -222,26 +222,26 @@ GltfItem item_of(GltfArray array, const GltfForm& form) {
     const bool quantized = form.quantized();
     switch (array) {
     case GltfArray::Positions:
-        return form.step > 0.0F ? GltfItem{kGltfShort, "VEC3", false, 8, true}
+        return form.step > 0.0F ? GltfItem{kGltfUnsignedShort, "VEC3", false, 8, true}
                                 : GltfItem{kGltfFloat, "VEC3", false, 12};
     case GltfArray::Normals:
-        return quantized ? GltfItem{kGltfSignedByte, "VEC3", true, 4, true}
+        return quantized ? GltfItem{kGltfByte, "VEC3", true, 4, true}
                          : GltfItem{kGltfFloat, "VEC3", false, 12};
     case GltfArray::TextureCoordinates:
-        return form.texture.quantized ? GltfItem{kGltfShort, "VEC2", true, 4}
+        return form.texture.quantized ? GltfItem{kGltfUnsignedShort, "VEC2", true, 4}
                                       : GltfItem{kGltfFloat, "VEC2", false, 8};
     case GltfArray::Tangents:
-        return quantized ? GltfItem{kGltfSignedByte, "VEC4", true, 4}
+        return quantized ? GltfItem{kGltfByte, "VEC4", true, 4}
                          : GltfItem{kGltfFloat, "VEC4", false, 16};
     case GltfArray::WindPivots:
         return {kGltfFloat, "VEC2", false, 8};
     case GltfArray::WindMotions:
-        return quantized ? GltfItem{kGltfShort, "VEC2", true, 4}
+        return quantized ? GltfItem{kGltfUnsignedShort, "VEC2", true, 4}
                          : GltfItem{kGltfFloat, "VEC2", false, 8};
     case GltfArray::Joints:
-        return {kGltfByte, "VEC4", false, 4};
+        return {kGltfUnsignedByte, "VEC4", false, 4};
     default: // colours, weights
-        return {kGltfByte, "VEC4", true, 4};
+        return {kGltfUnsignedByte, "VEC4", true, 4};
     }
 }
 

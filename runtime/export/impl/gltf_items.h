@@ -24,11 +24,11 @@
 namespace lsys {
 
 // Component types of accessors.
-inline constexpr int kGltfSignedByte = 5120;
-inline constexpr int kGltfByte = 5121; // unsigned, like all names without Signed
-inline constexpr int kGltfSignedShort = 5122;
-inline constexpr int kGltfShort = 5123;
-inline constexpr int kGltfInteger = 5125;
+inline constexpr int kGltfByte = 5120;
+inline constexpr int kGltfUnsignedByte = 5121;
+inline constexpr int kGltfShort = 5122;
+inline constexpr int kGltfUnsignedShort = 5123;
+inline constexpr int kGltfUnsignedInt = 5125;
 inline constexpr int kGltfFloat = 5126;
 
 /// Indices of primitives with more vertices take 32 bits: the highest 16-bit index means primitive

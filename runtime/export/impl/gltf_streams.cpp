@@ -102,7 +102,7 @@ void write_primitive_stream(const GltfPlant& plant,
         break;
     }
     case GltfArray::Indices:
-        if (stream.type.component == kGltfShort) {
+        if (stream.type.component == kGltfUnsignedShort) {
             write_indices<std::uint16_t>(mesh, streams, primitive, write);
         } else {
             write_indices<std::uint32_t>(mesh, streams, primitive, write);
@@ -160,7 +160,7 @@ public:
             add(GltfArray::Joints);
             if (plant_.motion->joint_bytes() == 2) {
                 GltfItem& joints = streams_.list.back().type;
-                joints.component = kGltfShort;
+                joints.component = kGltfUnsignedShort;
                 joints.stride = 8;
             }
             add(GltfArray::Weights);
@@ -175,8 +175,8 @@ public:
         add(GltfArray::Indices);
         GltfStream& indices = streams_.list.back();
         indices.type = primitive.vertex_count <= kMaxNarrowVertices
-                           ? GltfItem{kGltfShort, "SCALAR", false, 2}
-                           : GltfItem{kGltfInteger, "SCALAR", false, 4};
+                           ? GltfItem{kGltfUnsignedShort, "SCALAR", false, 2}
+                           : GltfItem{kGltfUnsignedInt, "SCALAR", false, 4};
         indices.count = primitive.index_count;
     }
 

@@ -236,7 +236,7 @@ void TileDocument::put_groups() {
         attributes["TRANSLATION"] =
             add_accessor(translation_view, kVector * first, kGltfFloat, "VEC3", count);
         attributes["ROTATION"] =
-            add_accessor(rotation_view, kRotation * first, kGltfSignedShort, "VEC4", count);
+            add_accessor(rotation_view, kRotation * first, kGltfShort, "VEC4", count);
         json_["accessors"].back()["normalized"] = true;
         attributes["SCALE"] = add_accessor(scale_view, kVector * first, kGltfFloat, "VEC3", count);
         attributes["_FEATURE_ID_0"] =

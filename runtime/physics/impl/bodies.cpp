@@ -22,7 +22,8 @@ namespace lsys {
 namespace {
 
 constexpr double kExposedShare = 0.5; // part of a sheet's area that faces the wind
-// 1/s^2: under its near load a tip sinks by 0.005 of the height of the plant; pose() raises it.
+// m/s^2. Under its near load (below) a tip sinks by 9.81 / kGroundSpring = 0.005 of the height of the
+// plant; pose() raises such tips out of the ground.
 constexpr double kGroundSpring = 2e3;
 // The near load of a tip is kNearFactor times the sum of the masses beyond it, in which each further
 // body along a branch counts less by the factor kNearShare; at most the whole mass. A chain of 25

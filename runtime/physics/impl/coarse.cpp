@@ -72,7 +72,7 @@ double turned_ahead(double place) {
 
 std::span<const std::uint32_t> run_of(const CoarsePlant& plant, std::uint32_t run) {
     const std::uint32_t begin = run == 0 ? 0 : plant.run_ends[run - 1];
-    return std::span(plant.whole).subspan(begin, plant.run_ends[run] - begin);
+    return std::span(plant.run_bodies).subspan(begin, plant.run_ends[run] - begin);
 }
 /// Whether a run is the only child of its parent run.
 bool is_joined(const CoarsePlant& plant, std::uint32_t run) {
@@ -227,7 +227,7 @@ private:
         std::uint32_t length = 1;
         for (;; ++length) {
             const Body& member = plant_->bodies[last];
-            out.whole.push_back(last);
+            out.run_bodies.push_back(last);
             add_masses(member, base, body, first_moment);
             body.sail = std::min(body.sail + member.sail, 1e30F);
             areas += mean_area(member);
@@ -242,7 +242,7 @@ private:
             last = next;
             base += plant_->bodies[last].offset;
         }
-        out.run_ends.push_back(static_cast<std::uint32_t>(out.whole.size()));
+        out.run_ends.push_back(static_cast<std::uint32_t>(out.run_bodies.size()));
         if (body.mass > 0.0) {
             body.centre = first_moment / body.mass;
         }

@@ -20,8 +20,9 @@ inline constexpr std::uint32_t kMinCoarsened = 2000;
 struct CoarsePlant {
     Bodies bodies; // `segments` and `places` are empty
     /// Bodies of the whole plant in the runs, run by run, from base to tip of a run.
-    std::vector<std::uint32_t> whole;
-    std::vector<std::uint32_t> run_ends; // for each run, the index in `whole` after its last body
+    std::vector<std::uint32_t> run_bodies;
+    std::vector<std::uint32_t>
+        run_ends; // for each run, the index in `run_bodies` after its last body
 };
 
 /// The coarse plants of `plant`, the coarsest first, each with at most a third of the bodies of the

@@ -121,7 +121,7 @@ void read_placement_table(const SceneValue* table, Scene& scene, Diagnostics& di
         if (auto map = reader.file("map")) {
             scene.density_map = std::move(*map);
         } else if (!reader.has("map")) {
-            reader.report_missing("map", fmt::format("the method is `{}`", method.name))
+            reader.report_missing("map", fmt::format("the method is `{}` and", method.name))
                 .help.emplace_back("name a picture beside the scene: `map = \"density.png\"`");
         }
         placement.map_region = placement.region;

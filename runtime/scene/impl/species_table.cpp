@@ -201,7 +201,7 @@ void read_stages(SpeciesReader& from, bool has_ages) {
     if (years) {
         from.species.years_of_stage = float_of(*years);
     } else if (!reader.has("years_of_stage") && from.species.stages.size() > 1) {
-        reader.report_missing("years_of_stage", "the species has `stages`")
+        reader.report_missing("years_of_stage", "the species has `stages` and")
             .help.emplace_back("say how many years a plant needs for each: `years_of_stage = 10`");
     }
 }

@@ -279,13 +279,13 @@ const SceneValue* TableReader::table(std::string_view key) {
     return &found->value;
 }
 
-Diagnostic& TableReader::report_missing(std::string_view key, std::string_view why) {
+Diagnostic& TableReader::report_missing(std::string_view key, std::string_view subject) {
     SourceSpan at = span();
     if (name_.empty()) {
         at.end = at.begin; // the file has no heading to underline
     }
     Diagnostic& error = diagnostics_.add(DiagnosticCode::MissingSceneKey, at,
-                                         fmt::format("{} and has no `{}`", why, key));
+                                         fmt::format("{} has no `{}`", subject, key));
     return error;
 }
 

@@ -62,8 +62,8 @@ public:
     [[nodiscard]] std::optional<std::uint64_t>
     integer_of(const SceneValue& value, std::string_view what, IntegerRange range);
 
-    /// Reports that the table lacks `key`: "WHY and has no `KEY`".
-    Diagnostic& report_missing(std::string_view key, std::string_view why);
+    /// Reports that the table lacks `key`: "SUBJECT has no `KEY`".
+    Diagnostic& report_missing(std::string_view key, std::string_view subject);
     Diagnostic& report_bad_value(SourceSpan span, std::string message);
     /// Reports `key`, if present, as not allowed. `reason`: a sentence. `cause`: the place of the
     /// value that forbids the key; SourceSpan{} if there is none.

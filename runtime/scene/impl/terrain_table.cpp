@@ -59,7 +59,7 @@ void read_map_size(TableReader& reader, SceneTerrain& terrain) {
     const auto size = reader.pair("map_size", {2.0, kMaxMapSide, false, "pixels"}, true);
     if (!size) {
         if (raw && !reader.has("map_size")) {
-            reader.report_missing("map_size", "the terrain has a map of raw samples")
+            reader.report_missing("map_size", "the terrain has a map of raw samples and")
                 .help.emplace_back(
                     "say how many columns and rows it has: `map_size = [1024, 1024]`");
         }
@@ -86,7 +86,7 @@ void read_map(TableReader& reader, SceneTerrain& terrain) {
     if (auto file = reader.file("map")) {
         terrain.map = std::move(*file);
     } else if (!reader.has("map")) {
-        reader.report_missing("map", "the terrain is a height map")
+        reader.report_missing("map", "the terrain is a height map and")
             .help.emplace_back("name a picture beside the scene: `map = \"heights.png\"`");
     }
     read_map_size(reader, terrain);

@@ -83,9 +83,10 @@ private:
             if (below.level >= plan_.levels.size() || !plan_.grid.has_ground(below)) {
                 continue;
             }
-            Json child = TileForest::has_tileset(below.level)
-                             ? reference(below, TileForest::tileset_path(below))
-                             : node_of(below);
+            Json child =
+                is_subtree_root(below.level, static_cast<std::uint32_t>(plan_.levels.size()) - 1)
+                    ? reference(below, TileForest::tileset_path(below))
+                    : node_of(below);
             child["transform"] = json_of(to_tile * plan_.boxes.frame_of(below));
             children.push_back(std::move(child));
         }

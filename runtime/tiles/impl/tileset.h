@@ -11,7 +11,13 @@
 
 namespace lsys {
 
-inline constexpr std::uint32_t kSubtreeLevels = 4; // number of levels that a tileset lists
+inline constexpr std::uint32_t kSubtreeLevels = 4; // number of levels that most tilesets list
+/// Whether tiles of a level are roots of a tileset. The tilesets that end at the finest level, which are
+/// the most, have all their levels; that of level 0 has one to five.
+[[nodiscard]] constexpr bool is_subtree_root(std::uint32_t level, std::uint32_t finest) {
+    return level == 0 || (level > 1 && level <= finest &&
+                          (finest - level) % kSubtreeLevels == kSubtreeLevels - 1);
+}
 
 struct TilesetPlan {
     const std::string& generator;

@@ -86,7 +86,7 @@ TEST_CASE("a coarse plant bears the loads of the whole one") {
     }
     for (const CoarsePlant& stage : stages) {
         const std::vector<Body>& bodies = stage.bodies.bodies;
-        REQUIRE(bodies.size() == stage.whole.size()); // each run is one body
+        REQUIRE(bodies.size() == stage.run_bodies.size()); // each run is one body
         REQUIRE(bodies.size() == stage.run_ends.size());
         REQUIRE(bodies.size() >= 100);
         CHECK(bodies.size() * 3 <= whole.bodies.size());
@@ -104,12 +104,12 @@ TEST_CASE("a coarse plant bears the loads of the whole one") {
                 carried[b] += carried[c];
                 moment += carried[c] * bodies[c].offset;
             }
-            const Body& original = whole.bodies[stage.whole[b]];
+            const Body& original = whole.bodies[stage.run_bodies[b]];
             CHECK(glm::length(moment - original.moment) <= 1e-12 * mass);
             CHECK(body.spring == original.spring);
             const bool is_root = original.parent == kNoSegment;
             CHECK((body.parent == kNoSegment) == is_root);
-            CHECK((is_root || stage.whole[body.parent] == original.parent));
+            CHECK((is_root || stage.run_bodies[body.parent] == original.parent));
         }
         CHECK(stage_mass == Approx(mass));
     }
@@ -128,9 +128,9 @@ TEST_CASE("the runs of a curve have the masses, contacts and energy of the joint
     for (const CoarsePlant& stage : stages) {
         const std::vector<Body>& bodies = stage.bodies.bodies;
         REQUIRE(bodies.size() == stage.run_ends.size());
-        REQUIRE(stage.run_ends.back() == stage.whole.size());
+        REQUIRE(stage.run_ends.back() == stage.run_bodies.size());
         CHECK(bodies.size() * 3 <= whole.bodies.size());
-        CHECK(stage.whole.size() * 10 >= whole.bodies.size() * 9);
+        CHECK(stage.run_bodies.size() * 10 >= whole.bodies.size() * 9);
         members = stage.run_ends.front();
         double stage_mass = 0.0;
         double energy = 0.0; // of the stage bent by 0.01 at each joint
@@ -156,7 +156,7 @@ TEST_CASE("the runs of a curve have the masses, contacts and energy of the joint
         spread_poses(stage, runs, poses);
         double spread = 0.0;
         glm::dquat before(1.0, 0.0, 0.0, 0.0);
-        for (const std::uint32_t b : stage.whole) {
+        for (const std::uint32_t b : stage.run_bodies) {
             const double half = std::acos(std::min(std::abs(glm::dot(before, poses[b].turn)), 1.0));
             spread += 0.5 * whole.bodies[b].spring * 4.0 * half * half;
             before = poses[b].turn;

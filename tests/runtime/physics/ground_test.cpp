@@ -205,7 +205,7 @@ TEST_CASE("with own loads each joint bears its own segment only") {
         CHECK(std::atan2(static_cast<double>(up.x), static_cast<double>(up.y)) ==
               Approx(leans[i] + parent).margin(3e-6));
     }
-    // A straight trunk bears any crown, so springs from the literature suffice.
+    // With own loads a crown does not bend an upright trunk, however heavy the crown is.
     Skeleton straight;
     last = add_segment(straight, kNoSegment, leaning(0.0F), rod(1.0F, 0.03F, 1.0F, 100.0F));
     add_segment(straight, last, leaning(1.2F), rod(1.0F, 0.03F, 1e4F, 100.0F));
