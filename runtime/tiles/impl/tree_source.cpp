@@ -4,9 +4,9 @@
 #include "grammar/base/contract.h"
 
 #include <algorithm>
-#include <compare>
 #include <cstdint>
 #include <new>
+#include <tuple>
 #include <utility>
 
 namespace lsys {
@@ -48,22 +48,17 @@ void sort_by_number(std::vector<Tree>& trees) {
 } // namespace
 
 void sort_by_tile(const TileGrid& grid, LargeVector<Tree>& trees) {
-    struct Key {
-        std::uint64_t code = 0;
-        std::uint32_t number = 0;
-        std::uint32_t index = 0;
-        auto operator<=>(const Key&) const = default;
-    };
+    using Key = std::tuple<std::uint64_t, std::uint32_t, std::uint32_t>; // code, number, index
     LargeVector<Key> keys;
     keys.reserve(trees.size());
     for (std::uint32_t i = 0; i < trees.size(); ++i) {
-        keys.push_back({morton_code(grid, trees[i]), trees[i].number, i});
+        keys.emplace_back(morton_code(grid, trees[i]), trees[i].number, i);
     }
     std::sort(keys.begin(), keys.end());
     LargeVector<Tree> sorted;
     sorted.reserve(trees.size());
     for (const Key& key : keys) {
-        sorted.push_back(trees[key.index]);
+        sorted.push_back(trees[std::get<2>(key)]);
     }
     trees = std::move(sorted);
 }
