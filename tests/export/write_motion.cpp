@@ -71,7 +71,8 @@ bool write_file(const Case& motion, const fs::path& path, const std::vector<std:
     return run.status == 0;
 }
 
-/// Options for formats that store motion. Cases with a reduced skeleton (--bones N) are exported with wind data.
+/// Options for formats that store motion. Cases with a reduced skeleton (--bones N) are exported with
+/// wind data.
 std::vector<std::string> options_for(const Case& motion, const lsys::FormatTraits& traits) {
     std::vector<std::string> options;
     if (traits.motion) {

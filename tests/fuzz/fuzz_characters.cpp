@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Derives words from texts with characters beyond ASCII. A few characters are inserted into the text, at places
-// that depend on the text alone: typographic characters, letters, invisible characters and damaged
-// UTF-8. If a text compiles, its formatted form compiles too.
+// Derives words from texts with characters beyond ASCII. A few characters are inserted into the text,
+// at places that depend on the text alone: typographic characters, letters, invisible characters and
+// damaged UTF-8. If a text compiles, its formatted form compiles too.
 #include "grammar/base/source.h"
 #include "grammar/format/format.h"
 #include "tests/fuzz/compiled.h"

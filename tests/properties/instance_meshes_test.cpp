@@ -331,7 +331,7 @@ TEST_CASE("the boxes of an instance are separate closed surfaces") {
         }
     }
     CHECK(instances > 0);
-    // Every segment of a tree is drawn, so its bounding box equals that of the plain plant.
+    // Every segment of a tree is drawn, so its bounding box equals that of the plain plant to 0.1.
     const Bounds plain = test::bounds_of(plain_mesh(plain_plant(grammar, 5, 0), options));
     if (grammar.find('~') == std::string::npos) {
         Bounds bounds;

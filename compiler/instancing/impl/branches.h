@@ -42,8 +42,8 @@ struct Branches {
 };
 
 /// Returns nothing if the system cannot be instanced, after reporting the reasons. Also reports a
-/// system whose plants would all be equal, or all be copies of heroes, the plants whose branches are recorded (DiagnosticCode::NoVariety).
-/// Precondition: program.complete.
+/// system whose plants would all be equal, or all be copies of heroes, the plants whose branches are
+/// recorded (DiagnosticCode::NoVariety). Precondition: program.complete.
 [[nodiscard]] std::optional<Branches>
 find_branches(const Program& program, const Names& names, Diagnostics& diagnostics);
 

@@ -9,8 +9,8 @@ namespace lsys {
 namespace {
 
 constexpr float kWander = 0.4F; // max wandering of the phase, in grooves
-/// The phase is BarkNoise of a tube with this multiple of the circumference, so it varies 6 times more
-/// slowly than the bumps of the bark.
+/// The phase is BarkNoise of a tube with this multiple of the circumference, so it varies 6 times
+/// more slowly than the bumps of the bark.
 constexpr float kWanderCircumference = 6;
 
 /// Signed distance from the middle of the groove: -1 and 1 on the ridges beside it.
