@@ -157,22 +157,12 @@ void Workers::for_each(std::uint64_t pieces, const std::function<void(std::uint6
     // Each thread takes the next piece until none is left, so that neighbouring pieces run at about
     // the same time.
     std::atomic<std::uint64_t> next{0};
-    std::atomic<bool> has_memory{true};
-    const auto take_pieces = [&] {
+    const std::function<void()> take_pieces = [&] {
         for (std::uint64_t i = next.fetch_add(1); i < pieces; i = next.fetch_add(1)) {
             piece(i);
         }
-        return true;
     };
-    const std::function<void()> work = [&] {
-        if (!catch_out_of_memory(take_pieces, [] { return false; })) {
-            has_memory = false;
-        }
-    };
-    team_->run(work, work);
-    if (!has_memory) {
-        throw std::bad_alloc();
-    }
+    run(take_pieces, take_pieces);
 }
 
 void Workers::run(const std::function<void()>& caller, const std::function<void()>& helper) {
@@ -183,16 +173,11 @@ void Workers::run(const std::function<void()>& caller, const std::function<void(
     }
     std::atomic<bool> has_memory{true};
     const auto checked = [&has_memory](const std::function<void()>& task) {
-        const auto work = [&task] {
-            task();
-            return true;
-        };
-        if (!catch_out_of_memory(work, [] { return false; })) {
-            has_memory = false;
-        }
+        return std::function<void()>([&has_memory, &task] {
+            catch_out_of_memory(task, [&has_memory] { has_memory = false; });
+        });
     };
-    team_->run(std::function<void()>([&] { checked(caller); }),
-               std::function<void()>([&] { checked(helper); }));
+    team_->run(checked(caller), checked(helper));
     if (!has_memory) {
         throw std::bad_alloc();
     }

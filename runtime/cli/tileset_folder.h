@@ -21,7 +21,7 @@
 
 namespace lsys::lsc {
 
-/// What has been written.
+/// Counts of written files, their bytes and their trees.
 struct TileTotals {
     std::uint64_t files = 0;
     std::uint64_t bytes = 0;

@@ -12,13 +12,7 @@ namespace {
 /// Calls `work`; a lack of memory stops the folder.
 template <typename Work>
 void write_or_stop(lsc::TilesetFolder& folder, const Work& work) {
-    const auto checked = [&work] {
-        work();
-        return true;
-    };
-    if (!catch_out_of_memory(checked, [] { return false; })) {
-        folder.stop(Error{"out of memory", ErrorKind::Limit});
-    }
+    catch_out_of_memory(work, [&folder] { folder.stop(Error{"out of memory", ErrorKind::Limit}); });
 }
 
 } // namespace

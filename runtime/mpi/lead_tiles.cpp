@@ -22,7 +22,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// What rank 0 knows of a rank.
+/// The state of a rank, as known to rank 0.
 struct RankState {
     lsc::TileTotals totals;
     lsc::TileTotals reported; // in the last line of progress

@@ -17,7 +17,8 @@ namespace lsys::mpi {
 /// Throws std::bad_alloc.
 [[nodiscard]] ExitStatus
 lead_tiles(const lsc::TilesCommand& command, Ranks& ranks, const Console& console);
-/// The same for the other ranks. `io`: nothing is printed on its streams.
+/// Takes part in lead_tiles() as another rank; returns the exit status of the job. Prints nothing:
+/// rank 0 prints for all. `io`: its input and interruption.
 [[nodiscard]] ExitStatus join_tiles(const lsc::TilesCommand& command, Ranks& ranks, const Io& io);
 
 } // namespace lsys::mpi

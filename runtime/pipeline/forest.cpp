@@ -5,7 +5,6 @@
 #include "grammar/base/hash.h"
 #include "grammar/base/paths.h"
 #include "grammar/dialects/dialect.h"
-#include "runtime/forest/tree_heights.h"
 #include "runtime/meshing/texture.h"
 #include "runtime/pipeline/grammar.h"
 #include "runtime/pipeline/impl/drawing_end.h"
@@ -591,8 +590,10 @@ std::vector<double> unit_heights(const Scene& scene, const GrownForest& grown) {
 }
 
 // Structured bindings, so that a new member that is not combined does not compile.
-std::uint64_t
-placement_digest(const Scene& scene, const Project& project, const GrownForest& grown) {
+std::uint64_t placement_digest(const Scene& scene,
+                               const Project& project,
+                               const GrownForest& grown,
+                               const TreeSizer& sizer) {
     const PlacementOptions options = placement_options(scene, project, grown);
     const auto& [key, method, region, species, count, spacing, density, map, map_region, years,
                  stages_passed, threads] = options;
@@ -624,7 +625,6 @@ placement_digest(const Scene& scene, const Project& project, const GrownForest& 
     for (const std::uint32_t number : erased) {
         state = combine(state, number);
     }
-    const TreeSizer sizer(unit_heights(scene, grown), grown.forest);
     return finish(combine_numbers(state, grown.terrain->digest(), sizer.digest()));
 }
 

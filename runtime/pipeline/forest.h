@@ -8,6 +8,7 @@
 #include "runtime/base/grey_map.h"
 #include "runtime/forest/forest.h"
 #include "runtime/forest/instance_meshes.h"
+#include "runtime/forest/tree_heights.h"
 #include "runtime/meshing/mesh.h"
 #include "runtime/pipeline/project.h"
 #include "runtime/pipeline/scene_overrides.h"
@@ -82,10 +83,12 @@ placement_options(const Scene& scene, const Project& project, const GrownForest&
 /// By species: the height in m of a tree at scale 1 after TreeSizer; 0: as drawn.
 [[nodiscard]] std::vector<double> unit_heights(const Scene& scene, const GrownForest& grown);
 
-/// A hash of all that the trees of place_forest() depend on, for species with rho 0. Time is linear in
-/// the pixels of maps and in painted trees.
-[[nodiscard]] std::uint64_t
-placement_digest(const Scene& scene, const Project& project, const GrownForest& grown);
+/// A hash of all that the trees of place_forest() depend on, for species with rho 0. `sizer`: of
+/// unit_heights(). Time is linear in the pixels of maps and in painted trees.
+[[nodiscard]] std::uint64_t placement_digest(const Scene& scene,
+                                             const Project& project,
+                                             const GrownForest& grown,
+                                             const TreeSizer& sizer);
 
 /// Scales placed trees to their heights: a random height in the range `height` of the species, else
 /// `#set height` times the scale of the tree. Call it once per placement.

@@ -176,8 +176,8 @@ Outcome<void> TileForest::State::place_trees(const Project& project) {
 
 Outcome<void> TileForest::State::read_trees(const Project& project) {
     Step step(project);
-    const TreeFileScene wanted{placement_digest(scene, project, grown), scene.terrain.region,
-                               grown.forest.species.size()};
+    const TreeFileScene wanted{placement_digest(scene, project, grown, *sizer),
+                               scene.terrain.region, grown.forest.species.size()};
     Result<LargeVector<Tree>> trees = read_tree_file(*options.tree_file, wanted);
     if (!trees) {
         return step.fail(trees.error().message);
@@ -586,7 +586,8 @@ Outcome<PlacedScene> place_scene(const LoadedScene& loaded, const Project& proje
         !step.take(place_forest(loaded.scene, project, grown))) {
         return step.end();
     }
-    PlacedScene placed{placement_digest(loaded.scene, project, grown),
+    const TreeSizer sizer(unit_heights(loaded.scene, grown), grown.forest);
+    PlacedScene placed{placement_digest(loaded.scene, project, grown, sizer),
                        std::move(grown.forest.trees)};
     sort_by_tile(TileGrid(loaded.scene.terrain.region), placed.trees);
     return step.done(std::move(placed));
