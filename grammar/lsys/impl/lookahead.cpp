@@ -3,6 +3,7 @@
 
 #include "grammar/base/characters.h"
 #include "grammar/base/diagnostic.h"
+#include "grammar/base/find_any.h"
 #include "grammar/base/synonyms.h"
 
 #include <algorithm>
@@ -97,7 +98,11 @@ std::uint32_t
 count_colons_up_to(std::string_view text, std::uint32_t begin, std::uint32_t max_count) {
     std::uint32_t colons = 0;
     std::size_t at = begin;
-    while (at < text.size() && text[at] != ';' && colons < max_count) {
+    while (colons < max_count) {
+        at = find_any<';', ':', '`', '/', '#'>(text, at);
+        if (at == text.size() || text[at] == ';') {
+            break;
+        }
         if (text[at] == '`') {
             const std::size_t close = text.find_first_of("`\n", at + 1);
             at = close == std::string_view::npos ? text.size() : close + 1;
