@@ -6,8 +6,8 @@
 # changes values.
 add_library(lsys_options INTERFACE)
 target_include_directories(lsys_options INTERFACE "${PROJECT_SOURCE_DIR}")
-# Whether the standard library reads and writes floating-point numbers by std::from_chars and std::to_chars; libc++ 13
-# does not. Then grammar/base/impl/portable_chars.cpp does, which needs fast_float.
+# LSYS_HAS_FLOAT_CHARS: std::from_chars and std::to_chars of the standard library support floating-point numbers.
+# Where they do not (libc++ 13), grammar/base/impl/portable_chars.cpp replaces them, which needs fast_float.
 include(CheckCXXSourceCompiles)
 check_cxx_source_compiles("#include <charconv>
   int main() { char b[32]; float x = 1; std::to_chars(b, b + 32, x); return std::from_chars(b, b + 32, x).ptr == b; }"
@@ -96,7 +96,8 @@ function(lsys_library name)
   lsys_precompile(${name})
 endfunction()
 
-# lsys_target_name(FOLDER RESULT): sets RESULT to the library of a folder: `lsys_runtime_derive` for runtime/derive.
+# lsys_target_name(FOLDER RESULT): sets RESULT to the target of a folder's library: `lsys_runtime_derive` for
+# runtime/derive.
 function(lsys_target_name folder result)
   string(REPLACE "/" "_" name "lsys_${folder}")
   set(${result} "${name}" PARENT_SCOPE)
@@ -137,8 +138,9 @@ function(lsys_folder folder)
   target_link_libraries(${name} PRIVATE ${ARGN})
 endfunction()
 
-# lsys_optimise_for_size(TARGETS...): for libraries that read options and files and write messages or JSON, which then
-# take half of the space and no more time. They do without the shared precompiled header, which has other flags.
+# lsys_optimise_for_size(TARGETS...): compiles libraries for size, which makes code that reads options and files and
+# writes messages or JSON half as large and no slower. The shared precompiled header has other flags, so these libraries
+# do not use it.
 function(lsys_optimise_for_size)
   foreach(target ${ARGN})
     target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-Os>)

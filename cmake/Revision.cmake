@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
 # Writes the commit of the sources, for `lsc --version --verbose`, and its date, for man pages: in a repository from
-# git, else from packaging/revision.txt, which `git archive` fills. An unchanged file keeps its time.
+# git, else from packaging/revision.txt, which `git archive` fills. A file whose
+# content stays the same keeps its modification time.
 # Usage: cmake -D SOURCE=... -D HEADER=revision.h -D DATE=date.txt -P Revision.cmake
 cmake_minimum_required(VERSION 3.25)
 set(revision "")

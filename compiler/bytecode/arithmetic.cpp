@@ -25,6 +25,7 @@ double reduced(float degrees) {
 }
 
 /// 0 to 3 for 0, 90, 180 and 270 degrees and angles equal to them modulo 360; -1 for others.
+/// Precondition: `angle` is in (-360, 360) or NaN.
 int quarter_turns(double angle) {
     const double quarters = angle / 90.0;
     if (quarters != std::floor(quarters)) {

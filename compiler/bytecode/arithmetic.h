@@ -26,7 +26,8 @@ namespace lsys::arithmetic {
 }
 
 [[nodiscard]] float power(float x, float y);
-/// The argument is reduced modulo 360 without error. Exact at multiples of 90, with positive zeros.
+/// Sine, cosine and tangent reduce their argument modulo 360 without error. Their results at
+/// multiples of 90 are exact, and a zero among them is +0.
 [[nodiscard]] float sine(float degrees);
 [[nodiscard]] float cosine(float degrees);
 [[nodiscard]] float tangent(float degrees);

@@ -106,7 +106,7 @@ TableRange Bytecode::productions_of(Stage stage) const {
             static_cast<std::uint32_t>(last - first)};
 }
 
-std::uint32_t Bytecode::rewriting_rules() const {
+std::uint32_t Bytecode::rewriting_rule_count() const {
     const TableRange range = productions_of(Stage::Rewrite);
     return range.count == productions.size() ? rule_count : productions[range.count].rule;
 }

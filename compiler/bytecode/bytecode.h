@@ -9,8 +9,8 @@
 // count decides the width of a stored code: 1 byte up to 256, 2 up to 65,536, else 4. Modules are
 // folded in order of first appearance while the width does not grow.
 //
-// Each table is filled in one order without gaps and without shared rows, so a walk over the
-// productions is a walk over the tables:
+// Each table is filled in one order without gaps and without shared rows, so one pass over the
+// program reads each table from its first row to its last:
 //   constants       of folded[0], folded[1], ...
 //   patterns        per production: left context, predecessor, right context
 //   template_codes  the axioms, then the successor of each production
@@ -165,8 +165,8 @@ struct WordTemplate {
 struct BytecodeProduction {
     std::string name;
     std::uint32_t name_site = kNone;
-    std::uint32_t rule = 0;  // number of the rule, by first appearance: equal predecessors
-    std::uint32_t group = 0; // number of the group: equal predecessors and contexts
+    std::uint32_t rule = 0;  // number of its rule, by first appearance
+    std::uint32_t group = 0; // number of its group, by first appearance
     Stage stage = Stage::Rewrite;
     bool has_left = false;
     bool has_right = false;
@@ -261,7 +261,7 @@ struct Bytecode {
     [[nodiscard]] TableRange productions_of(Stage stage) const;
     [[nodiscard]] bool has(Stage stage) const { return productions_of(stage).count != 0; }
     /// Number of rules of Stage::Rewrite. Rules of later stages have higher numbers.
-    [[nodiscard]] std::uint32_t rewriting_rules() const;
+    [[nodiscard]] std::uint32_t rewriting_rule_count() const;
     /// Whether a symbol can cut off the rest of its branch.
     [[nodiscard]] bool has_cuts() const;
 
@@ -276,7 +276,7 @@ struct Bytecode {
     [[nodiscard]] const BytecodeSymbol& symbol(SymbolId id) const {
         return symbols[static_cast<std::size_t>(id)];
     }
-    /// Parameters that a word stores for each module of this code.
+    /// Number of parameters that a word stores for each module of this code.
     [[nodiscard]] std::uint32_t stored_parameters(Code code) const {
         return code < symbols.size() ? symbols[code].parameter_count : 0;
     }

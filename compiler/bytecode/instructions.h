@@ -26,7 +26,7 @@ inline constexpr std::array<std::uint8_t, kOpcodeCount> kOpcodePops{
 #include "compiler/bytecode/opcodes.def"
 #undef LSYS_OPCODE
 };
-/// Values that an instruction takes from the stack. Precondition: opcode < kOpcodeCount.
+/// Number of values that an instruction takes from the stack. Precondition: opcode < kOpcodeCount.
 [[nodiscard]] constexpr std::uint8_t pops_of(Opcode opcode) {
     return kOpcodePops[static_cast<std::size_t>(opcode)];
 }

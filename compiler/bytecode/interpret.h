@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // The one interpreter of expressions: a stack machine over instructions whose values and arithmetic
-// are defined by a Domain. Numbers evaluate an expression. Approximations of numbers (known or not,
-// constant or affine, monotone or not) find properties of its result before its inputs are known:
-// abstract interpretation (Cousot and Cousot 1977). A new operation is a row of opcodes.def;
-// domains treat its result as unknown unless they have a case for it.
+// are defined by a Domain. With numbers as values it evaluates an expression. With approximations
+// of numbers (known or not, constant or affine, monotone or not) it finds properties of the result
+// before the inputs are known: abstract interpretation (Cousot and Cousot 1977). A new operation is
+// a row of opcodes.def; domains treat its result as unknown unless they have a case for it.
 //
 // A Domain has a type Value and these functions; UnknownDomain has all of them.
 //   bool enter()                    called before each instruction; false stops the run

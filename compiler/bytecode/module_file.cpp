@@ -92,8 +92,8 @@ private:
     std::string& out_;
 };
 
-/// Reads the output of a Writer. After the first value that does not fit, failed() holds and all
-/// further values are zero.
+/// Reads the output of a Writer. After the first missing or invalid value failed() holds, and all
+/// further numbers are zero.
 class Reader {
 public:
     explicit Reader(std::string_view bytes) : bytes_(bytes) {}

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Attributes of a whole system, set by `#set`: the table settings.def as a struct. Shared by
-// Program and Bytecode. Stages after the resolver read these fields and no characters or keywords.
+// Program and Bytecode. Stages after the resolver read these fields, not the text of `#set`.
 #pragma once
 
 #include "grammar/base/counted_enum.h"
@@ -81,7 +81,7 @@ inline constexpr float kMaxHeight = 1e6F;
 
 /// Max of `decompose_depth` and `interpret_depth`.
 inline constexpr std::uint32_t kMaxDepth = 100'000;
-/// The minimum of settings without one.
+/// The min of LSYS_NUMBER settings that may be any finite number.
 inline constexpr float kLowestNumber = std::numeric_limits<float>::lowest();
 
 struct Settings {

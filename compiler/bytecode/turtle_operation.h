@@ -25,7 +25,7 @@ struct EnumCount<TurtleOperation> {
 };
 inline constexpr std::uint32_t kTurtleOperationCount = kCountOf<TurtleOperation>;
 
-/// Element that a module with the operation adds to the skeleton, if it can be drawn.
+/// Drawable element that a module with the operation adds to the skeleton.
 enum class DrawnKind : std::uint8_t { Nothing, Segment, Object, Polygon };
 
 /// Frequent actions that the turtle's loop over a word runs inline, without calling execute(). Yaw,
@@ -37,7 +37,7 @@ struct TurtleInfo {
     enum Trait : std::uint16_t {
         Inverse = 1,           // turns opposite to yaw(), pitch() and roll() of the turtle's pose.h
         ChangesAngle = 2,      // changes the angle of turns without a parameter
-        SecondHeading = 4,     // moves along the second heading of Fractint, with its own turns
+        SecondHeading = 4,     // moves along Fractint's second heading, which has its own turns
         DependsOnVertical = 8, // draws differently when the branch is turned
         DependsOnPlace = 16,   // draws differently when the branch is moved
         AddsCorners = 32,      // its start and end are corners of a polygon without `.`

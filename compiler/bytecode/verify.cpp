@@ -36,8 +36,8 @@ std::uint32_t number(SymbolId id) {
 /// Kind of place that code belongs to. It decides which instructions are allowed.
 enum class CodePlace : std::uint8_t { Global, Axiom, Condition, Locals, Successor };
 
-/// Verifies bytecode in one walk over the tables in the order that bytecode.h describes. Every
-/// function that returns false has stored a message in problem_.
+/// Verifies bytecode in one pass over the tables in the order that bytecode.h describes. A check
+/// that fails calls fail(), which stores the message, and returns false.
 class Verifier {
 public:
     explicit Verifier(const Bytecode& bytecode) : bytecode_(bytecode) {}
@@ -316,8 +316,8 @@ private:
             if (!weight_fits) {
                 return fail("production {} has a probability of {}", i, p.weight);
             }
-            if (!head(i, p) || !class_of(i, p.rule, rule_example, false) ||
-                !class_of(i, p.group, group_example, true)) {
+            if (!head(i, p) || !rule_or_group(i, p.rule, rule_example, false) ||
+                !rule_or_group(i, p.group, group_example, true)) {
                 return false;
             }
             begin_piece();
@@ -345,11 +345,13 @@ private:
         return true;
     }
 
-    /// Rules and groups are numbered by first appearance, and their members have equal heads.
-    bool class_of(std::size_t production,
-                  std::uint32_t index,
-                  std::vector<std::uint32_t>& examples,
-                  bool with_contexts) {
+    /// Checks that rule or group `index` of a production is numbered by first appearance, and that
+    /// its members have equal predecessors and, in a group (`with_contexts`), equal contexts.
+    /// `examples`: the first production of each rule or group.
+    bool rule_or_group(std::size_t production,
+                       std::uint32_t index,
+                       std::vector<std::uint32_t>& examples,
+                       bool with_contexts) {
         const char* kind = with_contexts ? "group" : "rule";
         if (index > examples.size()) {
             return fail("production {} has {} {}, which no earlier production begins", production,

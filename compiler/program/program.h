@@ -41,7 +41,7 @@ struct Value {
     union {
         float literal;           // Literal
         std::uint32_t index = 0; // Formal, Global, Local, SetLocal, Curve, a draw, BranchDraw
-        ValueId third;           // If: the condition of `left`, else `right`; Mix: the fraction t
+        ValueId third;           // If: chooses `left` if not 0, else `right`; Mix: the fraction t
     };
     ValueId left = kNoValue;
     ValueId right = kNoValue;

@@ -66,23 +66,25 @@ constexpr auto kPolygons =
     joined(kBranches, commands({{"{", PolygonBegin}, {".", PolygonVertex}, {"}", PolygonEnd}}));
 constexpr auto kPolygonsAndCut = joined(kPolygons, commands({{"%", Cut}}));
 
-constexpr auto kPaths = commands({{"F", Forward}, {"f", Move}});
-constexpr auto kPens = joined(
+constexpr auto kForwardAndMove = commands({{"F", Forward}, {"f", Move}});
+// The commands that the profiles `lsys` and `abop` share, except turns.
+constexpr auto kSharedCommands = joined(
     commands({{"|", TurnAround}, {"$", RollUpright}, {"!", SetWidth}, {"\"", ScaleStep}, kColour}),
     kPolygonsAndCut);
 
-constexpr auto kLsys =
-    joined(kPaths, turns({YawRight, YawLeft, PitchDown, PitchUp, RollLeft, RollRight}), kPens);
-constexpr auto kAbop = joined(kPaths, kTurnsLeft, kPens);
+constexpr auto kLsys = joined(kForwardAndMove,
+                              turns({YawRight, YawLeft, PitchDown, PitchUp, RollLeft, RollRight}),
+                              kSharedCommands);
+constexpr auto kAbop = joined(kForwardAndMove, kTurnsLeft, kSharedCommands);
 
 // Crankshaw 2019, table 5.1.
-constexpr auto kThesis = joined(kPaths,
+constexpr auto kThesis = joined(kForwardAndMove,
                                 turns({YawRight, YawLeft, RollLeft, RollRight, PitchDown, PitchUp}),
                                 commands({{"!", SetWidth}}),
                                 kPolygonsAndCut);
 
 // Carey 2019. kCarey has the symbols of Houdini that Carey's forest generator reads. kHoudini also
-// has the symbols of the appendix of the thesis, and similar symbols of Houdini.
+// has the other symbols of Carey's appendix, and similar symbols of Houdini.
 constexpr auto kCarey =
     joined(commands({length("F", Forward), length("f", Move)}),
            turns({YawRight, YawLeft, PitchUp, PitchDown, RollLeft, RollRight}),
@@ -102,13 +104,15 @@ constexpr auto kHoudini = joined(kCarey,
 
 // L3D rewrites text: each character of the parameter of a command, with its parentheses, is a
 // module.
-constexpr std::array<TurtleOperation, 12> kTexts{Text, Text, Text, Text, Text, Text,
-                                                 Text, Text, Text, Text, Text, Text};
-constexpr auto kText = joined(kBranches,
-                              commands({{"(", ParameterBegin}, {")", ParameterEnd}}),
-                              characters(" .0123456789", kTexts));
-constexpr auto kL3dTurtle = joined(
-    commands({length("F", Forward), length("f", Forward), length("g", Move)}), kTurnsLeft, kText);
+constexpr std::array<TurtleOperation, 12> kTextOperations{Text, Text, Text, Text, Text, Text,
+                                                          Text, Text, Text, Text, Text, Text};
+constexpr auto kParameterText = joined(kBranches,
+                                       commands({{"(", ParameterBegin}, {")", ParameterEnd}}),
+                                       characters(" .0123456789", kTextOperations));
+constexpr auto kL3dTurtle =
+    joined(commands({length("F", Forward), length("f", Forward), length("g", Move)}),
+           kTurnsLeft,
+           kParameterText);
 constexpr auto kL3dTurns = commands({{"<", RollLeft}, {">", RollRight}});
 constexpr auto kLplusWidths = commands({length("G", Move),
                                         {"<", ThickenWidth},

@@ -14,7 +14,7 @@
 
 namespace lsys {
 
-/// A module that the turtle of a profile obeys, with up to `max_parameters` parameters.
+/// A turtle command of a profile: a module name, and the operation that the turtle executes for it.
 struct TurtleCommand {
     constexpr TurtleCommand() = default;
     /// Takes the parameters from the row of the operation in turtle_operations.def.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/* Grows trees at places of its own, prints their draws, and writes them as a file.
+/* Grows trees at 25 given places, prints the numbers of instances and groups, and writes a file.
  * Usage: save_forest GRAMMAR OUTPUT */
 #include <lsys.h>
 #include <stdio.h>

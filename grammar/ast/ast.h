@@ -112,7 +112,7 @@ static_assert(sizeof(ModuleNode) == 8);
 
 /// The parentheses after a module: `(expr, ...)`.
 struct CallNode {
-    std::uint32_t module = 0;   // index in Ast::modules; calls ascend by it
+    std::uint32_t module = 0;   // index in Ast::modules, ascending in Ast::calls
     std::uint32_t name_end = 0; // one past the name
     std::uint32_t open = 0;     // the `(`
     std::uint32_t end = 0;      // one past the `)`
@@ -131,7 +131,8 @@ struct ModuleView {
     NameId name = kNoName;
     SourceSpan name_span; // with the back quotes, if any
     SourceSpan span;      // with the arguments
-    // True for a name in back quotes or spelt differently in its file: never split into letters.
+    // True for a name in back quotes or spelt differently in its file: never split into several
+    // modules.
     bool is_indivisible = false;
     bool has_parentheses = false;
     ListRange arguments;
@@ -340,7 +341,7 @@ struct Ast {
     }
 };
 
-/// Walks a module list in order, in amortised constant time per module.
+/// Iterates over a module list in order, in amortised constant time per module.
 class ModuleCursor {
 public:
     ModuleCursor(const Ast& ast, const Names& names, const SourceMap& sources, ModuleList list);

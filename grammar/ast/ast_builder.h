@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// AstBuilder: builds the Ast of one file, one node per call of the parser. It knows nodes, not
-// tokens, and reports the mistakes that show only in complete nodes (depth of brackets, chained
-// comparisons, ranges without two values). finish_statement() keeps the nodes of a statement or
-// rolls them back, so the Ast holds whole statements.
+// AstBuilder: builds the Ast of one file, one node per call of the parser. It reports the mistakes
+// that show only in complete nodes (depth of brackets, chained comparisons, ranges without two
+// values). finish_statement() keeps the nodes of a statement or rolls them back, so the Ast holds
+// whole statements.
 #pragma once
 
 #include "grammar/ast/ast.h"

@@ -37,7 +37,7 @@ CharacterClass class_of(char c) {
     return kClasses[static_cast<unsigned char>(c) & 0x7Fu];
 }
 
-bool is_word(char c) {
+bool is_name_character(char c) {
     return class_of(c) == CharacterClass::Letter || is_digit(c);
 }
 
@@ -109,10 +109,10 @@ ModuleList AstBuilder::modules(ModuleList list, TextRange run) {
             at = read_plain_arguments(at, name_end);
             continue;
         case CharacterClass::Letter:
-            if ((at + 1 < run.end && is_word(text[at + 1])) ||
+            if ((at + 1 < run.end && is_name_character(text[at + 1])) ||
                 (module_names_ != ModuleNames::Words && c == '_')) {
                 std::uint32_t end = at + 1;
-                while (end < run.end && is_word(text[end])) {
+                while (end < run.end && is_name_character(text[end])) {
                     ++end;
                 }
                 if (module_names_ != ModuleNames::Words) {
@@ -292,7 +292,7 @@ std::uint32_t AstBuilder::read_plain_arguments(std::uint32_t open, std::uint32_t
             ++at;
         }
         const std::uint32_t first = at;
-        while (is_word(text[at]) || text[at] == '.' ||
+        while (is_name_character(text[at]) || text[at] == '.' ||
                ((text[at] == '-' || text[at] == '+') &&
                 (text[at - 1] == 'e' || text[at - 1] == 'E'))) {
             ++at;

@@ -129,12 +129,12 @@ public:
     }
 
 private:
-    /// The greatest power of two of elements that take at most `bytes`; at least one.
+    /// Number of elements that take at most `bytes`, rounded down to a power of two; at least 1.
     static constexpr std::size_t elements_in(std::size_t bytes) {
         return std::bit_floor(std::max<std::size_t>(1, bytes / sizeof(T)));
     }
-    /// Elements per block. The first block starts with kFirst of them and is replaced by ones of
-    /// twice the size, so that the Ast of a small file touches few pages of memory.
+    /// Elements per block. The first block starts with room for kFirst elements and doubles until
+    /// it has kBlock, so that the Ast of a small file touches few pages of memory.
     static constexpr std::size_t kBlock = elements_in(std::size_t{1} << 17);
     static constexpr std::size_t kFirst = elements_in(512);
 

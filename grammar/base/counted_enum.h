@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Numbers of enumerators of enums, and of fields of structs, as constants: for tables, range checks
-// and file versions.
+// Counts of the enumerators of enums and of the fields of structs, as constants: for tables, range
+// checks and file versions.
 //
 //   LSYS_COUNTED_ENUM(Mode, Parallel, Sequential);   enum class Mode : std::uint8_t { ... };
 //   kCountOf<Mode>                                   2

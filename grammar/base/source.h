@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Source text and places in it. A SourceMap owns the files of a compilation; all stages name places
-// as SourceSpan, a file and two byte offsets. Only the renderer computes lines, columns, tabs and
-// widths of characters.
+// as SourceSpan, a file and two byte offsets. Lines and columns are computed only for output and
+// for the places that bytecode stores.
 #pragma once
 
 #include <cstdint>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Words that authors bring from other languages, and their equivalents in .lsys. Messages about
-// unknown words ask this table before they look for similar names. Rows: synonyms.def.
+// Words that authors bring from other languages, and their equivalents in .lsys. Checks for
+// unknown words search this table before they look for similar names. Rows: synonyms.def.
 #pragma once
 
 #include <cstdint>

@@ -20,7 +20,7 @@ namespace {
 /// Blanks between a statement and the comment after it.
 constexpr std::uint32_t kCommentGap = 2;
 
-/// Formats a text group by group: statements on consecutive lines.
+/// Formats a text group by group. A group is a sequence of statements on consecutive lines.
 class Layout {
 public:
     explicit Layout(std::string_view text) : text_(text) {}

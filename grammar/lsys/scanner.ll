@@ -169,7 +169,7 @@ CONTROL [\x01-\x08\x0B\x0C\x0E-\x1F\x7F]
                               BEGIN_COMMENT(LINE_COMMENT);
                           } else {
                               const Token token = start_statement(session, TEXT);
-                              yyless(static_cast<int>(scan.end - scan.begin)); /* the key of a setting */
+                              yyless(static_cast<int>(scan.end - scan.begin)); /* scan the key of `#angle 30;` again */
                               return token;
                           }
                         }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Diagnostics as text: frames for people, lines for editors, JSON for tools. The only code that
-// knows lines, columns, tab stops and widths of characters.
+// Diagnostics as text: frames for people, lines for editors, JSON for tools. Computes lines and
+// columns from the byte offsets of the diagnostics.
 #pragma once
 
 #include "grammar/base/diagnostic.h"

@@ -28,7 +28,7 @@ set(CPACK_DEBIAN_PACKAGE_PRIORITY optional)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_PACKAGE_CONTROL_STRICT_PERMISSION ON)
 
-# lsys_deb(COMPONENT NAME SECTION SUMMARY TEXT): the package of a component.
+# lsys_deb(COMPONENT NAME SECTION SUMMARY TEXT): sets the name, section and description of a component's package.
 function(lsys_deb component name section summary text)
   string(TOUPPER "${component}" upper)
   set(CPACK_DEBIAN_${upper}_PACKAGE_NAME "${name}" PARENT_SCOPE)
@@ -70,7 +70,8 @@ if(LSYS_SHARED)
   lsys_deb(library "${library}" libs "L-systems: shared library"
     "liblsys compiles grammars of L-systems, derives words, draws plants, meshes
 them and writes them as files, for programs in C++ and C.")
-  # Written here, because CPack writes `shlibs` for all packages or none, and no program links to the Python module.
+  # The control file `shlibs` is not left to CPack, which writes it for all packages or none: no program links to the
+  # Python module.
   file(CONFIGURE OUTPUT deb/shlibs CONTENT "liblsys ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR} \
 ${library} (>= ${PROJECT_VERSION})\n")
   set(CPACK_DEBIAN_LIBRARY_PACKAGE_CONTROL_EXTRA

@@ -9,7 +9,7 @@
 namespace lsys::pages {
 
 [[nodiscard]] ProgramText describe_lsc();
-/// The words and extensions of an option of `lsc COMMAND`.
+/// Adds the words and extensions of an option of `lsc COMMAND`.
 void add_lsc_values(std::string_view command, OptionText& option);
 
 } // namespace lsys::pages

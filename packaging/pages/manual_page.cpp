@@ -87,8 +87,8 @@ std::string upper(std::string text) {
     return text;
 }
 
-/// A heading of --help without the final dot; the first letter becomes small, as in NAME of all
-/// pages.
+/// The description of a program or command as in the section NAME of man pages: without the final
+/// dot, and with a small first letter.
 std::string name_line(std::string text) {
     while (!text.empty() && text.back() == '.') {
         text.pop_back();

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Arena: anonymous memory, mapped from the system, that grows without keeping its contents and is
-// never initialised. Holds the words of a derivation and tables by module.
+// never initialised. Holds the words of a derivation and tables with an entry per module.
 #pragma once
 
 #include <cstddef>
@@ -36,7 +36,8 @@ public:
         return reinterpret_cast<const T*>(data_);
     }
     [[nodiscard]] std::size_t capacity() const { return capacity_; }
-    /// The largest number of bytes reserved since release(): an upper bound of the memory in use.
+    /// The largest `bytes` of a successful reserve() since release(): an upper bound of the memory
+    /// in use.
     [[nodiscard]] std::size_t max_reserved() const { return max_reserved_; }
 
 private:

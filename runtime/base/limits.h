@@ -8,7 +8,7 @@ namespace lsys {
 
 struct Limits {
     std::uint64_t max_modules = std::uint64_t{1} << 32; // of one word
-    std::uint64_t max_bytes = ~std::uint64_t{0};        // held by a derivation
+    std::uint64_t max_bytes = ~std::uint64_t{0};        // of a derivation, skeleton, mesh or file
 
     friend bool operator==(const Limits&, const Limits&) = default;
 };

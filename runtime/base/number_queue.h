@@ -27,7 +27,7 @@ public:
             changed_.notify_all();
         }
     }
-    /// No number is added any more.
+    /// Ends the queue: add() is not called after close().
     void close() {
         {
             const std::lock_guard lock(mutex_);
@@ -42,7 +42,7 @@ public:
         changed_.wait(lock, [this] { return is_closed_ || left_ != 0; });
         return next(lock);
     }
-    /// The next number, if there is one.
+    /// The next number; none if the queue is empty. Does not wait.
     std::optional<std::uint64_t> take_now() {
         std::unique_lock lock(mutex_);
         return next(lock);
@@ -86,9 +86,9 @@ private:
     mutable std::mutex mutex_;
     std::condition_variable changed_; // numbers have been added, or the queue is closed
     std::condition_variable is_low_;
-    std::deque<Range> ranges_; // none of them empty
+    std::deque<Range> ranges_; // no range is empty
     std::uint64_t left_ = 0;
-    std::uint64_t wanted_below_ = 0; // of the waiting thread
+    std::uint64_t wanted_below_ = 0; // `count` of wait_below(); 0: no thread waits
     bool is_closed_ = false;
 };
 

@@ -79,7 +79,7 @@ philox_rounds(Lanes& first, Lanes& second, std::uint64_t seed) {
     _mm256_storeu_si256(reinterpret_cast<__m256i*>(words), low_halves(first.x0, second.x0));
 }
 
-/// The words of the block at four positions, before the first round.
+/// The counters of the block at four positions: the input of the first round.
 [[gnu::target("avx2"), gnu::always_inline]] inline Lanes
 counters_of(const DrawKey& key, const std::uint64_t* positions) {
     const __m256i position = _mm256_loadu_si256(reinterpret_cast<const __m256i*>(positions));

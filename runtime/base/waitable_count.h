@@ -44,7 +44,7 @@ private:
 class WaitableCount {
 public:
     explicit WaitableCount(std::size_t /*count*/) {}
-    void wait_above(std::size_t /*bound*/) {} // the only thread has raised it already
+    void wait_above(std::size_t /*bound*/) {} // the only thread has raised the count already
     void raise(std::size_t /*count*/) {}
 };
 

@@ -2,6 +2,7 @@
 #include "runtime/cli/alternative_repairs.h"
 
 #include "grammar/ast/ast_dump.h"
+#include "grammar/base/characters.h"
 #include "grammar/lsys/parse.h"
 
 #include <algorithm>
@@ -68,10 +69,6 @@ std::optional<ParsedStatement> parse_statement(const std::string& setting,
     return ParsedStatement{dump_ast(ast, names, sources), count_redundant_groups(ast)};
 }
 
-bool is_word(char c) {
-    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_';
-}
-
 /// Quick test before parsing: false for unbalanced parentheses and for `)(`, which never parse.
 bool may_parse(std::string_view text) {
     std::int64_t open = 0;
@@ -134,8 +131,9 @@ void add_without_letters(const StatementRepair& repair, std::vector<std::string>
     const std::size_t before = repair.place;
     const std::size_t after = text.find_first_not_of(" \t\r\n", before);
     const auto remove = [&](std::size_t at) {
-        const bool is_alone = is_word(text[at]) && (at == 0 || !is_word(text[at - 1])) &&
-                              (at + 1 == text.size() || !is_word(text[at + 1]));
+        const bool is_alone = is_word_character(text[at]) &&
+                              (at == 0 || !is_word_character(text[at - 1])) &&
+                              (at + 1 == text.size() || !is_word_character(text[at + 1]));
         if (is_alone) {
             texts.emplace_back(text);
             texts.back().erase(at, 1);
@@ -172,8 +170,8 @@ std::vector<std::string> bracket_repairs(std::string_view broken, bool is_single
     for (std::size_t at = 0; at <= broken.size(); ++at) {
         // Unlike other brackets, `(` is also tried inside a word: `Fsin(x))` for `F(sin(x))`.
         add(at, 0, "(");
-        const bool is_in_word =
-            at > 0 && at < broken.size() && is_word(broken[at - 1]) && is_word(broken[at]);
+        const bool is_in_word = at > 0 && at < broken.size() && is_word_character(broken[at - 1]) &&
+                                is_word_character(broken[at]);
         for (const std::string_view inserted : {")", "{", "}"}) {
             if (!is_in_word) {
                 add(at, 0, inserted);
@@ -187,7 +185,7 @@ std::vector<std::string> bracket_repairs(std::string_view broken, bool is_single
         if (is_pair) {
             add(at, 2, std::string{broken[at + 1], broken[at]});
         }
-        // An opening bracket is removed only after an equal one, before `;` or before nothing.
+        // An opening bracket is removed only after an equal one, before `;` or at the end.
         const std::size_t next = broken.find_first_not_of(" \t\r\n", at + 1);
         const bool is_doubled = (at > 0 && broken[at - 1] == broken[at]) ||
                                 next == std::string_view::npos || broken[next] == ';';

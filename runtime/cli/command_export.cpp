@@ -128,8 +128,8 @@ ExitStatus export_growth(const ExportCommand& command,
                : status;
 }
 
-/// The output name with the extension of a format that has the same letters in another order, or
-/// else a similar name. Empty if there is none.
+/// `output` with a corrected extension: a format name with the same letters in another order, else
+/// the most similar format name. Empty if none is similar.
 std::string nearest_output(const std::string& output) {
     const std::size_t dot = output.rfind('.');
     if (dot == std::string::npos || dot < folder_of_path(output).size()) {

@@ -147,7 +147,7 @@ ExitStatus run_command(const ForestCommand& command, const Console& console) {
     std::optional<Mesh> ground;
     const bool json = command.messages.format == MessageFormat::Json;
     if (target.value().kind != ForestOutputKind::None || json) {
-        // Trees with levels of detail get their meshes where they are written.
+        // The writer of trees with levels of detail makes their meshes itself.
         if (command.instances != ForestInstances::Lods || json) {
             status = console.take(mesh_forest(grown, command.mesh, project), meshes);
         }

@@ -478,7 +478,7 @@ UsageError usage_error(const CLI::ParseError& error,
     }
     UsageError usage = to_usage_error(error, *command, "lsc " + command->get_name());
     if (command->get_name() == "export" && usage.message == "--output is missing") {
-        // The file may be named without its option, as with `cp`.
+        // The user may have named the output file without `-o`, as `cp` allows.
         const auto output =
             std::find_if(arguments.begin() + 1, arguments.end(), [](const std::string& argument) {
                 return !argument.starts_with('-') && format_of_path(argument);
@@ -698,7 +698,7 @@ void visit_commands(
 }
 
 CommandLine parse_command_line(std::span<const std::string> arguments) {
-    // CLI11 takes longer than the rest of such a run, most of it for the exception that it throws.
+    // Without CLI11, which takes longer than the rest of this run, mostly to throw an exception.
     if (arguments.size() == 1 && arguments.front() == "--version") {
         return PrintText{"lsc " LSC_VERSION "\n"};
     }

@@ -36,8 +36,8 @@ using CommandLine = std::variant<PrintText,
 /// The command with its options, a text to print, or a usage error.
 [[nodiscard]] CommandLine parse_command_line(std::span<const std::string> arguments);
 
-/// Calls `visit` for each command, in the order of --help. `program`: the whole command line, in
-/// which only this command has options.
+/// Calls `visit` for each command, in the order of --help. `program`: the parser of the whole
+/// command line, in which only `command` has its options.
 void visit_commands(
     const std::function<void(const CLI::App& program, const CLI::App& command)>& visit);
 

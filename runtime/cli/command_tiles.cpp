@@ -12,7 +12,8 @@ namespace lsys::lsc {
 
 namespace {
 
-/// Writes the files of this part, those on which nothing depends first.
+/// Writes the files of this part in ascending order of their numbers, tileset.json of the root
+/// last.
 void write_part(TilesetFolder& folder, const TilesCommand& command) {
     folder.make();
     Workers workers(command.run.threads);

@@ -36,8 +36,9 @@ public:
 
     std::string text;
 
-    /// Writes `text` if it is long enough. Returns false after an interrupt or a failed write.
-    [[nodiscard]] bool pass(const Console& console) {
+    /// Writes `text` if it has at least kPieceBytes bytes. Returns false after an interrupt or a
+    /// failed write.
+    [[nodiscard]] bool write_if_long(const Console& console) {
         return text.size() < kPieceBytes || (!console.interrupted() && write());
     }
     [[nodiscard]] ExitStatus finish(const Console& console) {
@@ -81,7 +82,7 @@ public:
             const std::size_t stored = bytecode_.stored_parameters(code);
             print_module(code, word.parameters().subspan(parameter, stored), text);
             parameter += stored;
-            if (!writer.pass(console)) {
+            if (!writer.write_if_long(console)) {
                 return false;
             }
         }
@@ -336,7 +337,7 @@ ExitStatus dump_cache(const DumpCommand& command, const Console& console) {
                 const InstanceSlot& slot = cache.slots[k];
                 for (std::uint32_t v = 0; v < slot.variant_count && wanted; ++v) {
                     printer.instance(cache.variants[slot.first_variant + v]);
-                    wanted = writer.pass(console);
+                    wanted = writer.write_if_long(console);
                 }
             }
         }

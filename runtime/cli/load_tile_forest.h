@@ -12,7 +12,8 @@
 
 namespace lsys::lsc {
 
-/// Which scenes a command takes without a file of trees.
+/// The scenes that a command accepts without --trees: all, or only those whose trees can be placed
+/// tile by tile (is_placed_by_tile()).
 enum class TilePlacements : std::uint8_t { All, OnGrids };
 
 /// Loads a scene, without branch instances.

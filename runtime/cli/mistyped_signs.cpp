@@ -8,10 +8,10 @@ namespace lsys::lsc {
 
 namespace {
 
-constexpr std::string_view kSignBlanks = " \t\r\n";
+constexpr std::string_view kWhitespace = " \t\r\n";
 
 bool is_blank_at(std::string_view text, std::size_t at) {
-    return at >= text.size() || kSignBlanks.find(text[at]) != std::string_view::npos;
+    return at >= text.size() || kWhitespace.find(text[at]) != std::string_view::npos;
 }
 
 /// Whether a blank or an end of the text stands before and after the character at `at`.
@@ -37,8 +37,8 @@ bool is_laid_out_as_others(std::string_view text, std::size_t at) {
 } // namespace
 
 char added_sign(std::string_view added) {
-    const std::size_t first = added.find_first_not_of(kSignBlanks);
-    return first != std::string_view::npos && added.find_last_not_of(kSignBlanks) == first
+    const std::size_t first = added.find_first_not_of(kWhitespace);
+    return first != std::string_view::npos && added.find_last_not_of(kWhitespace) == first
                ? added[first]
                : '\0';
 }
@@ -60,7 +60,7 @@ std::vector<std::string> mistyped_texts(std::string_view text, AddedText added) 
     }
     const std::size_t before =
         added.begin == 0 ? std::string::npos
-                         : without_addition.find_last_not_of(kSignBlanks, added.begin - 1);
+                         : without_addition.find_last_not_of(kWhitespace, added.begin - 1);
     if (before != std::string::npos) {
         add(before);
         // The same sign before this character may have been exchanged with it.
@@ -70,7 +70,7 @@ std::vector<std::string> mistyped_texts(std::string_view text, AddedText added) 
             texts.push_back(std::move(exchanged));
         }
     }
-    const std::size_t after = without_addition.find_first_not_of(kSignBlanks, added.begin);
+    const std::size_t after = without_addition.find_first_not_of(kWhitespace, added.begin);
     if (after != std::string::npos) {
         add(after);
     }

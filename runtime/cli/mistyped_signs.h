@@ -19,10 +19,10 @@ struct AddedText {
 /// The one character other than blanks that a repair adds; '\0' if it adds none or several.
 [[nodiscard]] char added_sign(std::string_view added);
 
-/// Texts without the added sign, in which another character may have been mistyped. Either the sign
-/// replaces a character next to the added one, or the character before the added one changes places
-/// with a sign of the same kind before it. A replacement is omitted if the text has other signs of
-/// this kind and none of them has blanks on the same sides.
+/// Other repairs of the text before the addition. Either the nearest character before or after the
+/// place of the addition is replaced by the added sign, or the nearest character before this place
+/// is exchanged with the character before it, if this is the same sign. A replacement is omitted if
+/// the text has other signs of this kind and none of them has blanks on the same sides.
 [[nodiscard]] std::vector<std::string> mistyped_texts(std::string_view text, AddedText added);
 
 } // namespace lsys::lsc

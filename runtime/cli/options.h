@@ -96,10 +96,10 @@ struct ForestCommand : ForestFileOptions {
     bool stats = false;
 };
 
-/// One of several processes that write one tileset.
+/// The share of one process, if several processes write one tileset (`--part I/N`).
 struct TilePart {
-    std::uint64_t number = 1; // 1 to `of`
-    std::uint64_t of = 1;
+    std::uint64_t number = 1; // of this process, 1 to `of`
+    std::uint64_t of = 1;     // number of processes
 };
 
 /// A scene without branch instances: each tree is a whole hero.
@@ -122,8 +122,8 @@ struct TileScene : WholeTreeScene {
 
 struct TilesCommand : TileScene {
     std::string output;  // folder
-    bool force = false;  // also into a folder that has files
-    bool resume = false; // keeps files that are there
+    bool force = false;  // write into a folder that has files
+    bool resume = false; // keep existing files and write the missing ones
     TilePart part;
     bool stats = false;
 };
@@ -139,7 +139,7 @@ struct StatsCommand {
     RunOptions run;
     std::optional<float> height; // m, of the plant
     std::string file;
-    std::optional<float> gravity; // m/s^2; if set, also reports the plant under its weight
+    std::optional<float> gravity; // m/s^2; if set, report how the plant bends under its weight
     bool parameters = false;      // list the constants instead of sizes
 };
 

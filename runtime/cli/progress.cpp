@@ -14,7 +14,7 @@ namespace {
 
 constexpr auto kShowDelay = std::chrono::seconds(1);
 constexpr auto kRedrawInterval = std::chrono::milliseconds(100);
-constexpr std::uint64_t kWidth = 24;
+constexpr std::uint64_t kBarWidth = 24; // characters
 constexpr const char* kClearLine = "\r\x1b[K";
 
 /// A rate with few digits: "830", "12 k", "210 M", "3 G".
@@ -68,13 +68,14 @@ void Progress::update(std::uint32_t generation, std::uint64_t modules, Clock::ti
     last_drawn_ = now;
     drawn_ = true;
     const std::uint64_t total = std::max<std::uint64_t>(generations_, 1);
-    const auto filled = static_cast<std::size_t>(std::min(kWidth * generation / total, kWidth));
+    const auto filled =
+        static_cast<std::size_t>(std::min(kBarWidth * generation / total, kBarWidth));
     const double seconds = std::chrono::duration<double>(now - begin_).count();
     const double rate = static_cast<double>(earlier_modules_ + modules) / seconds;
     *terminal_ << kClearLine
                << fmt::format("[{}{}] generation {} of {}, {} modules, {}/s{}",
                               std::string(filled, '='),
-                              std::string(static_cast<std::size_t>(kWidth) - filled, ' '),
+                              std::string(static_cast<std::size_t>(kBarWidth) - filled, ' '),
                               generation, generations_, modules, short_text(rate),
                               time_left(generation, modules, seconds))
                << std::flush;

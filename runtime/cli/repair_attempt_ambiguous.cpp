@@ -81,10 +81,10 @@ std::set<DiagnosticCode> RepairAttempt::codes_of_single_mistakes() const {
     return single;
 }
 
-/// Whether the sign that a fix added may have been typed as a character beside it.
+/// Whether the author may have mistyped the sign that a fix added as a character beside it.
 bool RepairAttempt::may_be_mistyped(const AppliedFix& fix) const {
     if (fix.added == '\0' || fix.added == '#') {
-        return false; // the character would be part of a label, which changes no word
+        return false; // characters beside a `#` belong to a label, whose spelling changes no word
     }
     const EditedFile& file = files_.at(fix.path);
     const SourceFile* const source = find_source(fix.path);
@@ -108,7 +108,7 @@ bool RepairAttempt::may_be_mistyped(const AppliedFix& fix) const {
         ++end;
     }
     if (end == text.size() || text[end] != fix.added) {
-        return true; // another fix has removed it
+        return true; // another fix has removed the sign
     }
     const std::vector<std::string> others = mistyped_texts(text, {begin, end + 1});
     return std::any_of(others.begin(), others.end(), [&](const std::string& other) {

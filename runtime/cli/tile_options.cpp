@@ -47,7 +47,7 @@ Result<GeoPlace> parse_geo_place(const std::string& text) {
     return GeoPlace{longitude.value(), latitude.value(), height.value()};
 }
 
-/// I/N.
+/// Parses `I/N`: part I of N, counted from 1.
 Result<TilePart> parse_part(const std::string& text) {
     constexpr std::uint64_t kMaxParts = 1'000'000;
     const std::size_t slash = text.find('/');
@@ -62,7 +62,7 @@ Result<TilePart> parse_part(const std::string& text) {
     return TilePart{i.value(), n.value()};
 }
 
-/// HOST:PORT, with an IPv6 address in brackets; or a port of this machine.
+/// Parses `HOST:PORT`, with an IPv6 address in brackets, or `PORT` alone for the default address.
 Result<ServerOptions> parse_listen(const std::string& text) {
     const std::size_t colon = text.rfind(':');
     const bool has_host = colon != std::string::npos;
@@ -107,11 +107,12 @@ void add_tile_options(CLI::App& app, TileScene& command) {
         ->type_name("METRES");
 }
 
-/// The scene and the options of its trees, for `place`, `tiles` and `serve`.
+/// Adds the files of the scene, for `place`, `tiles` and `serve`.
 void add_files(CLI::App& app, WholeTreeScene& command) {
     app.add_option("FILE", command.files, "A scene (.toml), or one grammar per species")
         ->required();
 }
+/// Adds the options of the scene and of its trees, for `place`, `tiles` and `serve`.
 void add_scene(CLI::App& app, WholeTreeScene& command) {
     add_scene_overrides(app, command.overrides, "--size");
     add_tree_height(app, command.overrides.height);

@@ -35,24 +35,25 @@ using NextFile = std::function<std::optional<std::uint64_t>()>;
 /// The files of a part among those with numbers below `end`: every `part.of`-th.
 [[nodiscard]] NextFile files_of_part(const TilePart& part, std::uint64_t end);
 
-/// Refuses a file, and a folder that has files unless the command allows them.
+/// Returns an error if the output is a file, or a folder that has files without --force, --resume
+/// or --part.
 [[nodiscard]] Result<void> check_tileset_folder(const TilesCommand& command);
 
 /// The text of --stats. `is_whole`: whether the totals are those of all files.
 [[nodiscard]] std::string
 tileset_stats(const TileForest& forest, const TileTotals& totals, bool is_whole);
 
-/// Writes numbered files. Errors and interruptions stop it: then it writes no further file.
+/// Writes numbered files. After an error or an interruption it writes no further file.
 class TilesetFolder {
 public:
-    /// All three must outlive the folder.
+    /// All arguments must outlive the object.
     TilesetFolder(const TilesCommand& command, const TileForest& forest, const Console& console);
 
     /// Number of files: shared files, tiles level by level from the root, tilesets from the finest
     /// level up. At least one.
     [[nodiscard]] std::uint64_t count() const { return sections_.back().end; }
-    /// Number of the last file, tileset.json of the root. Written after all others it shows that
-    /// the tileset is complete.
+    /// Number of the last file, tileset.json of the root. If it is written after all others, it
+    /// shows that the tileset is complete.
     [[nodiscard]] std::uint64_t root() const { return count() - 1; }
 
     /// Makes the folder itself.
@@ -93,7 +94,7 @@ private:
     std::atomic<std::uint64_t> bytes_{0};
     std::atomic<std::uint64_t> trees_{0};
     std::atomic<bool> is_stopped_{false};
-    mutable std::mutex mutex_; // of the following
+    mutable std::mutex mutex_; // guards folders_ and result_
     std::set<std::string> folders_;
     Result<void> result_;
 };

@@ -49,7 +49,8 @@ public:
     }
 
 private:
-    /// feed() for programs without `}`, where cuts do not matter: most of the time of a stream.
+    /// feed() for programs without `}`, where cuts do not matter. A loop of its own for speed,
+    /// because a streamed derivation checks each module of the last word.
     template <typename C>
     [[nodiscard]] std::optional<std::uint64_t> feed_branches(const C* codes, std::uint64_t count) {
         for (std::uint64_t i = 0; i < count; ++i) {
@@ -70,7 +71,7 @@ private:
     std::vector<std::int8_t> branch_changes_; // by code, Change::branches
     std::int64_t branches_ = 0;
     std::int64_t polygons_ = 0;
-    std::int64_t cut_ = 0; // open branches from the cut one inwards; 0: no cut
+    std::int64_t cut_ = 0; // open branches from the cut branch inwards; 0: no cut
     bool has_branch_close_ = false;
     bool has_polygon_close_ = false;
 };

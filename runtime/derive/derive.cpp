@@ -22,7 +22,7 @@ struct Derivation::State {
     State(const Bytecode& program, DeriveOptions chosen)
         : bytecode(program), options(std::move(chosen)), word(code_width(program.code_count())),
           next(word.code_width()), spare(word.code_width()), pruner(program),
-          depth(stage_depth(program, Stage::Decompose)), rules(program.rewriting_rules()) {}
+          depth(stage_depth(program, Stage::Decompose)), rules(program.rewriting_rule_count()) {}
 
     const Bytecode& bytecode;
     DeriveOptions options;
@@ -70,8 +70,8 @@ struct Derivation::State {
         return std::nullopt;
     }
 
-    /// Makes all words keep origins, or none, as DeriveOptions::origins says. Returns false if there
-    /// is no memory.
+    /// Makes all words keep origins, or none, as DeriveOptions::origins says. Returns false if
+    /// there is no memory.
     [[nodiscard]] bool apply_origin_option() {
         for (Word* const each : {&word, &next, &spare}) {
             if (!options.origins) {

@@ -34,7 +34,8 @@ enum class RuntimeErrorKind : std::uint8_t {
 struct RuntimeError {
     RuntimeErrorKind kind{};
     ProductionId production = kNoProduction; // kNoProduction: the axiom or a global
-    std::uint32_t site = kNone;              // the expression, or the production's name
+    /// Index in Bytecode::sites: the expression, or the production's name.
+    std::uint32_t site = kNone;
     std::uint32_t generation = 0; // age of the word being rewritten; kStartGeneration: at the start
     std::uint64_t position = 0;   // index of the module in that word
     SymbolId symbol = kNoSymbol;  // the symbol of the module
@@ -111,8 +112,8 @@ public:
     [[nodiscard]] std::optional<Stop> interpret();
     /// Starts to follow the modules of the word: sets each origin to the index of its module, with
     /// age() and the bit kFollowed as generation. After step() an origin names the module of the
-    /// former word that was copied or, if the generation is the new age, rewritten. Returns false if
-    /// the word has more than 2^32 - 1 modules. Precondition: DeriveOptions::origins.
+    /// former word that was copied or, if the generation is the new age, rewritten. Returns false
+    /// if the word has more than 2^32 - 1 modules. Precondition: DeriveOptions::origins.
     [[nodiscard]] bool follow();
     /// Checks that every `]` and `}` of the word has its partner. Commands call it on the last
     /// word. The error names the production that wrote the bracket if only one can have written it.

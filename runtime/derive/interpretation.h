@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Interpretation: applies the productions of `#interpret` to a derived word in passes, and gives the
-// modules to draw to a sink. No word of a pass is stored.
+// Interpretation: applies the productions of `#interpret` to a derived word in passes, and gives
+// the modules to draw to a sink. No word of a pass is stored.
 #pragma once
 
 #include "runtime/derive/derive.h"
@@ -14,7 +14,7 @@
 
 namespace lsys {
 
-/// Inputs that the derivation of the word has fixed.
+/// Values of the derivation of the word, and limits of the interpretation.
 struct InterpretInputs {
     std::uint64_t seed = 0;
     std::uint32_t generations = 0; // the age of the word

@@ -103,7 +103,7 @@ void note_module(Diagnostic& diagnostic, const RuntimeError& error, const Byteco
     }
 }
 
-/// Adds the production, the module and its place in the word, for programs.
+/// Adds the production, the module and its place in the word as facts, for programs that read JSON.
 void add_facts(Diagnostic& diagnostic, const RuntimeError& error, const Bytecode& bytecode) {
     if (error.global != kNone) {
         diagnostic.facts.push_back({"constant", bytecode.globals[error.global].name});
@@ -295,7 +295,7 @@ Diagnostic out_of_bounds(const RuntimeError& error, const Bytecode& bytecode) {
     return diagnostic;
 }
 
-/// The predecessor of the production at fault, if its successor holds it again; else empty.
+/// The predecessor of the production at fault, if the successor contains it; else empty.
 std::string repeated_module(const RuntimeError& error, const Bytecode& bytecode) {
     const BytecodeProduction& production =
         bytecode.productions[static_cast<std::size_t>(error.production)];

@@ -24,7 +24,7 @@ struct StreamChunk {
 /// Returns false to end the derivation with Stop::Cancelled.
 using StreamConsumer = std::function<bool(const StreamChunk&)>;
 
-/// End of a streamed derivation, and the size of the words given to the consumer.
+/// End of a streamed derivation, and the numbers of modules and parameters given to the consumer.
 struct StreamOutcome {
     DerivationEnd end;
     std::uint64_t modules = 0;

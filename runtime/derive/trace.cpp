@@ -268,8 +268,9 @@ void StepTracer::begin(const std::vector<std::uint64_t>& positions,
     const Bytecode& bytecode = state.bytecode;
     DerivationPass facts{.kind = kind, .generation = age};
     if (kind == DerivationPass::Kind::Rewrite &&
-        bytecode.settings.rewriting == RewritingMode::Cyclic && bytecode.rewriting_rules() != 0) {
-        facts.rule = age % bytecode.rewriting_rules();
+        bytecode.settings.rewriting == RewritingMode::Cyclic &&
+        bytecode.rewriting_rule_count() != 0) {
+        facts.rule = age % bytecode.rewriting_rule_count();
     }
     const std::vector<std::uint32_t> productions = productions_of_pass(bytecode, facts);
     const TracedWord traced(bytecode, word);

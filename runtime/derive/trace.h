@@ -101,12 +101,12 @@ LSYS_COUNTED_ENUM(Verdict,
                   LeftContext,
                   RightContext,
                   Condition, // the condition is 0
-                  Fault,     // the condition or the weight is not finite, or the weight negative
+                  Fault,     // condition or weight is not finite, or the weight is negative
                   NoWeight,  // the computed weight is 0
                   NotDrawn,  // it matches, but another production was drawn
                   NotTried); // an earlier production was taken
 
-/// A production for modules of this name, and why it applies or does not.
+/// A production for modules of the traced module's name, and why it applies or does not.
 struct Attempt {
     ProductionId production = kNoProduction;
     Verdict verdict = Verdict::NotTried;

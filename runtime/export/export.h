@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Export: writes a mesh, or for drawings the skeleton, as a file of a common format. Bytes go to a
 // sink in pieces and in order, large arrays straight from memory; no file is held in memory as a
-// whole. The input are results of make_mesh() and of the turtle; the command line owns the files.
+// whole. The input is the result of make_mesh() and of the turtle; callers open and commit files.
 // Metres; +Y up, or +Z if requested. The same input gives the same bytes.
 #pragma once
 
@@ -65,7 +65,7 @@ struct FormatTraits {
     std::uint64_t max_vertices = ~std::uint64_t{0};
     std::uint64_t max_triangles = ~std::uint64_t{0};
     ExportPictures pictures = ExportPictures::None;
-    bool has_mtl = false;    // materials in a file beside it, by write_mtl()
+    bool has_mtl = false;    // materials in a file of their own, by write_mtl()
     bool motion = false;     // one file holds all frames of an animation
     bool film = false;       // one file holds all frames of a growth
     bool lods = false;       // one file holds all levels of detail

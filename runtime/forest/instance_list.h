@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// InstanceList: all branch instances of a forest as one array, grouped by mesh for renderers. Made by
-// make_instance_list(); used by the public library.
+// InstanceList: all branch instances of a forest as one array, grouped by mesh for renderers. Made
+// by make_instance_list(); used by the public library.
 #pragma once
 
 #include "grammar/base/outcome.h"
@@ -27,7 +27,7 @@ struct ForestInstance {
 };
 static_assert(sizeof(ForestInstance) == 40);
 
-/// The instances of one branch of one cache, a range of InstanceList::instances.
+/// All branches that are copies of one instance of a cache: a range of InstanceList::instances.
 struct InstanceGroup {
     std::uint32_t species = 0;
     std::uint32_t stage = 0;
@@ -49,8 +49,8 @@ struct InstanceListOptions {
 };
 
 /// Expands every tree, twice: to count and to write. The list is the same for any number of
-/// threads. Returns Limit for more than `max_bytes`, checked before memory is allocated; OutOfMemory;
-/// Cancelled.
+/// threads. Returns Limit for more than `max_bytes`, checked before memory is allocated;
+/// OutOfMemory; Cancelled.
 [[nodiscard]] std::optional<Stop>
 make_instance_list(const Forest& forest, const InstanceListOptions& options, InstanceList& list);
 

@@ -16,7 +16,8 @@ namespace lsys {
 
 namespace {
 
-constexpr std::uint64_t kMax = std::numeric_limits<std::uint32_t>::max() - 1;
+/// Max number of an item, triangle or part in 32 bits.
+constexpr std::uint64_t kMaxNumber = std::numeric_limits<std::uint32_t>::max() - 1;
 constexpr std::uint64_t kInstancesPerPiece = 256;
 
 /// Per slot: whether a tree can contain its instances.
@@ -228,7 +229,7 @@ private:
 std::optional<Stop>
 list_instances(const InstanceCache& cache, const MeshOptions& options, InstanceMeshes& meshes) {
     Mesh& mesh = meshes.mesh;
-    if (mesh.indices.size() / 3 > kMax) {
+    if (mesh.indices.size() / 3 > kMaxNumber) {
         return Stop::Failed;
     }
     const ListWriter lists(cache, mesh);
@@ -271,7 +272,7 @@ list_instances(const InstanceCache& cache, const MeshOptions& options, InstanceM
         }
     }
     meshes.first_part.push_back(static_cast<std::uint32_t>(parts.size()));
-    if (parts.size() > kMax) {
+    if (parts.size() > kMaxNumber) {
         return Stop::Failed;
     }
     const std::uint64_t vertex_bytes = mesh.byte_count() - mesh.indices.byte_count();
@@ -295,7 +296,7 @@ std::optional<Stop> build(const InstanceCache& cache,
                           InstanceMeshes& meshes) {
     const Skeleton& heroes = cache.skeleton;
     if (std::uint64_t{heroes.segments.size()} + heroes.objects.size() + heroes.polygons.size() >
-        kMax) {
+        kMaxNumber) {
         return Stop::Failed;
     }
     options.segments = true;

@@ -76,7 +76,7 @@ Region region_of(std::span<const Tree> places) {
             std::max(double{high_z->position.z} - z, 1.0)};
 }
 
-/// Places the trees of a grown forest by its scene or at its places.
+/// Places the trees of a grown forest: at the places of `source` if it has any, else by its scene.
 ::lsys::Outcome<void> plant_trees(const ForestSource& source,
                                   const Scene& scene,
                                   const ::lsys::Project& project,

@@ -22,19 +22,19 @@ public:
     /// false. `step` may wait for a moment by wait(). Call it once.
     void run(const std::function<bool()>& step);
 
-    /// Adds files begin ... end - 1. Only step() may call this and the following.
+    /// Adds files begin ... end - 1. Only `step` may call add() and the functions below.
     void add(std::uint64_t begin, std::uint64_t end) { queue_.add(begin, end); }
-    /// No file is added any more.
+    /// Ends the work when all added files are written: add() is not called after close().
     void close();
     /// Whether the threads will soon have no file left.
     [[nodiscard]] bool wants_files() const { return !is_closed_ && queue_.left() < low_; }
-    /// The number of files to ask for.
+    /// The number of files to request.
     [[nodiscard]] std::uint64_t wanted() const { return kFilesPerThread * low_; }
     /// Whether all added files are written, or TilesetFolder::is_stopped() (after an error or an
     /// interruption) and no thread writes any more. Only after close().
     [[nodiscard]] bool is_finished() const;
-    /// Waits until few files are left, or for `time` if few are left already, and never for longer.
-    /// Without other threads it writes a file instead.
+    /// Waits for at most `time`: until few files are left, or for the whole `time` if few are left
+    /// already. If the system has started no other thread, writes a file instead.
     void wait(std::chrono::milliseconds time);
 
 private:

@@ -41,7 +41,7 @@ public:
     }
 
 private:
-    /// Exchanges messages; returns false when all files are written that this rank got.
+    /// Exchanges messages; returns false when this rank has written all the files that it got.
     bool step(lsc::TilesetFolder& folder, Crew& crew) {
         while (const std::optional<Message> message = ranks_.receive()) {
             if (message->kind == MessageKind::Files) {
@@ -126,8 +126,8 @@ ExitStatus join_tiles(const lsc::TilesCommand& command, Ranks& ranks, const Io& 
     if (const std::uint64_t refused = Ranks::leading_number(0); refused != 0) {
         return static_cast<ExitStatus>(refused);
     }
-    // Rank 0 prints the messages of planning. Those of this rank are only of interest if rank 0 has
-    // none.
+    // Rank 0 prints its own messages about planning. The messages of this rank, which would be the
+    // same, are sent only if planning fails here.
     std::ostringstream messages;
     const Io collected{io.in, messages, messages, false, io.interrupted, io.program, io.revision};
     const Console console(collected, command.messages);

@@ -37,9 +37,9 @@ public:
     Leader(const lsc::TilesCommand& command, Ranks& ranks, const Console& console)
         : command_(command), ranks_(ranks), console_(console),
           states_(static_cast<std::size_t>(ranks.count())),
-          // Lines of many ranks come less often.
+          // Each rank has a line, so that progress of many ranks is printed less often.
           progress_interval_(std::chrono::seconds(kProgressSeconds + ranks.count())) {
-        states_[0].is_done = true; // as far as messages are concerned
+        states_[0].is_done = true; // rank 0 sends no Done to itself
         states_[0].machine = Ranks::machine();
         states_[0].threads = command.run.threads;
     }
@@ -60,7 +60,7 @@ public:
         if (status_ == ExitStatus::Ok && forest) {
             report(*forest);
         }
-        console_.io().err << std::flush; // before mpirun hears of the end
+        console_.io().err << std::flush; // before mpirun notices the end
         for (int rank = 1; rank < ranks_.count(); ++rank) {
             ranks_.send(rank, MessageKind::End, {static_cast<std::uint64_t>(status_)}, "");
         }
@@ -69,8 +69,8 @@ public:
 
 private:
     static constexpr int kProgressSeconds = 10;
-    /// A rank gets at most this part of its share of the remaining files, so that all end at about
-    /// the same time.
+    /// A rank gets at most 1 / kShares of its equal share of the remaining files, so that all ranks
+    /// end at about the same time.
     static constexpr std::uint64_t kShares = 4;
 
     void write(const TileForest& forest) {
@@ -83,13 +83,13 @@ private:
             crew.run([&] { return step(folder, crew); });
         }
         if (status_ == ExitStatus::Ok) {
-            folder.write(folder.root()); // complete now
+            folder.write(folder.root()); // all other files are complete
             note_failure(folder);
         }
         states_[0].totals = folder.totals();
     }
 
-    /// Exchanges messages; returns false when all ranks have written all files, but the last.
+    /// Exchanges messages; returns false when all files but the last are written.
     bool step(lsc::TilesetFolder& folder, Crew& crew) {
         receive_messages(&folder);
         note_failure(folder);
@@ -109,7 +109,7 @@ private:
         return true;
     }
 
-    /// Stops all ranks after an error or an interruption of this one.
+    /// Stops all ranks after an error or an interruption of rank 0.
     void note_failure(const lsc::TilesetFolder& folder) {
         if (is_stopping_ || !folder.is_stopped()) {
             return;
@@ -163,7 +163,7 @@ private:
 
     void answer(const Message& request, lsc::TilesetFolder* folder) {
         if (is_stopping_) {
-            return; // the rank has been told
+            return; // Stop has been sent to the rank
         }
         if (request.numbers[0] != plan_) {
             console_.error(fmt::format("rank {} would write another tileset than rank 0: the "
@@ -176,7 +176,7 @@ private:
         ranks_.send(request.rank, MessageKind::Files, {begin, end}, "");
     }
 
-    /// Stops all ranks because of another.
+    /// Stops all ranks because of a failure of another rank.
     void stop(ExitStatus status, lsc::TilesetFolder* folder) {
         stop_all(status);
         if (folder != nullptr) {
@@ -265,7 +265,7 @@ private:
     std::vector<RankState> states_; // by rank
     std::uint64_t plan_ = 0;
     std::uint64_t next_ = 0; // the next file to hand out
-    std::uint64_t end_ = 0;  // of the files to hand out
+    std::uint64_t end_ = 0;  // one more than the last file to hand out
     bool is_stopping_ = false;
     ExitStatus status_ = ExitStatus::Ok;
     Clock::time_point begin_ = Clock::now();

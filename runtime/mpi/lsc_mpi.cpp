@@ -16,7 +16,7 @@ namespace lsys::mpi {
 
 namespace {
 
-/// Runs what has been parsed.
+/// Runs the parsed command, or prints the text or the usage error, on rank 0 only.
 class Dispatch {
 public:
     Dispatch(Ranks& ranks, const Io& io) : ranks_(ranks), io_(io) {}

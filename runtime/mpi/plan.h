@@ -12,14 +12,14 @@
 
 namespace lsys::mpi {
 
-/// Exit status of a job that a rank has ended by an error while it writes.
+/// Exit status of a job that ends because a rank cannot write its files.
 inline constexpr ExitStatus kRankFailed = ExitStatus::AuthorErrors;
 
-/// Longest time in which a rank does not look for messages: while it waits for an answer, and else.
+/// Max time between two checks for messages: while a rank waits for an answer, and otherwise.
 inline constexpr std::chrono::milliseconds kAnswerTime{1};
 inline constexpr std::chrono::milliseconds kIdleTime{20};
 
-/// Plans the tileset. Prints the messages; returns the exit status. A lack of memory is one of them.
+/// Plans the tileset. Prints the messages, also if memory runs out; returns the exit status.
 [[nodiscard]] ExitStatus plan_tiles(const lsc::TilesCommand& command,
                                     const Console& console,
                                     std::optional<TileForest>& forest);

@@ -40,7 +40,7 @@ Ranks::Ranks() {
     int provided = MPI_THREAD_SINGLE;
     MPI_Init_thread(nullptr, nullptr, MPI_THREAD_FUNNELED, &provided);
     if (provided < MPI_THREAD_FUNNELED) {
-        MPI_Abort(MPI_COMM_WORLD, 2); // an MPI without threads, of which none is known
+        MPI_Abort(MPI_COMM_WORLD, 2); // an MPI without threads; no such MPI is known
     }
     MPI_Comm_rank(MPI_COMM_WORLD, &rank_);
     MPI_Comm_size(MPI_COMM_WORLD, &count_);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Ranks: the processes of an MPI job, and their messages. The only code that calls MPI; all calls come
-// from the main thread.
+// Ranks: the processes of an MPI job, and their messages. The only code that calls MPI; all calls
+// come from the main thread.
 #pragma once
 
 #include <array>
@@ -14,11 +14,11 @@ namespace lsys::mpi {
 
 /// The messages of a job. Rank 0 leads; the others are members.
 enum class MessageKind : std::uint8_t {
-    Request, // member to leader: wants files. Plan, number of files, files and bytes written
+    Request, // member to leader: hash of the plan, number of files wanted, files and bytes written
     Files,   // leader to member: begin and end of their numbers; equal if none are left
-    Failed,  // member to leader: exit status, 1 if it had planned the tileset; text
+    Failed,  // member to leader: exit status, 1 if the tileset was planned, else 0; error message
     Stop,    // leader to member: another rank has failed
-    Done, // member to leader, its last message: files, bytes and trees written, threads; its machine
+    Done, // member to leader, last message: files, bytes and trees written, threads; machine name
     End   // leader to member, after all are done: exit status
 };
 
@@ -45,14 +45,14 @@ public:
     /// The name of this machine.
     [[nodiscard]] static std::string machine();
 
-    /// The arguments of rank 0. All ranks must call it.
+    /// The `arguments` that rank 0 passes. All ranks must call it.
     [[nodiscard]] std::vector<std::string>
     leading_arguments(std::span<const std::string> arguments) const;
-    /// The number of rank 0. All ranks must call it.
+    /// The `number` that rank 0 passes. All ranks must call it.
     [[nodiscard]] static std::uint64_t leading_number(std::uint64_t number);
-    /// The processors that a rank has for itself: those of its machine on which ranks may run, divided
-    /// by the number of ranks there, and at most those on which it may run. At least 1. All ranks
-    /// must call it.
+    /// The processors that a rank has for itself: those of its machine on which ranks may run,
+    /// divided by the number of ranks there, and at most those on which it may run. At least 1. All
+    /// ranks must call it.
     [[nodiscard]] static std::uint32_t processors_per_rank();
 
     /// Ends all processes of the job at once; this one too.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Writes a forest as files: instances, one mesh of all trees, or statistics; with pictures beside
-// it, at one moment or in frames of its growth. Used by `lsc forest` and the public library.
+// the file, at one moment or in frames of its growth. Used by `lsc forest` and the public library.
 #pragma once
 
 #include "grammar/base/result.h"

@@ -10,7 +10,7 @@
 
 namespace lsys {
 
-bool OutputContext::is_regular(const std::string& path) const {
+bool OutputContext::can_write_beside(const std::string& path) const {
     if (receiver != nullptr) {
         return true;
     }

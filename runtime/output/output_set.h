@@ -32,9 +32,9 @@ struct OutputContext {
     const FileReceiver* receiver = nullptr;    // null: files on disk
     std::vector<std::string>* paths = nullptr; // if not null, gets the paths of the files
 
-    /// Whether other files can be written beside `path`: it is or will be a regular file, or a
+    /// Whether other files can be written beside `path`: `path` is or will be a regular file, or a
     /// receiver takes the files.
-    [[nodiscard]] bool is_regular(const std::string& path) const;
+    [[nodiscard]] bool can_write_beside(const std::string& path) const;
 };
 
 class OutputSet {

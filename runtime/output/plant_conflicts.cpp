@@ -44,7 +44,7 @@ std::string find_lod_conflict(const PlantFileOptions& options,
         return "--lods embeds buffer and pictures in its one file; --buffers separate needs "
                "--lod-files";
     }
-    if (!one_file && !context.is_regular(options.output)) {
+    if (!one_file && !context.can_write_beside(options.output)) {
         return fmt::format("--lods writes several files here, which need a file name; {} hold all "
                            "levels in one",
                            format_names("and", [](const FormatTraits& each) { return each.lods; }));

@@ -81,7 +81,7 @@ ExitStatus plan_levels(PlantRun& run, const Skeleton& skeleton, DetailChain chai
     const ExportPictures pictures = traits_of(run.format).pictures;
     chain.pictures =
         pictures == ExportPictures::Inside ||
-        (pictures != ExportPictures::None && run.context.is_regular(run.options.output));
+        (pictures != ExportPictures::None && run.context.can_write_beside(run.options.output));
     return run.context.console.take(plan_plant_levels(run.plant,
                                                       is_pose ? run.plant.skeleton : skeleton,
                                                       finest, chain, run.context.project),
@@ -184,7 +184,7 @@ ExitStatus write_mesh(PlantRun& run,
     const Skeleton& written = is_identity ? skeleton : placed;
     OutputSet files(run.context);
     ExitStatus status = ExitStatus::Ok;
-    if (run.context.is_regular(path)) {
+    if (run.context.can_write_beside(path)) {
         status = add_side_files(run, written, path_of(path), info, files);
     }
     if (status == ExitStatus::Ok) {
@@ -262,7 +262,7 @@ ExitStatus write_lods(PlantRun& run, const Skeleton& skeleton) {
         meshes.erase(meshes.begin());
         ExportInfo info = origin;
         info.coarser = &meshes;
-        if (run.context.is_regular(given.output)) {
+        if (run.context.can_write_beside(given.output)) {
             status = add_side_files(run, placed, path_of(given.output), info, files);
         }
         if (status != ExitStatus::Ok) {

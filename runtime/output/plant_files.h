@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Writes a plant as files: one, or one for each level of detail or frame, with the pictures,
-// materials and buffers beside it. Used by `lsc export` and the public library.
+// materials and buffers beside them. Used by `lsc export` and the public library.
 #pragma once
 
 #include "runtime/output/file_options.h"

@@ -16,7 +16,7 @@ bool expands(const FormatTraits& format) {
 
 /// Whether files of the format do not state which axis is up. Most readers of such formats, like
 /// PLY and STL, assume +Z.
-bool cannot_say_up(const FormatTraits& format) {
+bool omits_up_axis(const FormatTraits& format) {
     return format.up_axes && format.pictures == ExportPictures::None;
 }
 

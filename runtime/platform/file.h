@@ -37,7 +37,7 @@ enum class FileType : std::uint8_t {
     Regular,
     Directory,
     Link,
-    Null,
+    Null, // /dev/null or NUL
     Terminal,
     Device,
     Other

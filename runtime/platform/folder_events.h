@@ -28,7 +28,7 @@ public:
         /// Entries of watched folders that were written, made, removed or renamed.
         std::vector<std::filesystem::path> changed;
     };
-    /// Waits for an event, for wake(), or for at most `time`. Only one thread may call this and
+    /// Waits for an event, for wake(), or for at most `time`. Only one thread may call wait() and
     /// watch().
     [[nodiscard]] Waited wait(std::chrono::milliseconds time);
     /// Ends the current wait(), or else the next. Callable by any thread.

@@ -25,13 +25,13 @@ namespace lsys::platform {
 
 /// Handles Ctrl-C, and requests to end the process (SIGTERM, SIGHUP, a closing console). The first
 /// sets end_requested(). A second Ctrl-C ends the process at once, after `clean_up`; so does a
-/// request that has not ended the process within two seconds. Reads that wait return. `clean_up`
+/// request that has not ended the process within two seconds. Blocked reads return. `clean_up`
 /// runs in a signal handler or another thread. A write beyond the file size limit becomes an error.
 /// Call it at most once per process.
 void handle_end_requests(void (*clean_up)() noexcept);
 [[nodiscard]] const std::atomic<bool>& end_requested();
 /// Exit status of a process that ends because of a request, 128 plus the number of the signal: 130
-/// for Ctrl-C, 143, 129. 0 without a request.
+/// for Ctrl-C, 143 for SIGTERM, 129 for SIGHUP. 0 without a request.
 [[nodiscard]] int end_status();
 
 } // namespace lsys::platform

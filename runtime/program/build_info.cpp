@@ -50,8 +50,8 @@ std::string standard_library() {
     return text;
 }
 
-/// Instruction sets with special code in runtime/base/random.cpp and runtime/derive/engine, which
-/// select it at run time.
+/// Instruction sets for which runtime/base/random.cpp and runtime/derive/engine have special code,
+/// selected at run time.
 std::string processor() {
 #if defined(__x86_64__)
     const bool has_avx2 =

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Console: the only output of programs. Results go to standard output, messages to standard error
-// in the format of the options. The public library collects messages instead.
+// Console: prints results to standard output, and messages to standard error in the format of the
+// options. The public library collects messages instead.
 #pragma once
 
 #include "grammar/base/diagnostic.h"

@@ -75,8 +75,7 @@ inline Result<float> fraction(const std::string& text) {
 }
 
 /// Rewords a mistake found by CLI11 in the style of other messages, and suggests the nearest option
-/// name.
-/// `command`: the words before the options of `app`, such as `lsc dump`.
+/// name. `command`: the words before the options of `app`, such as `lsc dump`.
 [[nodiscard]] UsageError
 to_usage_error(const CLI::ParseError& error, const CLI::App& app, const std::string& command);
 

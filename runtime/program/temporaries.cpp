@@ -17,7 +17,7 @@ struct TemporaryName {
 
 namespace {
 
-// A list of all slots. It only grows at its head, so a signal handler can walk it at any time.
+// A list of all slots. It only grows at its head, so a signal handler can traverse it at any time.
 std::atomic<TemporaryName*> first_name{nullptr};
 static_assert(std::atomic<char*>::is_always_lock_free);
 static_assert(std::atomic<TemporaryName*>::is_always_lock_free);

@@ -48,7 +48,7 @@ std::string part_text(const TracedPart& part) {
                : fmt::format("{} = {}", part.values, value_text(part.value));
 }
 
-std::string number_of(std::uint64_t count, std::string_view one, std::string_view several) {
+std::string count_text(std::uint64_t count, std::string_view one, std::string_view several) {
     return fmt::format("{} {}", count, count == 1 ? one : several);
 }
 
@@ -161,7 +161,7 @@ private:
         }
         if (context.branches != 0) {
             text +=
-                fmt::format("; {} passed over", number_of(context.branches, "branch", "branches"));
+                fmt::format("; {} passed over", count_text(context.branches, "branch", "branches"));
         }
         return text;
     }
@@ -486,11 +486,11 @@ private:
                                                                  : "",
                  trace.other_names == 0 ? std::string()
                                         : fmt::format("; {} for modules of other names",
-                                                      number_of(trace.other_names, "production is",
-                                                                "productions are")));
+                                                      count_text(trace.other_names, "production is",
+                                                                 "productions are")));
         } else if (trace.other_names != 0 && !is_later) {
             line("{} for modules of other names",
-                 number_of(trace.other_names, "production is", "productions are"));
+                 count_text(trace.other_names, "production is", "productions are"));
         }
     }
 
@@ -736,7 +736,7 @@ private:
         }
         if (hidden != 0) {
             line("and {} in later passes; `--format json` has them all",
-                 number_of(hidden, "more module", "more modules"));
+                 count_text(hidden, "more module", "more modules"));
         }
     }
 
@@ -943,7 +943,7 @@ private:
             out_ += '\n';
             const std::uint64_t more = trace_.matches - trace_.places.size();
             line("{} like it in generation {}, the next at position {}",
-                 number_of(more, "more module is", "more modules are"), trace_.generation,
+                 count_text(more, "more module is", "more modules are"), trace_.generation,
                  trace_.next_untraced);
         }
     }

@@ -14,7 +14,7 @@ namespace lsys_python {
 
 namespace py = pybind11;
 
-/// A view of `count` items of type `dtype` from `data` on, which keeps `owner` alive.
+/// A view of the items of type `dtype` from `data` on, in the given `shape`; keeps `owner` alive.
 inline py::array view(const py::dtype& dtype,
                       std::vector<py::ssize_t> shape,
                       const void* data,

@@ -137,7 +137,7 @@ private:
     std::condition_variable changed_;
     std::function<void()> work_; // empty: none
     bool ends_ = false;
-    long process_;
+    long process_; // number of the process that made the thread
     std::thread thread_;
 };
 

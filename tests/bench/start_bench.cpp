@@ -30,7 +30,7 @@ struct Program {
 void run(const Program& program) {
     std::vector<char*> arguments;
     for (const std::string& argument : program.arguments) {
-        arguments.push_back(const_cast<char*>(argument.c_str())); // as posix_spawn() wants them
+        arguments.push_back(const_cast<char*>(argument.c_str())); // posix_spawn() takes char*
     }
     arguments.push_back(nullptr);
     posix_spawn_file_actions_t actions;

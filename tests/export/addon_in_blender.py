@@ -12,7 +12,7 @@ import subprocess
 import sys
 
 
-class Bench:
+class CheckState:
     """State shared by the checks."""
 
     def __init__(self, root, lsc, folder):
@@ -64,74 +64,74 @@ def box_of_file(gltf):
     return box(points), sum(len(gltf.accessor(indices)[0]) // 3 for _, indices, _ in parts)
 
 
-def check_plant(bench, collection, *arguments):
+def check_plant(state, collection, *arguments):
     """Checks that the plant in the scene is the one that lsc writes with these arguments."""
-    expected, triangles = box_of_file(bench.written("export", *arguments))
+    expected, triangles = box_of_file(state.written("export", *arguments))
     meshes = [o for o in collection.all_objects if o.type == "MESH"]
     assert sum(len(o.data.polygons) for o in meshes) == triangles, arguments
-    bench.bpy.context.view_layer.update()
+    state.bpy.context.view_layer.update()
     anchor = next(o for o in collection.objects if o.get("lsys_anchor"))
     points = [anchor.matrix_world.inverted() @ o.matrix_world @ v.co for o in meshes for v in o.data.vertices]
     for (low, high), (low_expected, high_expected) in zip(box(points), expected):
         assert abs(low - low_expected) < 1e-3 and abs(high - high_expected) < 1e-3, (box(points), expected)
 
 
-def plant(bench):
+def plant(state):
     """Creates a plant and changes parameters (kept within bounds), generations and options, in one collection."""
-    bpy = bench.bpy
-    file = bench.sample("teach-param")
+    bpy = state.bpy
+    file = state.sample("teach-param")
     assert bpy.ops.lsys.new_plant(filepath=file) == {"FINISHED"}
     collection = bpy.data.collections["teach-param"]
     settings = collection.lsys
     assert [p.name for p in settings.parameters] == ["spread", "shrink", "trunk", "slim"]
     assert (settings.generations, settings.seed) == (7, 0)
-    check_plant(bench, collection, file)
+    check_plant(state, collection, file)
     anchor = bpy.context.view_layer.objects.active
     assert anchor.get("lsys_anchor"), anchor
     anchor.location = (5, 6, 7)
-    before = bench.counts()
+    before = state.counts()
     spread = settings.parameters["spread"]
     spread.value = 50
-    check_plant(bench, collection, file, "-D", "spread=50")
+    check_plant(state, collection, file, "-D", "spread=50")
     spread.value = 500
     assert spread.value == 80, spread.value
-    check_plant(bench, collection, file, "-D", "spread=80")
+    check_plant(state, collection, file, "-D", "spread=80")
     settings.parameters["shrink"].value = 0.6
     settings.generations = 5
-    check_plant(bench, collection, file, "-D", "spread=80", "-D", "shrink=0.6", "-n", "5")
+    check_plant(state, collection, file, "-D", "spread=80", "-D", "shrink=0.6", "-n", "5")
     settings.height = 3
-    check_plant(bench, collection, file, "-D", "spread=80", "-D", "shrink=0.6", "-n", "5", "--height", "3")
-    assert bench.counts() == before, (before, bench.counts())
+    check_plant(state, collection, file, "-D", "spread=80", "-D", "shrink=0.6", "-n", "5", "--height", "3")
+    assert state.counts() == before, (before, state.counts())
     assert tuple(anchor.location) == (5, 6, 7) and anchor.name in collection.objects
 
     meshes = {o.data.name for o in collection.all_objects if o.type == "MESH"}
     settings.options = "--sides 2"
     assert "--sides" in settings.message, settings.message
     assert {o.data.name for o in collection.all_objects if o.type == "MESH"} == meshes
-    bench.fails(bpy.ops.lsys.update, "--sides")
+    state.fails(bpy.ops.lsys.update, "--sides")
     settings.options = "--sides '"
     assert "quotation" in settings.message, settings.message
     settings.options = "--wind 8,0,0,0.5 --frames 4"
     assert (len(bpy.data.armatures), len(bpy.data.actions)) == (1, 1)
     settings.options = ""
     assert settings.message == "", settings.message
-    assert bench.counts() == before, (before, bench.counts())
+    assert state.counts() == before, (before, state.counts())
     bpy.ops.lsys.reload()
     assert spread.value == 80, "changed values stay"
     bpy.ops.lsys.reset()
     assert spread.value == 25
 
 
-def seed(bench):
+def seed(state):
     """Another seed gives another plant; leaves are cut out, bark has a normal map."""
-    bpy = bench.bpy
-    file = bench.sample("carey-type-2")
+    bpy = state.bpy
+    file = state.sample("carey-type-2")
     bpy.ops.lsys.new_plant(filepath=file)
     collection = bpy.data.collections["carey-type-2"]
     collection.lsys.generations = 9
     for number in (0, 1, 2):
         collection.lsys.seed = number
-        check_plant(bench, collection, file, "-n", "9", "-s", str(number))
+        check_plant(state, collection, file, "-n", "9", "-s", str(number))
     check_materials(bpy, {s.material for o in collection.all_objects for s in o.material_slots})
 
 
@@ -152,9 +152,9 @@ def check_materials(bpy, materials):
     assert bark.use_backface_culling and not leaf.use_backface_culling
 
 
-def statistics(bench, *arguments):
-    path = os.path.join(bench.folder, "direct.json")
-    subprocess.run([bench.lsc, "forest", *arguments, "-q", "-o", path], check=True)
+def statistics(state, *arguments):
+    path = os.path.join(state.folder, "direct.json")
+    subprocess.run([state.lsc, "forest", *arguments, "-q", "-o", path], check=True)
     with open(path) as file:
         return json.load(file)
 
@@ -174,10 +174,10 @@ def count_instances(bpy):
     return instances, triangles
 
 
-def forest(bench):
+def forest(state):
     """Checks the objects of 1,000 trees, the branches and triangles of 20 trees with two keys, and a scene."""
-    bpy = bench.bpy
-    file = bench.sample("carey-type-2")
+    bpy = state.bpy
+    file = state.sample("carey-type-2")
     start = processor_time()
     bpy.ops.lsys.new_forest(filepath=file)
     print(f"1000 trees: {processor_time() - start:.2f} s of processor time, {len(bpy.data.objects)} objects")
@@ -186,7 +186,7 @@ def forest(bench):
     collection.lsys.count = 20
     for key in (0, 3):
         collection.lsys.seed = key
-        expected = statistics(bench, file, "--count", "20", "--key", str(key))
+        expected = statistics(state, file, "--count", "20", "--key", str(key))
         found = count_instances(bpy)
         assert found == (expected["branches"], expected["triangles"]), (found, expected["triangles"])
     check_materials(bpy, {s.material for o in collection.all_objects for s in o.material_slots
@@ -195,7 +195,7 @@ def forest(bench):
     assert all(mesh.has_custom_normals for mesh in meshes)
     assert all(mesh.uv_layers for mesh in meshes)
 
-    scene_file = os.path.join(bench.root, "samples", "scenes", "mixed-forest", "mixed-forest.toml")
+    scene_file = os.path.join(state.root, "samples", "scenes", "mixed-forest", "mixed-forest.toml")
     start = processor_time()
     bpy.ops.lsys.new_forest(filepath=scene_file)
     print(f"mixed-forest: {processor_time() - start:.2f} s of processor time")
@@ -204,34 +204,34 @@ def forest(bench):
     assert mixed.lsys.has_key and mixed.lsys.seed == 2019, mixed.lsys.seed
 
 
-def errors(bench):
+def errors(state):
     """Messages of lsc are shown, and no data is left after an error."""
-    bpy = bench.bpy
-    broken = os.path.join(bench.folder, "broken.lsys")
+    bpy = state.bpy
+    broken = os.path.join(state.folder, "broken.lsys")
     with open(broken, "w") as file:
         file.write("#n = 2;\n#w : F(;\n#p : F : * : F F;\n")
-    bench.fails(lambda: bpy.ops.lsys.new_plant(filepath=broken), "broken.lsys:2:", "error")
-    bench.fails(lambda: bpy.ops.lsys.new_forest(filepath=broken), "broken.lsys:2:", "error")
-    bench.fails(lambda: bpy.ops.lsys.new_plant(filepath=os.path.join(bench.folder, "none.lsys")), "no such file")
-    bench.fails(bpy.ops.lsys.update, "no plant")
-    cut = os.path.join(bench.folder, "cut.glb")
-    bench.written("forest", bench.sample("carey-type-2"), "--count", "2")
-    with open(os.path.join(bench.folder, "direct.glb"), "rb") as whole, open(cut, "wb") as file:
+    state.fails(lambda: bpy.ops.lsys.new_plant(filepath=broken), "broken.lsys:2:", "error")
+    state.fails(lambda: bpy.ops.lsys.new_forest(filepath=broken), "broken.lsys:2:", "error")
+    state.fails(lambda: bpy.ops.lsys.new_plant(filepath=os.path.join(state.folder, "none.lsys")), "no such file")
+    state.fails(bpy.ops.lsys.update, "no plant")
+    cut = os.path.join(state.folder, "cut.glb")
+    state.written("forest", state.sample("carey-type-2"), "--count", "2")
+    with open(os.path.join(state.folder, "direct.glb"), "rb") as whole, open(cut, "wb") as file:
         file.write(whole.read()[:-1000])
-    bench.fails(lambda: bpy.ops.lsys.import_forest(filepath=cut), "by its header")
+    state.fails(lambda: bpy.ops.lsys.import_forest(filepath=cut), "by its header")
     # A file whose last mesh is wrong: the import fails after other meshes were made.
-    late = os.path.join(bench.folder, "late.glb")
-    with open(os.path.join(bench.folder, "direct.glb"), "rb") as file:
+    late = os.path.join(state.folder, "late.glb")
+    with open(os.path.join(state.folder, "direct.glb"), "rb") as file:
         data = file.read()
     size = struct.unpack_from("<I", data, 12)[0]
     document = json.loads(data[20 : 20 + size])
     document["meshes"][-1]["primitives"][0]["attributes"]["POSITION"] = 1_000_000
     write_glb(late, document, data[28 + size :])
-    bench.fails(lambda: bpy.ops.lsys.import_forest(filepath=late), "no accessors 1000000")
+    state.fails(lambda: bpy.ops.lsys.import_forest(filepath=late), "no accessors 1000000")
     preferences = bpy.context.preferences.addons["lsys_plants"].preferences
-    preferences.lsc = os.path.join(bench.folder, "no-lsc")
-    bench.fails(lambda: bpy.ops.lsys.new_plant(filepath=bench.sample("teach-param")), "no-lsc", "preferences")
-    preferences.lsc = bench.lsc
+    preferences.lsc = os.path.join(state.folder, "no-lsc")
+    state.fails(lambda: bpy.ops.lsys.new_plant(filepath=state.sample("teach-param")), "no-lsc", "preferences")
+    preferences.lsc = state.lsc
 
 
 def write_glb(path, document, binary):
@@ -243,10 +243,10 @@ def write_glb(path, document, binary):
         file.write(struct.pack("<I4s", len(binary), b"BIN\0") + binary)
 
 
-def layouts(bench):
+def layouts(state):
     """Imports a mesh whose parts have separate arrays, 8- and 16-bit indices, vertex colours and no picture."""
-    bpy = bench.bpy
-    path = os.path.join(bench.folder, "layouts.glb")
+    bpy = state.bpy
+    path = os.path.join(state.folder, "layouts.glb")
     corners = [(0, 0, 0), (1, 0, 0), (0, 2, 0), (0, 0, 3), (1, 0, 3), (0, 2, 3)]
     binary = b"".join(struct.pack("<3f", *corner) for corner in corners)
     binary += bytes([255, 0, 0, 255, 0, 255, 0, 255, 51, 0, 255, 255])  # at byte 72
@@ -312,10 +312,10 @@ def render_pixels(bpy, path):
     return [values[i : i + 4] for i in range(0, len(values), 4)]
 
 
-def render(bench):
+def render(state):
     """A leaf of a plant and of a forest: green, cut out by its picture, nowhere white."""
-    bpy = bench.bpy
-    file = os.path.join(bench.folder, "leaf.lsys")
+    bpy = state.bpy
+    file = os.path.join(state.folder, "leaf.lsys")
     with open(file, "w") as text:
         text.write("#n = 0;\n#set turtle houdini;\n#set names letters;\n#w : J;\n")
     for kind, make in (("plant", bpy.ops.lsys.new_plant), ("forest", bpy.ops.lsys.new_forest)):
@@ -325,7 +325,7 @@ def render(bench):
         if kind == "forest":
             bpy.data.objects["ground"].hide_render = True
         face_the_leaf(bpy, kind == "forest")
-        pixels = render_pixels(bpy, os.path.join(bench.folder, f"leaf-{kind}.png"))
+        pixels = render_pixels(bpy, os.path.join(state.folder, f"leaf-{kind}.png"))
         opaque = [p for p in pixels if p[3] > 0.9]
         print(f"{kind}: {len(opaque)} of {len(pixels)} pixels are opaque")
         assert 0.1 * len(pixels) < len(opaque) < 0.3 * len(pixels), len(opaque)
@@ -339,10 +339,10 @@ def within_blender(root, lsc, folder):
     bpy.ops.preferences.addon_install(filepath=os.path.join(folder, "lsys_plants.zip"))
     bpy.ops.preferences.addon_enable(module="lsys_plants")
     bpy.context.preferences.addons["lsys_plants"].preferences.lsc = lsc
-    bench = Bench(root, lsc, folder)
+    state = CheckState(root, lsc, folder)
     for check in (errors, layouts, plant, seed, forest, render):
         bpy.ops.wm.read_homefile(use_factory_startup=False, use_empty=True)
-        check(bench)
+        check(state)
         print(f"{check.__name__}: passed")
     bpy.ops.preferences.addon_disable(module="lsys_plants")
     assert not hasattr(bpy.types.Collection, "lsys")

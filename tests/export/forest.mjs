@@ -18,7 +18,7 @@ export class Box {
     low = [Infinity, Infinity, Infinity];
     high = [-Infinity, -Infinity, -Infinity];
 
-    /// Points x y z x y z ..., each turned by a matrix of 16 numbers, column by column.
+    /// Adds points x y z x y z ..., transformed by a matrix of 16 numbers, column by column.
     add(points, m) {
         const { low, high } = this;
         for (let p = 0; p < points.length; p += 3) {

@@ -20,7 +20,7 @@ namespace fs = std::filesystem;
 using lsys::tests::LscRun;
 using lsys::tests::run_lsc;
 using lsys::tests::Sample;
-using lsys::tests::stated;
+using lsys::tests::stated_number;
 
 constexpr long kMaxVertices = 20000;
 
@@ -50,8 +50,8 @@ bool export_sample(const Sample& sample, const fs::path& folder, std::ofstream& 
     if (failed(sample, run)) {
         return false;
     }
-    long generations = stated(run.out, "generations");
-    while (stated(run.out, "vertices") > kMaxVertices && generations > 1) {
+    long generations = stated_number(run.out, "generations");
+    while (stated_number(run.out, "vertices") > kMaxVertices && generations > 1) {
         --generations;
         run = run_lsc(
             {"export", source, "-n", std::to_string(generations), "-o", file("ply"), "--stats"},
@@ -80,8 +80,9 @@ bool export_sample(const Sample& sample, const fs::path& folder, std::ofstream& 
             return false;
         }
     }
-    counts << name << ' ' << stated(run.out, "vertices") << ' ' << stated(run.out, "triangles")
-           << ' ' << occurrences(lsys::tests::read_text(file("obj")), "\nusemtl ") << '\n';
+    counts << name << ' ' << stated_number(run.out, "vertices") << ' '
+           << stated_number(run.out, "triangles") << ' '
+           << occurrences(lsys::tests::read_text(file("obj")), "\nusemtl ") << '\n';
     return true;
 }
 

@@ -42,7 +42,7 @@ constexpr double kMaxFactor = 3.0;
 // Without an impostor, the last level has few branches of many triangles each, so the ratio may be
 // larger.
 constexpr double kMaxLastFactor = 3.3;
-constexpr double kManyTriangles = 150.0;
+constexpr double kManyTriangles = 150.0;     // kMaxFactor applies to levels with more triangles
 constexpr double kMaxImpostorDistance = 5.0; // pixels
 
 Project sample_project() {
@@ -576,7 +576,7 @@ TEST_CASE("a finer level keeps all paths of a coarser level", "[levels]") {
 
 TEST_CASE("the kept leaves have the area of all leaves", "[levels]") {
     Skeleton skeleton;
-    test::Numbers numbers(7);
+    test::RandomNumbers numbers(7);
     double area = 0.0;
     for (int i = 0; i < 1000; ++i) {
         PlacedObject leaf;

@@ -9,7 +9,8 @@
 
 namespace lsys::tests {
 
-/// The words of a command line: '...' and "..." keep blanks, a word that begins with # ends it.
+/// The words of a command line: '...' and "..." keep blanks; a word that begins with # begins a
+/// comment.
 [[nodiscard]] std::vector<std::string> words_of(std::string_view command);
 
 /// A command of a `console` block and its output.
@@ -29,7 +30,8 @@ public:
     /// Runs a command. Returns a message that begins with the command, or empty if its output is as
     /// expected.
     [[nodiscard]] std::string run(const SessionStep& step);
-    /// Checks the end of the document. Returns a message, or empty if there is no mistake.
+    /// Call after the last command. Returns a message if the last command failed and no `$ echo $?`
+    /// followed it, else an empty text.
     [[nodiscard]] std::string finish() const;
 
     struct Result {

@@ -27,14 +27,14 @@ struct Fence {
 [[nodiscard]] std::vector<Fence> fences_of(std::string_view document);
 
 struct Heading {
-    std::size_t line = 0;
+    std::size_t line = 0; // from 1
     std::string text;
     std::string anchor; // as GitHub makes it
 };
 [[nodiscard]] std::vector<Heading> headings_of(std::string_view document);
 
 struct Link {
-    std::size_t line = 0;
+    std::size_t line = 0; // from 1
     std::string target;
 };
 /// Links and pictures, including those in HTML tags but not those in code.
@@ -42,7 +42,7 @@ struct Link {
 
 /// Lines of prose: no code, no table, no heading.
 struct ProseLine {
-    std::size_t line = 0;
+    std::size_t line = 0; // from 1
     std::string text;
 };
 [[nodiscard]] std::vector<ProseLine> prose_of(std::string_view document);

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""lsc-mpi tiles writes the files of lsc tiles, with any number of processes, and ends well when they do not.
+"""lsc-mpi tiles writes the files of lsc tiles with any number of processes, and ends cleanly when a process fails.
 
 Usage: test_tiles.py MPIRUN LSC_MPI LSC
 """
@@ -19,7 +19,7 @@ MPIRUN, LSC_MPI, LSC = sys.argv[1:4]
 TREE = """#n = 3; #set angle 25; #w : !(0.2) F(2) X;
 #p : X : * : !(0.08) F({0.5, 0.8}) [ + X ] /(120) [ & X ];
 """
-# Files are made under these names: the name of the file, a dot and random letters.
+# Names of unfinished files: the name of the file, a dot and random letters.
 TEMPORARY = re.compile(r"\.(glb|json|bin|png)\.[A-Za-z0-9]+$")
 # Seconds after which a job is taken to hang.
 PATIENCE = 120

@@ -13,7 +13,7 @@ source "$folder/bash/lsc"
 cd "$scratch"
 
 failures=0
-# expect WORD... = COMPLETION...: what follows the words, whose last one is not complete.
+# expect WORD... -- COMPLETION...: checks that bash offers exactly these completions of the last word.
 expect() {
     local -a words=() wanted=()
     local seen=0 word

@@ -115,7 +115,7 @@ public:
                 return (static_cast<unsigned char>(c) & 0x80u) != 0;
             });
             if (!is_comment(lexeme) && is_ascii) {
-                one(lexeme);
+                add_mutants(lexeme);
             }
         }
         return std::move(mutants_);
@@ -136,7 +136,7 @@ private:
         }
     }
 
-    void one(const Lexeme& lexeme) {
+    void add_mutants(const Lexeme& lexeme) {
         const std::string token(lexeme.text);
         if (token.size() == 1 && std::string_view(";:()[],{}").find(token) != token.npos) {
             replace("`" + token + "` removed", lexeme, "");

@@ -53,7 +53,7 @@ class Files(unittest.TestCase):
                     one, other = one.read(), other.read()
                 if file.endswith(".glb"):
                     one, other = chunks(one), chunks(other)
-                elif file.endswith(".stl"):  # the program is named in a header of 80 bytes, which cuts it off
+                elif file.endswith(".stl"):  # the header of 80 bytes names the program, truncated
                     one, other = one[80:], other[80:]
                 else:
                     one, other = (data.replace(b"liblsys " + lsys.__version__.encode(), b"PROGRAM")

@@ -141,12 +141,12 @@ private:
                gives(command("dump", {"--all", "--threads", "2"}), 0, expected_) &&
                gives(command("dump", {}), 0, last) &&
                gives(command("dump", {"--count"}), 0, count) && compiles_alike() &&
-               continues_alike() && traces_alike() && printed_word_parses();
+               continues_alike() && origins_alike() && printed_word_parses();
     }
 
     // Checks the origins of all modules: by threads, streamed, from bytecode and from a saved
     // state.
-    bool traces_alike() {
+    bool origins_alike() {
         const std::filesystem::path& folder = folder_.path();
         const std::string all = all_origins(test_case_, derivation_, folder, 0, std::nullopt);
         const std::string last =

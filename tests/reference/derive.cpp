@@ -32,11 +32,11 @@ struct System {
     std::vector<std::string> rules;    // rule k is rules[k]; by first appearance
     std::set<std::string> ignored;
     std::set<std::string> considered;
-    std::set<std::string> mentioned; // names in all words and patterns
-    std::size_t rewriting_rules = 0; // rules[0, rewriting_rules) are those of rewriting
+    std::set<std::string> mentioned;      // names in all words and patterns
+    std::size_t rewriting_rule_count = 0; // rules[0, rewriting_rule_count) are those of rewriting
     std::uint32_t decompose_depth = 100;
     bool cuts = false; // in the turtle profile, `%` is a cut
-    bool one_choice_a_generation = false;
+    bool one_choice_per_generation = false;
     std::uint64_t seed = 0;
     std::uint32_t steps = 0;
     std::size_t max_modules = 0;
@@ -98,7 +98,7 @@ bool matches(const PassInput& pass,
 // The random number that chooses between the productions that match at `position`.
 float draw_of_choice(const PassInput& pass, std::size_t rule, std::size_t position) {
     const System& system = pass.system;
-    if (system.one_choice_a_generation) {
+    if (system.one_choice_per_generation) {
         const std::uint64_t place = std::uint64_t{0} - 1 - rule;
         return uniform(system.seed, place, pass.age, 0);
     }
@@ -173,7 +173,7 @@ Choice choose(const PassInput& pass, std::size_t position) {
 void rewrite(const PassInput& pass, const Choice& choice, std::size_t position, Word& out) {
     const System& system = pass.system;
     const Production& production = *choice.production;
-    const bool choice_took_a_draw = production.probability && !system.one_choice_a_generation;
+    const bool choice_took_a_draw = production.probability && !system.one_choice_per_generation;
     std::uint64_t draw = pass.first_draw + (choice_took_a_draw ? 1 : 0);
 
     Environment environment = environment_of(pass, choice.bindings);
@@ -267,17 +267,17 @@ Word next_word(const System& system,
                Derivation& derivation) {
     if (mode == "sequential") {
         Word current = word;
-        for (std::uint32_t k = 0; k < system.rewriting_rules; ++k) {
+        for (std::uint32_t k = 0; k < system.rewriting_rule_count; ++k) {
             const PassInput pass{system, current, age, kDrawsOfARule * k, k};
             current = run_pass(pass, derivation);
         }
         return current;
     }
     if (mode == "cyclic") {
-        if (system.rewriting_rules == 0) {
+        if (system.rewriting_rule_count == 0) {
             return word;
         }
-        const std::size_t rule = age % system.rewriting_rules;
+        const std::size_t rule = age % system.rewriting_rule_count;
         return run_pass(PassInput{system, word, age, 0, rule}, derivation);
     }
     return run_pass(PassInput{system, word, age, 0, std::nullopt}, derivation);
@@ -296,7 +296,7 @@ public:
         for (const Statement* statement : statements_in_order(grammar)) {
             read(*statement);
         }
-        system_.rewriting_rules = system_.rules.size();
+        system_.rewriting_rule_count = system_.rules.size();
         for (const Production* production : decompositions_) {
             system_.decompositions.push_back(
                 {production, group_of(*production), number_of(rule_of(*production))});
@@ -497,7 +497,8 @@ Derivation derive(const Grammar& grammar, const Request& request) {
     System system;
     system.seed = seed_of(grammar, request);
     system.max_modules = request.max_modules;
-    system.one_choice_a_generation = setting(grammar, "choice").value_or("module") == "generation";
+    system.one_choice_per_generation =
+        setting(grammar, "choice").value_or("module") == "generation";
     const std::string mode = setting(grammar, "rewriting").value_or("parallel");
     derivation.seed = system.seed;
     if (const auto depth = setting(grammar, "decompose_depth")) {

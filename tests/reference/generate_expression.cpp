@@ -253,7 +253,7 @@ Expr ExpressionMaker::any(const Scope& scope, int depth) {
     if (depth <= 0 || random_.percent(20)) {
         return leaf(scope);
     }
-    if (scope.ranges > 0 && random_.percent(8)) {
+    if (scope.range_percent > 0 && random_.percent(8)) {
         return range_of(scope, depth);
     }
     if (!constants_.functions.empty() && random_.percent(12)) {
@@ -299,7 +299,7 @@ Expr ExpressionMaker::any(const Scope& scope, int depth) {
 }
 
 Expr ExpressionMaker::argument(const Scope& scope) {
-    if (random_.percent(scope.ranges)) {
+    if (random_.percent(scope.range_percent)) {
         return range_of(scope, 2);
     }
     const std::size_t style = random_.below(100);
@@ -323,7 +323,7 @@ Expr ExpressionMaker::local(const Scope& scope) {
     if (!is_constant(value, scope)) {
         return value;
     }
-    return scope.ranges > 0 ? range(number(0), number(1)) : call("step", {});
+    return scope.range_percent > 0 ? range(number(0), number(1)) : call("step", {});
 }
 
 Expr ExpressionMaker::comparison(const Scope& scope) {

@@ -25,9 +25,9 @@ Expr range(Expr low, Expr high);
 // Names and functions that an expression at a place may use.
 struct Scope {
     std::vector<std::string> formals;
-    bool in_production = false;  // step() and steps() are allowed
-    std::size_t ranges = 0;      // percentage of arguments with a range
-    bool drawn_constants = true; // constants with a random value may be used
+    bool in_production = false;    // step() and steps() are allowed
+    std::size_t range_percent = 0; // percentage of arguments with a range
+    bool drawn_constants = true;   // constants with a random value may be used
 };
 
 // The constants defined so far.

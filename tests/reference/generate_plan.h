@@ -11,9 +11,10 @@
 
 namespace lsys::reference {
 
+// A kind of module: its name and its number of parameters.
 struct Species {
     std::string name;
-    std::size_t count = 0; // of parameters
+    std::size_t count = 0; // number of parameters
 };
 
 struct Plan {

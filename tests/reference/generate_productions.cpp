@@ -367,7 +367,7 @@ std::vector<Production> ProductionMaker::bundle(bool letters) {
                                          ? weight(scope)
                                          : probability(parts[static_cast<std::size_t>(i)], formals);
         }
-        scope.ranges = plan_.range_percent;
+        scope.range_percent = plan_.range_percent;
         if (random_.percent(plan_.local_percent)) {
             const int locals = random_.between(1, 3);
             for (int k = 0; k < locals; ++k) {

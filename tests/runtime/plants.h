@@ -90,7 +90,7 @@ inline Skeleton random_plant(std::mt19937& numbers, std::uint32_t count, double 
 }
 
 /// A tree of about 3^depth twigs, with the stiffness of wood and the size of a real tree.
-inline Skeleton tree(std::uint32_t depth, std::uint32_t segments_an_axis) {
+inline Skeleton tree(std::uint32_t depth, std::uint32_t segments_per_axis) {
     Skeleton plant;
     struct Axis {
         std::uint32_t parent = kNoSegment;
@@ -105,7 +105,7 @@ inline Skeleton tree(std::uint32_t depth, std::uint32_t segments_an_axis) {
         axes.pop_back();
         std::uint32_t last = axis.parent;
         float radius = axis.radius;
-        for (std::uint32_t i = 0; i < segments_an_axis; ++i) {
+        for (std::uint32_t i = 0; i < segments_per_axis; ++i) {
             Segment like = rod(axis.length, radius, 2e9F * radius * radius * radius * radius,
                                500.0F * 3.14F * radius * radius * axis.length);
             radius *= 0.95F;

@@ -163,8 +163,8 @@ TEST_CASE("surfaces have as many vertices as in L3D") {
     const std::string mesh = scratch / "tree.off+";
     const LscRun run = run_lsc({"export", tree, "--bug-compatible", "-o", mesh, "--stats"}, "");
     REQUIRE(run.status == 0);
-    CHECK(lsys::tests::stated(run.out, "segments") == 485);
-    const long vertices = lsys::tests::stated(run.out, "vertices");
+    CHECK(lsys::tests::stated_number(run.out, "segments") == 485);
+    const long vertices = lsys::tests::stated_number(run.out, "vertices");
     const long of_segments = vertices - 786 * 8;
     CHECK(of_segments >= 485 * 40);
     CHECK(of_segments <= 485 * 80);

@@ -17,7 +17,7 @@ using lsys::tests::ScratchFolder;
 
 struct Foreign {
     std::string file;   // in samples/dialects
-    std::string system; // name of the system; empty if the file has one
+    std::string system; // name of the system; empty if the file has only one
     std::string generations;
     std::string count; // number of modules after the generations; empty if random
 };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The first lines of each sample of the gallery are true.
+// The facts in the header of each sample of the gallery: command lines, counts, layout.
 #include "tests/support/lsc_run.h"
 
 #include <catch2/catch.hpp>

@@ -28,7 +28,7 @@ LscRun run_lsc(const std::vector<std::string>& arguments, const std::string& inp
     return run;
 }
 
-long stated(const std::string& stats, const std::string& row) {
+long stated_number(const std::string& stats, const std::string& row) {
     const std::size_t at = ("\n" + stats).find("\n" + row + ' ');
     if (at == std::string::npos) {
         return -1;

@@ -20,7 +20,7 @@ struct LscRun {
 [[nodiscard]] LscRun run_lsc(const std::vector<std::string>& arguments, const std::string& input);
 
 /// The number in a row of `lsc export --stats`; -1 if the row is missing.
-[[nodiscard]] long stated(const std::string& stats, const std::string& row);
+[[nodiscard]] long stated_number(const std::string& stats, const std::string& row);
 
 /// The bytes of a file, which must exist.
 [[nodiscard]] std::string read_text(const std::filesystem::path& path);

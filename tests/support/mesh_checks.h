@@ -22,7 +22,7 @@ inline glm::dvec3 twice_area(const glm::vec3& a, const glm::vec3& b, const glm::
 }
 
 /// The number of triangles whose mean normal points to the back.
-inline std::size_t turned_over(const Mesh& mesh) {
+inline std::size_t triangles_turned_over(const Mesh& mesh) {
     std::size_t turned = 0;
     const LargeVector<std::uint32_t> indices = mesh.indices.expanded();
     for (std::size_t i = 0; i < indices.size(); i += 3) {

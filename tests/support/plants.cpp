@@ -41,7 +41,7 @@ Plant::add(std::uint32_t parent, const glm::vec3& direction, float length, const
     return static_cast<std::uint32_t>(skeleton_.segments.size() - 1);
 }
 
-glm::vec3 Numbers::direction() {
+glm::vec3 RandomNumbers::direction() {
     for (;;) {
         const glm::vec3 v(uniform(-1.0F, 1.0F), uniform(-1.0F, 1.0F), uniform(-1.0F, 1.0F));
         const float square = glm::dot(v, v);
@@ -58,7 +58,7 @@ Skeleton random_tree(std::uint32_t seed, std::uint32_t orders) {
         float radius = 0.12F;
         std::uint16_t order = 0;
     };
-    Numbers numbers(seed);
+    RandomNumbers numbers(seed);
     Plant plant;
     std::vector<Bud> buds{Bud{}};
     while (!buds.empty()) {

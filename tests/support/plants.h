@@ -35,9 +35,9 @@ private:
 };
 
 /// Random numbers, equal with every standard library.
-class Numbers {
+class RandomNumbers {
 public:
-    explicit Numbers(std::uint32_t seed) : engine_(seed) {}
+    explicit RandomNumbers(std::uint32_t seed) : engine_(seed) {}
     [[nodiscard]] float uniform(float low, float high) {
         return low + (high - low) * static_cast<float>(engine_() >> 8) * (1.0F / 16777216.0F);
     }

@@ -48,10 +48,10 @@ if (view.tileset === '') {
     Cesium.Cartesian3.normalize(direction, direction);
     const up = Cesium.Matrix4.multiplyByPointAsVector(frame, new Cesium.Cartesian3(0, 0, 1), new Cesium.Cartesian3());
     viewer.camera.setView({ destination: eye, orientation: { direction, up } });
-    let still = 0;
+    let stillFrames = 0;
     viewer.scene.postRender.addEventListener(() => {
-        still = tileset.tilesLoaded ? still + 1 : 0;
-        window.isSettled = still > 10;
+        stillFrames = tileset.tilesLoaded ? stillFrames + 1 : 0;
+        window.isSettled = stillFrames > 10;
         window.tileCounts = { visible: tileset.statistics?.selected, triangles: tileset.statistics?.numberOfTrianglesSelected };
     });
 }

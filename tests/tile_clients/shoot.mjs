@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Takes a picture of a tileset in a viewer of other people, in headless Chromium.
+// Takes a picture of a tileset in a viewer of another project, in headless Chromium.
 // Usage: node shoot.mjs CLIENT TILESET ORIGIN EYE AT ERROR PICTURE
 //   CLIENT   cesium or three
 //   TILESET  the address of a tileset.json, or a folder; empty: an empty page

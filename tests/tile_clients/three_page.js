@@ -35,20 +35,20 @@ if (view.tileset === '') {
     const frame = new THREE.Matrix4();
     const radians = Math.PI / 180;
     WGS84_ELLIPSOID.getEastNorthUpFrame(latitude * radians, longitude * radians, height, frame);
-    const scene_axes = new THREE.Matrix4().makeRotationX(-Math.PI / 2); // east, north, up to x, y, z
+    const sceneAxes = new THREE.Matrix4().makeRotationX(-Math.PI / 2); // east, north, up to x, y, z
     tiles.group.matrixAutoUpdate = false;
-    tiles.group.matrix.copy(scene_axes).multiply(frame.invert());
+    tiles.group.matrix.copy(sceneAxes).multiply(frame.invert());
     tiles.group.updateMatrixWorld(true);
     scene.add(tiles.group);
-    let still = 0;
+    let stillFrames = 0;
     const draw = () => {
         camera.updateMatrixWorld();
         tiles.update();
         renderer.render(scene, camera);
         const { downloading, parsing, queued, visible } = tiles.stats;
-        const is_still = tiles.root !== null && downloading === 0 && parsing === 0 && (queued ?? 0) === 0;
-        still = is_still ? still + 1 : 0;
-        window.isSettled = still > 10;
+        const isStill = tiles.root !== null && downloading === 0 && parsing === 0 && (queued ?? 0) === 0;
+        stillFrames = isStill ? stillFrames + 1 : 0;
+        window.isSettled = stillFrames > 10;
         window.tileCounts = { visible, triangles: renderer.info.render.triangles };
         requestAnimationFrame(draw);
     };

@@ -65,7 +65,7 @@ public:
             }
         }
         if (bytecode.settings.rewriting == RewritingMode::Sequential) {
-            by_rule_.resize(bytecode.rewriting_rules());
+            by_rule_.resize(bytecode.rewriting_rule_count());
             std::vector<std::uint32_t> rule_of(bytecode.symbols.size(), kNone);
             for (std::uint32_t p = 0; p < bytecode.productions_of(Stage::Rewrite).count; ++p) {
                 const BytecodeProduction& production = bytecode.productions[p];

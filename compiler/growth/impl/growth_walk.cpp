@@ -84,7 +84,7 @@ GrowthWalk::GrowthWalk(ModuleClasses& classes) : classes_(&classes) {
 
 void GrowthWalk::list_rules() {
     const Bytecode& bytecode = classes_->bytecode();
-    rules_.resize(bytecode.rewriting_rules());
+    rules_.resize(bytecode.rewriting_rule_count());
     std::vector<std::map<ClassId, std::uint32_t>> max_counts; // by index in sequences_
     for (std::uint32_t p = 0; p < bytecode.productions_of(Stage::Rewrite).count; ++p) {
         const BytecodeProduction& production = bytecode.productions[p];
@@ -381,7 +381,7 @@ ProductionId GrowthWalk::dominant() {
         }
     }
     for (const SequenceRule& rule : sequences_) {
-        // Count all matches for the first production of the rule, since the others may match too.
+        // Which production of the rule a match takes is unknown: attribute all to the first one.
         double modules = 0.0;
         for (const ClassTerm& term : rule.max_written) {
             modules += term.count;

@@ -46,14 +46,15 @@ public:
         }
         find_effects();
         for (const Axiom& axiom : program_.axioms) {
-            walk(axiom.word, "axiom", kNone);
+            read_word(axiom.word, "axiom", kNone);
         }
         branches_.sites.clear(); // branches of an axiom are never replaced
         // Branches written by a decomposition get no id, because their key does not contain the
         // number of passes left for their modules. Interpreted branches are never rewritten.
         for (std::uint32_t i = 0; i < program_.productions.size(); ++i) {
             const Production& production = program_.productions[i];
-            walk(production.successor, "successor", production.stage == Stage::Rewrite ? i : kNone);
+            read_word(production.successor, "successor",
+                      production.stage == Stage::Rewrite ? i : kNone);
         }
         branches_.axiom_is_random = program_.axioms.size() > 1 || !program_.globals.empty();
         for (const Axiom& axiom : program_.axioms) {
@@ -223,7 +224,7 @@ private:
         return {word.file, begin, begin + 1};
     }
 
-    void walk(const ProgramWord& word, const char* where, std::uint32_t production) {
+    void read_word(const ProgramWord& word, const char* where, std::uint32_t production) {
         open_.clear();
         found_.clear();
         local_count_ =
@@ -265,7 +266,7 @@ private:
                 }
                 polygons -= polygons > 0 ? 1U : 0U;
                 if (!open_.empty() && polygons < open_.back().polygons) {
-                    across_polygon(word, open_.back().index);
+                    refuse_crossing_polygon(word, open_.back().index);
                     open_.back().polygons = polygons;
                 }
                 add_module(word, index, arguments);
@@ -297,7 +298,7 @@ private:
                            where));
     }
 
-    void across_polygon(const ProgramWord& word, std::uint32_t index) {
+    void refuse_crossing_polygon(const ProgramWord& word, std::uint32_t index) {
         refuse(span_of(word, index),
                "a polygon goes across the border of this branch, so the system cannot be "
                "instanced");
@@ -367,7 +368,7 @@ private:
         OpenBranch open = std::move(open_.back());
         open_.pop_back();
         if (open.valid && (open.polygons != 0 || polygons != 0)) {
-            across_polygon(word, open.index);
+            refuse_crossing_polygon(word, open.index);
         }
         for (std::vector<std::uint32_t>* const used : {&open.formals, &open.locals}) {
             std::sort(used->begin(), used->end());

@@ -12,8 +12,8 @@ namespace lsys {
 
 namespace {
 
-/// Finds two neighbouring constant arguments that may be meant as a random range: R(0, 100) for
-/// R({0, 100}).
+/// Offers a random range in place of two neighbouring constant arguments: `R({0, 100})` for
+/// `R(0, 100)`.
 std::optional<Fix> range_fix(const CheckInput& input,
                              const ModuleMention& place,
                              std::uint32_t wanted,
@@ -53,8 +53,8 @@ std::optional<Fix> range_fix(const CheckInput& input,
     return std::nullopt;
 }
 
-/// First values for a module of the axiom without arguments: `A(1)`, if a production replaces
-/// `A(len)`.
+/// Offers first values for a module that has no arguments in an axiom: `A(1)` if a production
+/// replaces `A(len)`.
 std::optional<Fix> first_values_fix(const CheckInput& input,
                                     const ModuleMention& place,
                                     const Production& production,

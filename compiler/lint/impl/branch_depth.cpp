@@ -18,8 +18,8 @@ namespace lsys {
 namespace {
 
 constexpr std::int64_t kUnbounded = std::int64_t{1} << 40; // beyond the depth of any text
-constexpr std::uint32_t kMaxVisits =
-    16; // changes of the bounds of a module before a bound that still moves becomes infinite
+/// Number of changes of a module's bounds after which a bound that changes again becomes infinite.
+constexpr std::uint32_t kMaxChanges = 16;
 
 /// Bounds over all words that a module can become: min and max bracket depth at the end, and lowest
 /// depth within, relative to the depth before the word.
@@ -47,7 +47,8 @@ Depth either(const Depth& a, const Depth& b) {
 class DepthAnalysis {
 public:
     explicit DepthAnalysis(const Program& program)
-        : program_(program), depth_(program.symbols.size()), visits_(program.symbols.size(), 0) {
+        : program_(program), depth_(program.symbols.size()),
+          change_counts_(program.symbols.size(), 0) {
         for (std::size_t s = 0; s < depth_.size(); ++s) {
             if (program.symbols[s].kind == SymbolKind::BranchOpen) {
                 depth_[s] = {1, 1, 0};
@@ -80,7 +81,7 @@ public:
             if (next == depth_[s]) {
                 continue;
             }
-            if (++visits_[s] > kMaxVisits) { // assume that the bound moves without end
+            if (++change_counts_[s] > kMaxChanges) { // assume that the bound changes without end
                 next.low = next.low < depth_[s].low ? -kUnbounded : next.low;
                 next.high = next.high > depth_[s].high ? kUnbounded : next.high;
                 next.lowest = next.lowest < depth_[s].lowest ? -kUnbounded : next.lowest;
@@ -97,8 +98,8 @@ public:
 
 private:
     const Program& program_;
-    std::vector<Depth> depth_;          // by symbol
-    std::vector<std::uint32_t> visits_; // by symbol; changes of depth_, at most kMaxVisits
+    std::vector<Depth> depth_;                 // by symbol
+    std::vector<std::uint32_t> change_counts_; // by symbol: number of changes of depth_
 };
 
 /// The number of `[` minus the number of `]`.

@@ -57,8 +57,7 @@ private:
         return false;
     }
 
-    /// Sets source_ for the formals in the expressions of a production, to the module parameters
-    /// that they receive.
+    /// Sets source_ for the formals and slots that the expressions of a production read.
     void trace(const Production& production) {
         std::vector<std::uint32_t> parameter(production.formals.size(), kNone);
         for (const ProgramPattern* pattern :

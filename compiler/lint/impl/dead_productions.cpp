@@ -106,7 +106,8 @@ private:
         return false;
     }
 
-    /// Suggests the name at a module that does nothing and is named `nearest`, if there is one.
+    /// Offers `name` in place of a module named `nearest` that has no production, no turtle
+    /// operation and no declaration. Returns false if there is no such module.
     bool
     suggest_at_mention(Diagnostic& diagnostic, std::string_view name, std::string_view nearest) {
         for (std::uint32_t s = 0; s < program_.symbols.size(); ++s) {

@@ -124,9 +124,10 @@ private:
     }
 
     const Program& program_;
-    std::vector<std::vector<std::uint32_t>> tried_; // by symbol: productions, in file order
-    std::vector<bool> is_certain_;                  // by symbol: some production always matches
-    std::vector<bool> endless_;                     // by symbol
+    /// By symbol: the productions that may match, in file order.
+    std::vector<std::vector<std::uint32_t>> tried_;
+    std::vector<bool> is_certain_; // by symbol: some production always matches
+    std::vector<bool> endless_;    // by symbol
 };
 
 void report(const CheckInput& input,

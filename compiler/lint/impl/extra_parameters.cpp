@@ -13,7 +13,8 @@ namespace lsys {
 
 namespace {
 
-/// Parameters that the command reads from `count`: for `'` one (an index) or three (a colour).
+/// Number of parameters that the command reads in a module with `count` parameters. `'` reads one
+/// (a colour index) or three (red, green, blue).
 std::uint32_t parameters_read(const TurtleCommand& command, std::uint32_t count) {
     const bool is_index = operation_of(command, count) == TurtleOperation::SetColour;
     return is_index ? 1 : command.max_parameters;

@@ -203,7 +203,8 @@ private:
                     "`.` adds the position to the polygon between `{` and `}`");
             }
         }
-        // If one word alone has more `{` and one alone more `}`, the second may end the polygon.
+        // If exactly one word has more `{` than `}` and exactly one more `}` than `{`, the latter
+        // may end the polygon that the former begins.
         if (opened != closed && !(open_words_ == 1 && end_words_ == 1)) {
             report_imbalance(word, where, opened > closed ? open.back().begin : *first_end,
                              opened > closed);

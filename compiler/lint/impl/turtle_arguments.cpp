@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Suspicious arguments of turtle commands: an angle in radians, a negative width, a part of a
-// colour that is not from 0 to 1.
+// Suspicious arguments of turtle commands: an angle in radians, a negative width, a colour
+// component that is not from 0 to 1.
 #include "compiler/lint/impl/lints.h"
 #include "compiler/lint/impl/places.h"
 
@@ -35,7 +35,7 @@ bool is_checked(const Symbol& symbol) {
             symbol.turtle == TurtleOperation::SetRgb);
 }
 
-/// Reports the first part of a colour that is not from 0 to 1.
+/// Reports the first colour component that is not from 0 to 1.
 void check_colour(const CheckInput& input,
                   const ProgramWord& word,
                   std::size_t index,

@@ -41,7 +41,7 @@ void AttemptedStatements::read(std::string_view text) {
             const std::string_view rest = text.substr(at);
             const auto end =
                 static_cast<std::size_t>(keyword.data() + keyword.size() - rest.data());
-            constants_.emplace(leading_identifier(rest.substr(end)));
+            defined_names_.emplace(leading_identifier(rest.substr(end)));
         } else if (keyword == "w" || keyword == "n") {
             keywords_.emplace(keyword);
         }
@@ -78,7 +78,7 @@ bool AttemptedStatements::has(std::string_view keyword) const {
 }
 
 bool AttemptedStatements::defines(std::string_view name) const {
-    return constants_.contains(std::string(name));
+    return defined_names_.contains(std::string(name));
 }
 
 } // namespace lsys

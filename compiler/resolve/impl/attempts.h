@@ -16,7 +16,7 @@ public:
     explicit AttemptedStatements(const Resolution& resolution);
 
     /// Whether the text has `#keyword`, or a line with the same meaning in another notation
-    /// (`axiom: F`, `n = 5`). Finds only `w` and `n`.
+    /// (`axiom: F`, `n = 5`). Precondition: `keyword` is "w" or "n".
     [[nodiscard]] bool has(std::string_view keyword) const;
     /// Whether `#define NAME`, `#param NAME`, `#function NAME` or `#curve NAME` occurs anywhere in
     /// the text.
@@ -27,7 +27,7 @@ private:
     void read_lines(std::string_view text);
 
     std::unordered_set<std::string> keywords_; // found in the text
-    std::unordered_set<std::string> constants_;
+    std::unordered_set<std::string> defined_names_;
 };
 
 } // namespace lsys

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The constants of #define and #param by name. A constant must be defined before its use, so the
-// table is filled while the statements are walked. The places of later definitions are known from
-// the beginning, for messages.
+// table is filled while the statements are resolved in their order. The places of later definitions
+// are known from the beginning, for messages.
 #pragma once
 
 #include "compiler/resolve/impl/resolution.h"

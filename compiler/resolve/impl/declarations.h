@@ -13,8 +13,9 @@ public:
     DeclarationResolver(Resolution& resolution, SymbolTable& symbols)
         : resolution_(resolution), symbols_(symbols) {}
 
-    /// Call before any symbol is made; `splitter` may be made after the objects are bound.
+    /// Call for all objects before the NameSplitter and any symbol are made.
     void object(const ObjectNode& node);
+    /// Call after object() and before any symbol is made.
     void ignore(const IgnoreNode& node, NameSplitter& splitter);
     /// Call after all statements.
     void finish_ignores();

@@ -57,8 +57,8 @@ public:
     /// True: expressions of the Ast are not released after use, until keep_expressions(false).
     void keep_expressions(bool keep) { keeps_expressions_ = keep; }
 
-    /// Announces a local value of the current production that add_local() will define. Messages
-    /// about an earlier use can then say so.
+    /// Announces a local value of the current production that add_local() will define, for messages
+    /// about uses before the definition.
     void expect_local(NameId name);
     /// Defines a local value: its name means `value` if that is a leaf, else the content of slot
     /// `slot`.
@@ -78,7 +78,7 @@ public:
     [[nodiscard]] bool is_constant(NameId name) const {
         return constants_.state(name) != ConstantState::Unknown;
     }
-    /// Whether the last resolved value depends on a range.
+    /// Whether the last resolved value depends on a random number.
     [[nodiscard]] bool is_random() const { return is_random_; }
     /// Number of draws since begin_statement().
     [[nodiscard]] std::uint32_t draw_count() const { return draw_count_; }

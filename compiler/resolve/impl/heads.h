@@ -12,8 +12,8 @@ public:
     HeadResolver(ModuleReading& reading, ConstantTable& constants)
         : reading_(reading), resolution_(reading.resolution), constants_(constants) {}
 
-    /// Fills contexts, predecessor and formals of `production`, and adds the formals to the
-    /// expressions. Returns false after reporting an error of the head.
+    /// Sets contexts, predecessor and formals of `production`, and adds the formals to the
+    /// ExpressionResolver. Returns false after reporting an error of the head.
     [[nodiscard]] bool resolve(const ProductionNode& node, Production& production);
 
 private:

@@ -25,7 +25,7 @@ struct Resolution {
     const CompileOptions& options;
     Diagnostics& diagnostics;
     Program& program;
-    std::vector<FileId> letter_files; // files with `names letters`
+    std::vector<FileId> letter_files; // files with `names letters` or `names characters`
 
     [[nodiscard]] std::string_view text(NameId name) const { return names.text(name); }
 };

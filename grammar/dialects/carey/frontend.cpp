@@ -59,7 +59,7 @@ void write_axiom(const CareyFile& file,
 
 /// Properties of the selection of a rule that depend on the other rules.
 struct RuleSelection {
-    std::size_t number = 0;
+    std::size_t number = 0;        // of the rule in its file, from 1
     bool has_alternatives = false; // other rules have the same left side
     /// Condition that is true in the generations in which the rule has its turn. If empty,
     /// `rewriting cyclic` decides.

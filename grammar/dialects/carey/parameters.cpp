@@ -30,9 +30,9 @@ struct RuleWithModules {
     std::vector<PlacedModule> right; // modules of rule->right
 };
 
-class ParameterWalk {
+class LeftParameterFinder {
 public:
-    ParameterWalk(const CareyFile& file, const ParseContext& context)
+    LeftParameterFinder(const CareyFile& file, const ParseContext& context)
         : context_(context), quiet_{context.sources, context.names, ignored_, context.load} {
         for (const CareyRule& rule : file.rules) {
             rules_.push_back({&rule, modules_of(rule.left), modules_of(rule.right)});
@@ -47,7 +47,7 @@ public:
         }
     }
 
-    LeftParameters walk() {
+    LeftParameters find() {
         LeftParameters found;
         found.counts_by_rule.resize(rules_.size());
         while (!pending_.empty()) {
@@ -177,7 +177,7 @@ private:
 } // namespace
 
 LeftParameters find_left_parameters(const CareyFile& file, const ParseContext& context) {
-    return ParameterWalk(file, context).walk();
+    return LeftParameterFinder(file, context).find();
 }
 
 } // namespace lsys

@@ -84,7 +84,7 @@ private:
     [[nodiscard]] bool depends(const std::vector<int>& statements,
                                const std::string& to,
                                const std::set<std::string>& names) const;
-    [[nodiscard]] ForeignId step_of(const std::string& variable) const;
+    [[nodiscard]] ForeignId increment_of(const std::string& variable) const;
     [[nodiscard]] std::optional<bool> is_assigned_first(const std::vector<int>& statements,
                                                         const std::string& variable) const;
     void enter_step();

@@ -79,7 +79,7 @@ public:
     std::vector<int> end_each;
     std::vector<int> end;
     Stage stage = Stage::Rewrite; // stage of the productions being read
-    int systems = 0;
+    int systems = 0;              // number of labels `Lsystem:` read
 
     // --- for the scanner
     enum class Mode : std::uint8_t { Line, Symbols, Expression };

@@ -48,7 +48,7 @@ void CpfgExpressions::read_header() {
     end_of_constants_ = tree_.locals().size();
     for (ForeignLocal& constant : tree_.locals()) {
         constant.is_constant = true;
-        // drawn once, before the derivation begins
+        // A random constant is drawn once, before the derivation begins.
         constant.is_final = constant.is_final || tree_.has_draw(constant.value);
         constant.is_inline |= tree_.has(constant.value, [](const ForeignNode& node) {
             return node.kind == ForeignKind::Call && (node.text == "step" || node.text == "steps");
@@ -68,14 +68,15 @@ void CpfgExpressions::read_each_step() {
     find_changed_globals(session_.start_each);
     find_changed_globals(session_.end_each);
     for (const std::string& variable : changed_globals_) {
-        const ForeignId added = step_of(variable);
+        const ForeignId added = increment_of(variable);
         if (added != kNoForeign) {
             increments_[variable] = added;
         } else if (is_assigned_first(session_.start_each, variable).value_or(false)) {
             reset_.insert(variable);
         }
     }
-    for (const auto& [variable, value] : globals_) { // the name itself is for local values
+    // Rename the constants of changing variables, whose own names are for local values.
+    for (const auto& [variable, value] : globals_) {
         if (changed_globals_.count(variable) != 0 && tree_[value].kind == ForeignKind::Local) {
             tree_.locals()[tree_[value].index].name = "start_" + variable;
         }
@@ -138,7 +139,7 @@ bool CpfgExpressions::depends(const std::vector<int>& statements,
 
 /// The expression that each step adds to the variable, or kNoForeign. It exists if the only
 /// assignment to the variable is `v = v + e;` outside of any `if`, and no step changes `e`.
-ForeignId CpfgExpressions::step_of(const std::string& variable) const {
+ForeignId CpfgExpressions::increment_of(const std::string& variable) const {
     if (assignments(session_.start_each, variable) + assignments(session_.end_each, variable) !=
         1) {
         return kNoForeign;
@@ -335,7 +336,7 @@ void CpfgExpressions::branch(const CpfgStatement& statement) {
         run(is_cpfg_zero(known) ? statement.otherwise : statement.block);
         return;
     }
-    if (!tree_[test].parts.empty()) { // a name, for a test that decides several variables
+    if (!tree_[test].parts.empty()) { // store a test that may decide several variables
         test = tree_.local({.name = "test", .value = test, .span = span});
     }
     const Variables before = variables_;

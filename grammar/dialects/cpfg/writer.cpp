@@ -446,7 +446,7 @@ std::string label_of(Stage stage, std::size_t index) {
 
 } // namespace
 
-std::string CpfgWriter::drawing_module(std::size_t index) const {
+std::string CpfgWriter::random_module(std::size_t index) const {
     return "`random" + std::to_string(index + 1) + "`";
 }
 
@@ -497,7 +497,7 @@ void CpfgWriter::write_group(std::size_t index) {
     const std::uint32_t count = lowered_[index].draws;
     const std::vector<std::string> names = formals_of(first);
     write_head(first, label_of(first.stage, index));
-    out_.put("* : " + drawing_module(index), first.arrow);
+    out_.put("* : " + random_module(index), first.arrow);
     write_parameters(names, std::vector<std::string>(count, "{0, 1}"), first.arrow);
     out_.put(";\n", first.arrow);
     bool always = false;
@@ -506,7 +506,7 @@ void CpfgWriter::write_group(std::size_t index) {
         const std::vector<std::string> own = formals_of(production);
         const std::vector<std::string> draws = draw_names(own, count);
         out_.put(bound_label(production.stage, "b" + std::to_string(member + 1)) + " : " +
-                     drawing_module(index),
+                     random_module(index),
                  production.span);
         write_parameters(own, draws, production.span);
         out_.put(" : ", production.span);
@@ -516,7 +516,7 @@ void CpfgWriter::write_group(std::size_t index) {
     }
     if (!always) { // if no production matches, the module stays
         out_.put(bound_label(first.stage, "k" + std::to_string(index + 1)) + " : " +
-                     drawing_module(index),
+                     random_module(index),
                  first.span);
         write_parameters(names, draw_names(names, count), first.span);
         out_.put(" : * : " + spelled(first.predecessor.front().name,

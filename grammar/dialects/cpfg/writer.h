@@ -81,7 +81,8 @@ private:
                        const ForeignWriting& how);
     [[nodiscard]] std::vector<std::vector<ForeignId>> terms_of(const std::vector<CpfgModule>& list);
     void write_pattern(const std::vector<CpfgModule>& list);
-    [[nodiscard]] std::string drawing_module(std::size_t index) const;
+    /// Name of the intermediate module of group `index`, whose parameters are random numbers.
+    [[nodiscard]] std::string random_module(std::size_t index) const;
     void warn_weight(const CpfgProduction& production);
     void write_parameters(const std::vector<std::string>& names,
                           const std::vector<std::string>& draws,
@@ -101,7 +102,8 @@ private:
     CpfgView view_;
     CpfgExpressions expressions_;
     ForeignExpressions& tree_;
-    ForeignId length_ = kNoForeign; // settings in .lsys
+    // Expressions of settings in .lsys.
+    ForeignId length_ = kNoForeign; // derivation length
     ForeignId seed_ = kNoForeign;
     ForeignId decompose_depth_ = kNoForeign;
     ForeignId interpret_depth_ = kNoForeign;

@@ -93,9 +93,9 @@ private:
     std::uint32_t size_ = 0;
     std::uint32_t at_ = 0;
     SourceSpan last_;
-    std::uint32_t depth_ = 0;   // open parentheses
-    bool in_condition_ = false; // in a condition or probability
-    bool wants_modules_ = false;
+    std::uint32_t depth_ = 0;     // open parentheses
+    bool in_condition_ = false;   // in a condition or probability
+    bool wants_modules_ = false;  // modules follow the key of the line
     std::uint32_t line_node_ = 0; // first node of the line
 };
 

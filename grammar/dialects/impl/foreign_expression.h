@@ -2,7 +2,7 @@
 // Expressions of other languages as one tree. A parser adds the nodes of its file; a front end adds
 // the equivalent nodes of .lsys and writes them with the place of each part in the original file.
 // Nodes are numbered, children before parents. A local value is one node however often it is read,
-// so the text grows by a name per use, and a random number is drawn once.
+// so each use writes only its name, and its random numbers are drawn once.
 #pragma once
 
 #include "grammar/ast/translation.h"

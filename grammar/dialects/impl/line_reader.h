@@ -26,7 +26,7 @@ struct LinePiece {
 };
 
 struct LineFormat {
-    std::string_view blanks;  // between pieces; with `\n` the text has no LineEnd
+    std::string_view blanks;  // skipped between pieces; no piece is a LineEnd if `\n` is a blank
     char comment = '\0';      // first character of a comment, before a piece; NUL: none
     bool comment_nul = false; // a comment continues after a NUL character
 };

@@ -25,7 +25,7 @@ bool LexemeReader::next(Lexeme& lexeme) {
     const char c = text_[at_];
     if (c == '/' && starts('/', '*')) {
         const std::size_t end = text_.find("*/", at_ + 2);
-        take(LexemeKind::BlockComment, end == text_.npos ? rest() : end + 2 - at_);
+        take(LexemeKind::BlockComment, end == text_.npos ? bytes_left() : end + 2 - at_);
     } else if (c == '/' && area_ == Area::Between && starts('/', '/')) {
         line_comment();
     } else if (c == '#') {
@@ -186,7 +186,7 @@ void LexemeReader::module() {
         while (end != text_.npos && end + 1 < text_.size() && text_[end + 1] == '`') {
             end = text_.find('`', end + 2);
         }
-        take(LexemeKind::Module, end == text_.npos ? rest() : end + 1 - at_);
+        take(LexemeKind::Module, end == text_.npos ? bytes_left() : end + 1 - at_);
     } else if (c == '(') {
         take(LexemeKind::Open, 1);
         depth_ = 1;

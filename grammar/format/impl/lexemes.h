@@ -72,9 +72,9 @@ private:
     enum class Area : std::uint8_t { Between, Modules, Object, Set, Name, Expression };
 
     [[nodiscard]] bool starts(char first, char second) const {
-        return rest() >= 2 && text_[at_] == first && text_[at_ + 1] == second;
+        return bytes_left() >= 2 && text_[at_] == first && text_[at_ + 1] == second;
     }
-    [[nodiscard]] std::size_t rest() const { return text_.size() - at_; }
+    [[nodiscard]] std::size_t bytes_left() const { return text_.size() - at_; }
     [[nodiscard]] std::size_t word_length(std::size_t from) const;
     [[nodiscard]] std::size_t number_length() const;
     [[nodiscard]] char next_character() const;

@@ -537,7 +537,7 @@ Token between_values(ParseSession& session) {
             return discard_statement(session);
         }
     }
-    if (!in_list && lacks_colon(session, "")) {
+    if (!in_list && report_missing_colon(session, "")) {
         return discard_statement(session);
     }
     if (in_list && !adjacent) {

@@ -46,8 +46,8 @@ constexpr std::array<ForeignSymbol, 9> kForeignSymbols{{
      "the angle"},
 }};
 
-/// Whether one more bracket search is allowed; counts it.
-bool may_search(ParseSession& session) {
+/// Counts one more bracket search; returns false beyond kMaxBracketSearches.
+bool claim_search(ParseSession& session) {
     return session.scan.bracket_searches++ < kMaxBracketSearches;
 }
 
@@ -82,7 +82,7 @@ void report_missing_open(ParseSession& session,
 /// Reports an argument without its `(`. Returns whether the current character belongs to one.
 bool report_argument_without_open(ParseSession& session) {
     const ScanState& scan = session.scan;
-    if (!may_search(session)) {
+    if (!claim_search(session)) {
         return false;
     }
     const std::string_view text = session.scanned.text;
@@ -175,7 +175,7 @@ StrayHandling report_stray_in_modules(ParseSession& session, std::string_view te
     }
     if (scan.part == Part::Head) {
         const bool begins_condition = (first == '*' || first == '~') && !scan.part_empty;
-        if (lacks_colon(session, begins_condition ? ": " : "")) {
+        if (report_missing_colon(session, begins_condition ? ": " : "")) {
             return begins_condition ? StrayHandling::InsertColon : StrayHandling::Discard;
         }
     }
@@ -291,7 +291,7 @@ StrayHandling report_extra_parenthesis(ParseSession& session) {
     const ScanState& scan = session.scan;
     const std::string_view text = session.scanned.text;
     const std::optional<std::uint32_t> branch =
-        may_search(session) ? unmatched_branch(text, scan.part_begin, scan.begin) : std::nullopt;
+        claim_search(session) ? unmatched_branch(text, scan.part_begin, scan.begin) : std::nullopt;
     if (branch) {
         report_missing_open(session, scan.begin, branch);
         // In a head, reading the `)` as `]` would make a branch of the predecessor: illegal.

@@ -1004,7 +1004,7 @@ bool report_missing_condition(ParseSession& session) {
 
 } // namespace
 
-bool lacks_colon(ParseSession& session, std::string_view inserted) {
+bool report_missing_colon(ParseSession& session, std::string_view inserted) {
     ScanState& scan = session.scan;
     const bool in_production =
         scan.part == Part::Head || scan.part == Part::Condition || scan.part == Part::Locals;

@@ -54,6 +54,6 @@ Token insert_token(ParseSession& session);
 Token discard_statement(ParseSession& session);
 /// Reports, at the current match, a production with too few `:`; returns whether it is one. The fix
 /// adds `inserted` unless it is empty.
-bool lacks_colon(ParseSession& session, std::string_view inserted);
+bool report_missing_colon(ParseSession& session, std::string_view inserted);
 
 } // namespace lsys::lsys_grammar

@@ -372,7 +372,7 @@ bool report_context_sign(ParseSession& session, const Unexpected& error) {
     if (error.part != Part::Head || !is_arrow) {
         return false;
     }
-    if (lacks_colon(session, "")) {
+    if (report_missing_colon(session, "")) {
         return true;
     }
     if (session.wants(DiagnosticCode::SyntaxError)) {
@@ -398,11 +398,12 @@ void report_unexpected_token(ParseSession& session,
         const std::string_view text = is_inserted ? std::string_view{} : session.match_text();
         const Unexpected error{token, place, expected, part, text};
         const bool in_production = part == Part::Head || part == Part::Condition;
-        const bool reported =
-            report_modules_in_parentheses(session, error) ||
-            report_empty_condition(session, error) || report_context_sign(session, error) ||
-            (in_production && scan.open.empty() && !is_inserted && lacks_colon(session, "")) ||
-            report_unary_plus(session, error) || report_decrement(session, error);
+        const bool reported = report_modules_in_parentheses(session, error) ||
+                              report_empty_condition(session, error) ||
+                              report_context_sign(session, error) ||
+                              (in_production && scan.open.empty() && !is_inserted &&
+                               report_missing_colon(session, "")) ||
+                              report_unary_plus(session, error) || report_decrement(session, error);
         if (!reported) {
             report_expected(session, error);
         }

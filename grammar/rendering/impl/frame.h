@@ -33,8 +33,8 @@ struct Mark {
     std::string_view colour;
 };
 
-/// Appends the lines of `primary` with marks, and the marks of `others` in the shown part of its
-/// first line; returns the other marks of `others`.
+/// Appends the source lines of `primary` with its marks, and below the first line also the marks of
+/// `others` in the shown part of that line. Returns the marks of `others` that are not shown.
 [[nodiscard]] std::vector<Mark> append_frame(const Mark& primary,
                                              const std::vector<Mark>& others,
                                              const SourceFile& file,

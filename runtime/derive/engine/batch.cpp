@@ -270,7 +270,7 @@ private:
     std::size_t taken_ = 0; // parameters written
     Mask mask_;
     Mask faults_{};
-    std::vector<Mask> outer_; // masks around the choices that are being computed
+    std::vector<Mask> outer_; // mask_ before each choice that is being computed, outermost first
     std::uint64_t block_ = ~std::uint64_t{0};
     std::array<Lanes, kDrawsPerBlock> units_; // the draws of block_
 };

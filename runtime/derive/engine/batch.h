@@ -88,7 +88,7 @@ public:
 private:
     struct Queue {
         std::size_t count = kLanes;            // kLanes, as if full, until `modules` exists
-        std::unique_ptr<BatchModules> modules; // null until one is added
+        std::unique_ptr<BatchModules> modules; // null until a module is added
         std::vector<float> copies;             // formals, if the program gathers them
     };
 

@@ -83,7 +83,7 @@ bool ContextTables::is_plain(const C* codes) const {
                        [this](C code) { return roles_[code] == ContextRole::Module; });
 }
 
-/// One walk from the left, with a stack that holds the module to the left of each open `[`.
+/// Scans the word once from the left; a stack holds the module to the left of each open `[`.
 template <typename C>
 void ContextTables::build_left(const C* codes) {
     std::vector<std::uint64_t> open;
@@ -110,9 +110,9 @@ void ContextTables::build_left(const C* codes) {
     }
 }
 
-/// One walk from the right. At a `]` the axis of a branch ends; before its `[` the next module on
-/// the axis is the one after the branch. A `[` without its `]` is a branch that reaches to the end
-/// of the word.
+/// Scans the word once from the right. At a `]` the axis of a branch ends; before its `[` the next
+/// module on the axis is the one after the branch. A `[` without its `]` is a branch that reaches
+/// to the end of the word.
 template <typename C>
 void ContextTables::build_right(const C* codes) {
     struct Closed {

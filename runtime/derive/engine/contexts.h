@@ -4,7 +4,7 @@
 // modules is. Built per word if an active production has a context. A word without brackets and
 // ignored modules needs no table: its neighbours are adjacent.
 //
-// A gap g is the place before module g; gap count is the end of the word.
+// Gap g is the place before module g; the gap whose number is the word's length is the end.
 #pragma once
 
 #include "runtime/derive/engine/plan.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Finds the module at fault after a pass has failed: a slow walk to the lowest position of the word
-// at which the evaluation of a condition, weight or argument fails.
+// Finds the module at fault after a pass has failed: evaluates module by module, slowly, up to the
+// lowest position at which a condition, weight or argument fails.
 #pragma once
 
 #include "runtime/derive/derive.h"

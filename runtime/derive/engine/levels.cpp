@@ -16,6 +16,7 @@ namespace lsys {
 
 namespace {
 
+/// Max and min room of a block in modules, unless templates need more.
 constexpr std::uint64_t kMaxBlock = 4096;
 constexpr std::uint64_t kMinBlock = 32;
 /// Bytes of the blocks of all levels together, unless templates need more.

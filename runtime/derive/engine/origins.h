@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The origins of the modules that a pass writes: a second walk over the records of the counting
-// pass, if DeriveOptions::origins is set. The origin of a written module is its place in the
+// The origins of the modules that a pass writes: the records of the counting pass are read a second
+// time, if DeriveOptions::origins is set. The origin of a written module is its place in the
 // successor; a copied module keeps its origin. Successors of a followed module keep its index.
 #pragma once
 

@@ -19,9 +19,9 @@ namespace {
 
 /// Programs with more codes are counted module by module.
 constexpr Code kCensusCodes = 4096;
-/// Modules of the shortest word for which counting on all threads is faster than the census, after
-/// which one thread writes in order. With random draws in batches, a module costs more: all threads
-/// then count every shared word.
+/// If all rows are Fixed: modules of the shortest word that all threads count and write. For a
+/// shorter word it is faster to take the sizes from the census and to write in order on one thread.
+/// With random draws in batches a module costs more, so that kMinSharedWord applies instead.
 constexpr std::uint64_t kMinParallelCount = 1U << 22;
 /// Threads end at about the same time if each has several chunks, none of them too small.
 constexpr std::uint64_t kChunksPerThread = 6;
@@ -270,7 +270,7 @@ std::optional<Stop> Passes::write(const WordView<C>& word, Word& out, const Pass
     next.parameters = parameters;
     Origin* const origins = out.keeps_origins() ? out.origins().data() : nullptr;
     next.origins = origins;
-    std::uint64_t rewritten = 0; // modules of the word, by the census
+    std::uint64_t rewritten = 0; // modules of the word that are not copied, by the census
     if (by_census_) {
         for (Code code = 0; code < census_.size(); ++code) {
             rewritten += plan_.row(code).copies ? 0 : census_[code];

@@ -113,7 +113,8 @@ struct Candidate {
     bool reads_context = false; // some formals belong to contexts
 };
 
-/// The fixed set of a Choice row. The first record whose cumulative weight exceeds the draw is taken.
+/// The fixed set of a Choice row. The first record whose cumulative weight exceeds the draw is
+/// taken.
 struct Choice {
     std::uint32_t first = 0; // index in thresholds and records
     std::uint32_t count = 0;
@@ -265,7 +266,7 @@ private:
     void reset_row(Code code);
     [[nodiscard]] Entry identity_entry(Code code) const;
     void set_special(Entry& entry) const;
-    /// Whether the plan knows every value on which the family depends: either the family does not
+    /// Whether the plan has every value on which the family depends: either the family does not
     /// depend on the generation, or prepare() is called for each generation.
     [[nodiscard]] bool knows_generation(const Family& family) const {
         return each_generation_ || !family.depends_on_generation;
@@ -320,7 +321,8 @@ private:
 
     std::vector<Row> rows_; // by code
     std::vector<Entry> entries_;
-    std::vector<AffineTerm> terms_; // identity terms; entries with more than kEntryTerms parameters
+    /// Identity terms, then the terms of entries with more than kEntryTerms parameters.
+    std::vector<AffineTerm> terms_;
     std::vector<Family> families_;
     std::vector<std::uint32_t>
         generation_families_; // indexes of families with depends_on_generation

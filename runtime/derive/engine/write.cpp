@@ -180,7 +180,7 @@ private:
                                         : run_wide<kInputs, true, 32>();
     }
 
-    /// Writes in batches that are short enough to need no check of the limits per module. A module
+    /// Writes in runs that are short enough to need no check of the limits per module. A module
     /// near a limit, or with a special entry, is written by run_exactly().
     template <TermInputs kInputs, bool kRecords, std::size_t kBytes, bool kMixed = false>
     bool run_wide() {
@@ -188,17 +188,17 @@ private:
             const auto code_room = static_cast<std::uint64_t>(request_.codes_limit - codes_);
             const auto parameter_room =
                 static_cast<std::uint64_t>(request_.parameters_limit - parameters_);
-            std::uint64_t batch =
+            std::uint64_t length =
                 std::min(request_.end - place_.index, code_room / (kBytes / sizeof(C)));
             if constexpr (kInputs != TermInputs::None) {
-                batch = std::min(batch,
-                                 parameter_room / (kMixed ? plan_.wide_parameters() : kEntryTerms));
+                length = std::min(length, parameter_room /
+                                              (kMixed ? plan_.wide_parameters() : kEntryTerms));
             }
             if constexpr (kMixed) {
-                if (batch != 0 && run_mixed_batch(batch) == batch) {
+                if (length != 0 && write_mixed_run(length) == length) {
                     continue;
                 }
-            } else if (batch != 0 && run_batch<kInputs, kRecords, kBytes>(batch) == batch) {
+            } else if (length != 0 && write_run<kInputs, kRecords, kBytes>(length) == length) {
                 continue;
             }
             if (!run_exactly(place_.index + 1)) {
@@ -208,13 +208,13 @@ private:
         return true;
     }
 
-    /// Writes up to `batch` modules; returns their number: fewer if a module with a special entry
+    /// Writes up to `length` modules; returns their number: fewer if a module with a special entry
     /// comes next.
     template <TermInputs kInputs, bool kRecords, std::size_t kBytes>
-    std::uint64_t run_batch(std::uint64_t batch) {
+    std::uint64_t write_run(std::uint64_t length) {
         const C* in = word_.codes + place_.index;
         const C* const begin = in;
-        const C* const end = in + batch;
+        const C* const end = in + length;
         const float* own = word_.parameters + place_.parameter;
         const float* const first_own = own;
         const Row* const rows = rows_;
@@ -258,14 +258,14 @@ private:
         return done;
     }
 
-    /// run_batch() for plans with batched entries.
-    std::uint64_t run_mixed_batch(std::uint64_t batch) {
+    /// write_run() for plans with batched entries.
+    std::uint64_t write_mixed_run(std::uint64_t length) {
         MixedRun<C, R> run{rows_,
                            entries_,
                            pool_,
                            plan_.bytecode().constants.data(),
                            word_.codes + place_.index,
-                           word_.codes + place_.index + batch,
+                           word_.codes + place_.index + length,
                            word_.first_position + place_.index,
                            word_.parameters + place_.parameter,
                            records_,

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The writing pass: writes the modules that the counting pass has counted. The common module costs
+// The writing pass: writes the modules that the counting pass has counted. A typical module costs
 // one row, one entry, one wide store of codes and one of parameters, and no branch.
 #pragma once
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The decision about one module in one pass, read from docs/language.md sections 5 and 6: every
-// production for modules of its name, the choice among several, and the successor.
+// The decision about one module in one pass, made as docs/language.md sections 5 and 6 describe it:
+// every production for modules of its name, the choice among several, and the successor.
 #pragma once
 
 #include "compiler/bytecode/bytecode.h"

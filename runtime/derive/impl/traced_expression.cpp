@@ -19,7 +19,7 @@ namespace lsys {
 
 namespace {
 
-/// Longer texts of expressions are cut.
+/// Max bytes of the text of an expression: longer texts are cut.
 constexpr std::size_t kMaxText = 160;
 
 /// Precedence of an operation, ascending (docs/language.md section 4).

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// TracedWord: a word as input of a trace. It finds modules by position, and neighbours by walking
-// (docs/language.md section 5). Slow and direct; its only table holds the places of parameters.
+// TracedWord: a word as input of a trace. It finds modules by position, and neighbours module by
+// module (docs/language.md section 5). Slow and direct; its only table holds the places of
+// parameters.
 #pragma once
 
 #include "compiler/bytecode/bytecode.h"

@@ -45,8 +45,8 @@ struct ForestView {
 struct ForestBlock {
     GltfForm form;
     std::vector<ForestView> attributes;
-    ForestView wide_indices;    // 32 bits; no view without items
-    ForestView narrow_indices;  // 16 bits; no view without items
+    ForestView wide_indices;    // 32 bits; count 0: there is no view
+    ForestView narrow_indices;  // 16 bits; count 0: there is no view
     std::size_t first_view = 0; // of the attributes; wide, then narrow indices follow
     bool coloured = false;      // has vertex colours
 };
@@ -68,8 +68,8 @@ struct PackedTransforms {
     std::array<ForestView, 3> views; // translations, rotations, scales
 };
 /// Compresses the transforms `floats` of `groups`. Translations are rounded to multiples of the
-/// largest power of two up to half a step of positions (the scale of an instance is its step in
-/// metres), components of rotations to 16 bits, scales to 16 significant bits.
+/// largest power of two up to half the scale of the instance, which is the step of its quantised
+/// positions in metres; components of rotations to 16 bits; scales to 16 significant bits.
 [[nodiscard]] PackedTransforms pack_transforms(std::span<const ForestGroup> groups,
                                                std::span<const float> floats,
                                                std::uint32_t threads);

@@ -2,7 +2,7 @@
 // Forests as glTF 2.0: EXT_mesh_gpu_instancing (Khronos, vendor extension; a node for each pair of
 // an instance and a cell of the ground), or a node for each branch instance. The instances of a
 // species share arrays. Each primitive has accessors for a slice of these arrays, because many
-// readers copy, upload and bound whole accessors.
+// readers copy and upload whole accessors, and compute bounds of whole accessors.
 #include "runtime/base/size_text.h"
 #include "runtime/base/workers.h"
 #include "runtime/export/impl/export_outcome.h"
@@ -113,7 +113,7 @@ void ForestDocument::add_collisions() {
             GltfCollision& made = collisions_[stage.first + i];
             made.shapes =
                 make_collision(skeleton_of(*stage.cache, stage.cache->instances[i]), shapes);
-            for (CollisionShape& shape : made.shapes) { // to grid items, like positions
+            for (CollisionShape& shape : made.shapes) { // from positions to items of the grid
                 for (glm::vec3& vertex : shape.vertices) {
                     vertex = glm::vec3((glm::dvec3(vertex) - glm::dvec3(grid.low)) /
                                        static_cast<double>(grid.step));
@@ -144,7 +144,7 @@ void ForestDocument::add_surface(std::size_t stage,
     }
     GltfForm form = form_of(info_.compression, bounds);
     if (stage == kNoStage) {
-        form.step = 0.0F; // not quantised: with rounded heights of a wide ground trees would float
+        form.step = 0.0F; // not quantised: trees would float above a ground with rounded heights
     } else if (form.step > 0.0F) {
         grids_[stage] = {form.low, form.step};
     }
@@ -258,8 +258,8 @@ void read_indices(const ForestSurface& surface,
     }
 }
 
-/// Calls visit(indices) for the parts of one material whose slices are wide, or for its other
-/// parts.
+/// Calls visit(indices) for the parts of one material whose slices are wide, or if `wide` is false
+/// narrow.
 template <typename Visit>
 void for_each_part(const ForestSurface& surface,
                    std::size_t material,

@@ -182,7 +182,7 @@ ForestMaterials find_forest_materials(const ForestScene& scene, const ForestPlan
             materials.of_ground.push_back(add_material(materials.samples, material));
         }
     }
-    // Makes names unique: species may have files of one name.
+    // Makes names unique: files of different species may have the same name.
     finish_samples(materials.samples, textured, tangents);
     return materials;
 }

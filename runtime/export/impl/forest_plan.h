@@ -135,7 +135,7 @@ struct ForestMaterials {
 
 /// Vertices of each used instance, numbered from 0 within the instance.
 struct InstanceVertices {
-    std::vector<std::uint64_t> first;    // index in `vertices`, by instance; then its size
+    std::vector<std::uint64_t> first;    // index in `vertices`, by instance; then vertices.size()
     LargeVector<std::uint32_t> vertices; // indices in the mesh
     LargeVector<std::uint32_t>
         indices; // parallel to the indices of the mesh, numbered within the instance

@@ -12,7 +12,7 @@ namespace lsys {
 
 namespace {
 
-constexpr std::size_t kFloats = kInstanceBytes / sizeof(float);
+constexpr std::size_t kInstanceFloats = kInstanceBytes / sizeof(float);
 
 using Write = std::function<bool(std::span<const std::byte>)>;
 using Visit = std::function<void(std::span<const ForestGroup>, std::span<const float>)>;
@@ -83,7 +83,8 @@ private:
                 pieces.emplace_back(&plan_.cells()[cell], &piece);
             }
         }
-        floats_.resize(kFloats * (groups.back().first + groups.back().count - groups[0].first));
+        floats_.resize(kInstanceFloats *
+                       (groups.back().first + groups.back().count - groups[0].first));
         workers_.for_each(pieces.size(), [&](std::uint64_t number) {
             const auto& [owner, piece] = pieces[number];
             const std::size_t from = std::max(first, owner->first_group);
@@ -107,8 +108,8 @@ private:
                 ++group;
             }
             if (group != groups.end() && group->instance == instance) {
-                places[instance] = {floats_.data() + kFloats * (group->first - begin), group->count,
-                                    before};
+                places[instance] = {floats_.data() + kInstanceFloats * (group->first - begin),
+                                    group->count, before};
             }
         }
         plan_.for_each_branch(piece, [&](const ExportedStage& stage, std::uint32_t instance,

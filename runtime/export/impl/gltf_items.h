@@ -61,7 +61,7 @@ struct GltfForm {
     /// files.
     glm::vec3 low{0.0F};
     float step = 0.0F;
-    /// TEXCOORD_1 is a multiple of this; 0: not rounded.
+    /// TEXCOORD_1 is rounded to multiples of `wind_step`; 0: not rounded.
     float wind_step = 0.0F;
     GltfTextureForm texture;
 
@@ -80,8 +80,8 @@ struct GltfItem {
     std::uint32_t stride = 0; // bytes from one item to the next
     bool padded = false;      // items are shorter than the stride
 };
-/// The type of an attribute. Joints are bytes; the writer of plants changes them if there are more
-/// than 256.
+/// The type of an attribute. Numbers of joints are bytes; the writer of plants changes this type
+/// for more than 256 joints.
 [[nodiscard]] GltfItem item_of(GltfArray array, const GltfForm& form);
 /// The name of an attribute: "POSITION".
 [[nodiscard]] std::string_view attribute_name(GltfArray array);

@@ -21,7 +21,8 @@ namespace {
 
 constexpr int kDirections = 128;
 
-/// Points of a spiral that covers the sphere evenly (Swinbank and Purser, "Fibonacci grids", 2006).
+/// Point `i` of a spiral that covers the sphere evenly (Swinbank and Purser, "Fibonacci grids",
+/// 2006).
 glm::vec3 direction(int i) {
     const double golden = std::numbers::pi * (3.0 - std::sqrt(5.0));
     const double z = 1.0 - (2.0 * i + 1.0) / kDirections;

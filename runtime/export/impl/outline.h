@@ -14,7 +14,7 @@
 namespace lsys {
 
 struct Outline {
-    /// Extreme points of the part: from every direction their hull is nearly the hull of the part.
+    /// Extreme points of the part; seen from any direction, their hull is nearly the part's hull.
     /// In the coordinates of the object: size 1, at the origin, along +Y.
     std::vector<glm::vec3> corners;
     /// Closed lines, filled by the even-odd rule, that replace the hull; empty: the hull is drawn.

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 // SVG (W3C, "Scalable Vector Graphics 1.1"), where y goes down: the plane z = 0 seen from +Z. Lines
 // have the mean diameter of their segments; a run of segments of equal width and colour is one
-// polyline. Objects and polygons with a picture have its mean colour. Units are metres.
+// polyline. Objects and polygons with a picture have the mean colour of the picture. Units are
+// metres.
 #include "runtime/export/impl/export_outcome.h"
 #include "runtime/export/impl/formats.h"
 #include "runtime/export/impl/outline.h"

@@ -330,7 +330,7 @@ typedef struct lsys_instance {
     float scale;
     float rotation[4];
     uint32_t tree;  /* index in lsys_forest_trees() */
-    uint32_t group; /* in the groups of the instances */
+    uint32_t group; /* index in lsys_instances_groups() */
 } lsys_instance;
 /* A draw call: instances of some parts of a mesh. */
 typedef struct lsys_instance_group {
@@ -353,7 +353,7 @@ LSYS_C_API uint64_t lsys_instances_count(const lsys_instances* instances);
 LSYS_C_API const lsys_instance_group* lsys_instances_groups(const lsys_instances* instances);
 LSYS_C_API size_t lsys_instances_group_count(const lsys_instances* instances);
 LSYS_C_API size_t lsys_instances_mesh_count(const lsys_instances* instances);
-/* A handle of its own, to be freed; null without memory. Precondition: index <
+/* Returns a new handle, which the caller frees; null if memory runs out. Precondition: index <
  * lsys_instances_mesh_count(). */
 LSYS_C_API lsys_mesh* lsys_instances_mesh(const lsys_instances* instances, size_t index);
 /* Writes `count` instances from `first` on as matrices of 16 floats, column by column, `stride`

@@ -21,7 +21,7 @@ constexpr unsigned kShutdownSeconds = 2;
 std::atomic<bool> interrupted{false};
 std::atomic<int> first_signal{0}; // the first signal received by on_end_signal(); 0: none
 std::atomic<bool> has_alarm{false};
-std::atomic<void (*)() noexcept> clean_up_first{nullptr};
+std::atomic<void (*)() noexcept> clean_up_before_exit{nullptr};
 // Only lock-free atomics may be used in a signal handler.
 static_assert(std::atomic<bool>::is_always_lock_free && std::atomic<int>::is_always_lock_free);
 static_assert(std::atomic<void (*)() noexcept>::is_always_lock_free);
@@ -37,14 +37,14 @@ extern "C" void on_end_signal(int signal) {
             ::alarm(kShutdownSeconds);
         }
     } else if (again) { // a second Ctrl-C ends the process at once
-        clean_up_first.load()();
+        clean_up_before_exit.load()();
         std::signal(signal, SIG_DFL);
         std::raise(signal);
     }
 }
 
 extern "C" void on_alarm(int /*signal*/) {
-    clean_up_first.load()();
+    clean_up_before_exit.load()();
     ::_exit(kSignalStatus + first_signal);
 }
 
@@ -81,7 +81,7 @@ bool error_stream_is_terminal() {
 }
 
 void handle_end_requests(void (*clean_up)() noexcept) {
-    clean_up_first = clean_up;
+    clean_up_before_exit = clean_up;
     struct sigaction action {};
     action.sa_handler = on_end_signal; // without SA_RESTART, so that a blocked read returns
     ::sigaction(SIGINT, &action, nullptr);
@@ -94,7 +94,7 @@ void handle_end_requests(void (*clean_up)() noexcept) {
     }
     action.sa_handler = on_alarm;
     ::sigaction(SIGALRM, &action, nullptr);
-    // Then a write beyond the file size limit (`ulimit -f`) returns an error instead of a signal.
+    // A write beyond the file size limit (`ulimit -f`) then returns an error and sends no signal.
     std::signal(SIGXFSZ, SIG_IGN);
 }
 

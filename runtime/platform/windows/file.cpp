@@ -113,7 +113,7 @@ Reason File::close() {
 Reason open_to_read(const std::string& path, bool /*may_wait*/, File& file) {
     if (facts_of(path).type == FileType::Directory) {
         file = File();
-        return EISDIR; // the system says that access is denied
+        return EISDIR; // the system would report denied access
     }
     return open_file(path, _O_RDONLY, file);
 }

@@ -24,7 +24,7 @@ constexpr int kHungUpStatus = 129;
 
 std::atomic<bool> interrupted{false};
 std::atomic<int> first_status{0};
-std::atomic<void (*)() noexcept> clean_up_first{nullptr};
+std::atomic<void (*)() noexcept> clean_up_before_exit{nullptr};
 
 /// Called by the system in a thread of its own. After the console was closed, the system ends the
 /// process when this function returns, or after five seconds.
@@ -35,7 +35,7 @@ BOOL WINAPI on_console_event(DWORD event) {
     case CTRL_C_EVENT:
         first_status.compare_exchange_strong(none, kInterruptedStatus);
         if (interrupted.exchange(true)) { // a second Ctrl-C ends the process at once
-            clean_up_first.load()();
+            clean_up_before_exit.load()();
             ::ExitProcess(kInterruptedStatus);
         }
         return TRUE;
@@ -48,7 +48,7 @@ BOOL WINAPI on_console_event(DWORD event) {
     }
     interrupted = true;
     ::Sleep(kShutdownMilliseconds);
-    clean_up_first.load()();
+    clean_up_before_exit.load()();
     ::ExitProcess(static_cast<UINT>(first_status.load()));
 }
 
@@ -93,7 +93,7 @@ bool error_stream_is_terminal() {
 }
 
 void handle_end_requests(void (*clean_up)() noexcept) {
-    clean_up_first = clean_up;
+    clean_up_before_exit = clean_up;
     ::SetConsoleCtrlHandler(on_console_event, TRUE);
 }
 

@@ -48,7 +48,7 @@ class Program:
         self.path = path
 
     def run(self, arguments, seconds):
-        """Returns standard output and the messages of a run. CompilerError: the run failed; has its messages."""
+        """Returns standard output and the messages of a run. Raises CompilerError with the messages if it fails."""
         try:
             done = subprocess.run([self.path, *arguments], capture_output=True, text=True, encoding="utf-8",
                                   errors="replace", stdin=subprocess.DEVNULL, timeout=seconds, check=False)
@@ -86,13 +86,13 @@ class Module:
     COMPILE = ("dialect", "system")
 
     def attempt(self, work, seconds):
-        """Returns the value of work(calls) and its warnings as text. `calls`: arguments that set the time limit."""
+        """Returns the value of work(limit) and its warnings as text. `limit`: keyword arguments that set the time limit."""
         end = time.monotonic() + seconds
-        calls = {"progress": lambda *_: time.monotonic() < end}
+        limit = {"progress": lambda *_: time.monotonic() < end}
         try:
             with warnings.catch_warnings(record=True) as caught:
                 warnings.simplefilter("always")
-                value = work(calls)
+                value = work(limit)
         except lsys.Cancelled as error:
             raise CompilerError(f"the plant was stopped after {seconds:g} s: the limit is in the preferences of "
                                 "the add-on") from error
@@ -102,7 +102,7 @@ class Module:
 
     def read_parameters(self, file, seconds):
         """The same as Program.read_parameters."""
-        grammar, _ = self.attempt(lambda calls: lsys.compile(file, **calls), seconds)
+        grammar, _ = self.attempt(lambda limit: lsys.compile(file, **limit), seconds)
         parameters = []
         for constant in grammar.constants:
             one = {"name": constant.name}
@@ -117,7 +117,7 @@ class Module:
         """The same as Program.write, with the same arguments."""
         command, file, *rest = arguments
         compile_arguments, options = split_arguments(rest, command)
-        return self.attempt(lambda calls: WRITERS[command](file, compile_arguments, options, path, calls), seconds)[1]
+        return self.attempt(lambda limit: WRITERS[command](file, compile_arguments, options, path, limit), seconds)[1]
 
 
 def split_arguments(arguments, command):
@@ -163,20 +163,20 @@ def number(text, kind):
         raise CompilerError(f"options: `{text}` is no number") from error
 
 
-def write_plant(file, compile_arguments, options, path, calls):
+def write_plant(file, compile_arguments, options, path, limit):
     threads = {"threads": options.pop("threads")} if "threads" in options else {}
     seed = number(options.pop("seed"), int) if "seed" in options else None
     height = number(options.pop("height"), float) if "height" in options else None
-    grammar = lsys.compile(file, **compile_arguments, **calls, **threads)
-    plant = grammar.grow(seed=seed, height=height, **calls, **threads)
-    plant.save(path, **options, **calls, **threads)
+    grammar = lsys.compile(file, **compile_arguments, **limit, **threads)
+    plant = grammar.grow(seed=seed, height=height, **limit, **threads)
+    plant.save(path, **options, **limit, **threads)
 
 
-def write_forest(file, compile_arguments, options, path, calls):
+def write_forest(file, compile_arguments, options, path, limit):
     threads = {"threads": options.pop("threads")} if "threads" in options else {}
-    in_files = lsys.options("forest")
-    of_files = {name: options.pop(name) for name in list(options) if name in in_files}
-    lsys.Forest(file, **compile_arguments, **options, **calls, **threads).save(path, **of_files, **calls, **threads)
+    names = lsys.options("forest")
+    save_options = {name: options.pop(name) for name in list(options) if name in names}
+    lsys.Forest(file, **compile_arguments, **options, **limit, **threads).save(path, **save_options, **limit, **threads)
 
 
 WRITERS = {"export": write_plant, "forest": write_forest}

@@ -100,7 +100,7 @@ class Gltf:
         self.folder = folder
         self.binary = binary
         self.buffers = {}
-        self.known = {}
+        self.accessor_cache = {}
         roots = self.roots()
         self.extras = self.item("nodes", roots[0]).get("extras", {}) if roots else {}
 
@@ -142,9 +142,9 @@ class Gltf:
 
     def accessor(self, number):
         """The numbers of an accessor as a flat array, and the count of numbers per item. Cached."""
-        if number not in self.known:
-            self.known[number] = self.read_accessor(number)
-        return self.known[number]
+        if number not in self.accessor_cache:
+            self.accessor_cache[number] = self.read_accessor(number)
+        return self.accessor_cache[number]
 
     def read_accessor(self, number):
         accessor = self.item("accessors", number)

@@ -37,8 +37,8 @@ class Preferences(bpy.types.AddonPreferences):
         self.layout.prop(self, "seconds")
 
 
-def preferences():
-    """The compiler, and its time limit in seconds. CompilerError: no compiler was found."""
+def compiler_and_limit():
+    """The compiler of the preferences, and its time limit in seconds. Raises CompilerError if none is found."""
     addon = bpy.context.preferences.addons.get(__package__)
     if addon is None:  # registered by a script instead of being enabled in the preferences
         return compiler.find_compiler(), 120.0
@@ -160,7 +160,7 @@ def read_file(collection, keep):
     """Reads generations, seed and parameters of the grammar. With `keep`, values that the user changed stay."""
     settings = collection.lsys
     path = path_of(settings)
-    found, seconds = preferences()
+    found, seconds = compiler_and_limit()
     if settings.is_scene:
         settings.parameters.clear()
         settings.has_key = keep and settings.has_key
@@ -222,7 +222,7 @@ def update(collection):
     """
     settings = collection.lsys
     try:
-        found, seconds = preferences()
+        found, seconds = compiler_and_limit()
         with compiler.TemporaryGlb(found, arguments_of(collection), seconds) as (path, messages):
             extras = scene.fill(collection, path, settings.kind == "FOREST")
     except FAILURES as error:

@@ -7,7 +7,7 @@
 
 using namespace lsys;
 
-// Published values, and values that determine files, pictures and printed digests.
+// Published values, and values on which files, pictures and printed digests depend.
 TEST_CASE("hash functions have their known values") {
     CHECK(mix64(0) == 0);
     CHECK(mix64(1) == 0xB456BCFC34C2CB2C);

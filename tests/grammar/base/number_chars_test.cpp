@@ -19,7 +19,7 @@ using namespace lsys;
 
 namespace {
 
-constexpr std::size_t kRoom = 512; // more than the longest number without an exponent
+constexpr std::size_t kRoom = 512; // characters; more than any number without an exponent has
 
 /// The result of reading a number.
 struct Reading {
@@ -41,7 +41,7 @@ std::uint64_t bits_of(Number value) {
 
 template <typename Number>
 Reading standard_reading(std::string_view text) {
-    Number value{7}; // stays if there is an error
+    Number value{7}; // stays 7 if there is an error
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
     return {error, end - text.data(), bits_of(value)};
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Pieces of lines, their places, and the reports about pieces that do not fit.
+// Pieces of lines, their places, and the reports about unexpected pieces.
 #include "grammar/base/names.h"
 #include "grammar/dialects/impl/line_reader.h"
 

@@ -155,7 +155,7 @@ TEST_CASE("modules of a batch between other modules") {
         words + "#p : A(x, y) : * : let r = {0.5, 1} : A(y*r, x) [B(r) C] A(x/r, y);\n"
                 "#q : B(x) : x < 4 : B(x + 1) C;\n#r : B(x) : x >= 4 : B(x*{0, 1}) A(x, x);\n",
         7);
-    // more parameters than a wide store holds, and more than a batch in the fast loop holds
+    // More parameters than a wide store, and than a batch in the fast loop, can hold.
     for (const int count : {5, 16, 17, 40}) {
         std::string many = "#w : A(1) A(2) A(3);\n#p : A(x) : * : let r = {0, 1} : A(x + r) A(r)";
         for (int i = 2; i < count; ++i) {
@@ -163,7 +163,7 @@ TEST_CASE("modules of a batch between other modules") {
         }
         check_every_way(many + ";\n", 6);
     }
-    // successors longer than a wide store
+    // A successor longer than a wide store.
     std::string text = "#w : A(1);\n#p : A(x) : * : A(x*{0.5, 1})";
     for (int i = 0; i < 40; ++i) {
         text += " B";

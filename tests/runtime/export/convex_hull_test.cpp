@@ -67,7 +67,7 @@ TEST_CASE("the hull of a grid of points is its cube") {
 }
 
 TEST_CASE("the hull of points in a ball contains all points") {
-    test::Numbers numbers(3);
+    test::RandomNumbers numbers(3);
     std::vector<glm::vec3> points;
     for (int i = 0; i < 400; ++i) {
         points.push_back(glm::vec3(7, -2, 1) +

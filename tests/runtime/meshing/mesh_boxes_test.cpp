@@ -134,7 +134,8 @@ Mesh welded(const Mesh& mesh) {
     return one;
 }
 
-std::size_t plants_in(const Mesh& mesh) {
+/// The number of separate surfaces: components that share no vertex.
+std::size_t surface_count(const Mesh& mesh) {
     std::vector<std::uint32_t> root(mesh.positions.size());
     for (std::uint32_t i = 0; i < root.size(); ++i) {
         root[i] = i;
@@ -255,9 +256,9 @@ TEST_CASE("meshes that are not closed are reported") {
     open.corners.resize(20);
     open.face_ends.resize(5);
     CHECK_FALSE(CatmullClark(open, workers).closed());
-    PolygonMesh turned_over = cube();
-    std::swap(turned_over.corners[1], turned_over.corners[3]);
-    CHECK_FALSE(CatmullClark(turned_over, workers).closed());
+    PolygonMesh triangles_turned_over = cube();
+    std::swap(triangles_turned_over.corners[1], triangles_turned_over.corners[3]);
+    CHECK_FALSE(CatmullClark(triangles_turned_over, workers).closed());
     PolygonMesh thrice = cube();
     add_face(thrice, {0, 2, 3, 1});
     CHECK_FALSE(CatmullClark(thrice, workers).closed());
@@ -273,13 +274,13 @@ TEST_CASE("boxes of random plants are closed") {
             triangles_of(make_boxes(plant.skeleton, {.width = 1.0F, .smoothed = seed % 2 == 0}));
         const test::Topology topology = test::topology_by_index(mesh);
         CHECK(topology.open_edges == 0);
-        CHECK(topology.euler() == 2 * static_cast<std::int64_t>(plants_in(mesh)));
+        CHECK(topology.euler() == 2 * static_cast<std::int64_t>(surface_count(mesh)));
         for (std::uint32_t subdivisions = 0; subdivisions < 3; ++subdivisions) {
             const Mesh made = meshed(plant.skeleton, boxes(subdivisions));
             const Mesh smooth = subdivisions == 0 ? welded(made) : made;
             const test::Topology fine = test::topology_by_index(smooth);
             CHECK(fine.open_edges == 0);
-            CHECK(fine.euler() == 2 * static_cast<std::int64_t>(plants_in(smooth)));
+            CHECK(fine.euler() == 2 * static_cast<std::int64_t>(surface_count(smooth)));
             CHECK(test::volume_of(smooth) > 0.0);
         }
     }
@@ -302,10 +303,10 @@ TEST_CASE("a tree whose branches fit onto their parents is one surface") {
         const Mesh joined = subdivisions == 0 ? welded(mesh) : mesh;
         // Without smoothing, branches that would get narrower in their openings are separate closed
         // boxes.
-        const std::size_t plants = plants_in(joined);
-        CHECK((plants == 1) == (subdivisions > 0));
+        const std::size_t surfaces = surface_count(joined);
+        CHECK((surfaces == 1) == (subdivisions > 0));
         CHECK(test::topology_by_index(joined).open_edges == 0);
-        CHECK(test::topology_by_index(joined).euler() == 2 * static_cast<std::int64_t>(plants));
+        CHECK(test::topology_by_index(joined).euler() == 2 * static_cast<std::int64_t>(surfaces));
         CHECK(mesh.materials.size() == 1);
         CHECK(mesh.materials[0].kind == MaterialKind::Bark);
     }
@@ -355,18 +356,18 @@ TEST_CASE("children that are too many or too short are separate closed boxes") {
                   1.0F, 0.02F, 0.02F);
     }
     const Mesh crowd = meshed(many.skeleton, boxes(1));
-    CHECK(plants_in(crowd) > 1);
+    CHECK(surface_count(crowd) > 1);
     CHECK(test::topology_by_index(crowd).open_edges == 0);
     Plant short_one;
     const std::uint32_t base = short_one.grow(kNoSegment, glm::quat(1, 0, 0, 0), 1.0F, 0.1F, 0.1F);
     short_one.grow(base, turned(90, {1, 0, 0}), 0.05F, 0.02F, 0.02F);
     short_one.grow(base, turned(10, {1, 0, 0}), 1.0F, 0.02F, 0.02F);
-    CHECK(plants_in(meshed(short_one.skeleton, boxes(1))) == 2);
+    CHECK(surface_count(meshed(short_one.skeleton, boxes(1))) == 2);
     // A branch that turns back into its parent.
     Plant back;
     back.grow(back.grow(kNoSegment, glm::quat(1, 0, 0, 0), 1.0F, 0.1F, 0.1F),
               turned(175, {1, 0, 0}), 1.0F, 0.05F, 0.05F);
-    CHECK(plants_in(meshed(back.skeleton, boxes(2))) == 2);
+    CHECK(surface_count(meshed(back.skeleton, boxes(2))) == 2);
 }
 
 TEST_CASE("segments that cannot be drawn are skipped") {
@@ -374,7 +375,7 @@ TEST_CASE("segments that cannot be drawn are skipped") {
     const std::uint32_t trunk = plant.grow(kNoSegment, glm::quat(1, 0, 0, 0), 1.0F, 0.1F, 0.1F);
     const std::uint32_t without = plant.grow(trunk, turned(5, {1, 0, 0}), 0.0F, 0.1F, 0.1F);
     plant.grow(without, turned(5, {1, 0, 0}), 1.0F, 0.1F, 0.1F); // joined to the trunk
-    CHECK(plants_in(meshed(plant.skeleton, boxes(1))) == 1);
+    CHECK(surface_count(meshed(plant.skeleton, boxes(1))) == 1);
     Plant thin;
     thin.grow(kNoSegment, glm::quat(1, 0, 0, 0), 1.0F, 0.0F, 0.0F);
     CHECK(meshed(thin.skeleton, boxes(1)).positions.empty());
@@ -436,7 +437,7 @@ TEST_CASE("an unsmoothed box of a .sys plant is its segment: length, widths, fla
     plant.grow(first, glm::quat(1, 0, 0, 0), 2.0F, 0.2F, 0.1F);
     const Mesh two = meshed(plant.skeleton, boxes(0));
     CHECK(test::volume_of(two) == Approx(4.0 / 3.0 * (0.16 + 0.04 + 0.08)).epsilon(1e-5));
-    CHECK(plants_in(welded(two)) == 1);
+    CHECK(surface_count(welded(two)) == 1);
 }
 
 TEST_CASE("plants with the setting for boxes are drawn as boxes unless options override it") {
@@ -469,7 +470,7 @@ TEST_CASE("a branch is not wider where it leaves its parent") {
             MeshOptions options = boxes(0);
             options.segments = true;
             const Mesh mesh = meshed(plant.skeleton, options);
-            CHECK(plants_in(welded(mesh)) <= 2);
+            CHECK(surface_count(welded(mesh)) <= 2);
             const Segment& own = plant.skeleton.segments[branch];
             const glm::vec3 on = heading(own.frame);
             std::size_t seen = 0;
@@ -513,7 +514,7 @@ TEST_CASE("separate boxes overlap at their joint") {
     for (std::uint32_t subdivisions = 0; subdivisions < 3; ++subdivisions) {
         const Mesh made = meshed(plant.skeleton, boxes(subdivisions));
         const Mesh mesh = welded(made);
-        CHECK(plants_in(mesh) == 2);
+        CHECK(surface_count(mesh) == 2);
         CHECK(test::topology_by_index(mesh).open_edges == 0);
         // The trunk ends after the joint, within the branch; the branch begins within the trunk.
         const Segment& own = plant.skeleton.segments[branch];

@@ -142,7 +142,7 @@ TEST_CASE("transitions between numbers of sides are smooth and textured", "[mesh
             CHECK(up.y == Approx(part));
         }
     }
-    CHECK(test::turned_over(mesh) == 0);
+    CHECK(test::triangles_turned_over(mesh) == 0);
     CHECK(test::topology_of(mesh).open_edges == 0);
 }
 
@@ -185,7 +185,7 @@ TEST_CASE("a tube of different numbers of sides is closed", "[mesh][tubes]") {
     CHECK(topology.euler() == 2);
     CHECK(test::volume_of(mesh) > 0.0);
     if (bend < 0.5F && noise == 0.0F) {
-        CHECK(test::turned_over(mesh) == 0);
+        CHECK(test::triangles_turned_over(mesh) == 0);
     }
     MeshOptions whole = options;
     whole.deviation = 0.0F;

@@ -149,7 +149,7 @@ TEST_CASE("corners on edges and on other corners do not change the area") {
         comb.emplace_back(i, -1.0);
     }
     CHECK(triangulated(comb).area == Approx(std::abs(shoelace(comb))));
-    // A square with a square hole, joined by a bridge that is walked twice.
+    // A square with a square hole, joined by a bridge that the outline passes twice.
     const Corners ring{{0, 0}, {3, 0}, {3, 3}, {0, 3}, {0, 0},
                        {1, 1}, {1, 2}, {2, 2}, {2, 1}, {1, 1}};
     CHECK(triangulated(ring).area == Approx(8.0));

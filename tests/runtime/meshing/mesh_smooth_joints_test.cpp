@@ -92,7 +92,7 @@ TEST_CASE("a smooth curve passes through the joints and turns by small steps", "
     }
     CHECK(joints.size() <= 7 * 16 + 1);
     const Mesh mesh = tubes(skeleton, kSmooth);
-    CHECK(test::turned_over(mesh) == 0);
+    CHECK(test::triangles_turned_over(mesh) == 0);
     CHECK(test::topology_of(mesh).open_edges == 0);
 }
 
@@ -166,7 +166,7 @@ TEST_CASE("a smooth branch leaves along its parent and keeps its radius", "[mesh
         CHECK(joints[i].radius <= joints[i - 1].radius + 1e-6F);
         CHECK(joints[i].radius >= 0.0099F);
     }
-    CHECK(test::turned_over(tubes(plant.skeleton(), kSmooth)) == 0);
+    CHECK(test::triangles_turned_over(tubes(plant.skeleton(), kSmooth)) == 0);
 }
 
 TEST_CASE("a branch across or against its parent leaves as without smooth joints",
@@ -190,7 +190,7 @@ TEST_CASE("edges that are too short for their radius stay straight", "[mesh][tub
     const Skeleton skeleton = chain(5, degrees, true, radius);
     const Mesh plain = tubes(skeleton, {.threads = 1});
     const Mesh smooth = tubes(skeleton, kSmooth);
-    CHECK(test::turned_over(smooth) <= test::turned_over(plain));
+    CHECK(test::triangles_turned_over(smooth) <= test::triangles_turned_over(plain));
     CHECK(test::topology_of(smooth).open_edges == test::topology_of(plain).open_edges);
 }
 

@@ -167,7 +167,7 @@ void check_closed(const Mesh& mesh, std::uint64_t shells) {
     CHECK(by_position.open_edges == 0);
     CHECK(by_position.vertices == mesh.positions.size());
     // Narrow triangles in the crease between two branches may face away from the normals there.
-    CHECK(500 * test::turned_over(mesh) < by_position.triangles);
+    CHECK(500 * test::triangles_turned_over(mesh) < by_position.triangles);
 }
 
 /// A stem with a fork, a bend that turns back, a thin twig, and a segment drawn twice.

@@ -30,7 +30,7 @@ Mesh tubes(const Skeleton& skeleton, const MeshOptions& options) {
 
 /// Segments of any kind: zero, huge and tiny sizes, reversals, forks, jumps.
 Skeleton random_skeleton(std::uint32_t seed) {
-    test::Numbers numbers(seed);
+    test::RandomNumbers numbers(seed);
     Plant plant;
     const std::uint32_t count = 2 + numbers.below(60);
     for (std::uint32_t i = 0; i < count; ++i) {
@@ -195,7 +195,7 @@ TEST_CASE("an axis of a million segments keeps its frame", "[mesh][tubes]") {
 TEST_CASE("a long axis is the same tube for any number of threads", "[mesh][tubes]") {
     // An axis longer than one piece of work, with branches, bends of all kinds, two colours, and a
     // gap after which the axis is long again.
-    test::Numbers numbers(5);
+    test::RandomNumbers numbers(5);
     Plant plant;
     std::uint32_t last = kNoSegment;
     glm::vec3 direction(0, 1, 0);

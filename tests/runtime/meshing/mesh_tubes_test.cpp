@@ -176,7 +176,7 @@ TEST_CASE("normals point away from the axis and lean with the taper", "[mesh][tu
         CHECK(n.y == Approx(0.25F * part));
         CHECK(n.x * p.x + n.z * p.z == Approx(part * std::hypot(p.x, p.z)));
     }
-    CHECK(test::turned_over(tubes(bent(30.0F, 0.05F), kBare)) == 0);
+    CHECK(test::triangles_turned_over(tubes(bent(30.0F, 0.05F), kBare)) == 0);
 }
 
 TEST_CASE("texture coordinates run around and along the stem with square texels", "[mesh][tubes]") {
@@ -236,7 +236,7 @@ TEST_CASE("rings of different sides are joined without a gap", "[mesh][tubes]") 
     for (const MeshOptions& options : {kBare, MeshOptions{.threads = 1}}) {
         const Mesh mesh = tubes(plant.skeleton(), options);
         CHECK(test::topology_of(mesh).open_edges == 0);
-        CHECK(test::turned_over(mesh) == 0);
+        CHECK(test::triangles_turned_over(mesh) == 0);
     }
 }
 

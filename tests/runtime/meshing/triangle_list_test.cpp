@@ -43,7 +43,7 @@ void put_fan(const RingCorners& ring, std::uint32_t point, bool own, bool upward
 
 /// A random list with triangles of all kinds, and its expected indices.
 std::pair<TriangleList, Indices> mixed_list(std::uint32_t seed) {
-    test::Numbers random(seed);
+    test::RandomNumbers random(seed);
     TriangleList list;
     Indices indices;
     std::uint32_t vertex = 10;
@@ -111,7 +111,7 @@ TEST_CASE("triangles in compact form are read like listed ones", "[mesh]") {
         const LargeVector<std::uint32_t> all = list.expanded();
         REQUIRE(Indices(all.begin(), all.end()) == indices);
         CHECK(list == TriangleList(all));
-        test::Numbers random(seed);
+        test::RandomNumbers random(seed);
         TriangleReader reader(list);
         std::size_t wrong = 0;
         for (std::uint32_t i = 0; i < indices.size(); ++i) {

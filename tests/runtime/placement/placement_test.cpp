@@ -26,7 +26,7 @@ Terrain flat_ground() {
 /// `spacing`.
 struct Distances {
     double min_distance = 1.0e9;
-    double lonely = 0.0; // fraction of probes without a tree
+    double empty_fraction = 0.0; // fraction of probes without a tree
 };
 
 Distances distances_of(const LargeVector<Tree>& trees, const Region& region, double spacing) {
@@ -49,7 +49,7 @@ Distances distances_of(const LargeVector<Tree>& trees, const Region& region, dou
         const bool near = std::any_of(trees.begin(), trees.end(), [&](const Tree& tree) {
             return distance(tree, x, z) < spacing;
         });
-        distances.lonely += near ? 0.0 : 1.0 / (kProbes * kProbes);
+        distances.empty_fraction += near ? 0.0 : 1.0 / (kProbes * kProbes);
     }
     return distances;
 }
@@ -317,7 +317,7 @@ TEST_CASE("no two trees of a Poisson disk sample are nearer than its spacing, an
             const Distances distances = distances_of(trees, options.region, spacing);
             CHECK(distances.min_distance >= spacing);
             CHECK(distances.min_distance < 1.01 * spacing);
-            CHECK(distances.lonely < 0.01);
+            CHECK(distances.empty_fraction < 0.01);
             const double per_square =
                 static_cast<double>(trees.size()) * spacing * spacing / options.region.area();
             CHECK(per_square > 0.58);

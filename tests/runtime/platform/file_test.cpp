@@ -85,7 +85,7 @@ TEST_CASE("a moved file is open in one place") {
     CHECK(get_file(folder / "x") == "text");
 }
 
-TEST_CASE("names have facts") {
+TEST_CASE("a name gives the type, size and permissions of its file") {
     const FilesFolder folder;
     put_file(folder / "x", "four");
     CHECK(facts_of(folder / "x").type == FileType::Regular);

@@ -24,9 +24,9 @@ const TileForest& forest() {
 }
 
 /// A server on a port of its own, until the end of the scope.
-class Running {
+class RunningServer {
 public:
-    explicit Running(std::uint32_t max_connections = 64) : service_(forest(), 1U << 24U) {
+    explicit RunningServer(std::uint32_t max_connections = 64) : service_(forest(), 1U << 24U) {
         ServerOptions options;
         options.port = 0;
         options.threads = 2;
@@ -40,7 +40,7 @@ public:
         const std::string at = address.get_future().get();
         port_ = static_cast<std::uint16_t>(std::stoi(at.substr(at.rfind(':') + 1)));
     }
-    ~Running() { stop(); }
+    ~RunningServer() { stop(); }
     void stop() {
         ends_ = true;
         if (thread_.joinable()) {
@@ -118,7 +118,7 @@ std::string body_of(const std::string& response) {
 }
 
 TEST_CASE("a tile comes over the network with its bytes") {
-    const Running server;
+    const RunningServer server;
     const std::string response = ask(server.port(), request_of("/0/0/0.glb"));
     CHECK(response.starts_with("HTTP/1.1 200 OK\r\n"));
     CHECK(response.find("\r\nContent-Type: model/gltf-binary\r\n") != std::string::npos);
@@ -129,7 +129,7 @@ TEST_CASE("a tile comes over the network with its bytes") {
 }
 
 TEST_CASE("a connection takes several requests, also at once") {
-    const Running server;
+    const RunningServer server;
     const Client client(server.port());
     client.send(request_of("/health", "") + request_of("/0/0/0.glb", "") +
                 "HEAD /0/0/0.glb HTTP/1.1\r\nHost: here\r\n\r\n" + request_of("/health"));
@@ -144,7 +144,7 @@ TEST_CASE("a connection takes several requests, also at once") {
 }
 
 TEST_CASE("bad requests are refused and the connection ends") {
-    const Running server;
+    const RunningServer server;
     CHECK(ask(server.port(), "nonsense\r\n\r\n").starts_with("HTTP/1.1 400 "));
     CHECK(ask(server.port(), std::string("\0\1\2\r\n\r\n", 7)).starts_with("HTTP/1.1 400 "));
     CHECK(ask(server.port(), request_of("/health", "X: " + std::string(20'000, 'x') + "\r\n"))
@@ -159,7 +159,7 @@ TEST_CASE("bad requests are refused and the connection ends") {
 }
 
 TEST_CASE("connections beyond the limit are closed, and requests cut short do no harm") {
-    Running server(8);
+    RunningServer server(8);
     {
         std::vector<std::unique_ptr<Client>> idle;
         for (int i = 0; i < 40; ++i) {
@@ -180,7 +180,7 @@ TEST_CASE("connections beyond the limit are closed, and requests cut short do no
 }
 
 TEST_CASE("the server ends with idle connections, and after responses") {
-    Running server;
+    RunningServer server;
     const Client idle(server.port());
     const Client used(server.port());
     used.send(request_of("/health", ""));
@@ -193,7 +193,7 @@ TEST_CASE("the server ends with idle connections, and after responses") {
     CHECK((answer.empty() || answer.ends_with("ok\n")));
 }
 
-TEST_CASE("an address is refused if it is none, in use, or public without leave") {
+TEST_CASE("an address is refused if it is invalid, in use, or public without permission") {
     TileService service(forest(), 0);
     const auto serve = [&service](const std::string& address, std::uint16_t port) {
         ServerOptions options;
@@ -206,7 +206,7 @@ TEST_CASE("an address is refused if it is none, in use, or public without leave"
     CHECK(serve("0.0.0.0", 0).error().message ==
           "`0.0.0.0` can be reached from other machines; --public allows that");
     CHECK(serve("127.0.0.1", 0));
-    const Running server;
+    const RunningServer server;
     CHECK(serve("127.0.0.1", server.port()).error().message.starts_with("cannot listen at "));
 }
 

@@ -95,7 +95,7 @@ TEST_CASE("the service answers with the tiles, tilesets and shared files of the 
     CHECK(body_of(service.respond(get("/health"))) == "ok\n");
 }
 
-TEST_CASE("what is no file of the forest is not found") {
+TEST_CASE("paths of no file of the forest are not found") {
     TileService service(forest(), kCache);
     for (const char* const target :
          {"/x", "/../etc/passwd", "/%2e%2e/etc/passwd", "//etc/passwd", "/0/0/0.json", "/1/2/0.glb",
@@ -149,7 +149,7 @@ TEST_CASE("a client that has the file gets 304") {
     CHECK(field_of(other.respond(get("/0/0/0.glb")), "ETag") == tag);
 }
 
-TEST_CASE("tiles are sent in gzip to those who accept it") {
+TEST_CASE("tiles are sent in gzip to clients that accept it") {
     TileService service(forest(), kCache);
     TileRequest request = get("/0/0/0.glb");
     const std::string plain = body_of(service.respond(request));
@@ -205,7 +205,7 @@ TEST_CASE("ranges of bytes are sent") {
     CHECK(range("bytes=4-7").status == 206);
 }
 
-TEST_CASE("the cache keeps what was used last, within its limit") {
+TEST_CASE("the cache keeps the files used last, within its limit") {
     const std::vector<TileId> tiles = forest().tiles(2);
     REQUIRE(tiles.size() > 8);
     std::uint64_t largest = 0;

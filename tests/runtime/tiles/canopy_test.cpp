@@ -8,7 +8,7 @@
 namespace lsys {
 namespace {
 
-/// A level square of 2 by 3 m at height 5.
+/// A level rectangle of 2 by 3 m at a height of 5 m, and a vertex that no triangle uses.
 Mesh table() {
     Mesh mesh;
     mesh.positions = {{0, 5, 0}, {0, 5, 3}, {2, 5, 3}, {2, 5, 0}, {1, 1, 1}};
@@ -29,7 +29,7 @@ TEST_CASE("a crown has the area, height and colour that are seen from above") {
     CHECK(crown_of({}).area == 0.0);
 }
 
-TEST_CASE("what lies below another part of a crown is not seen") {
+TEST_CASE("parts below another part of a crown are not seen") {
     Mesh mesh = table();
     const auto first = static_cast<std::uint32_t>(mesh.positions.size());
     for (const glm::vec3& corner : {glm::vec3(0, 9, 0), glm::vec3(0, 9, 3), glm::vec3(2, 9, 3)}) {

@@ -27,7 +27,7 @@ public:
         ++times_;
         changed_.notify_all();
     }
-    /// Waits for a report of `file` and removes it; returns false after a long time.
+    /// Waits up to 10 s for a report of `file`, then forgets all reports; returns whether it came.
     bool waits_for(const std::string& file) {
         std::unique_lock lock(mutex_);
         const bool is_reported = changed_.wait_for(lock, 10s, [&] {

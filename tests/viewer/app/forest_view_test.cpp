@@ -68,7 +68,7 @@ public:
         }
         return drew;
     }
-    /// Steps until `done`; returns false after a long time.
+    /// Steps until `done`; returns false after 60 s.
     template <typename Condition>
     bool until(Condition&& done) {
         for (const auto start = SteadyClock::now(); SteadyClock::now() - start < 60s;) {

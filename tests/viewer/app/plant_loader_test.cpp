@@ -22,7 +22,7 @@ ViewOptions options_of(const std::string& file) {
     return options;
 }
 
-/// The next outcome; an empty one after a long time.
+/// The next outcome; an empty one after 60 s.
 LoadOutcome wait_for(PlantLoader& loader) {
     for (const auto start = SteadyClock::now(); SteadyClock::now() - start < 60s;) {
         if (std::optional<LoadOutcome> outcome = loader.take()) {

@@ -44,7 +44,7 @@ public:
             view.picture_shown(0.0);
         }
     }
-    /// Steps until `done`; returns false after a long time.
+    /// Steps until `done`; returns false after 30 s.
     template <typename Condition>
     bool until(Condition&& done) {
         for (const auto start = SteadyClock::now(); SteadyClock::now() - start < 30s;) {

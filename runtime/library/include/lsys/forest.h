@@ -34,7 +34,7 @@ struct Species {
     std::string name;
     std::vector<std::uint32_t> generations; // of each stage, ascending
     std::uint32_t heroes = 0;               // plants derived in full, per stage
-    float height = 0.0F;                    // of `#set height`; 0: not set
+    float height = 0.0F;                    // m, of `#set height`; 0: not set
 };
 
 struct ForestOptions {
