@@ -79,7 +79,8 @@ void draw_numbers(const ForestView& view) {
         return;
     }
     const Region& region = document->scene.terrain.region;
-    line(fmt::format("{} trees on {:.0f} x {:.0f} m", grouped(view.painting().tree_count()),
+    line(fmt::format("{} trees on {:.0f} x {:.0f} m", grouped(document->squares == nullptr ? view.painting().tree_count()
+                                                      : tree_count(*document)),
                      region.width, region.depth));
     if (document->tallest) {
         line(fmt::format("Tallest placed tree: {:.3g} m", *document->tallest));
