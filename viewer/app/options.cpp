@@ -93,7 +93,7 @@ void add_picture(CLI::App& app, ViewOptions& options) {
         app, "--air", options.visibility,
         [](const std::string& text) { return parse_number(text, kMinAir, kMaxAir); },
         "Visibility in a forest, km: haze leaves 2 % of the contrast there (default: 12 times the "
-        "diagonal of the ground, at least 10; 40 in a streamed forest)")
+        "diagonal of the ground, at least 10; 100 in a streamed forest)")
         ->type_name("KM")
         ->group("Picture");
     constexpr float kMaxTime = 86'400.0F;

@@ -104,6 +104,30 @@ std::shared_ptr<const StreamedTrees> SquareSource::describe(const ForestModel& m
         streamed->mean_scales.push_back(
             counts[form] > 0.0 ? static_cast<float>(scales[form] / counts[form]) : 0.0F);
     }
+    // Crowns on the whole ground, by its densities at a lattice of places.
+    constexpr int kLattice = 24;
+    std::vector<double> crown_sums(crowns.size());
+    std::vector<double> densities_here(crowns.size());
+    for (int i = 0; i < kLattice * kLattice; ++i) {
+        const Region& ground = options_.region;
+        field_.trees_at(ground.x + ground.width * (0.5 + i % kLattice) / kLattice,
+                        ground.z + ground.depth * (0.5 + i / kLattice) / kLattice, densities_here);
+        for (std::size_t s = 0; s < crowns.size(); ++s) {
+            crown_sums[s] += densities_here[s] * crowns[s];
+        }
+    }
+    streamed->crown_parts.resize(model.forms.size());
+    for (std::size_t s = 0; s < crowns.size(); ++s) {
+        const std::uint32_t first = model.first_form[s];
+        const std::size_t end = s + 1 < crowns.size() ? model.first_form[s + 1] : model.forms.size();
+        double trees = 0.0; // of the sample of the species: by stage
+        for (std::size_t form = first; form < end; ++form) {
+            trees += counts[form];
+        }
+        for (std::size_t form = first; form < end; ++form) {
+            streamed->crown_parts[form] = static_cast<float>(crown_sums[s] * counts[form] / trees);
+        }
+    }
     streamed->cover = [this, crowns = std::move(crowns)](double x, double z) {
         const Region& ground = options_.region;
         if (!ground.contains(static_cast<float>(x), static_cast<float>(z))) {
@@ -117,7 +141,7 @@ std::shared_ptr<const StreamedTrees> SquareSource::describe(const ForestModel& m
         }
         return static_cast<float>(1.0 - std::exp(-area)); // crowns at independent places
     };
-    constexpr float kViewDistance = 60'000.0F; // beyond the default visibility
+    constexpr float kViewDistance = 120'000.0F; // beyond the default visibility
     streamed->view_distance = kViewDistance;
     return streamed;
 }

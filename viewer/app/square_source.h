@@ -17,7 +17,7 @@ namespace lsys::view {
 /// Forests with more expected trees are streamed, if their placement allows it.
 inline constexpr double kMaxHeldTrees = 2e6;
 /// Default visibility in a streamed forest, km.
-inline constexpr double kStreamedVisibility = 40.0;
+inline constexpr double kStreamedVisibility = 100.0;
 
 class SquareSource {
 public:

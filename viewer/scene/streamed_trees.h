@@ -46,6 +46,7 @@ struct SquareLayout {
 struct StreamedTrees {
     SquareLayout layout;
     std::vector<float> mean_scales; // by form; 0: no trees seen
+    std::vector<float> crown_parts; // by form: its part of the crowns seen from above
     float tallest = 0.0F;           // m, of a sample of the trees
     GroundCover cover;
     float view_distance = 0.0F; // m, range of the drawn ground

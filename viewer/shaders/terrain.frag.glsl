@@ -57,8 +57,8 @@ void main() {
     float lit = sunlight_at(shadow_position, 1.0);
     vec3 light = shade(albedo, normal, world_position, lit, 0.0);
     if (canopy_range.y > 0.0) {
-        // Crowns seen from afar: half of their surface is in the shade of others.
-        vec3 crowns = shade_crown(canopy, up, 0.5 * lit, 0.0, 0.7);
+        // Crowns seen from afar: part of their surface is in the shade of others.
+        vec3 crowns = shade_crown(canopy, up, 0.8 * lit, 0.0, 0.9);
         light = mix(light, crowns, cover * smoothstep(canopy_range.x, canopy_range.y, fog.z));
     }
     colour = tone_mapped(apply_fog(light, fog.xy));

@@ -148,7 +148,7 @@ bool ForestPass::bake_impostors(double seconds, MaterialTextures& textures) {
         }
     }
     if (impostors_.is_done() && model_.streamed != nullptr) {
-        terrain_.set_canopy(impostors_.mean_colour_from_above());
+        terrain_.set_canopy(impostors_.mean_colour_from_above(model_.streamed->crown_parts));
     }
     bake_seconds_ += seconds_since(start);
     return impostors_.is_done();

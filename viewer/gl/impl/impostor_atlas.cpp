@@ -187,7 +187,7 @@ void ImpostorAtlas::upload_layer(std::uint32_t layer, ImpostorTexels picture) {
     }
 }
 
-glm::vec3 ImpostorAtlas::mean_colour_from_above() const {
+glm::vec3 ImpostorAtlas::mean_colour_from_above(std::span<const float> parts) const {
     constexpr GLint kLast = kLevels - 1;
     constexpr std::size_t kRow = kWidth >> static_cast<unsigned>(kLast);
     constexpr std::size_t kRows = kHeight >> static_cast<unsigned>(kLast);
@@ -198,12 +198,17 @@ glm::vec3 ImpostorAtlas::mean_colour_from_above() const {
                       static_cast<GLsizei>(texels.size()), texels.data());
     glm::dvec3 sum(0.0);
     double weight = 0.0;
-    for (std::size_t layer = 0; layer < layers_; ++layer) {
+    for (std::size_t layer = 0; layer < plan_.layers.size(); ++layer) {
+        const ImpostorLayer& impostor = plan_.layers[layer];
+        if (impostor.trees.size() != 1) {
+            continue; // a cluster
+        }
+        const auto part = static_cast<double>(parts[impostor.form]);
         for (std::size_t texel = kFirstRow * kRow; texel < kRows * kRow; ++texel) {
             const std::uint8_t* rgba = &texels[4 * (layer * kRows * kRow + texel)];
             const glm::dvec3 root = glm::dvec3(rgba[0], rgba[1], rgba[2]) / 255.0;
-            sum += static_cast<double>(rgba[3]) * root * root;
-            weight += static_cast<double>(rgba[3]);
+            sum += part * static_cast<double>(rgba[3]) * root * root;
+            weight += part * static_cast<double>(rgba[3]);
         }
     }
     return weight > 0.0 ? glm::vec3(sum / weight) : glm::vec3(0.0F);
