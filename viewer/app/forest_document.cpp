@@ -265,9 +265,8 @@ Camera first_view(const ForestDocument& document, float aspect) {
 }
 
 std::uint64_t tree_count(const ForestDocument& document) {
-    return document.squares == nullptr
-               ? document.grown.forest.trees.size()
-               : static_cast<std::uint64_t>(document.squares->all_places());
+    return document.squares == nullptr ? document.grown.forest.trees.size()
+                                       : static_cast<std::uint64_t>(document.squares->all_places());
 }
 
 Camera above_ground(const Camera& camera, const Terrain& terrain) {

@@ -167,11 +167,11 @@ ExitStatus take_forest_pictures(const ViewOptions& options,
         };
     }
     if (document.squares != nullptr) {
-        streamer = std::make_unique<ForestStreamer>(
-            document, options.stream_bytes, streaming_threads(options.run.threads), [] {});
+        streamer = std::make_unique<ForestStreamer>(document, options.stream_bytes,
+                                                    streaming_threads(options.run.threads), [] {});
         prepare = [&](Frame& shown) {
-            const std::optional<StreamStep> step = streamer->settle(
-                shown.camera, shown.height, [&] { return console.interrupted(); });
+            const std::optional<StreamStep> step =
+                streamer->settle(shown.camera, shown.height, [&] { return console.interrupted(); });
             if (!step) {
                 return ExitStatus::Interrupted;
             }
@@ -204,10 +204,10 @@ ExitStatus take_forest_pictures(const ViewOptions& options,
         take_series(options, frame, renderer, console, prepare, after, series);
     return status != ExitStatus::Ok || options.stats.empty()
                ? status
-               : write_stats_text(
-                     options, stats_text(options, camera, document, renderer, series, cull, shadow,
-                                streamer.get()),
-                     console);
+               : write_stats_text(options,
+                                  stats_text(options, camera, document, renderer, series, cull,
+                                             shadow, streamer.get()),
+                                  console);
 }
 
 } // namespace lsys::view

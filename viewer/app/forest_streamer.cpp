@@ -32,13 +32,13 @@ ForestStreamer::ForestStreamer(const ForestDocument& document,
                                std::uint64_t max_bytes,
                                std::uint32_t threads,
                                std::function<void()> wake)
-    : document_(document),
-      stream_(document.model.streamed->layout,
-              document.model.streamed->tallest,
-              [squares = document.squares](const Region& region) {
-                  return squares->expected_trees(region);
-              },
-              max_bytes),
+    : document_(document), stream_(
+                               document.model.streamed->layout,
+                               document.model.streamed->tallest,
+                               [squares = document.squares](const Region& region) {
+                                   return squares->expected_trees(region);
+                               },
+                               max_bytes),
       wake_(std::move(wake)) {
     for (std::uint32_t i = 0; i < threads; ++i) {
         threads_.emplace_back([this] { work(); });
@@ -95,8 +95,8 @@ void ForestStreamer::work() {
 
 WantedSquares ForestStreamer::wanted_for(const Camera& camera, std::uint32_t picture_height) const {
     const glm::dvec3 eye = eye_of(camera);
-    const float ground = document_.grown.terrain->height(static_cast<float>(eye.x),
-                                                         static_cast<float>(eye.z));
+    const float ground =
+        document_.grown.terrain->height(static_cast<float>(eye.x), static_cast<float>(eye.z));
     return stream_.wanted(camera, ground, picture_height);
 }
 
@@ -155,8 +155,8 @@ void ForestStreamer::forget_squares() {
         auto oldest = ready_.end();
         for (auto each = ready_.begin(); each != ready_.end(); ++each) {
             const bool is_free = !each->second.is_shown && each->second.last_wanted != step_;
-            if (is_free && (oldest == ready_.end() ||
-                            each->second.last_wanted < oldest->second.last_wanted)) {
+            if (is_free &&
+                (oldest == ready_.end() || each->second.last_wanted < oldest->second.last_wanted)) {
                 oldest = each;
             }
         }
@@ -168,9 +168,8 @@ void ForestStreamer::forget_squares() {
     }
 }
 
-StreamStep ForestStreamer::step(const Camera& camera,
-                                std::uint32_t picture_height,
-                                std::uint64_t max_trees) {
+StreamStep
+ForestStreamer::step(const Camera& camera, std::uint32_t picture_height, std::uint64_t max_trees) {
     const Stopwatch watch;
     const WantedSquares wanted = wanted_for(camera, picture_height);
     const std::lock_guard lock(mutex_);

@@ -74,7 +74,8 @@ private:
     void work();
     /// Replaces the wishes of the threads. Needs the lock.
     void want(const WantedSquares& wanted);
-    [[nodiscard]] WantedSquares wanted_for(const Camera& camera, std::uint32_t picture_height) const;
+    [[nodiscard]] WantedSquares wanted_for(const Camera& camera,
+                                           std::uint32_t picture_height) const;
     /// Needs the lock.
     [[nodiscard]] StreamStep changes_to(const WantedSquares& wanted, std::uint64_t max_trees);
     /// Forgets squares that are not wanted, those wanted longest ago first, until the rest is within

@@ -493,9 +493,8 @@ void ForestView::reload() {
 }
 
 void ForestView::frame_all() {
-    settings.camera = streamer_ != nullptr
-                          ? first_view(*document_, aspect_)
-                          : framing(settings.camera, renderer_->bounds(), aspect_);
+    settings.camera = streamer_ != nullptr ? first_view(*document_, aspect_)
+                                           : framing(settings.camera, renderer_->bounds(), aspect_);
 }
 
 std::optional<glm::dvec3> ForestView::ground_at(const glm::vec2& place) {

@@ -191,8 +191,7 @@ void add_picture(CLI::App& app, ViewOptions& options) {
     app.add_option_function<std::string>(
            "--stream-memory",
            [&options](const std::string& text) {
-               const Result<std::uint64_t> mebibytes =
-                   parse_integer(text, 16, kMaxStreamMebibytes);
+               const Result<std::uint64_t> mebibytes = parse_integer(text, 16, kMaxStreamMebibytes);
                if (!mebibytes) {
                    throw CLI::ValidationError("--stream-memory", mebibytes.error().message);
                }

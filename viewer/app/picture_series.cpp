@@ -85,8 +85,8 @@ ExitStatus take_series(const ViewOptions& options,
                        const std::function<ExitStatus(Frame& frame)>& prepare,
                        const std::function<ExitStatus(const Frame& frame)>& after,
                        PictureSeries& series) {
-    if (options.frames > 1 && !options.turntable && options.fly_to.empty() && !options.grow && !options.gravity &&
-        !options.wind) {
+    if (options.frames > 1 && !options.turntable && options.fly_to.empty() && !options.grow &&
+        !options.gravity && !options.wind) {
         console.info("nothing moves, so all pictures of the series are alike: --grow shows growth, "
                      "--turntable goes around, --fly-to moves, --wind blows");
     }

@@ -119,7 +119,8 @@ std::shared_ptr<const StreamedTrees> SquareSource::describe(const ForestModel& m
     streamed->crown_parts.resize(model.forms.size());
     for (std::size_t s = 0; s < crowns.size(); ++s) {
         const std::uint32_t first = model.first_form[s];
-        const std::size_t end = s + 1 < crowns.size() ? model.first_form[s + 1] : model.forms.size();
+        const std::size_t end =
+            s + 1 < crowns.size() ? model.first_form[s + 1] : model.forms.size();
         double trees = 0.0; // of the sample of the species: by stage
         for (std::size_t form = first; form < end; ++form) {
             trees += counts[form];

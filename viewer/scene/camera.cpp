@@ -24,7 +24,8 @@ constexpr float kMinField = 1.0F;
 constexpr float kMaxField = 170.0F;
 constexpr float kNearest = 0.02F;    // m, min distance of the near plane
 constexpr float kMaxDistance = 1e7F; // m, of eye and target
-constexpr double kNearWorld = 16'384.0; // m, max distance along X and Z of cameras without an origin
+constexpr double kNearWorld =
+    16'384.0; // m, max distance along X and Z of cameras without an origin
 
 /// Removes the next word from `text`.
 std::string_view take_word(std::string_view& text) {
@@ -46,7 +47,8 @@ bool parse_place(std::string_view text, glm::dvec3& place) {
     for (std::size_t i = 0; i < values.size(); ++i) {
         const std::size_t comma = text.find(',');
         if ((comma == std::string_view::npos) != (i + 1 == values.size()) ||
-            !parse_number(text.substr(0, comma), values[i]) || std::abs(values[i]) > static_cast<double>(kMaxDistance)) {
+            !parse_number(text.substr(0, comma), values[i]) ||
+            std::abs(values[i]) > static_cast<double>(kMaxDistance)) {
             return false;
         }
         text.remove_prefix(comma == std::string_view::npos ? text.size() : comma + 1);
@@ -148,7 +150,8 @@ Camera between(const Camera& first, const Camera& last, double part) {
     camera.origin = is_near ? glm::dvec3(0.0) : nearest_origin(eye);
     camera.eye = glm::vec3(eye - camera.origin);
     camera.target = glm::vec3(target - camera.origin);
-    camera.field_of_view = glm::mix(first.field_of_view, last.field_of_view, static_cast<float>(part));
+    camera.field_of_view =
+        glm::mix(first.field_of_view, last.field_of_view, static_cast<float>(part));
     return camera;
 }
 

@@ -18,6 +18,7 @@
 
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <map>
 #include <memory>
 #include <span>
@@ -40,6 +41,8 @@ struct LodOptions {
     /// Max trees expanded into branches per picture; the others stay impostors until the next
     /// picture.
     std::uint32_t max_expansions = ~0U;
+    /// Distance from the eye, m, at which the trees end. They fade over the last fifth.
+    float tree_range = std::numeric_limits<float>::infinity();
     /// Wind, which moves trees beyond their bounds at rest.
     Wind wind;
 };
@@ -331,7 +334,7 @@ private:
     std::vector<PoolBranch> made_branches_;
     std::vector<VisibleTree> visible_trees_; // owners of visible_branches_
     Sway sway_;
-    GroundHorizon* ground_ = nullptr;                            // during select()
+    GroundHorizon* ground_ = nullptr; // during select()
     std::vector<VisibleCell> visible_cells_;
     std::vector<std::uint32_t> mesh_counts_; // visible branches by form, group and instance
     // Of a streamed forest.
@@ -339,7 +342,8 @@ private:
     std::vector<ShownSquare> squares_;
     std::vector<std::uint32_t> free_squares_;
     std::map<std::uint32_t, std::uint32_t> square_of_tree_; // first tree and index in squares_
-    std::map<std::uint32_t, std::uint32_t> free_trees_; // free ranges of trees_; adjacent ones merged
+    std::map<std::uint32_t, std::uint32_t>
+        free_trees_; // free ranges of trees_; adjacent ones merged
     std::vector<TreeSpan> changed_trees_;
     Bounds changed_box_;
 };

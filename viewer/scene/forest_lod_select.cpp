@@ -31,6 +31,14 @@ float finer_weight(float pixels, float limit, float blend) {
     return blend > 1.0F ? std::clamp((pixels / limit - 1.0F) / (blend - 1.0F), 0.0F, 1.0F) : 1.0F;
 }
 
+/// Part of the pixels of trees at a distance of the eye, m, that is drawn: 1 up to four fifths of
+/// `range`, 0 beyond it.
+float presence_at(float distance, float range) {
+    constexpr float kFading = 0.2F;
+    return std::isfinite(range) ? std::clamp((range - distance) / (kFading * range), 0.0F, 1.0F)
+                                : 1.0F;
+}
+
 /// Max displacement by wind, m, of trees whose height and width are at most those of a box.
 float sway_within(const glm::vec3& low, const glm::vec3& high, const Sway& sway) {
     const glm::vec3 size = high - low;
@@ -176,6 +184,10 @@ void ForestLod::visit_cell(std::uint32_t index,
                            const Frustum& frustum,
                            const LodOptions& options) {
     const ForestCell& cell = cells_[index];
+    const float presence = presence_at(distance, options.tree_range);
+    if (presence <= 0.0F) {
+        return;
+    }
     float weight = 1.0F; // weight of single trees against the cluster
     if (cell.count >= kMinClusterTrees && cell.removed == 0 && options.cluster_pixels > 0.0F) {
         const float scale = frustum.pixels / std::max(distance, kNearest); // pixels per metre
@@ -190,7 +202,7 @@ void ForestLod::visit_cell(std::uint32_t index,
                      : finer_weight(pixels, options.cluster_pixels, options.blend);
     }
     if (weight < 1.0F) {
-        lists_.clusters.push_back({index, {weight, 1.0F}});
+        lists_.clusters.push_back({index, {weight, weight + (1.0F - weight) * presence}});
     }
     if (weight <= 0.0F) {
         lists_.clustered_trees += cell.count;
@@ -199,7 +211,7 @@ void ForestLod::visit_cell(std::uint32_t index,
     lists_.blended += weight < 1.0F ? cell.count : 0;
     for (std::uint32_t t = cell.first; t < cell.first + cell.count; ++t) {
         if (!trees_[t].is_removed()) {
-            visit_tree(t, frustum, options, weight);
+            visit_tree(t, frustum, options, weight * presence);
         }
     }
 }

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
 // ForestLod: the trees of a streamed forest, which come and go square by square.
-#include "viewer/scene/forest_square.h"
-
 #include "grammar/base/contract.h"
+#include "viewer/scene/forest_square.h"
 
 #include <algorithm>
 #include <iterator>
@@ -125,9 +124,10 @@ void ForestLod::add_square(std::shared_ptr<const ForestSquare> square) {
 }
 
 void ForestLod::remove_square(const SquareId& id) {
-    const auto found = std::find_if(squares_.begin(), squares_.end(), [&](const ShownSquare& shown) {
-        return shown.square != nullptr && shown.square->id == id;
-    });
+    const auto found =
+        std::find_if(squares_.begin(), squares_.end(), [&](const ShownSquare& shown) {
+            return shown.square != nullptr && shown.square->id == id;
+        });
     LSYS_CHECK(found != squares_.end(), id.row, id.column);
     const auto index = static_cast<std::uint32_t>(found - squares_.begin());
     const std::size_t cells = found->square->cells.size();

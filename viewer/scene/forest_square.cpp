@@ -52,7 +52,8 @@ ForestSquare SquareMaker::make(const SquareId& id, std::vector<Tree> trees) {
         square.trees[index] = tree;
         LodTree& made = square.lod_trees[index];
         const glm::dvec2 at = place_in(tree);
-        made.position = glm::vec3(static_cast<float>(at.x), tree.position.y, static_cast<float>(at.y));
+        made.position =
+            glm::vec3(static_cast<float>(at.x), tree.position.y, static_cast<float>(at.y));
         made.scale = tree.scale;
         made.tree = index;
         made.form = static_cast<std::uint16_t>(model_.form_of(tree));

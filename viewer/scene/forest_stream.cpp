@@ -21,8 +21,7 @@ ForestStream::ForestStream(const SquareLayout& layout,
 
 double ForestStream::expected_bytes(const SquareId& id) const {
     const Region region = layout_.region_of(id);
-    const double trees =
-        region.width > 0.0 && region.depth > 0.0 ? expected_trees_(region) : 0.0;
+    const double trees = region.width > 0.0 && region.depth > 0.0 ? expected_trees_(region) : 0.0;
     return trees * static_cast<double>(kBytesPerStreamedTree) +
            static_cast<double>(layout_.cell_count() * kBytesPerStreamedCell);
 }
@@ -32,9 +31,10 @@ ForestStream::wanted(const Camera& camera, float ground, std::uint32_t picture_h
     const glm::dvec3 eye = eye_of(camera);
     const double above = std::max(eye.y - static_cast<double>(ground), 0.0);
     const double pixels_per_slope = // height in pixels of an object as high as it is far away
-        0.5 * picture_height / std::tan(0.5 * glm::radians(static_cast<double>(camera.field_of_view)));
-    const double reach = static_cast<double>(tallest_) * pixels_per_slope /
-                         static_cast<double>(kMinStreamedPixels);
+        0.5 * picture_height /
+        std::tan(0.5 * glm::radians(static_cast<double>(camera.field_of_view)));
+    const double reach =
+        static_cast<double>(tallest_) * pixels_per_slope / static_cast<double>(kMinStreamedPixels);
     const double usable = kWantedPart * static_cast<double>(max_bytes_);
     // A circle that would exceed the budget even with empty squares is not searched.
     const double empty_bytes = static_cast<double>(layout_.cell_count() * kBytesPerStreamedCell);

@@ -76,7 +76,8 @@ void TerrainLod::make_grid(std::uint32_t level, const glm::vec3& eye) {
     const glm::ivec2 shift = origin - before.origin;
     const auto size_texels = static_cast<std::int32_t>(kHeightTexels);
     const std::int32_t kept_low = before.is_valid ? std::max(-shift.x, 0) : size_texels;
-    const std::int32_t kept_high = before.is_valid ? std::min(size_texels - shift.x, size_texels) : 0;
+    const std::int32_t kept_high =
+        before.is_valid ? std::min(size_texels - shift.x, size_texels) : 0;
     Workers workers(0);
     workers.for_each(kHeightTexels / kRowsPerPiece, [&](std::uint64_t piece) {
         for (std::uint64_t row = piece * kRowsPerPiece; row < (piece + 1) * kRowsPerPiece; ++row) {
@@ -113,10 +114,9 @@ void TerrainLod::select(const Frustum& frustum) {
     patches_.clear();
     changed_.clear();
     eye_ = frustum.eye;
-    eye_height_ =
-        std::max(eye_.y - height_at(origin_.x + static_cast<double>(eye_.x),
-                                    origin_.z + static_cast<double>(eye_.z)),
-                 0.0F);
+    eye_height_ = std::max(eye_.y - height_at(origin_.x + static_cast<double>(eye_.x),
+                                              origin_.z + static_cast<double>(eye_.z)),
+                           0.0F);
     for (std::uint32_t level = 0; level < levels_; ++level) {
         if (range(level) > eye_height_ || level + 1 == levels_) {
             make_grid(level, eye_);

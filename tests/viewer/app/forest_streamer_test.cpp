@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: MIT
 // ForestStreamer: trees by place, budget, and a flight over a forest of a thousand million trees.
-#include "viewer/app/forest_streamer.h"
 #include "runtime/program/host.h"
 #include "tests/support/lsc_run.h"
 #include "tests/viewer/lsview_run.h"
 #include "tests/viewer/picture.h"
+#include "viewer/app/forest_streamer.h"
+#include "viewer/app/forest_view.h"
 #include "viewer/app/square_source.h"
+#include "viewer/gl/headless_context.h"
 
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
@@ -13,8 +15,10 @@
 #include <algorithm>
 #include <atomic>
 #include <chrono>
+#include <cstdio>
 #include <map>
 #include <set>
+#include <sstream>
 #include <thread>
 #include <vector>
 
@@ -185,8 +189,8 @@ TEST_CASE("a picture by a flight equals the picture at its end", "[window]") {
     const std::vector<std::string> common = {endless_forest(), "--size", "160x120",
                                              "--stream-memory", "16"};
     std::vector<std::string> direct = common;
-    for (const std::string& more : {std::string("--camera"), eye, std::string("--screenshot"),
-                                    folder / "direct.png"}) {
+    for (const std::string& more :
+         {std::string("--camera"), eye, std::string("--screenshot"), folder / "direct.png"}) {
         direct.push_back(more);
     }
     const LscRun one = run_lsview(direct);
@@ -209,4 +213,51 @@ TEST_CASE("a picture by a flight equals the picture at its end", "[window]") {
     CHECK(a.texels == b.texels);
     const Picture start = tests::read_picture(folder / "flown.0001.png");
     CHECK(difference_of(a, start).mean > 1.0);
+}
+
+// Not part of the tests: prints times of the thread of a window, with a picture so small that the
+// time to shade pixels does not matter. docs/notes/streamed-forests.md has them.
+TEST_CASE("times of a flight of 100 km", "[.flight]") {
+    std::istringstream in;
+    std::ostringstream out;
+    std::ostringstream err;
+    const Console console({in, out, err, false, nullptr, "lsview"}, {});
+    HeadlessContext context = std::move(HeadlessContext::make().value());
+    const auto renderer = std::move(Renderer::make(built_in_shader).value());
+    ViewOptions options;
+    options.file = endless_forest();
+    options.files = {options.file};
+    options.is_forest = true;
+    ForestView view(options, console, *renderer, [] {});
+    const auto frame = [&] {
+        static_cast<void>(view.update());
+        const auto start = SteadyClock::now();
+        static_cast<void>(view.draw(64, 36));
+        return seconds_since(start);
+    };
+    while (view.document() == nullptr || !view.has_impostors()) {
+        static_cast<void>(frame());
+    }
+    std::vector<double> times;
+    std::vector<double> culls;
+    constexpr int kFrames = 2000; // of 50 m
+    for (int i = 0; i <= kFrames; ++i) {
+        view.camera() = camera_at(-50'000.0 + 100'000.0 * i / kFrames, 20'000.0);
+        const double seconds = frame();
+        if (i > 20) { // not the jump to the start
+            times.push_back(seconds);
+            culls.push_back(1e-3 * renderer->forest_stats().cull_milliseconds);
+        }
+    }
+    const auto print = [](const char* what, std::vector<double> all) {
+        std::sort(all.begin(), all.end());
+        std::printf("%s: median %.1f ms, 99 %% %.1f ms, most %.1f ms\n", what,
+                    1e3 * all[all.size() / 2], 1e3 * all[all.size() * 99 / 100], 1e3 * all.back());
+    };
+    print("frame", times);
+    print("of which choice of trees and heights of the ground", culls);
+    const StreamStats stats = view.stream_stats().value();
+    std::printf("slowest step %.2f ms, %llu squares made, at most %.1f MiB\n",
+                1e3 * stats.slowest_step, static_cast<unsigned long long>(stats.made),
+                static_cast<double>(stats.peak_bytes) / 1'048'576.0);
 }

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Squares of a streamed forest: which ones a camera wants, and the trees of those shown.
-#include "viewer/scene/forest_stream.h"
 #include "tests/viewer/wood.h"
 #include "viewer/scene/forest_square.h"
+#include "viewer/scene/forest_stream.h"
 
 #include <catch2/catch.hpp>
 #include <glm/geometric.hpp>
@@ -23,7 +23,7 @@ using namespace lsys::view;
 
 namespace {
 
-constexpr double kDensity = 0.01;              // trees per m2
+constexpr double kDensity = 0.01;             // trees per m2
 constexpr std::uint64_t kBudget = 20'000'000; // bytes
 constexpr Region kGround{-100'000.0, -90'000.0, 200'000.0, 180'000.0};
 
@@ -69,7 +69,8 @@ StreamedWood make_streamed_wood(double shift) {
     for (Tree& tree : trees) {
         for (float* const along : {&tree.position.x, &tree.position.z}) {
             // Binary32 has these places also far away.
-            *along = static_cast<float>(std::floor(static_cast<double>(*along) * 64.0) / 64.0 + shift);
+            *along =
+                static_cast<float>(std::floor(static_cast<double>(*along) * 64.0) / 64.0 + shift);
         }
         by_square[streamed->layout.square_at(static_cast<double>(tree.position.x),
                                              static_cast<double>(tree.position.z))]
@@ -83,8 +84,8 @@ StreamedWood make_streamed_wood(double shift) {
 }
 
 struct DrawnList {
-    std::vector<std::array<float, 4>> trees;    // place and first threshold, in the order of drawing
-    std::vector<std::array<float, 4>> clusters; // likewise
+    std::vector<std::array<float, 4>> trees; // place and first threshold, in the order of drawing
+    std::vector<std::array<float, 4>> clusters;                // likewise
     std::vector<std::pair<std::uint32_t, std::uint32_t>> runs; // instance and count
     std::uint64_t triangles = 0;
 
@@ -220,7 +221,8 @@ TEST_CASE("a forest 147 km away is drawn exactly as the same forest at the origi
 
 TEST_CASE("a far camera keeps places of a tenth of a millimetre") {
     const Camera camera =
-        parse_camera("eye 150000.1234,2.5,-149999.8765 target 150001.5,2.5,-149990", Camera{}).value();
+        parse_camera("eye 150000.1234,2.5,-149999.8765 target 150001.5,2.5,-149990", Camera{})
+            .value();
     CHECK(camera.origin == glm::dvec3(151'552.0, 0.0, -151'552.0));
     CHECK(std::abs(eye_of(camera).x - 150'000.1234) < 1.3e-4);
     CHECK(std::abs(eye_of(camera).z + 149'999.8765) < 1.3e-4);

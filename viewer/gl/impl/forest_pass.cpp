@@ -255,6 +255,7 @@ void ForestPass::prepare(const Frame& frame) {
     options.max_triangles = frame.max_triangles;
     options.max_expansions = frame.max_expansions;
     options.wind = frame.wind;
+    options.tree_range = frame.tree_range;
     constexpr float kStill = 1e-4F; // m/s
     is_windy_ = glm::length(frame.wind.velocity) >= kStill;
     has_old_clusters_ = has_old_clusters_ && !impostors_.is_done();
@@ -313,7 +314,8 @@ ForestPass::draw_quads(const ProgramObject& program, std::size_t first, std::siz
 
 void ForestPass::draw_shadows(const glm::mat4& shadow_from_world, ForestFrameStats& stats) {
     std::vector<std::uint32_t> numbers;
-    lod_->find_within(casters_of(shadow_from_world, caster_altitudes_[0], caster_altitudes_[1]), numbers);
+    lod_->find_within(casters_of(shadow_from_world, caster_altitudes_[0], caster_altitudes_[1]),
+                      numbers);
     std::vector<ImpostorEntry> trees;
     trees.reserve(numbers.size());
     for (const std::uint32_t number : numbers) {
