@@ -100,6 +100,10 @@ TEST_CASE("sample scenes place their trees") {
             map = std::move(read.value());
             options.density_map = &map;
         }
+        if (lsys::expected_places(options).value() > static_cast<double>(lsys::kMaxTrees)) {
+            REQUIRE(lsys::is_tileable(options.method));
+            options.region = {-2000.0, -2000.0, 4000.0, 4000.0}; // a part of the ground
+        }
         const lsys::Result<lsys::Placement> placement = lsys::place_trees(options, terrain.value());
         REQUIRE(placement);
         std::vector<std::size_t> of_species(sample.scene.species.size());

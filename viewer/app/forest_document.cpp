@@ -4,7 +4,9 @@
 #include "runtime/pipeline/instancing_choice.h"
 #include "runtime/pipeline/step.h"
 #include "runtime/pipeline/stopwatch.h"
+#include "viewer/app/square_source.h"
 
+#include <fmt/format.h>
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
 
@@ -39,6 +41,9 @@ Outcome<void> make_model(const ViewOptions& options,
         return end_mesh_of_heroes(*stop, step);
     }
     document.model.ground = grown.ground;
+    if (document.squares != nullptr) {
+        document.model.streamed = document.squares->describe(document.model);
+    }
     return step.done();
 }
 
@@ -100,7 +105,14 @@ Outcome<std::shared_ptr<ForestDocument>> make(const ViewOptions& options,
     if (edits != nullptr) {
         loaded.scene.painting = {};
     }
-    if (!step.take(place_forest(loaded.scene, project, document->grown))) {
+    if (SquareSource::is_needed(loaded.scene, project, document->grown)) {
+        Result<std::shared_ptr<const SquareSource>> squares =
+            SquareSource::make(document->scene, project, document->grown);
+        if (!squares) {
+            return step.fail(fmt::format("placement: {}", squares.error().message));
+        }
+        document->squares = std::move(squares.value());
+    } else if (!step.take(place_forest(loaded.scene, project, document->grown))) {
         return step.end();
     }
     if (project.is_cancelled()) {
@@ -108,7 +120,7 @@ Outcome<std::shared_ptr<ForestDocument>> make(const ViewOptions& options,
     }
     // Max trees to measure; more would delay the first picture.
     constexpr std::size_t kMeasuredTrees = 20'000;
-    if (document->grown.forest.trees.size() <= kMeasuredTrees) {
+    if (document->squares == nullptr && document->grown.forest.trees.size() <= kMeasuredTrees) {
         document->tallest = find_tallest(document->grown, project);
     }
     const Stopwatch meshing;
@@ -176,9 +188,9 @@ glm::vec3 edge_of(const Forest& forest, const glm::vec3& middle, const glm::vec2
     return edge;
 }
 
-/// View into a forest from outside its edge. `height`: of its trees, m. Distances are multiples of
-/// it, so forests of grass and of trees look alike.
-Camera edge_view(const ForestDocument& document, const glm::vec3& middle, float height) {
+/// View into a forest from outside its edge, a foot of a tree. `height`: of its trees, m. Distances
+/// are multiples of it, so forests of grass and of trees look alike.
+Camera edge_view(const ForestDocument& document, const glm::vec3& edge, float height) {
     constexpr float kOutside = 3.5F;   // distance from the eye to the first tree
     constexpr float kAbove = 2.0F;     // height of the eye above the ground below it
     constexpr float kClearance = 1.5F; // min height of the eye above the ground ahead
@@ -190,7 +202,6 @@ Camera edge_view(const ForestDocument& document, const glm::vec3& middle, float 
     constexpr float kMaxPitch = 0.6F;
     const Terrain& terrain = *document.grown.terrain;
     const glm::vec2 outward = glm::normalize(glm::vec2(kFirstDirection.x, kFirstDirection.z));
-    const glm::vec3 edge = edge_of(document.grown.forest, middle, outward);
     const glm::vec2 from = glm::vec2(edge.x, edge.z) + kOutside * height * outward;
     float eye = terrain.height(from.x, from.y) + kAbove * height;
     for (std::uint32_t step = 1; step <= kSteps; ++step) {
@@ -202,7 +213,22 @@ Camera edge_view(const ForestDocument& document, const glm::vec3& middle, float 
     const float pitch =
         std::clamp(std::atan(drop / (kOutside * height)) - kFootBelow, kMinPitch, kMaxPitch);
     const glm::vec2 at = from - drop / std::tan(pitch) * outward;
-    return {{from.x, eye, from.y}, {at.x, edge.y, at.y}, kFirstField};
+    Camera camera;
+    camera.eye = {from.x, eye, from.y};
+    camera.target = {at.x, edge.y, at.y};
+    camera.field_of_view = kFirstField;
+    return camera;
+}
+
+/// View over the crowns in the middle of a streamed forest.
+Camera middle_view(const ForestDocument& document) {
+    const Terrain& terrain = *document.grown.terrain;
+    const Region& region = terrain.region();
+    const glm::vec2 middle(region.x + 0.5 * region.width, region.z + 0.5 * region.depth);
+    const float height = std::max(document.model.streamed->tallest, 1.0F);
+    const Camera camera =
+        edge_view(document, {middle.x, terrain.height(middle.x, middle.y), middle.y}, height);
+    return relative_to(camera, nearest_origin(eye_of(camera)));
 }
 
 } // namespace
@@ -220,22 +246,34 @@ Outcome<std::shared_ptr<ForestDocument>> make_unpainted_forest(const ViewOptions
 }
 
 Camera first_view(const ForestDocument& document, float aspect) {
+    if (document.squares != nullptr) {
+        return middle_view(document);
+    }
     const Bounds bounds = bounds_of(document);
     const float height = typical_height(document);
     const Camera all =
-        framing(Camera{kFirstDirection, glm::vec3(0.0F), kFirstField}, bounds, aspect);
+        framing(Camera{kFirstDirection, glm::vec3(0.0F), kFirstField, {}}, bounds, aspect);
     const float picture_height = 2.0F * std::tan(0.5F * glm::radians(all.field_of_view)) *
                                  glm::distance(all.eye, all.target);
     constexpr float kMinPart = 0.25F; // min height of a tree as a fraction of the picture's height
     return bounds.empty || height >= kMinPart * picture_height
                ? all
-               : edge_view(document, 0.5F * (bounds.low + bounds.high), height);
+               : edge_view(document,
+                           edge_of(document.grown.forest, 0.5F * (bounds.low + bounds.high),
+                                   glm::normalize(glm::vec2(kFirstDirection.x, kFirstDirection.z))),
+                           height);
+}
+
+std::uint64_t tree_count(const ForestDocument& document) {
+    return document.squares == nullptr ? document.grown.forest.trees.size()
+                                       : static_cast<std::uint64_t>(document.squares->all_places());
 }
 
 Camera above_ground(const Camera& camera, const Terrain& terrain) {
     constexpr float kEyeHeight = 1.7F;
     constexpr float kMinEyeHeight = 0.3F;
-    const float ground = terrain.height(camera.eye.x, camera.eye.z);
+    const glm::dvec3 eye = eye_of(camera);
+    const float ground = terrain.height(static_cast<float>(eye.x), static_cast<float>(eye.z));
     if (camera.eye.y >= ground + kMinEyeHeight) {
         return camera;
     }
@@ -247,6 +285,9 @@ Camera above_ground(const Camera& camera, const Terrain& terrain) {
 }
 
 double default_visibility(const ForestDocument& document) {
+    if (document.squares != nullptr) {
+        return kStreamedVisibility;
+    }
     const Region& region = document.grown.terrain->region();
     constexpr double kMin = 10.0;
     constexpr double kDiagonals = 12.0;

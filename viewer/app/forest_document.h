@@ -14,12 +14,16 @@
 
 namespace lsys::view {
 
+class SquareSource;
+
 struct ForestDocument {
     Scene scene; // after all overrides
     /// While a window plays growth, the trees are those of the moment shown; then only the main
     /// thread of the window reads or changes them.
     GrownForest grown;
     ForestModel model; // refers to `grown`
+    /// The trees of a streamed forest, while `grown` has none; else null. Refers to `grown`.
+    std::shared_ptr<const SquareSource> squares;
     MeshOptions mesh_options;
     std::vector<std::string> files; // all requested files, readable or not, if recorded
     // Height of the tallest placed tree, m; empty: too many trees to measure.
@@ -42,15 +46,18 @@ make_unpainted_forest(const ViewOptions& options,
                       const Project& project);
 
 /// Default camera. It shows the whole forest from the side and above. If trees would then be lower
-/// than a quarter of the picture, it shows the forest from its edge, above the crowns. `aspect`:
-/// width / height.
+/// than a quarter of the picture, it shows the forest from its edge, above the crowns; a streamed
+/// forest from its middle, above the crowns. `aspect`: width / height.
 [[nodiscard]] Camera first_view(const ForestDocument& document, float aspect);
+
+/// Number of trees; in a streamed forest, an upper estimate.
+[[nodiscard]] std::uint64_t tree_count(const ForestDocument& document);
 
 /// Lifts a camera below the ground to the height of a person.
 [[nodiscard]] Camera above_ground(const Camera& camera, const Terrain& terrain);
 
 /// Default visibility in a forest, km: in proportion to its size, so that far trees keep their
-/// contrast in forests of any size.
+/// contrast in forests of any size; kStreamedVisibility in a streamed forest.
 [[nodiscard]] double default_visibility(const ForestDocument& document);
 /// Light of a forest. `visibility`: km, above 0; empty: default_visibility().
 [[nodiscard]] Light forest_light(const ForestDocument& document, std::optional<double> visibility);

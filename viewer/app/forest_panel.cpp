@@ -79,8 +79,15 @@ void draw_numbers(const ForestView& view) {
         return;
     }
     const Region& region = document->scene.terrain.region;
-    line(fmt::format("{} trees on {:.0f} x {:.0f} m", grouped(view.painting().tree_count()),
+    const std::optional<StreamStats> streaming = view.stream_stats();
+    line(fmt::format("{} trees on {:.0f} x {:.0f} m",
+                     grouped(streaming ? tree_count(*document) : view.painting().tree_count()),
                      region.width, region.depth));
+    if (streaming) {
+        constexpr double kMebibyte = 1'048'576.0;
+        line(fmt::format("{} of {} squares, {:.0f} MiB", streaming->shown, streaming->wanted,
+                         static_cast<double>(streaming->bytes) / kMebibyte));
+    }
     if (document->tallest) {
         line(fmt::format("Tallest placed tree: {:.3g} m", *document->tallest));
     }

@@ -4,6 +4,7 @@
 #include "runtime/pipeline/forest_growth.h"
 #include "runtime/platform/memory.h"
 #include "runtime/program/host.h"
+#include "viewer/app/forest_streamer.h"
 #include "viewer/app/picking.h"
 #include "viewer/app/picture_series.h"
 
@@ -13,6 +14,7 @@
 #include <algorithm>
 #include <functional>
 #include <limits>
+#include <memory>
 #include <optional>
 #include <utility>
 
@@ -27,13 +29,31 @@ nlohmann::ordered_json pass_stats(const FrameStats& pass) {
     return stats;
 }
 
+/// `trees` of the whole ground are expected ones.
+nlohmann::ordered_json streaming_stats(const ForestStreamer& streamer,
+                                       const ForestDocument& document) {
+    const StreamStats numbers = streamer.stats();
+    nlohmann::ordered_json stats;
+    stats["trees"] = tree_count(document);
+    stats["square_m"] = document.model.streamed->layout.side;
+    stats["squares_shown"] = numbers.shown;
+    stats["squares_kept"] = numbers.kept;
+    stats["squares_made"] = numbers.made;
+    stats["bytes"] = numbers.bytes;
+    stats["peak_bytes"] = numbers.peak_bytes;
+    stats["slowest_step_ms"] = 1e3 * numbers.slowest_step;
+    stats["wait_ms"] = 1e3 * numbers.wait_seconds;
+    return stats;
+}
+
 std::string stats_text(const ViewOptions& options,
                        const Camera& camera,
                        const ForestDocument& document,
                        const Renderer& renderer,
                        const PictureSeries& series,
                        const std::vector<double>& cull,
-                       const FrameStats& shadow) {
+                       const FrameStats& shadow,
+                       const ForestStreamer* streamer) {
     const ForestFrameStats& frame = renderer.forest_stats();
     const ForestSizes sizes = renderer.forest_sizes();
     nlohmann::ordered_json stats;
@@ -46,6 +66,9 @@ std::string stats_text(const ViewOptions& options,
     stats["air_km"] = options.visibility ? static_cast<double>(*options.visibility)
                                          : default_visibility(document);
     stats["trees"] = sizes.trees;
+    if (streamer != nullptr) {
+        stats["streaming"] = streaming_stats(*streamer, document);
+    }
     nlohmann::ordered_json& drawn = stats["trees_drawn"];
     for (std::size_t level = 0; level < frame.trees_of_level.size(); ++level) {
         drawn[fmt::format("level_{}", level)] = frame.trees_of_level[level];
@@ -125,7 +148,11 @@ ExitStatus take_forest_pictures(const ViewOptions& options,
     std::optional<ForestGrowth> growth;
     const Project project = make_project(console, options.run);
     std::uint32_t frame_number = 0;
-    std::function<ExitStatus(const Frame&)> prepare;
+    std::function<ExitStatus(Frame&)> prepare;
+    std::unique_ptr<ForestStreamer> streamer;
+    if (options.grow && document.squares != nullptr) {
+        return report_error(Error{"a streamed forest does not grow; leave out --grow"}, console);
+    }
     if (options.grow) {
         Outcome<ForestGrowth> begun = ForestGrowth::begin(document.scene, document.grown, project);
         if (!begun) {
@@ -137,6 +164,20 @@ ExitStatus take_forest_pictures(const ViewOptions& options,
             const GrowthMoment moment =
                 moment_of_frame(frame_number++, options.frames, growth->last_year());
             return show_moment(moment, project, console, *growth, document, renderer);
+        };
+    }
+    if (document.squares != nullptr) {
+        streamer = std::make_unique<ForestStreamer>(document, options.stream_bytes,
+                                                    streaming_threads(options.run.threads), [] {});
+        prepare = [&](Frame& shown) {
+            const std::optional<StreamStep> step =
+                streamer->settle(shown.camera, shown.height, [&] { return console.interrupted(); });
+            if (!step) {
+                return ExitStatus::Interrupted;
+            }
+            renderer.change_squares(step->changes);
+            shown.tree_range = step->range;
+            return ExitStatus::Ok;
         };
     }
     PictureSeries series;
@@ -163,9 +204,10 @@ ExitStatus take_forest_pictures(const ViewOptions& options,
         take_series(options, frame, renderer, console, prepare, after, series);
     return status != ExitStatus::Ok || options.stats.empty()
                ? status
-               : write_stats_text(
-                     options, stats_text(options, camera, document, renderer, series, cull, shadow),
-                     console);
+               : write_stats_text(options,
+                                  stats_text(options, camera, document, renderer, series, cull,
+                                             shadow, streamer.get()),
+                                  console);
 }
 
 } // namespace lsys::view

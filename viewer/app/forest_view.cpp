@@ -19,6 +19,8 @@ namespace {
 constexpr double kBakeTime = 0.02;
 // Max trees expanded into branches per picture, so that a flying camera does not stutter.
 constexpr std::uint32_t kMaxExpansions = 1000;
+// Max trees that come into view per picture of a streamed forest.
+constexpr std::uint64_t kMaxStreamedTrees = 16'384;
 // Draw time above which pictures have reduced quality during motion, s.
 constexpr double kSlowPicture = 0.12;
 // Time without motion before a redraw at full quality, s.
@@ -77,6 +79,7 @@ ForestView::ForestView(const ViewOptions& options,
 }
 
 ForestView::~ForestView() {
+    streamer_.reset();
     renderer_->show_lines({});
     renderer_->show_plant(Mesh{}); // instead of the forest, which ends with document_
 }
@@ -212,12 +215,17 @@ void ForestView::swap(ForestOutcome outcome) {
     const std::shared_ptr<ForestDocument> before = document_;
     const std::shared_ptr<ForestDocument> document = std::move(outcome.document);
     const Camera first_camera = first_view(*document, aspect_);
+    streamer_.reset();
     if (Result<void> shown = renderer_->show_forest(document->model); !shown) {
         shader_message_ = shown.error().message;
         console_.error(shader_message_);
         return;
     }
     document_ = document;
+    if (document_->squares != nullptr) {
+        streamer_ = std::make_unique<ForestStreamer>(
+            *document_, options_.stream_bytes, streaming_threads(options_.run.threads), wake_);
+    }
     grown_.reset();
     forget_picked();
     legend_ = legend_of(document_->model, shown_colours_);
@@ -262,6 +270,30 @@ void ForestView::swap(ForestOutcome outcome) {
     changed_ = true;
 }
 
+std::optional<StreamStats> ForestView::stream_stats() const {
+    return streamer_ == nullptr ? std::nullopt : std::optional(streamer_->stats());
+}
+
+void ForestView::stream(Frame& frame) {
+    if (streamer_ == nullptr) {
+        return;
+    }
+    const StreamStep step = streamer_->step(frame.camera, frame.height, kMaxStreamedTrees);
+    is_streaming_ = !step.is_ready;
+    frame.tree_range = step.range;
+    if (!step.changes.empty()) {
+        renderer_->change_squares(step.changes);
+        changed_ = true;
+    }
+}
+
+bool ForestView::refuses_painting() {
+    if (streamer_ != nullptr) {
+        set_note("a forest that is streamed cannot be painted: its trees are not all held");
+    }
+    return streamer_ != nullptr;
+}
+
 bool ForestView::draw(std::uint32_t width, std::uint32_t height) {
     Frame frame;
     frame.camera = settings.camera;
@@ -287,6 +319,7 @@ bool ForestView::draw(std::uint32_t width, std::uint32_t height) {
         return false; // draw the next forest instead
     }
     used_tool_ = false;
+    stream(frame);
     is_coarse_ = is_slow_ && seconds_since(last_motion_) < kRest;
     if (is_coarse_) {
         frame.samples = 1;
@@ -315,7 +348,7 @@ void ForestView::picture_shown(double draw_seconds) {
     stats_.shown_seconds = seconds_since(changed_at_);
     console_.detail(fmt::format(
         "loaded {}: {} trees of {} species, {:.0f} ms; reload {:.0f} ms, first frame {:.0f} ms",
-        file(), painting_.tree_count(), document_->scene.species.size(),
+        file(), tree_count(*document_), document_->scene.species.size(),
         kMillisecondsPerSecond * stats_.make_seconds, kMillisecondsPerSecond * stats_.swap_seconds,
         kMillisecondsPerSecond * stats_.shown_seconds));
 }
@@ -426,6 +459,10 @@ void ForestView::grow_by_years() {
 }
 
 void ForestView::play_or_pause() {
+    if (streamer_ != nullptr) {
+        set_note("a forest that is streamed does not grow");
+        return;
+    }
     if (default_years_ == 0) {
         set_note("only a forest placed by domination, or with stages of trees, can grow");
         return;
@@ -456,7 +493,8 @@ void ForestView::reload() {
 }
 
 void ForestView::frame_all() {
-    settings.camera = framing(settings.camera, renderer_->bounds(), aspect_);
+    settings.camera = streamer_ != nullptr ? first_view(*document_, aspect_)
+                                           : framing(settings.camera, renderer_->bounds(), aspect_);
 }
 
 std::optional<glm::dvec3> ForestView::ground_at(const glm::vec2& place) {
@@ -471,7 +509,7 @@ void ForestView::hover(const glm::vec2& place) {
 
 void ForestView::show_outline() {
     std::optional<glm::dvec3> place;
-    if (settings.tool != PaintTool::None && document_ != nullptr) {
+    if (settings.tool != PaintTool::None && document_ != nullptr && streamer_ == nullptr) {
         if (!pointed_) {
             return; // the outline stays
         }
@@ -491,6 +529,9 @@ void ForestView::show_outline() {
 }
 
 void ForestView::apply_tool(const glm::vec2& place, bool begins, bool erases) {
+    if (refuses_painting()) {
+        return;
+    }
     begins_stroke_ = begins_stroke_ || begins;
     if (grown_) {
         end_growth(years());
@@ -543,6 +584,9 @@ void ForestView::redo() {
 }
 
 void ForestView::save() {
+    if (refuses_painting()) {
+        return;
+    }
     if (document_ == nullptr) {
         set_note("no forest to save yet");
         return;
@@ -570,7 +614,7 @@ void ForestView::save() {
 
 bool ForestView::is_busy() const {
     return loader_.is_busy() || settings.plays || grown_ || settings.windy || !has_impostors_ ||
-           is_coarse_ || is_picking();
+           is_coarse_ || is_picking() || is_streaming_;
 }
 
 } // namespace lsys::view

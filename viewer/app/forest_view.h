@@ -7,6 +7,7 @@
 #include "viewer/app/forest_film.h"
 #include "viewer/app/forest_loader.h"
 #include "viewer/app/forest_painting.h"
+#include "viewer/app/forest_streamer.h"
 #include "viewer/app/view.h"
 
 #include <glm/vec2.hpp>
@@ -120,6 +121,8 @@ public:
     /// Last forest without errors; null: none yet.
     [[nodiscard]] const ForestDocument* document() const { return document_.get(); }
     [[nodiscard]] const ForestViewStats& stats() const { return stats_; }
+    /// Statistics of a streamed forest; empty for others.
+    [[nodiscard]] std::optional<StreamStats> stream_stats() const;
     [[nodiscard]] const ForestPainting& painting() const { return painting_; }
     /// Whether the last picture had reduced quality because of motion.
     [[nodiscard]] bool is_coarse() const { return is_coarse_; }
@@ -135,6 +138,10 @@ private:
     void take_outcome(ForestOutcome outcome);
     void swap(ForestOutcome outcome);
     void show_outline();
+    /// Shows and hides squares of a streamed forest for the camera of a frame.
+    void stream(Frame& frame);
+    /// Says that a streamed forest cannot be painted; returns whether it is one.
+    bool refuses_painting();
     void show_colours();
     [[nodiscard]] std::string painted_text(const char* what) const;
     void watch_files();
@@ -149,6 +156,8 @@ private:
     [[nodiscard]] std::optional<glm::dvec3> ground_at(const glm::vec2& place);
 
     std::shared_ptr<ForestDocument> document_;
+    std::unique_ptr<ForestStreamer> streamer_; // of document_; null: it is not streamed
+    bool is_streaming_ = false;                // the last picture lacked wanted squares
     ForestPainting painting_;
     std::vector<std::string> files_;
     bool frame_next_ = true;  // the next swap fits the camera to the forest

@@ -72,8 +72,8 @@ ExitStatus run_forest_pictures(const ViewOptions& options, const Console& consol
     }
     hidden_renderer.renderer->colour_branches(options.colours);
     // Keep the model of a growing forest, which is shown again for each picture, and the model for
-    // --pick, which reads its forms.
-    const bool keeps_model = options.grow || options.pick;
+    // --pick, and squares, which read its forms.
+    const bool keeps_model = options.grow || options.pick || document.squares != nullptr;
     if (const Result<void> shown = hidden_renderer.renderer->show_forest(
             keeps_model ? document.model : std::move(document.model));
         !shown) {
@@ -108,6 +108,9 @@ ExitStatus run_pictures(const ViewOptions& options, const Console& console) {
     const Result<Camera> camera = parse_camera(options.camera, Camera{});
     if (!camera) {
         return report_error(Error{fmt::format("--camera: {}", camera.error().message)}, console);
+    }
+    if (const Result<Camera> last = parse_camera(options.fly_to, camera.value()); !last) {
+        return report_error(Error{fmt::format("--fly-to: {}", last.error().message)}, console);
     }
     return options.is_forest ? run_forest_pictures(options, console)
                              : run_plant_pictures(options, camera.value(), console);

@@ -82,13 +82,18 @@ void add_picture(CLI::App& app, ViewOptions& options) {
                    "plant or small forest as a whole, a large forest from its edge)")
         ->type_name("LINE")
         ->group("Picture");
+    app.add_option("--fly-to", options.fly_to,
+                   "The camera of a series of pictures moves from that of --camera to this one, in "
+                   "equal steps along a line")
+        ->type_name("LINE")
+        ->group("Picture");
     constexpr float kMinAir = 0.01F;
     constexpr float kMaxAir = 1e6F;
     add_parsed(
         app, "--air", options.visibility,
         [](const std::string& text) { return parse_number(text, kMinAir, kMaxAir); },
         "Visibility in a forest, km: haze leaves 2 % of the contrast there (default: 12 times the "
-        "diagonal of the ground, at least 10)")
+        "diagonal of the ground, at least 10; 100 in a streamed forest)")
         ->type_name("KM")
         ->group("Picture");
     constexpr float kMaxTime = 86'400.0F;
@@ -181,6 +186,20 @@ void add_picture(CLI::App& app, ViewOptions& options) {
                "Max triangles of branches in a picture of a forest; with more, trees are drawn "
                "coarser (default 1500000)")
         ->type_name("N")
+        ->group("Picture");
+    constexpr std::uint64_t kMaxStreamMebibytes = 65'536;
+    app.add_option_function<std::string>(
+           "--stream-memory",
+           [&options](const std::string& text) {
+               const Result<std::uint64_t> mebibytes = parse_integer(text, 16, kMaxStreamMebibytes);
+               if (!mebibytes) {
+                   throw CLI::ValidationError("--stream-memory", mebibytes.error().message);
+               }
+               options.stream_bytes = mebibytes.value() << 20U;
+           },
+           "Budget of memory for the trees of a forest that is too large to be held as a whole, "
+           "MiB (default 128)")
+        ->type_name("MIB")
         ->group("Picture");
     app.add_option("--shaders", options.shaders,
                    "Read shaders from this folder instead of the built-in ones")
@@ -310,6 +329,12 @@ ParsedOptions parse_options(std::span<const std::string> arguments) {
     if (options.turntable && options.frames == 0) {
         return UsageError{"--turntable needs a series of pictures", "add `--frames N`"};
     }
+    if (!options.fly_to.empty() && options.frames < 2) {
+        return UsageError{"--fly-to needs a series of at least two pictures", "add `--frames N`"};
+    }
+    if (!options.fly_to.empty() && options.turntable) {
+        return UsageError{"--fly-to and --turntable both move the camera", "leave one of them out"};
+    }
     if (options.grow && !options.screenshot.empty() && options.frames == 0) {
         return UsageError{"--grow needs a series of pictures", "add `--frames N`"};
     }
@@ -343,6 +368,7 @@ void use_other_file(ViewOptions& options, const std::string& file) {
     options.seed.reset();
     options.plant_height.reset();
     options.camera.clear();
+    options.fly_to.clear();
     options.visibility.reset();
 }
 

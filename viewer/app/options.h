@@ -60,7 +60,9 @@ struct ViewOptions {
     LineKind lines = LineKind::None;
     BranchColours colours = BranchColours::Natural; // forests only
     std::uint32_t samples = 4;
-    std::uint64_t max_triangles = 1'500'000; // budget of branches in a forest
+    std::uint64_t max_triangles = 1'500'000;               // budget of branches in a forest
+    std::uint64_t stream_bytes = std::uint64_t{128} << 20; // budget of trees of a streamed forest
+    std::string fly_to; // camera at the end of a series; empty: the camera stays
     // Folder of shaders that replace the built-in ones; empty: none.
     std::string shaders;
 

@@ -82,16 +82,17 @@ ExitStatus take_series(const ViewOptions& options,
                        Frame frame,
                        Renderer& renderer,
                        const Console& console,
-                       const std::function<ExitStatus(const Frame& frame)>& prepare,
+                       const std::function<ExitStatus(Frame& frame)>& prepare,
                        const std::function<ExitStatus(const Frame& frame)>& after,
                        PictureSeries& series) {
-    if (options.frames > 1 && !options.turntable && !options.grow && !options.gravity &&
-        !options.wind) {
+    if (options.frames > 1 && !options.turntable && options.fly_to.empty() && !options.grow &&
+        !options.gravity && !options.wind) {
         console.info("nothing moves, so all pictures of the series are alike: --grow shows growth, "
-                     "--turntable goes around, --wind blows");
+                     "--turntable goes around, --fly-to moves, --wind blows");
     }
     const Camera camera = frame.camera;
     const std::uint32_t count = std::max(options.frames, 1U);
+    const Camera last = with_parts(options.fly_to, camera);
     for (std::uint32_t i = 0; i < count; ++i) {
         if (console.interrupted()) {
             return ExitStatus::Interrupted;
@@ -103,6 +104,9 @@ ExitStatus take_series(const ViewOptions& options,
                                    2.0F * std::numbers::pi_v<float> * static_cast<float>(i) /
                                        static_cast<float>(count),
                                    0.0F);
+        }
+        if (!options.fly_to.empty()) {
+            frame.camera = between(camera, last, static_cast<double>(i) / (count - 1));
         }
         if (prepare) {
             const Clock::time_point start = Clock::now();

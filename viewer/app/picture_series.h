@@ -37,7 +37,7 @@ struct PictureSeries {
                                      Frame frame,
                                      Renderer& renderer,
                                      const Console& console,
-                                     const std::function<ExitStatus(const Frame& frame)>& prepare,
+                                     const std::function<ExitStatus(Frame& frame)>& prepare,
                                      const std::function<ExitStatus(const Frame& frame)>& after,
                                      PictureSeries& series);
 

@@ -189,7 +189,7 @@ ExitStatus take_pictures(const ViewOptions& options,
     Skeleton pose;
     Mesh mesh;
     const Project project = make_project(console, options.run);
-    std::function<ExitStatus(const Frame&)> prepare;
+    std::function<ExitStatus(Frame&)> prepare;
     Grammar grammar;
     std::optional<PlantGrowth> growth;
     std::uint32_t frame_number = 0;

@@ -44,7 +44,8 @@ void draw_wind(Wind& wind) {
 }
 
 void draw_camera(Camera& camera) {
-    static_assert(sizeof(Camera) == 7 * sizeof(float)); // the text of a camera fits into `text`
+    // Seven numbers and an origin: the text of a camera fits into `text`.
+    static_assert(sizeof(Camera) == 8 * sizeof(float) + 3 * sizeof(double));
     std::array<char, 256> text{};
     std::snprintf(text.data(), text.size(), "%s", to_text(camera).c_str());
     if (ImGui::InputText("##camera", text.data(), text.size(),

@@ -71,6 +71,19 @@ Bounds shadow_bounds(const Bounds& plant) {
     return bounds;
 }
 
+/// Box of the casters whose shadows fall into `lit`.
+Bounds shadow_casters(const Bounds& lit) {
+    Bounds casters = lit;
+    const glm::vec3 reach = 6.0F * (lit.high - lit.low);
+    casters.low -= reach;
+    casters.high += reach;
+    return casters;
+}
+
+bool overlaps(const Bounds& a, const Bounds& b) {
+    return a.low.x <= b.high.x && b.low.x <= a.high.x && a.low.z <= b.high.z && b.low.z <= a.high.z;
+}
+
 class GlRenderer final : public Renderer {
 public:
     GlRenderer()
@@ -112,6 +125,12 @@ public:
         forest_.change_tree(index, tree, alive);
         shadow_.invalidate();
     }
+    void change_squares(const SquareChanges& changes) override {
+        const Bounds changed = forest_.change_squares(changes);
+        if (!changed.empty && overlaps(changed, casters_)) {
+            shadow_.invalidate();
+        }
+    }
     const Bounds& bounds() const override {
         return is_forest_              ? forest_.bounds()
                : plant_.bounds().empty ? lines_.bounds()
@@ -139,12 +158,14 @@ public:
         return {};
     }
 
-    FrameStats draw(const Frame& frame, const PixelArea& area) override {
+    FrameStats draw(const Frame& world_frame, const PixelArea& area) override {
         FrameStats stats;
         forest_stats_ = {};
+        const Frame frame = localised(world_frame);
         const Bounds lit = is_forest_              ? forest_.shadow_bounds(frame)
                            : plant_.bounds().empty ? Bounds{}
                                                    : shadow_bounds(plant_.bounds());
+        casters_ = shadow_casters(lit);
         glm::mat4 shadow_from_world(1.0F);
         if (frame.shadows && frame.style != PlantStyle::None && !lit.empty) {
             shadow_from_world = shadow_matrix(lit, frame.light.to_sun, kShadowTexels);
@@ -196,10 +217,11 @@ public:
         }
         return stats;
     }
-    Result<Picked> pick(const Frame& frame, std::uint32_t x, std::uint32_t y) override {
+    Result<Picked> pick(const Frame& world_frame, std::uint32_t x, std::uint32_t y) override {
         if (Result<void> made = compile_pick_programs(); !made) {
             return made.error();
         }
+        const Frame frame = localised(world_frame);
         const FrameBlock block =
             make_frame_block(frame, {x, y, 1, 1}, glm::mat4(1.0F), kShadowTexels);
         frame_.fill(std::span<const FrameBlock>(&block, 1));
@@ -232,7 +254,10 @@ public:
         }
         picked.kind = kind;
         const glm::vec4 place = block.clip_to_world * glm::vec4(0.0F, 0.0F, content.depth, 1.0F);
-        picked.place = kind == PickedKind::Nothing ? glm::vec3(0.0F) : glm::vec3(place) / place.w;
+        const glm::dvec3 origin = frame.camera.origin;
+        picked.place = kind == PickedKind::Nothing
+                           ? glm::vec3(0.0F)
+                           : glm::vec3(origin + glm::dvec3(glm::vec3(place) / place.w));
         return picked;
     }
     std::vector<std::uint32_t> trees_of(std::uint32_t form) const override {
@@ -251,6 +276,21 @@ public:
     const std::vector<std::string>& errors() const override { return device_.errors(); }
 
 private:
+    /// The frame with a camera relative to the origin of what is shown.
+    Frame localised(const Frame& frame) {
+        if (!is_forest_) {
+            Frame local = frame;
+            local.camera = relative_to(frame.camera, glm::dvec3(0.0));
+            return local;
+        }
+        bool moved = false;
+        const Frame local = forest_.localised(frame, moved);
+        if (moved) {
+            shadow_.invalidate();
+        }
+        return local;
+    }
+
     void draw_shadows(const glm::mat4& matrix, FrameStats& stats) {
         shadow_.begin(matrix);
         glDepthFunc(GL_LEQUAL);
@@ -322,6 +362,7 @@ private:
     ForestPass forest_;
     ForestFrameStats forest_stats_;
     bool is_forest_ = false; // a forest is shown
+    Bounds casters_;         // box of the casters of the last shadow map
     ShaderSource shaders_;   // forest shaders are compiled on first use
     bool has_forest_shaders_ = false;
     Buffer frame_;

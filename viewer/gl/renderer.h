@@ -10,11 +10,13 @@
 #include "viewer/scene/branch_pool.h"
 #include "viewer/scene/camera.h"
 #include "viewer/scene/forest_model.h"
+#include "viewer/scene/forest_square.h"
 #include "viewer/scene/lines.h"
 
 #include <array>
 #include <cstdint>
 #include <functional>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <span>
@@ -74,6 +76,8 @@ struct Frame {
     // Max triangles of branches; with more, trees are drawn coarser.
     std::uint64_t max_triangles = 1'500'000;
     std::uint32_t max_expansions = ~0U; // max trees expanded into branches per picture
+    /// WantedSquares::range of a streamed forest, m; other forests show all their trees.
+    float tree_range = std::numeric_limits<float>::infinity();
 
     friend bool operator==(const Frame&, const Frame&) = default;
 };
@@ -158,9 +162,11 @@ public:
     [[nodiscard]] virtual bool bake_impostors(double seconds) = 0;
     /// Adds or removes a tree of the forest: ForestLod::change_tree().
     virtual void change_tree(std::uint32_t index, const Tree& tree, bool alive) = 0;
+    /// Adds and removes squares of a streamed forest; show_forest() begins with none.
+    virtual void change_squares(const SquareChanges& changes) = 0;
     /// Colours the branches of this forest and of all later ones. Call bake_impostors() afterwards.
     virtual void colour_branches(BranchColours by) = 0;
-    /// Bounding box of the plant or forest.
+    /// Bounding box of the plant or forest; empty for a streamed forest.
     [[nodiscard]] virtual const Bounds& bounds() const = 0;
 
     /// Recompiles the shaders. Error: the old ones stay in use.

@@ -24,6 +24,8 @@ constexpr float kMinField = 1.0F;
 constexpr float kMaxField = 170.0F;
 constexpr float kNearest = 0.02F;    // m, min distance of the near plane
 constexpr float kMaxDistance = 1e7F; // m, of eye and target
+constexpr double kNearWorld =
+    16'384.0; // m, max distance along X and Z of cameras without an origin
 
 /// Removes the next word from `text`.
 std::string_view take_word(std::string_view& text) {
@@ -34,17 +36,19 @@ std::string_view take_word(std::string_view& text) {
     return word;
 }
 
-bool parse_float(std::string_view text, float& value) {
+template <typename Number>
+bool parse_number(std::string_view text, Number& value) {
     const auto [end, error] = number_from_chars(text.data(), text.data() + text.size(), value);
     return error == std::errc() && end == text.data() + text.size() && std::isfinite(value);
 }
 
-bool parse_place(std::string_view text, glm::vec3& place) {
-    std::array<float, 3> values{};
+bool parse_place(std::string_view text, glm::dvec3& place) {
+    std::array<double, 3> values{};
     for (std::size_t i = 0; i < values.size(); ++i) {
         const std::size_t comma = text.find(',');
         if ((comma == std::string_view::npos) != (i + 1 == values.size()) ||
-            !parse_float(text.substr(0, comma), values[i]) || std::abs(values[i]) > kMaxDistance) {
+            !parse_number(text.substr(0, comma), values[i]) ||
+            std::abs(values[i]) > static_cast<double>(kMaxDistance)) {
             return false;
         }
         text.remove_prefix(comma == std::string_view::npos ? text.size() : comma + 1);
@@ -70,7 +74,33 @@ glm::vec3 unit_of(const ViewAngles& angles) {
 
 } // namespace
 
+glm::dvec3 nearest_origin(const glm::dvec3& place) {
+    return {std::round(place.x / kOriginStep) * kOriginStep, 0.0,
+            std::round(place.z / kOriginStep) * kOriginStep};
+}
+
+glm::dvec3 eye_of(const Camera& camera) {
+    return camera.origin + glm::dvec3(camera.eye);
+}
+
+Camera relative_to(const Camera& camera, const glm::dvec3& origin) {
+    if (camera.origin == origin) {
+        return camera;
+    }
+    Camera moved = camera;
+    moved.origin = origin;
+    moved.eye = glm::vec3(glm::dvec3(camera.eye) + (camera.origin - origin));
+    moved.target = glm::vec3(glm::dvec3(camera.target) + (camera.origin - origin));
+    return moved;
+}
+
 std::string to_text(const Camera& camera) {
+    if (camera.origin != glm::dvec3(0.0)) {
+        const glm::dvec3 eye = eye_of(camera);
+        const glm::dvec3 target = camera.origin + glm::dvec3(camera.target);
+        return fmt::format("eye {},{},{} target {},{},{} fov {}", eye.x, eye.y, eye.z, target.x,
+                           target.y, target.z, camera.field_of_view);
+    }
     const glm::vec3& e = camera.eye;
     const glm::vec3& t = camera.target;
     return fmt::format("eye {},{},{} target {},{},{} fov {}", e.x, e.y, e.z, t.x, t.y, t.z,
@@ -79,15 +109,17 @@ std::string to_text(const Camera& camera) {
 
 Result<Camera> parse_camera(std::string_view text, const Camera& otherwise) {
     Camera camera = otherwise;
+    glm::dvec3 eye = eye_of(otherwise);
+    glm::dvec3 target = otherwise.origin + glm::dvec3(otherwise.target);
     for (std::string_view word = take_word(text); !word.empty(); word = take_word(text)) {
         const std::string_view value = take_word(text);
         if (word == "eye" || word == "target") {
-            if (!parse_place(value, word == "eye" ? camera.eye : camera.target)) {
+            if (!parse_place(value, word == "eye" ? eye : target)) {
                 return Error{
                     fmt::format("a camera's {} is X,Y,Z in metres, not `{}`", word, value)};
             }
         } else if (word == "fov") {
-            if (!parse_float(value, camera.field_of_view) || camera.field_of_view < kMinField ||
+            if (!parse_number(value, camera.field_of_view) || camera.field_of_view < kMinField ||
                 camera.field_of_view > kMaxField) {
                 return Error{
                     fmt::format("a camera's field of view is 1 to 170 degrees, not `{}`", value)};
@@ -99,9 +131,27 @@ Result<Camera> parse_camera(std::string_view text, const Camera& otherwise) {
                             word)};
         }
     }
+    const bool is_near = std::abs(eye.x) <= kNearWorld && std::abs(eye.z) <= kNearWorld;
+    camera.origin = is_near ? glm::dvec3(0.0) : nearest_origin(eye);
+    camera.eye = glm::vec3(eye - camera.origin);
+    camera.target = glm::vec3(target - camera.origin);
     if (glm::distance(camera.eye, camera.target) < 1e-4F) {
         return Error{"a camera's eye and target are at one place"};
     }
+    return camera;
+}
+
+Camera between(const Camera& first, const Camera& last, double part) {
+    const glm::dvec3 eye = glm::mix(eye_of(first), eye_of(last), part);
+    const glm::dvec3 target = glm::mix(first.origin + glm::dvec3(first.target),
+                                       last.origin + glm::dvec3(last.target), part);
+    Camera camera = first;
+    const bool is_near = std::abs(eye.x) <= kNearWorld && std::abs(eye.z) <= kNearWorld;
+    camera.origin = is_near ? glm::dvec3(0.0) : nearest_origin(eye);
+    camera.eye = glm::vec3(eye - camera.origin);
+    camera.target = glm::vec3(target - camera.origin);
+    camera.field_of_view =
+        glm::mix(first.field_of_view, last.field_of_view, static_cast<float>(part));
     return camera;
 }
 

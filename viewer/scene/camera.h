@@ -6,6 +6,7 @@
 #include "grammar/base/result.h"
 #include "runtime/turtle/skeleton.h"
 
+#include <glm/ext/vector_double3.hpp>
 #include <glm/mat4x4.hpp>
 #include <glm/vec3.hpp>
 
@@ -15,20 +16,37 @@
 namespace lsys::view {
 
 struct Camera {
-    glm::vec3 eye{4.0F, 2.0F, 6.0F};
+    glm::vec3 eye{4.0F, 2.0F, 6.0F}; // relative to `origin`, like `target`
     glm::vec3 target{0.0F, 1.0F, 0.0F};
     float field_of_view = 40.0F; // degrees, vertical
+    /// Place in the world, m, near the eye: 100 km from it binary32 would be coarser than 7 mm.
+    glm::dvec3 origin{};
 
     friend bool operator==(const Camera&, const Camera&) = default;
 };
 
+/// Side in m of the lattice of the origins of far cameras. Its points are sums of few powers of two,
+/// and all cells of TerrainLod divide it.
+inline constexpr double kOriginStep = 4096.0;
+/// The lattice point nearest to a place of the world, at altitude 0.
+[[nodiscard]] glm::dvec3 nearest_origin(const glm::dvec3& place);
+/// Place of the eye in the world, m.
+[[nodiscard]] glm::dvec3 eye_of(const Camera& camera);
+/// The same camera with another origin.
+[[nodiscard]] Camera relative_to(const Camera& camera, const glm::dvec3& origin);
+
 /// `eye X,Y,Z target X,Y,Z fov DEGREES`; parse_camera() reads it back as an equal camera.
 [[nodiscard]] std::string to_text(const Camera& camera);
-/// Reads parts in any order; missing ones are taken from `otherwise`. Error: unknown text, eye
+/// Reads parts in any order; missing ones are taken from `otherwise`. An eye more than 16 km from
+/// the origin of the world gets its nearest_origin(), any other one the origin of the world. Error: unknown text, eye
 /// equal to target, a field of view outside 1 to 170 degrees.
 [[nodiscard]] Result<Camera> parse_camera(std::string_view text, const Camera& otherwise);
 /// `first` with the parts of `text` in place of its own; unchanged if parse_camera() fails.
 [[nodiscard]] Camera with_parts(std::string_view text, const Camera& first);
+
+/// The camera at `part` of the way from `first` (0) to `last` (1): eye, target and field of view on
+/// straight lines.
+[[nodiscard]] Camera between(const Camera& first, const Camera& last, double part);
 
 /// Rotates the eye around the target by angles in radians; stops short of the poles.
 [[nodiscard]] Camera orbited(const Camera& camera, float around, float upwards);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "viewer/scene/forest_lod.h"
 
+#include "viewer/scene/streamed_trees.h"
+
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
@@ -23,21 +25,52 @@ ForestLod::ForestLod(const ForestModel& model) : model_(model), added_(model.ter
         meshes += (kBlending + 1) * static_cast<std::uint32_t>(form.cache->instances.size());
     }
     mesh_counts_.resize(meshes);
+    if (model_.streamed != nullptr) {
+        cell_size_ = model_.streamed->layout.cell_side();
+        return;
+    }
     sort_into_cells();
 }
 
-Sphere ForestLod::bounding_sphere(const LodTree& tree, float yaw) const {
-    const TreeForm& form = model_.forms[tree.form];
+Sphere bounding_sphere(const ForestModel& model, const LodTree& tree, float yaw) {
+    const TreeForm& form = model.forms[tree.form];
     const glm::vec3& c = form.sphere.centre;
     const glm::vec3 turned(std::cos(yaw) * c.x + std::sin(yaw) * c.z, c.y,
                            std::cos(yaw) * c.z - std::sin(yaw) * c.x);
     return {tree.position + tree.scale * turned, tree.scale * form.sphere.radius};
 }
 
-Sphere ForestLod::impostor_sphere(const LodTree& tree) const {
-    const TreeForm& form = model_.forms[tree.form];
+Sphere impostor_sphere(const ForestModel& model, const LodTree& tree) {
+    const TreeForm& form = model.forms[tree.form];
     return {tree.position + glm::vec3(0.0F, tree.scale * 0.5F * (form.low + form.high), 0.0F),
             tree.scale * std::hypot(form.radius, 0.5F * form.height())};
+}
+
+void describe_cell(const ForestModel& model,
+                   std::span<const LodTree> trees,
+                   std::span<const Tree> all,
+                   ForestCell& cell) {
+    Bounds box;
+    std::vector<std::uint32_t> of_form(model.forms.size());
+    glm::dvec4 total(0.0);
+    for (const LodTree& tree : trees) {
+        const Sphere reach = bounding_sphere(model, tree, all[tree.tree].yaw);
+        const Sphere impostor = impostor_sphere(model, tree);
+        for (const Sphere& sphere : {reach, impostor}) {
+            box.add(sphere.centre - sphere.radius);
+            box.add(sphere.centre + sphere.radius);
+        }
+        cell.tallest = std::max(cell.tallest, tree.scale * model.forms[tree.form].height());
+        ++of_form[tree.form];
+        total += glm::dvec4(glm::dvec3(tree.position), static_cast<double>(tree.scale));
+    }
+    total /= std::max(static_cast<double>(trees.size()), 1.0);
+    cell.middle = glm::vec3(total);
+    cell.scale = static_cast<float>(total.w);
+    cell.low = box.low;
+    cell.high = box.high;
+    cell.form = static_cast<std::uint16_t>(std::max_element(of_form.begin(), of_form.end()) -
+                                           of_form.begin());
 }
 
 std::uint64_t ForestLod::cell_of(const glm::vec3& place) const {
@@ -93,33 +126,11 @@ void ForestLod::sort_into_cells() {
         ForestCell& cell = cells_[cell_of(trees[i].position)];
         trees_[cell.first + cell.count++] = make_lod_tree(trees[i], i);
     }
-    std::vector<std::uint32_t> of_form(model_.forms.size());
     for (ForestCell& cell : cells_) {
-        Bounds box;
-        std::fill(of_form.begin(), of_form.end(), 0);
-        glm::dvec4 total(0.0);
-        for (std::uint32_t i = 0; i < cell.count; ++i) {
-            const LodTree& tree = trees_[cell.first + i];
-            const Sphere reach = bounding_sphere(tree, trees[tree.tree].yaw);
-            const Sphere impostor = impostor_sphere(tree);
-            for (const Sphere& sphere : {reach, impostor}) {
-                box.add(sphere.centre - sphere.radius);
-                box.add(sphere.centre + sphere.radius);
-            }
-            cell.tallest = std::max(cell.tallest, tree.scale * model_.forms[tree.form].height());
-            ++of_form[tree.form];
-            total += glm::dvec4(glm::dvec3(tree.position), static_cast<double>(tree.scale));
-        }
-        total /= std::max(static_cast<double>(cell.count), 1.0);
-        cell.middle = glm::vec3(total);
-        cell.scale = static_cast<float>(total.w);
-        cell.low = box.low;
-        cell.high = box.high;
-        cell.form = static_cast<std::uint16_t>(std::max_element(of_form.begin(), of_form.end()) -
-                                               of_form.begin());
+        describe_cell(model_, {trees_.data() + cell.first, cell.count}, trees, cell);
         if (cell.count != 0) {
-            bounds_.add(box.low);
-            bounds_.add(box.high);
+            bounds_.add(cell.low);
+            bounds_.add(cell.high);
         }
     }
 }

@@ -18,6 +18,9 @@
 
 #include <array>
 #include <cstdint>
+#include <limits>
+#include <map>
+#include <memory>
 #include <span>
 #include <utility>
 #include <vector>
@@ -38,6 +41,8 @@ struct LodOptions {
     /// Max trees expanded into branches per picture; the others stay impostors until the next
     /// picture.
     std::uint32_t max_expansions = ~0U;
+    /// Distance from the eye, m, at which the trees end. They fade over the last fifth.
+    float tree_range = std::numeric_limits<float>::infinity();
     /// Wind, which moves trees beyond their bounds at rest.
     Wind wind;
 };
@@ -132,7 +137,27 @@ struct ForestCell {
     float scale = 1.0F;        // mean scale of its trees
     float tallest = 0.0F;      // m
     std::uint16_t form = 0;    // most frequent form of its trees
+    std::uint32_t seed = 0;    // of a streamed forest: number of its first tree
     std::uint32_t removed = 0; // count of removed trees; with any, the cell is never a cluster
+};
+
+/// Bounding sphere of a tree, for any choice of its branches.
+[[nodiscard]] Sphere bounding_sphere(const ForestModel& model, const LodTree& tree, float yaw);
+/// Bounding sphere of its impostor.
+[[nodiscard]] Sphere impostor_sphere(const ForestModel& model, const LodTree& tree);
+/// Sets the fields of a cell that its trees determine. `all`: by LodTree::tree.
+void describe_cell(const ForestModel& model,
+                   std::span<const LodTree> trees,
+                   std::span<const Tree> all,
+                   ForestCell& cell);
+
+struct ForestSquare;
+struct SquareId;
+
+/// A range of ForestLod::trees().
+struct TreeSpan {
+    std::uint32_t first = 0;
+    std::uint32_t count = 0;
 };
 
 class ForestLod {
@@ -145,6 +170,21 @@ public:
     /// replaced. Returns the index for lod_tree().
     std::uint32_t change_tree(std::uint32_t index, const Tree& tree, bool alive);
 
+    /// Of a streamed forest: sets the place of the world, in m, to which all places are relative, and
+    /// moves the trees there.
+    void set_origin(const glm::dvec3& origin);
+    /// Adds the trees of a square of a streamed forest, or removes them. Time is linear in the trees
+    /// of the square.
+    void add_square(std::shared_ptr<const ForestSquare> square);
+    void remove_square(const SquareId& id);
+    /// Trees added or moved since the last call.
+    [[nodiscard]] std::vector<TreeSpan> take_changed_trees();
+    /// Box of all trees that were added or removed since the last call.
+    [[nodiscard]] Bounds take_changed_box();
+    [[nodiscard]] const glm::dvec3& origin() const { return origin_; }
+    /// Mean scale of the trees of each form; 0 without trees.
+    [[nodiscard]] std::vector<float> mean_scales() const;
+
     /// Draw lists of a camera. `ground`: occluder, or null.
     [[nodiscard]] const DrawLists&
     select(const Frustum& frustum, const LodOptions& options, GroundHorizon* ground = nullptr);
@@ -155,16 +195,17 @@ public:
     [[nodiscard]] const LodTree& lod_tree(std::uint32_t number) const {
         return number < trees_.size() ? trees_[number] : added_.at(number - first_added());
     }
-    [[nodiscard]] const Tree& tree_of(std::uint32_t number) const {
-        return number < trees_.size() ? model_.forest->trees[trees_[number].tree]
-                                      : added_.tree(number - first_added());
+    [[nodiscard]] Tree tree_of(std::uint32_t number) const {
+        return model_.streamed != nullptr ? streamed_tree(number)
+               : number < trees_.size()   ? model_.forest->trees[trees_[number].tree]
+                                          : added_.tree(number - first_added());
     }
     /// Calls visit(LodTree, Tree) for each tree that was not removed.
     template <typename Visit>
     void for_each_alive(const Visit& visit) const {
-        for (const LodTree& tree : trees_) {
-            if (!tree.is_removed()) {
-                visit(tree, model_.forest->trees[tree.tree]);
+        for (std::uint32_t number = 0; number < trees_.size(); ++number) {
+            if (!trees_[number].is_removed()) {
+                visit(trees_[number], tree_of(number));
             }
         }
         added_.visit([](const AddedTrees::Cell&) { return true; },
@@ -179,10 +220,12 @@ public:
     [[nodiscard]] const BranchPool& pool() const { return pool_; }
     /// Appends the trees of all cells that overlap a box seen from above.
     void find_within(const Bounds& box, std::vector<std::uint32_t>& trees) const;
-    /// Bounding sphere of a tree, for any choice of its branches.
-    [[nodiscard]] Sphere bounding_sphere(const LodTree& tree, float yaw) const;
-    /// Bounding sphere of its impostor.
-    [[nodiscard]] Sphere impostor_sphere(const LodTree& tree) const;
+    [[nodiscard]] Sphere bounding_sphere(const LodTree& tree, float yaw) const {
+        return view::bounding_sphere(model_, tree, yaw);
+    }
+    [[nodiscard]] Sphere impostor_sphere(const LodTree& tree) const {
+        return view::impostor_sphere(model_, tree);
+    }
     [[nodiscard]] std::uint64_t byte_count() const;
 
 private:
@@ -201,7 +244,37 @@ private:
     /// Group of mesh_counts_ for blended trees; each level has a group before it.
     static constexpr std::uint32_t kBlending = kTreeLevels;
 
+    /// A shown square of a streamed forest; it has the cells from its index times the cells of a
+    /// square on.
+    struct ShownSquare {
+        std::shared_ptr<const ForestSquare> square; // null: free
+        std::uint32_t first = 0;                    // index in trees_
+        glm::vec3 low{};                            // bounding box of its trees
+        glm::vec3 high{};
+    };
+    /// A cell in view. `order` and `cell` sort cells at one distance in the same way wherever they
+    /// are stored.
+    struct VisibleCell {
+        float distance = 0.0F;
+        std::uint64_t order = 0;
+        std::uint32_t cell = 0;
+
+        friend auto operator<=>(const VisibleCell&, const VisibleCell&) = default;
+    };
+
     void sort_into_cells();
+    [[nodiscard]] Tree streamed_tree(std::uint32_t number) const;
+    /// Room for `count` trees in trees_: index of the first.
+    [[nodiscard]] std::uint32_t allocate_trees(std::uint32_t count);
+    void release_trees(std::uint32_t first, std::uint32_t count);
+    /// Copies the trees and cells of a shown square relative to origin_.
+    void place_square(std::uint32_t index);
+    void list_visible_cells(const Frustum& frustum);
+    /// Lists the visible cells among `count` from `first` on.
+    void list_visible_cells(const Frustum& frustum,
+                            std::uint32_t first,
+                            std::uint32_t count,
+                            std::uint64_t order);
     [[nodiscard]] std::uint32_t first_added() const {
         return static_cast<std::uint32_t>(trees_.size());
     }
@@ -261,9 +334,18 @@ private:
     std::vector<PoolBranch> made_branches_;
     std::vector<VisibleTree> visible_trees_; // owners of visible_branches_
     Sway sway_;
-    GroundHorizon* ground_ = nullptr;                            // during select()
-    std::vector<std::pair<float, std::uint32_t>> visible_cells_; // distance and cell
+    GroundHorizon* ground_ = nullptr; // during select()
+    std::vector<VisibleCell> visible_cells_;
     std::vector<std::uint32_t> mesh_counts_; // visible branches by form, group and instance
+    // Of a streamed forest.
+    glm::dvec3 origin_{};
+    std::vector<ShownSquare> squares_;
+    std::vector<std::uint32_t> free_squares_;
+    std::map<std::uint32_t, std::uint32_t> square_of_tree_; // first tree and index in squares_
+    std::map<std::uint32_t, std::uint32_t>
+        free_trees_; // free ranges of trees_; adjacent ones merged
+    std::vector<TreeSpan> changed_trees_;
+    Bounds changed_box_;
 };
 
 } // namespace lsys::view

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // ForestLod::select(): finds the LOD band of each tree of a picture.
 #include "viewer/scene/forest_lod.h"
+#include "viewer/scene/forest_square.h"
 #include "viewer/scene/impostor_plan.h"
 
 #include <glm/common.hpp>
@@ -28,6 +29,14 @@ float pixels_of(const Frustum& frustum, const glm::vec3& place, float height) {
 /// coarser one, 1 from `blend` times the limit on.
 float finer_weight(float pixels, float limit, float blend) {
     return blend > 1.0F ? std::clamp((pixels / limit - 1.0F) / (blend - 1.0F), 0.0F, 1.0F) : 1.0F;
+}
+
+/// Part of the pixels of trees at a distance of the eye, m, that is drawn: 1 up to four fifths of
+/// `range`, 0 beyond it.
+float presence_at(float distance, float range) {
+    constexpr float kFading = 0.2F;
+    return std::isfinite(range) ? std::clamp((range - distance) / (kFading * range), 0.0F, 1.0F)
+                                : 1.0F;
 }
 
 /// Max displacement by wind, m, of trees whose height and width are at most those of a box.
@@ -74,18 +83,8 @@ ForestLod::select(const Frustum& frustum, const LodOptions& options, GroundHoriz
     candidates_.clear();
     far_.clear();
     visible_cells_.clear();
-    for (std::uint32_t c = 0; c < cells_.size(); ++c) {
-        const ForestCell& cell = cells_[c];
-        if (cell.count == 0) {
-            continue;
-        }
-        if (frustum.intersects(swaying_box(cell.low, cell.high, sway_))) {
-            visible_cells_.emplace_back(
-                glm::distance(frustum.eye, glm::clamp(frustum.eye, cell.low, cell.high)), c);
-        }
-    }
-    std::sort(visible_cells_.begin(), visible_cells_.end());
-    for (const auto& [distance, c] : visible_cells_) {
+    list_visible_cells(frustum);
+    for (const auto& [distance, order, c] : visible_cells_) {
         const ForestCell& cell = cells_[c];
         if (is_occluded({cell.low, cell.high, false}, sway_within(cell.low, cell.high, sway_))) {
             lists_.occluded += cell.count;
@@ -108,6 +107,39 @@ ForestLod::select(const Frustum& frustum, const LodOptions& options, GroundHoriz
                               [](const ImpostorEntry& each) { return each.range.is_whole(); });
     }
     return lists_;
+}
+
+void ForestLod::list_visible_cells(const Frustum& frustum) {
+    if (model_.streamed == nullptr) {
+        list_visible_cells(frustum, 0, static_cast<std::uint32_t>(cells_.size()), 0);
+    }
+    for (std::uint32_t index = 0; index < squares_.size(); ++index) {
+        const ShownSquare& shown = squares_[index];
+        if (shown.square == nullptr || shown.square->trees.empty() ||
+            !frustum.intersects(swaying_box(shown.low, shown.high, sway_))) {
+            continue;
+        }
+        const auto count = static_cast<std::uint32_t>(shown.square->cells.size());
+        const SquareId& id = shown.square->id;
+        list_visible_cells(frustum, index * count, count,
+                           std::uint64_t{static_cast<std::uint32_t>(id.row)} << 32U |
+                               static_cast<std::uint32_t>(id.column));
+    }
+    std::sort(visible_cells_.begin(), visible_cells_.end());
+}
+
+void ForestLod::list_visible_cells(const Frustum& frustum,
+                                   std::uint32_t first,
+                                   std::uint32_t count,
+                                   std::uint64_t order) {
+    for (std::uint32_t c = first; c < first + count; ++c) {
+        const ForestCell& cell = cells_[c];
+        if (cell.count != 0 && frustum.intersects(swaying_box(cell.low, cell.high, sway_))) {
+            visible_cells_.push_back(
+                {glm::distance(frustum.eye, glm::clamp(frustum.eye, cell.low, cell.high)), order,
+                 c});
+        }
+    }
 }
 
 float ForestLod::sway_of(const LodTree& tree) const {
@@ -152,6 +184,10 @@ void ForestLod::visit_cell(std::uint32_t index,
                            const Frustum& frustum,
                            const LodOptions& options) {
     const ForestCell& cell = cells_[index];
+    const float presence = presence_at(distance, options.tree_range);
+    if (presence <= 0.0F) {
+        return;
+    }
     float weight = 1.0F; // weight of single trees against the cluster
     if (cell.count >= kMinClusterTrees && cell.removed == 0 && options.cluster_pixels > 0.0F) {
         const float scale = frustum.pixels / std::max(distance, kNearest); // pixels per metre
@@ -166,7 +202,7 @@ void ForestLod::visit_cell(std::uint32_t index,
                      : finer_weight(pixels, options.cluster_pixels, options.blend);
     }
     if (weight < 1.0F) {
-        lists_.clusters.push_back({index, {weight, 1.0F}});
+        lists_.clusters.push_back({index, {weight, weight + (1.0F - weight) * presence}});
     }
     if (weight <= 0.0F) {
         lists_.clustered_trees += cell.count;
@@ -175,7 +211,7 @@ void ForestLod::visit_cell(std::uint32_t index,
     lists_.blended += weight < 1.0F ? cell.count : 0;
     for (std::uint32_t t = cell.first; t < cell.first + cell.count; ++t) {
         if (!trees_[t].is_removed()) {
-            visit_tree(t, frustum, options, weight);
+            visit_tree(t, frustum, options, weight * presence);
         }
     }
 }

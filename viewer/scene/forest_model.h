@@ -51,10 +51,14 @@ struct TreeForm {
     [[nodiscard]] float height() const { return high - low; }
 };
 
+struct StreamedTrees;
+
 struct ForestModel {
     const Forest* forest = nullptr;
     const Terrain* terrain = nullptr;
     GroundPictures ground; // of the terrain
+    /// Of a forest whose trees come square by square, while Forest::trees is empty; else null.
+    std::shared_ptr<const StreamedTrees> streamed;
     std::vector<TreeForm> forms;
     // By species: index of its first stage in `forms`; its other stages follow.
     std::vector<std::uint32_t> first_form;

@@ -21,21 +21,6 @@ float random_unit(std::uint32_t a, std::uint32_t b) {
     return unit_float(lattice32(a, b));
 }
 
-/// Mean scale of the trees of each form; 0 without trees.
-std::vector<float> mean_scales(const ForestLod& lod) {
-    std::vector<double> sums(lod.model().forms.size());
-    std::vector<double> counts(sums.size());
-    for (const LodTree& tree : lod.trees()) {
-        sums[tree.form] += static_cast<double>(tree.scale);
-        counts[tree.form] += 1.0;
-    }
-    std::vector<float> scales(sums.size());
-    for (std::size_t f = 0; f < sums.size(); ++f) {
-        scales[f] = counts[f] > 0.0 ? static_cast<float>(sums[f] / counts[f]) : 0.0F;
-    }
-    return scales;
-}
-
 } // namespace
 
 ImpostorPlan plan_impostors(const ForestLod& lod) {
@@ -53,11 +38,12 @@ ImpostorPlan plan_impostors(const ForestLod& lod) {
             plan.layers.push_back({f, level, {tree}});
         }
     }
-    plan.has_clusters = lod.trees().size() >= kMinTreesForClusters;
+    plan.has_clusters =
+        lod.model().streamed != nullptr || lod.trees().size() >= kMinTreesForClusters;
     if (!plan.has_clusters) {
         return plan;
     }
-    const std::vector<float> scales = mean_scales(lod);
+    const std::vector<float> scales = lod.mean_scales();
     for (std::uint32_t f = 0; f < forms.size(); ++f) {
         const TreeForm& form = forms[f];
         const float side =

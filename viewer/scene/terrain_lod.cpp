@@ -43,6 +43,20 @@ TerrainLod::TerrainLod(const Terrain& terrain, float view_distance) : terrain_(t
     }
 }
 
+void TerrainLod::set_origin(const glm::dvec3& origin) {
+    const glm::dvec3 moved = origin_ - origin;
+    origin_ = origin;
+    for (std::uint32_t level = 0; level < kTerrainLevels; ++level) {
+        const auto size = static_cast<double>(cell(level));
+        grids_[level].origin += glm::ivec2(static_cast<std::int32_t>(moved.x / size),
+                                           static_cast<std::int32_t>(moved.z / size));
+    }
+}
+
+float TerrainLod::height_at(double x, double z) const {
+    return terrain_.height(static_cast<float>(x), static_cast<float>(z));
+}
+
 void TerrainLod::make_grid(std::uint32_t level, const glm::vec3& eye) {
     const auto size = static_cast<double>(cell(level));
     const auto half = static_cast<std::int64_t>(kHeightTexels) / 2 - kGridStep / 2;
@@ -52,18 +66,41 @@ void TerrainLod::make_grid(std::uint32_t level, const glm::vec3& eye) {
     if (grid.is_valid && grid.origin == origin) {
         return;
     }
+    // Texels of the previous grid keep their values, so that a slow camera costs few heights.
+    const HeightGrid before = std::exchange(grid, {});
+    const bool has_cover = cover_ && level >= kFirstCoverLevel;
     grid.is_valid = true;
     grid.origin = origin;
     grid.heights.resize(std::size_t{kHeightTexels} * kHeightTexels);
+    grid.covers.resize(has_cover ? grid.heights.size() : 0);
+    const glm::ivec2 shift = origin - before.origin;
+    const auto size_texels = static_cast<std::int32_t>(kHeightTexels);
+    const std::int32_t kept_low = before.is_valid ? std::max(-shift.x, 0) : size_texels;
+    const std::int32_t kept_high =
+        before.is_valid ? std::min(size_texels - shift.x, size_texels) : 0;
     Workers workers(0);
     workers.for_each(kHeightTexels / kRowsPerPiece, [&](std::uint64_t piece) {
         for (std::uint64_t row = piece * kRowsPerPiece; row < (piece + 1) * kRowsPerPiece; ++row) {
-            const float z =
-                static_cast<float>(origin.y + static_cast<std::int32_t>(row)) * cell(level);
-            for (std::uint64_t column = 0; column < kHeightTexels; ++column) {
-                const float x =
-                    static_cast<float>(origin.x + static_cast<std::int32_t>(column)) * cell(level);
-                grid.heights[row * kHeightTexels + column] = terrain_.height(x, z);
+            const double z =
+                origin_.z + static_cast<double>(origin.y + static_cast<std::int32_t>(row)) * size;
+            const std::int32_t row_before = static_cast<std::int32_t>(row) + shift.y;
+            const bool is_kept = row_before >= 0 && row_before < size_texels;
+            for (std::int32_t column = 0; column < size_texels; ++column) {
+                const std::size_t texel = row * kHeightTexels + static_cast<std::size_t>(column);
+                if (is_kept && column >= kept_low && column < kept_high) {
+                    const std::size_t old = static_cast<std::size_t>(row_before) * kHeightTexels +
+                                            static_cast<std::size_t>(column + shift.x);
+                    grid.heights[texel] = before.heights[old];
+                    if (has_cover) {
+                        grid.covers[texel] = before.covers[old];
+                    }
+                    continue;
+                }
+                const double x = origin_.x + static_cast<double>(origin.x + column) * size;
+                grid.heights[texel] = height_at(x, z);
+                if (has_cover) {
+                    grid.covers[texel] = cover_(x, z);
+                }
             }
         }
     });
@@ -77,7 +114,9 @@ void TerrainLod::select(const Frustum& frustum) {
     patches_.clear();
     changed_.clear();
     eye_ = frustum.eye;
-    eye_height_ = std::max(eye_.y - terrain_.height(eye_.x, eye_.z), 0.0F);
+    eye_height_ = std::max(eye_.y - height_at(origin_.x + static_cast<double>(eye_.x),
+                                              origin_.z + static_cast<double>(eye_.z)),
+                           0.0F);
     for (std::uint32_t level = 0; level < levels_; ++level) {
         if (range(level) > eye_height_ || level + 1 == levels_) {
             make_grid(level, eye_);

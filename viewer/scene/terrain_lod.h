@@ -12,6 +12,8 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
+#include <utility>
 #include <vector>
 
 namespace lsys::view {
@@ -37,6 +39,8 @@ struct HeightGrid {
     float lowest = 0.0F;
     float highest = 0.0F;
     std::vector<float> heights; // in rows along X
+    /// Fraction of the ground that crowns hide, as heights; empty without GroundCover.
+    std::vector<float> covers;
 
     /// `x`, `z`: in cells of the level.
     [[nodiscard]] float at(std::int32_t x, std::int32_t z) const {
@@ -45,10 +49,21 @@ struct HeightGrid {
     }
 };
 
+/// Fraction of the ground at a place of the world (x, z in m) that crowns hide, 0 to 1. Called from
+/// several threads.
+using GroundCover = std::function<float(double x, double z)>;
+
 class TerrainLod {
 public:
     /// The terrain must outlive this object. `view_distance`: range of the drawn ground, m.
     TerrainLod(const Terrain& terrain, float view_distance);
+
+    /// Sets the place of the world, in m, to which eyes, grids and patches are relative: a multiple of
+    /// kOriginStep along X and Z.
+    void set_origin(const glm::dvec3& origin);
+    /// Gives the grids covers, from the level kFirstCoverLevel on. Call it before the first select().
+    void set_cover(GroundCover cover) { cover_ = std::move(cover); }
+    static constexpr std::uint32_t kFirstCoverLevel = 3; // range 272 m
 
     /// Updates the height grids for a camera and lists visible patches, finest levels first.
     void select(const Frustum& frustum);
@@ -77,6 +92,8 @@ private:
         std::uint32_t level = 0;
     };
     void make_grid(std::uint32_t level, const glm::vec3& eye);
+    /// Height of the terrain at a place of the world.
+    [[nodiscard]] float height_at(double x, double z) const;
     /// Returns whether the node was drawn, whole or by its children.
     bool visit(const Node& node, const Frustum& frustum);
     [[nodiscard]] float distance_to(const Node& node) const;
@@ -84,6 +101,8 @@ private:
     is_visible(const TerrainPatch& at, std::int32_t cells, const Frustum& frustum) const;
 
     const Terrain& terrain_;
+    GroundCover cover_;
+    glm::dvec3 origin_{};
     std::uint32_t levels_ = 1;
     std::array<HeightGrid, kTerrainLevels> grids_;
     std::vector<TerrainPatch> patches_;

@@ -8,11 +8,15 @@ layout(location = 17) uniform vec3 mean;      // mean of the colours
 layout(location = 18) uniform int has_normal_map;
 #else
 layout(binding = 2) uniform sampler2D noise; // tileable
+layout(location = 21) uniform vec2 noise_shifts[3]; // place of the origin in each noise tile
 #endif
+layout(location = 24) uniform vec3 canopy;       // colour of crowns
+layout(location = 25) uniform vec2 canopy_range; // m, where the canopy begins and is complete; y 0: none
 in vec3 world_position;
 in vec3 world_normal;
 in vec3 shadow_position;
 in vec3 fog; // xy: fog_to(); z: distance, m
+in float cover;
 out vec4 colour;
 #ifdef PICTURE
 void main() {
@@ -34,10 +38,10 @@ void main() {
     vec3 up = normalize(world_normal);
     // Noise tiles of 173, 37 and 3.1 m; the smaller ones fade before their repetition is visible.
     float away = fog.z;
-    vec4 large_noise = texture(noise, world_position.xz * (1.0 / 173.0));
-    vec4 medium_noise = mix(vec4(0.5), texture(noise, world_position.zx * (1.0 / 37.0)),
+    vec4 large_noise = texture(noise, world_position.xz * (1.0 / 173.0) + noise_shifts[0]);
+    vec4 medium_noise = mix(vec4(0.5), texture(noise, world_position.zx * (1.0 / 37.0) + noise_shifts[1].yx),
                        clamp(2.0 - away / 150.0, 0.0, 1.0));
-    vec4 small_noise = mix(vec4(0.5), texture(noise, world_position.xz * (1.0 / 3.1)),
+    vec4 small_noise = mix(vec4(0.5), texture(noise, world_position.xz * (1.0 / 3.1) + noise_shifts[2]),
                      clamp(2.0 - away / 15.0, 0.0, 1.0));
     float wide = large_noise.r;
     float middle = 0.4 * large_noise.g + 0.4 * medium_noise.r + 0.2 * small_noise.r;
@@ -51,5 +55,11 @@ void main() {
     vec3 normal = normalize(up + 0.4 * vec3(fine - 0.5, 0.0, small_noise.g - 0.5));
 #endif
     float lit = sunlight_at(shadow_position, 1.0);
-    colour = tone_mapped(apply_fog(shade(albedo, normal, world_position, lit, 0.0), fog.xy));
+    vec3 light = shade(albedo, normal, world_position, lit, 0.0);
+    if (canopy_range.y > 0.0) {
+        // Crowns seen from afar: part of their surface is in the shade of others.
+        vec3 crowns = shade_crown(canopy, up, 0.8 * lit, 0.0, 0.9);
+        light = mix(light, crowns, cover * smoothstep(canopy_range.x, canopy_range.y, fog.z));
+    }
+    colour = tone_mapped(apply_fog(light, fog.xy));
 }

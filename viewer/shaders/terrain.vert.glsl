@@ -2,6 +2,7 @@
 #include "light.glsl"
 // CDLOD (Strugar 2010): vertices morph to those of the next level before it takes over.
 layout(binding = 1) uniform sampler2DArray heights; // a layer per level, vertices at texels
+layout(binding = 5) uniform sampler2DArray covers;  // fraction hidden by crowns
 layout(location = 0) uniform ivec2 origins[14];     // by layer, in cells of its level
 // Finest cell, m; range of level 0, m; fraction of the range where morphing starts; eye above ground, m.
 layout(location = 14) uniform vec4 ranges;
@@ -12,6 +13,7 @@ out vec3 world_position;
 out vec3 world_normal;
 out vec3 shadow_position;
 out vec3 fog; // xy: fog_to(); z: distance, m
+out float cover;
 
 float height_at(ivec2 at, int level) {
     return texelFetch(heights, ivec3(at - origins[level], level), 0).r;
@@ -43,6 +45,7 @@ void main() {
     float here = height_at(at, level);
     world_position = vec3(ground.x, here + morph * (height_at(even, level) - here), ground.y);
     world_normal = normal;
+    cover = texelFetch(covers, ivec3(at - origins[level], level), 0).r;
     shadow_position = shadow_map_position(world_position, normal);
     fog = vec3(fog_to(world_position), distance(world_position, frame.eye_time.xyz));
     // The drawn ground ends at a stepped border of whole patches, so it fades into the horizon

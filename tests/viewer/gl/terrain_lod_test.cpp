@@ -174,9 +174,9 @@ TEST_CASE("the device has the heights of the terrain") {
     Device device;
     TerrainPass pass(device);
     const lsys::view::MaterialTextures textures(device);
-    pass.show(terrain, {}, 3000.0F, textures);
-    pass.prepare(make_frustum(ground_cameras()[0], 1280, 720));
-    pass.prepare(make_frustum(ground_cameras()[1], 1280, 720));
+    pass.show(terrain, {}, 3000.0F, {}, textures);
+    pass.prepare(make_frustum(ground_cameras()[0], 1280, 720), 1e9F);
+    pass.prepare(make_frustum(ground_cameras()[1], 1280, 720), 1e9F);
     for (std::uint32_t level = 0; level < pass.lod()->levels(); ++level) {
         const HeightGrid& grid = pass.lod()->grid(level);
         if (!grid.is_valid) {

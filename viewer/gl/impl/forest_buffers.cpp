@@ -371,10 +371,38 @@ void ForestBuffers::upload_trees(const ForestLod& lod) {
         }
         current_->trees.write(std::span<const TreeRecord>(records), first * sizeof(TreeRecord));
     }
+    upload_clusters(lod);
+}
+
+void ForestBuffers::upload_changed_trees(const ForestLod& lod, std::span<const TreeSpan> changed) {
+    if (changed.empty()) {
+        return;
+    }
+    current_->trees.grow(lod.trees().size() * sizeof(TreeRecord));
+    std::vector<TreeRecord> records;
+    for (const TreeSpan& span : changed) {
+        records.clear();
+        for (std::uint32_t t = span.first; t < span.first + span.count; ++t) {
+            const LodTree& tree = lod.trees()[t];
+            if (!tree.is_removed()) {
+                records.push_back(record_of(tree, lod.tree_of(t)));
+            }
+        }
+        if (records.size() == span.count) { // else the square has been removed again
+            current_->trees.write(std::span<const TreeRecord>(records),
+                                  span.first * sizeof(TreeRecord));
+        }
+    }
+    upload_clusters(lod);
+}
+
+void ForestBuffers::upload_clusters(const ForestLod& lod) {
+    std::vector<TreeRecord> records;
     const auto forms = static_cast<std::uint32_t>(lod.model().forms.size());
-    records.clear();
     for (const ForestCell& cell : lod.cells()) {
-        const auto number = static_cast<std::uint32_t>(records.size());
+        const auto number = lod.model().streamed == nullptr
+                                ? static_cast<std::uint32_t>(records.size())
+                                : cell.seed;
         // Clusters are rotated by quarter turns at random, which keep their squares aligned with
         // the cells.
         const std::uint32_t drawn = golden_multiple(number);

@@ -59,6 +59,8 @@ public:
     void set_colours(const ForestModel& model, BranchColours by);
     /// Uploads all trees, and clusters as trees of their cluster forms.
     void upload_trees(const ForestLod& lod);
+    /// Uploads trees and all clusters of a streamed forest.
+    void upload_changed_trees(const ForestLod& lod, std::span<const TreeSpan> changed);
     /// Uploads branches written by the pool.
     void upload_branches(BranchPool& pool);
     /// Uploads one tree, which may be an added one.
@@ -136,6 +138,7 @@ private:
         return current_->commands[command_index(kind, blends)];
     }
     std::uint64_t draw(const Commands& commands) const;
+    void upload_clusters(const ForestLod& lod);
 
     VertexArray array_;
     Buffer vertices_;

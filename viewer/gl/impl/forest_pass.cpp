@@ -12,6 +12,7 @@
 #include <chrono>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <span>
 #include <utility>
 #include <vector>
@@ -110,9 +111,11 @@ void ForestPass::show(ForestModel model, const MaterialTextures& textures) {
     impostors_.begin(model_, std::move(plan), buffers_);
     buffers_.upload_trees(*lod_);
     const Region& region = model_.terrain->region();
+    const float whole = static_cast<float>(std::hypot(region.width, region.depth)) + kGroundBeyond;
+    const StreamedTrees* const streamed = model_.streamed.get();
     terrain_.show(*model_.terrain, model_.ground,
-                  static_cast<float>(std::hypot(region.width, region.depth)) + kGroundBeyond,
-                  textures);
+                  streamed == nullptr ? whole : std::min(whole, streamed->view_distance),
+                  streamed == nullptr ? GroundCover() : streamed->cover, textures);
     upload_seconds_ = seconds_since(start);
     bake_seconds_ = 0.0;
 }
@@ -144,6 +147,9 @@ bool ForestPass::bake_impostors(double seconds, MaterialTextures& textures) {
             break;
         }
     }
+    if (impostors_.is_done() && model_.streamed != nullptr) {
+        terrain_.set_canopy(impostors_.mean_colour_from_above(model_.streamed->crown_parts));
+    }
     bake_seconds_ += seconds_since(start);
     return impostors_.is_done();
 }
@@ -155,9 +161,56 @@ void ForestPass::change_tree(std::uint32_t index, const Tree& tree, bool alive) 
     }
 }
 
-Bounds ForestPass::shadow_bounds(const Frame& frame) const {
+Bounds ForestPass::change_squares(const SquareChanges& changes) {
+    for (const SquareId& id : changes.removed) {
+        lod_->remove_square(id);
+    }
+    for (const std::shared_ptr<const ForestSquare>& square : changes.added) {
+        lod_->add_square(square);
+    }
+    if (!changes.empty()) {
+        lists_ = nullptr;
+    }
+    return lod_->take_changed_box();
+}
+
+Frame ForestPass::localised(const Frame& frame, bool& moved) {
+    const glm::dvec3 origin =
+        model_.streamed == nullptr ? glm::dvec3(0.0) : nearest_origin(eye_of(frame.camera));
+    moved = origin != lod_->origin();
+    if (moved) {
+        lod_->set_origin(origin);
+        terrain_.set_origin(origin);
+    }
+    Frame local = frame;
+    local.camera = relative_to(frame.camera, origin);
+    return local;
+}
+
+std::array<float, 2> ForestPass::altitudes_near(const glm::vec2& middle, float half) const {
+    constexpr int kSteps = 8; // along each side
+    const glm::dvec3& origin = lod_->origin();
+    std::array<float, 2> range = {std::numeric_limits<float>::max(),
+                                  std::numeric_limits<float>::lowest()};
+    for (int z = -kSteps; z <= kSteps; ++z) {
+        for (int x = -kSteps; x <= kSteps; ++x) {
+            const double step = 1.25 * static_cast<double>(half) / kSteps;
+            const float height = model_.terrain->height(
+                static_cast<float>(origin.x + static_cast<double>(middle.x) + step * x),
+                static_cast<float>(origin.z + static_cast<double>(middle.y) + step * z));
+            range = {std::min(range[0], height), std::max(range[1], height)};
+        }
+    }
+    // Ground between the samples.
+    const float margin = 0.25F * (range[1] - range[0]);
+    return {range[0] - margin, range[1] + margin + model_.streamed->tallest};
+}
+
+Bounds ForestPass::shadow_bounds(const Frame& frame) {
     const Camera& camera = frame.camera;
-    const float ground = model_.terrain->height(camera.eye.x, camera.eye.z);
+    const glm::dvec3 eye = eye_of(camera);
+    const float ground =
+        model_.terrain->height(static_cast<float>(eye.x), static_cast<float>(eye.z));
     const float above = std::max(camera.eye.y - ground, 0.0F);
     float half = kMinShadowRange;
     while (half < kMaxShadowRange && half < 1.2F * above) {
@@ -174,8 +227,15 @@ Bounds ForestPass::shadow_bounds(const Frame& frame) const {
                              (length > 1e-4F ? flat / length * reach : glm::vec2(0.0F));
     const float step = 0.25F * half;
     const glm::vec2 middle = glm::round(wanted / step) * step;
-    const Bounds& all = bounds();
     Bounds lit;
+    if (model_.streamed != nullptr) {
+        caster_altitudes_ = altitudes_near(middle, half);
+        lit.add({middle.x - half, caster_altitudes_[0], middle.y - half});
+        lit.add({middle.x + half, caster_altitudes_[1], middle.y + half});
+        return lit;
+    }
+    const Bounds& all = bounds();
+    caster_altitudes_ = {all.low.y, all.high.y};
     lit.add({middle.x - half, all.low.y, middle.y - half});
     lit.add({middle.x + half, all.high.y, middle.y + half});
     // Clip to the forest.
@@ -195,16 +255,20 @@ void ForestPass::prepare(const Frame& frame) {
     options.max_triangles = frame.max_triangles;
     options.max_expansions = frame.max_expansions;
     options.wind = frame.wind;
+    options.tree_range = frame.tree_range;
     constexpr float kStill = 1e-4F; // m/s
     is_windy_ = glm::length(frame.wind.velocity) >= kStill;
     has_old_clusters_ = has_old_clusters_ && !impostors_.is_done();
     options.cluster_pixels = has_clusters_ && !has_old_clusters_ ? options.cluster_pixels : 0.0F;
-    terrain_.prepare(frustum_);
+    terrain_.prepare(frustum_, frame.tree_range);
     // Wireframes occlude nothing.
     const bool hides = frame.style != PlantStyle::Wireframe;
     horizon_.set_viewpoint(*terrain_.lod(), frustum_.eye);
     lists_ = &lod_->select(frustum_, options, hides ? &horizon_ : nullptr);
     cull_seconds_ = seconds_since(start);
+    if (model_.streamed != nullptr) {
+        buffers_.upload_changed_trees(*lod_, lod_->take_changed_trees());
+    }
     buffers_.upload_branches(lod_->pool());
     buffers_.upload_commands(*lists_);
 }
@@ -250,7 +314,8 @@ ForestPass::draw_quads(const ProgramObject& program, std::size_t first, std::siz
 
 void ForestPass::draw_shadows(const glm::mat4& shadow_from_world, ForestFrameStats& stats) {
     std::vector<std::uint32_t> numbers;
-    lod_->find_within(casters_of(shadow_from_world, bounds().low.y, bounds().high.y), numbers);
+    lod_->find_within(casters_of(shadow_from_world, caster_altitudes_[0], caster_altitudes_[1]),
+                      numbers);
     std::vector<ImpostorEntry> trees;
     trees.reserve(numbers.size());
     for (const std::uint32_t number : numbers) {
@@ -394,6 +459,7 @@ Picked ForestPass::picked(PickedKind kind, std::uint32_t item) const {
     if (kind == PickedKind::Branch || kind == PickedKind::Impostor) {
         picked.form = lod_->lod_tree(number).form;
         picked.tree = lod_->tree_of(number);
+        picked.tree.position = glm::vec3(glm::dvec3(picked.tree.position) + origin());
     }
     return picked;
 }

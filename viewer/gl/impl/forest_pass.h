@@ -11,6 +11,7 @@
 #include "viewer/gl/impl/terrain_pass.h"
 #include "viewer/gl/renderer.h"
 #include "viewer/scene/forest_lod.h"
+#include "viewer/scene/forest_square.h"
 #include "viewer/scene/ground_horizon.h"
 
 #include <glm/mat4x4.hpp>
@@ -43,10 +44,17 @@ public:
     void set_colours(BranchColours by);
     /// Adds or removes a tree: ForestLod::change_tree().
     void change_tree(std::uint32_t index, const Tree& tree, bool alive);
+    /// Adds and removes squares of a streamed forest. Returns the box of the trees that changed.
+    [[nodiscard]] Bounds change_squares(const SquareChanges& changes);
+    /// The frame with a camera relative to the origin of the forest. In a streamed forest, moves the
+    /// origin to the nearest_origin() of the eye first; returns in `moved` whether it did.
+    [[nodiscard]] Frame localised(const Frame& frame, bool& moved);
+    /// The place of the world, m, to which all places of the forest are relative.
+    [[nodiscard]] glm::dvec3 origin() const { return lod_->origin(); }
     [[nodiscard]] const Bounds& bounds() const { return lod_->bounds(); }
 
     /// Box of the shadow map for a camera; changes only in large steps of the camera.
-    [[nodiscard]] Bounds shadow_bounds(const Frame& frame) const;
+    [[nodiscard]] Bounds shadow_bounds(const Frame& frame);
     /// Selects trees and branches for the frame and uploads them.
     void prepare(const Frame& frame);
     /// Draws all casters into the bound shadow map.
@@ -67,6 +75,8 @@ public:
     [[nodiscard]] ForestSizes sizes() const;
 
 private:
+    /// Lowest and highest place of ground and trees near the middle of a shadow map.
+    [[nodiscard]] std::array<float, 2> altitudes_near(const glm::vec2& middle, float half) const;
     [[nodiscard]] const ForestPrograms& programs() const { return programs_[is_windy_ ? 1 : 0]; }
     void draw_branches(const BranchPrograms& programs, bool blends, FrameStats& stats);
     /// Draws impostors of trees or clusters.
@@ -96,6 +106,7 @@ private:
     bool has_clusters_ = false; // the atlas has cluster impostors
     // The cluster impostors show the previous trees until all are baked again.
     bool has_old_clusters_ = false;
+    std::array<float, 2> caster_altitudes_{}; // of the last shadow_bounds() of a streamed forest
     double bake_seconds_ = 0.0;
     double upload_seconds_ = 0.0;
     double cull_seconds_ = 0.0;

@@ -187,6 +187,33 @@ void ImpostorAtlas::upload_layer(std::uint32_t layer, ImpostorTexels picture) {
     }
 }
 
+glm::vec3 ImpostorAtlas::mean_colour_from_above(std::span<const float> parts) const {
+    constexpr GLint kLast = kLevels - 1;
+    constexpr std::size_t kRow = kWidth >> static_cast<unsigned>(kLast);
+    constexpr std::size_t kRows = kHeight >> static_cast<unsigned>(kLast);
+    constexpr std::size_t kFirstRow = kRows * (kElevations - 1) / kElevations; // highest elevation
+    std::vector<std::uint8_t> texels(4 * kRow * kRows * layers_);
+    glPixelStorei(GL_PACK_ALIGNMENT, 1);
+    glGetTextureImage(albedos_.name(), kLast, GL_RGBA, GL_UNSIGNED_BYTE,
+                      static_cast<GLsizei>(texels.size()), texels.data());
+    glm::dvec3 sum(0.0);
+    double weight = 0.0;
+    for (std::size_t layer = 0; layer < plan_.layers.size(); ++layer) {
+        const ImpostorLayer& impostor = plan_.layers[layer];
+        if (impostor.trees.size() != 1) {
+            continue; // a cluster
+        }
+        const auto part = static_cast<double>(parts[impostor.form]);
+        for (std::size_t texel = kFirstRow * kRow; texel < kRows * kRow; ++texel) {
+            const std::uint8_t* rgba = &texels[4 * (layer * kRows * kRow + texel)];
+            const glm::dvec3 root = glm::dvec3(rgba[0], rgba[1], rgba[2]) / 255.0;
+            sum += part * static_cast<double>(rgba[3]) * root * root;
+            weight += part * static_cast<double>(rgba[3]);
+        }
+    }
+    return weight > 0.0 ? glm::vec3(sum / weight) : glm::vec3(0.0F);
+}
+
 void ImpostorAtlas::find_boxes(std::uint32_t layer, std::span<const std::uint8_t> albedos) {
     for (std::uint32_t e = 0; e < kElevations; ++e) {
         for (std::uint32_t y = 0; y < kYaws; ++y) {

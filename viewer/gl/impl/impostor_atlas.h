@@ -42,6 +42,9 @@ public:
     [[nodiscard]] GLuint normals() const { return normals_.name(); }
     /// Buffer of opaque_box() of each tile, by layer, elevation and yaw.
     [[nodiscard]] GLuint boxes() const { return box_buffer_.name(); }
+    /// Mean colour, linear RGB, of trees seen from above. `parts`: weight of each form. Precondition:
+    /// is_done().
+    [[nodiscard]] glm::vec3 mean_colour_from_above(std::span<const float> parts) const;
     [[nodiscard]] std::uint64_t texture_bytes() const { return texture_bytes_; }
     [[nodiscard]] std::uint32_t layers() const { return layers_; }
 

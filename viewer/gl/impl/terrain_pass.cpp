@@ -26,6 +26,11 @@ constexpr GLuint kNormalMap = 4;
 constexpr GLint kTiles = kLevels + 1;
 constexpr GLint kMean = kTiles + 1;
 constexpr GLint kHasNormalMap = kMean + 1;
+constexpr GLuint kCovers = 5;
+constexpr GLint kNoiseShifts = 21; // 3 locations
+constexpr GLint kCanopy = 24;
+constexpr GLint kCanopyRange = 25;
+constexpr std::array<double, 3> kNoiseTiles = {173.0, 37.0, 3.1}; // m, in terrain.frag.glsl
 constexpr std::uint32_t kNoiseTexels = 128;
 constexpr GLsizei kPatchIndices = 6 * kPatchCells * kPatchCells;
 
@@ -105,8 +110,12 @@ Result<void> TerrainPass::reload(const ShaderSource& shaders) {
 void TerrainPass::show(const Terrain& terrain,
                        const GroundPictures& pictures,
                        float view_distance,
+                       GroundCover cover,
                        const MaterialTextures& textures) {
     lod_ = std::make_unique<TerrainLod>(terrain, view_distance);
+    const bool has_cover = static_cast<bool>(cover);
+    lod_->set_cover(std::move(cover));
+    origin_ = {};
     if (pictures.colour != pictures_.colour) {
         colour_ =
             pictures.colour == nullptr ? TextureObject() : textures.make_opaque(*pictures.colour);
@@ -153,9 +162,25 @@ void TerrainPass::show(const Terrain& terrain,
                        static_cast<GLsizei>(lod_->levels()));
     glTextureParameteri(heights_.name(), GL_TEXTURE_MIN_FILTER, GL_NEAREST);
     glTextureParameteri(heights_.name(), GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+    covers_ = {};
+    if (has_cover) {
+        covers_ = make_texture(*device_, GL_TEXTURE_2D_ARRAY);
+        glTextureStorage3D(covers_.name(), 1, GL_R32F, size, size,
+                           static_cast<GLsizei>(lod_->levels()));
+        glTextureParameteri(covers_.name(), GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+        glTextureParameteri(covers_.name(), GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+        constexpr GLfloat kNone = 0.0F;
+        glClearTexImage(covers_.name(), 0, GL_RED, GL_FLOAT, &kNone);
+    }
 }
 
-void TerrainPass::prepare(const Frustum& frustum) {
+void TerrainPass::set_origin(const glm::dvec3& origin) {
+    lod_->set_origin(origin);
+    origin_ = origin;
+}
+
+void TerrainPass::prepare(const Frustum& frustum, float tree_range) {
+    tree_range_ = tree_range;
     lod_->select(frustum);
     const auto size = static_cast<GLsizei>(kHeightTexels);
     for (const std::uint32_t level : lod_->changed()) {
@@ -163,6 +188,11 @@ void TerrainPass::prepare(const Frustum& frustum) {
         glTextureSubImage3D(heights_.name(), 0, 0, 0, static_cast<GLint>(level), size, size, 1,
                             GL_RED, GL_FLOAT, heights.data());
         device_->add_upload(heights.size() * sizeof(float));
+        if (const std::vector<float>& covers = lod_->grid(level).covers; !covers.empty()) {
+            glTextureSubImage3D(covers_.name(), 0, 0, 0, static_cast<GLint>(level), size, size, 1,
+                                GL_RED, GL_FLOAT, covers.data());
+            device_->add_upload(covers.size() * sizeof(float));
+        }
     }
 }
 
@@ -170,16 +200,33 @@ FrameStats TerrainPass::draw() {
     const ProgramObject& program = colour_ ? picture_program_ : program_;
     glUseProgram(program.name());
     if (colour_) {
-        glUniform4f(kTiles, static_cast<float>(pictures_.origin_x),
-                    static_cast<float>(pictures_.origin_z), static_cast<float>(pictures_.width),
-                    static_cast<float>(pictures_.depth));
+        // A corner of a tile near the origin: far coordinates would lose the place in the tile.
+        const auto corner = [](double first, double origin, double size) {
+            return static_cast<float>(origin == 0.0 ? first : std::fmod(first - origin, size));
+        };
+        glUniform4f(kTiles, corner(pictures_.origin_x, origin_.x, pictures_.width),
+                    corner(pictures_.origin_z, origin_.z, pictures_.depth),
+                    static_cast<float>(pictures_.width), static_cast<float>(pictures_.depth));
         glUniform3f(kMean, mean_.r, mean_.g, mean_.b);
         glUniform1i(kHasNormalMap, normals_ ? 1 : 0);
         glBindTextureUnit(kColour, colour_.name());
         glBindTextureUnit(kNormalMap, normals_ ? normals_.name() : colour_.name());
     } else {
         glBindTextureUnit(kNoise, noise_.name());
+        std::array<GLfloat, 6> shifts{};
+        for (std::size_t i = 0; i < kNoiseTiles.size(); ++i) {
+            shifts[2 * i] = static_cast<GLfloat>(std::fmod(origin_.x / kNoiseTiles[i], 1.0));
+            shifts[2 * i + 1] = static_cast<GLfloat>(std::fmod(origin_.z / kNoiseTiles[i], 1.0));
+        }
+        glUniform2fv(kNoiseShifts, 3, shifts.data());
     }
+    // The colour of the canopy begins before the trees end, so that no border is visible.
+    constexpr float kBegin = 0.45F;
+    constexpr float kEnd = 0.95F;
+    const bool has_canopy = covers_ && std::isfinite(tree_range_);
+    glUniform3f(kCanopy, canopy_.r, canopy_.g, canopy_.b);
+    glUniform2f(kCanopyRange, has_canopy ? kBegin * tree_range_ : 0.0F,
+                has_canopy ? kEnd * tree_range_ : 0.0F);
     return draw_with(program);
 }
 
@@ -203,6 +250,7 @@ FrameStats TerrainPass::draw_with(const ProgramObject& program) {
                 TerrainLod::morph_start(0) / TerrainLod::range(0), lod_->eye_height());
     glUniform1i(kLevels, static_cast<GLint>(lod_->levels()));
     glBindTextureUnit(kHeights, heights_.name());
+    glBindTextureUnit(kCovers, covers_ ? covers_.name() : heights_.name());
     glEnable(GL_CULL_FACE);
     glBindVertexArray(array_.name());
     glDrawElementsInstanced(GL_TRIANGLES, kPatchIndices, GL_UNSIGNED_BYTE, nullptr,

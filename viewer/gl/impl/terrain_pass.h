@@ -20,14 +20,20 @@ public:
 
     /// Error: a shader does not compile; the old one stays in use.
     [[nodiscard]] Result<void> reload(const ShaderSource& shaders);
-    /// Replaces the ground. `terrain` must outlive the pass or the next call. Pictures that are
+    /// Replaces the ground. `cover` may be empty. `terrain` must outlive the pass or the next call. Pictures that are
     /// shown already are not uploaded again.
     void show(const Terrain& terrain,
               const GroundPictures& pictures,
               float view_distance,
+              GroundCover cover,
               const MaterialTextures& textures);
-    /// Selects patches for a camera and uploads new heights.
-    void prepare(const Frustum& frustum);
+    /// Sets the place of the world to which cameras are relative: TerrainLod::set_origin().
+    void set_origin(const glm::dvec3& origin);
+    /// Selects patches for a camera and uploads new heights. Beyond `tree_range`, m, the ground has
+    /// the colour of the canopy where it has cover; infinity: nowhere.
+    void prepare(const Frustum& frustum, float tree_range);
+    /// Sets the colour of the canopy, linear RGB.
+    void set_canopy(const glm::vec3& colour) { canopy_ = colour; }
     /// Draws the selected patches.
     FrameStats draw();
     /// Draws the selected patches with `program`, whose vertex shader is terrain.vert.glsl.
@@ -48,6 +54,10 @@ private:
     TextureObject normals_;
     glm::vec3 mean_{0.0F}; // linear RGB, mean of the colour picture
     TextureObject heights_;
+    TextureObject covers_; // empty without cover
+    glm::vec3 canopy_{0.0F};
+    glm::dvec3 origin_{};
+    float tree_range_ = 0.0F;
     TextureObject noise_;
     VertexArray array_;
     Buffer corners_;

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: MIT
+// SquareSource: the trees of any part of the ground of a scene whose placement is on an unbounded
+// grid, by place alone, so that a forest of any number of trees can be shown square by square.
+#pragma once
+
+#include "runtime/pipeline/forest.h"
+#include "runtime/placement/density_field.h"
+#include "viewer/scene/forest_model.h"
+#include "viewer/scene/streamed_trees.h"
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+namespace lsys::view {
+
+/// Forests with more expected trees are streamed, if their placement allows it.
+inline constexpr double kMaxHeldTrees = 2e6;
+/// Default visibility in a streamed forest, km.
+inline constexpr double kStreamedVisibility = 100.0;
+
+class SquareSource {
+public:
+    /// Whether the forest of a scene is streamed: its placement is on an unbounded grid, no tree is
+    /// painted or erased, and more than kMaxHeldTrees trees are expected. `grown` has no trees yet.
+    [[nodiscard]] static bool
+    is_needed(const Scene& scene, const Project& project, const GrownForest& grown);
+
+    /// Precondition: is_needed(). `grown` must outlive the source. Errors: those of place_trees(),
+    /// except too many trees in total.
+    [[nodiscard]] static Result<std::shared_ptr<const SquareSource>>
+    make(const Scene& scene, const Project& project, const GrownForest& grown);
+
+    SquareSource(const Scene& scene, const Project& project, const GrownForest& grown);
+
+    /// All trees of a part of the ground, sized, by ascending number. May be called from several
+    /// threads. Throws std::bad_alloc.
+    [[nodiscard]] std::vector<Tree> trees_of(const Region& region) const;
+    /// Upper estimate of their number, from the density of places at 16 of its points.
+    [[nodiscard]] double expected_trees(const Region& region) const;
+    /// Expected number of places on the whole ground.
+    [[nodiscard]] double all_places() const { return all_places_; }
+    /// Layout, sizes and cover for a model whose forms are made. The source must outlive the result.
+    [[nodiscard]] std::shared_ptr<const StreamedTrees> describe(const ForestModel& model) const;
+
+private:
+    PlacementOptions options_;
+    const Terrain& terrain_;
+    TreeSizer sizer_;
+    DensityField field_;
+    double all_places_ = 0.0;
+};
+
+} // namespace lsys::view
