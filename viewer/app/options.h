@@ -61,6 +61,7 @@ struct ViewOptions {
     BranchColours colours = BranchColours::Natural; // forests only
     std::uint32_t samples = 4;
     std::uint64_t max_triangles = 1'500'000; // budget of branches in a forest
+    Culling culling = Culling::Auto;         // forests only
     // Folder of shaders that replace the built-in ones; empty: none.
     std::string shaders;
 
