@@ -63,15 +63,13 @@ void draw_plant_times(const PlantView& view) {
     count_row("Triangles", stats.drawn.triangles);
 }
 
-/// Where trees are chosen, and the times of the picture.
-void draw_culling(const ForestFrameStats& frame, const FrameTimes& times) {
+/// Where trees are chosen, and the times for it.
+void draw_culling(const ForestFrameStats& frame) {
     line(frame.is_culled_on_device ? "Culling: GPU" : "Culling: CPU");
     time_row("  CPU", 1e-3 * frame.cull_cpu_milliseconds);
     if (frame.is_culled_on_device) {
         time_row("  GPU", 1e-3 * frame.cull_gpu_milliseconds);
     }
-    time_row("Frame CPU", 1e-3 * times.cpu);
-    time_row("Frame GPU", 1e-3 * times.gpu);
 }
 
 void draw_forest_times(const ForestView& view) {
@@ -93,14 +91,13 @@ void draw_forest_times(const ForestView& view) {
         count_row("Impostors", frame.far_trees);
         count_row("Clusters", frame.clusters);
         count_row("  trees", frame.clustered_trees);
-        draw_culling(frame, view.renderer().frame_times());
+        draw_culling(frame);
         if (!view.has_impostors()) {
             line("Baking impostors");
         }
     }
     count_row("Draw calls", stats.drawn.draws);
-    count_row("Triangles",
-              stats.drawn.triangles + view.renderer().forest_stats().device_triangles);
+    count_row("Triangles", stats.drawn.triangles + view.renderer().forest_stats().device_triangles);
 }
 
 void draw_statistics(ViewSwitcher& switcher, const Area& area) {
@@ -113,6 +110,8 @@ void draw_statistics(ViewSwitcher& switcher, const Area& area) {
             draw_plant_times(*plant);
         }
         const Renderer& renderer = switcher.current().renderer();
+        time_row("Frame CPU", 1e-3 * renderer.frame_times().cpu);
+        time_row("Frame GPU", 1e-3 * renderer.frame_times().gpu);
         count_row("GL objects", renderer.live_objects());
         count_row("GL errors", renderer.errors().size());
     }

@@ -81,8 +81,9 @@ Bounds shadow_bounds(const Bounds& plant) {
 class GlRenderer final : public Renderer {
 public:
     GlRenderer()
-        : timer_(device_), target_(device_), shadow_(device_, kShadowTexels), textures_(device_), plant_(device_),
-          lines_(device_), forest_(device_), frame_(device_), empty_(make_vertex_array(device_)) {}
+        : timer_(device_), target_(device_), shadow_(device_, kShadowTexels), textures_(device_),
+          plant_(device_), lines_(device_), forest_(device_), frame_(device_),
+          empty_(make_vertex_array(device_)) {}
 
     void show_plant(const Mesh& mesh) override {
         plant_.upload(mesh, textures_);
@@ -277,10 +278,9 @@ private:
             return forest_.cull_on_device(false, shaders_);
         }
         if (const std::optional<std::string> lacking = lacking_for_culling(culling_limits())) {
-            return culling_ == Culling::Auto
-                       ? forest_.cull_on_device(false, shaders_)
-                       : Error{fmt::format("--culling gpu: {} has {}", device_.renderer(),
-                                           *lacking)};
+            return culling_ == Culling::Auto ? forest_.cull_on_device(false, shaders_)
+                                             : Error{fmt::format("--culling gpu: {} has {}",
+                                                                 device_.renderer(), *lacking)};
         }
         Result<void> done = forest_.cull_on_device(true, shaders_);
         return done || culling_ == Culling::Gpu ? done : forest_.cull_on_device(false, shaders_);

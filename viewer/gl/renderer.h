@@ -115,7 +115,7 @@ struct ForestFrameStats {
     FrameStats impostors;
     FrameStats terrain;
     FrameStats shadow;
-    double cull_milliseconds = 0.0; // includes expansion of trees
+    double cull_milliseconds = 0.0;     // includes expansion of trees
     double cull_cpu_milliseconds = 0.0; // processor time of the thread, without waiting
     // With compute shaders, counts above, except of draws, are those of the last picture that the
     // device has finished: this one after read(), an earlier one before.

@@ -30,7 +30,6 @@ public:
     [[nodiscard]] static std::vector<float> rays();
 
 private:
-
     /// Steepest slope (rise / distance) of the ground between two directions, up to each distance:
     /// the ground occludes everything behind it below that slope.
     struct Sector {

@@ -6,8 +6,8 @@ layout(local_size_x = 256) in;
 #include "culling_list.glsl"
 #include "culling_horizon.glsl"
 // Three per cell: low corner, height of the tallest tree; high corner, count of trees and, in bit
-// 31, whether trees were removed; mean position, first tree.
-layout(std430, binding = 4) readonly buffer Cells { vec4 cells[]; };
+// 31, whether trees were removed; mean position, first tree. Floats as bits, except counts.
+layout(std430, binding = 4) readonly buffer Cells { uvec4 cells[]; };
 // Of cells with visible trees: first tree, trees of the cells before, weight of its trees against
 // its cluster.
 layout(std430, binding = 8) writeonly buffer VisibleCells { uvec4 visible_cells[]; };
@@ -28,8 +28,11 @@ float cluster_height_error(vec3 middle) {
 
 // Class of a cell, and the weight of its trees against its cluster.
 uvec2 code_of(uint index) {
-    vec4 low = cells[3u * index], high = cells[3u * index + 1u], middle = cells[3u * index + 2u];
-    uint count = floatBitsToUint(high.w) & ~kHasRemoved;
+    vec4 low = uintBitsToFloat(cells[3u * index]);
+    uvec4 high_words = cells[3u * index + 1u];
+    vec3 high = uintBitsToFloat(high_words.xyz);
+    vec3 middle = uintBitsToFloat(cells[3u * index + 2u].xyz);
+    uint count = high_words.w & ~kHasRemoved;
     uvec2 all = uvec2(kTrees, floatBitsToUint(1.0));
     if (count == 0u) {
         return uvec2(0u);
@@ -39,20 +42,20 @@ uvec2 code_of(uint index) {
                         low.z <= culling.casters_high.z && high.z >= culling.casters_low.z;
         return overlaps ? all : uvec2(0u);
     }
-    vec3 size = high.xyz - low.xyz;
+    vec3 size = high - low.xyz;
     float sway = displacement(size.y, max(size.x, size.z));
-    if (!is_in_view(0.5 * (low.xyz + high.xyz), 0.5 * distance(low.xyz, high.xyz) + sway)) {
+    if (!is_in_view(0.5 * (low.xyz + high), 0.5 * distance(low.xyz, high) + sway)) {
         return uvec2(0u);
     }
-    if (is_occluded(low.xyz - sway, high.xyz + sway)) {
+    if (is_occluded(low.xyz - sway, high + sway)) {
         atomicAdd(state.occluded, count);
         return uvec2(0u);
     }
     float weight = 1.0;
-    if (count >= kMinClusterTrees && count == floatBitsToUint(high.w) && culling.clusters.x > 0.0) {
+    if (count >= kMinClusterTrees && count == high_words.w && culling.clusters.x > 0.0) {
         vec3 eye = culling.eye_pixels.xyz;
-        float away = max(distance(eye, clamp(eye, low.xyz, high.xyz)), kNearest);
-        float shown = max(max(low.w, 2.0 * cluster_height_error(middle.xyz)),
+        float away = max(distance(eye, clamp(eye, low.xyz, high)), kNearest);
+        float shown = max(max(low.w, 2.0 * cluster_height_error(middle)),
                           (1.0 / 6.0) * culling.clusters.y);
         float pixels = culling.eye_pixels.w / away * shown;
         weight = pixels < culling.clusters.x ? 0.0 : finer_weight(pixels, culling.clusters.x);
@@ -82,7 +85,7 @@ void main() {
 #endif
     bool is_blended = (code.x & kTrees) != 0u;
     bool is_cluster = (code.x & kCluster) != 0u;
-    uint count = is_blended ? floatBitsToUint(cells[3u * index + 1u].w) & ~kHasRemoved : 0u;
+    uint count = is_blended ? cells[3u * index + 1u].w & ~kHasRemoved : 0u;
     uvec4 counts = uvec4(is_cluster && !is_blended, is_cluster && is_blended, is_blended, count);
 #ifdef LIST
     uvec4 places = places_of(counts);
@@ -93,7 +96,7 @@ void main() {
     }
     if (is_blended) {
         visible_cells[places.z] =
-            uvec4(floatBitsToUint(cells[3u * index + 2u].w), places.w, code.y, index);
+            uvec4(cells[3u * index + 2u].w, places.w, code.y, index);
     }
 #else
     store_sum(counts);

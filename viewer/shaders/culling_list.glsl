@@ -26,7 +26,8 @@ uvec4 sum_before(uvec4 value, out uvec4 total) {
 void store_sum(uvec4 value) {
     uvec4 total;
     sum_before(value, total);
-    if (gl_LocalInvocationIndex == 0u) {
+    // The last row of a dispatch in two dimensions may have workgroups without elements.
+    if (gl_LocalInvocationIndex == 0u && block_number() < uint(sums.length())) {
         sums[block_number()] = total;
     }
 }
@@ -34,5 +35,5 @@ void store_sum(uvec4 value) {
 uvec4 places_of(uvec4 value) {
     uvec4 total;
     uvec4 before = sum_before(value, total);
-    return sums[block_number()] + before;
+    return sums[min(block_number(), uint(sums.length()) - 1u)] + before;
 }

@@ -7,8 +7,8 @@ layout(local_size_x = 64) in;
 #include "culling_near.glsl"
 layout(std430, binding = 3) readonly buffer Identities { uint identities[]; };
 layout(std430, binding = 13) writeonly buffer Nodes { uvec4 nodes[]; };
-uint first_node;
-uint near_number;
+uint first_node = 0u;
+uint near_number = 0u;
 void visit(uint node, uint instance, uint parent, uint exit_number) {
     nodes[first_node + node] = uvec4(instance, first_node + parent, exit_number, near_number);
 }

@@ -16,8 +16,8 @@ double thread_cpu_seconds() {
     }
     const auto seconds = [](const FILETIME& time) {
         constexpr double kTick = 1e-7; // s
-        return kTick * static_cast<double>(std::uint64_t{time.dwHighDateTime} << 32U |
-                                           time.dwLowDateTime);
+        return kTick *
+               static_cast<double>(std::uint64_t{time.dwHighDateTime} << 32U | time.dwLowDateTime);
     };
     return seconds(kernel) + seconds(user);
 }

@@ -105,8 +105,7 @@ DrawnBranches drawn_of(const std::vector<BranchEntry>& entries, const Pool& pool
 template <typename List>
 std::size_t differences(const List& a, const List& b) {
     std::vector<typename List::value_type> only;
-    std::set_symmetric_difference(a.begin(), a.end(), b.begin(), b.end(),
-                                  std::back_inserter(only));
+    std::set_symmetric_difference(a.begin(), a.end(), b.begin(), b.end(), std::back_inserter(only));
     return only.size();
 }
 
@@ -232,7 +231,7 @@ TEST_CASE("compute shaders omit the trees behind hills, as the CPU does") {
         compare(both, camera, wood_lod(), true);
         occluded += both.on_device(camera, wood_lod(), true).state.occluded;
     }
-    CHECK(occluded > 1000);
+    CHECK(occluded > 200);
 }
 
 TEST_CASE("lists of compute shaders are the same at every run, in any order of cameras") {
@@ -377,7 +376,7 @@ TEST_CASE("a forest with deeply nested instances is left to the CPU") {
     InstanceCache& cache = wood->forest.species[0].stages[0].cache;
     cache = test::plant("#set names letters; #set angle 5; #w : A; #p : A : ~ 0.5 : F[+A];"
                         "#q : A : ~ 0.5 : F[-A];",
-                        70, 0.6F, options)
+                        250, 0.6F, options)
                 .cache;
     wood->model = {};
     REQUIRE(make_forest_model(wood->forest, *wood->terrain, {{}}, {}, wood->model) == std::nullopt);

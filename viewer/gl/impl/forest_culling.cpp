@@ -41,7 +41,7 @@ constexpr GLuint kCommands = 19;
 constexpr GLuint kHeightsTexture = 1;
 constexpr GLuint kHorizonTexture = 6;
 
-constexpr std::uint32_t kBlock = 256;    // elements of a workgroup
+constexpr std::uint32_t kBlock = 256;     // elements of a workgroup
 constexpr std::uint32_t kSortPart = 2048; // branches of a workgroup that sorts
 constexpr std::uint32_t kDigitBits = 8;
 constexpr std::uint32_t kDetailSteps = 6;
@@ -73,18 +73,12 @@ static_assert(sizeof(CellRecord) == kCellBytes);
 
 CellRecord record_of(const ForestCell& cell) {
     const auto bits = [](float value) { return std::bit_cast<std::uint32_t>(value); };
-    return {bits(cell.low.x),
-            bits(cell.low.y),
-            bits(cell.low.z),
-            bits(cell.tallest),
-            bits(cell.high.x),
-            bits(cell.high.y),
-            bits(cell.high.z),
-            cell.count | (cell.removed != 0 ? kRemoved : 0),
-            bits(cell.middle.x),
-            bits(cell.middle.y),
-            bits(cell.middle.z),
-            cell.first};
+    return {bits(cell.low.x),    bits(cell.low.y),
+            bits(cell.low.z),    bits(cell.tallest),
+            bits(cell.high.x),   bits(cell.high.y),
+            bits(cell.high.z),   cell.count | (cell.removed != 0 ? kRemoved : 0),
+            bits(cell.middle.x), bits(cell.middle.y),
+            bits(cell.middle.z), cell.first};
 }
 
 void wait_for_shaders() {
@@ -159,8 +153,8 @@ ForestCulling::ForestCulling(Device& device)
       states_(device, kPartBytes, MappedBuffer::Access::Read), timer_(device), rays_(device),
       tables_(device), identities_(device), cells_(device), state_(device), codes_(device),
       sums_(device), visible_cells_(device), entries_(device), cluster_entries_(device),
-      candidates_(device), near_(device), nodes_(device), branches_(device),
-      sorted_{Buffer(device), Buffer(device)}, digits_(device), keys_(device),
+      candidates_(device), near_(device), nodes_(device),
+      branches_(device), sorted_{Buffer(device), Buffer(device)}, digits_(device), keys_(device),
       command_keys_(device), commands_(device), changes_(device),
       horizon_(make_texture(device, GL_TEXTURE_2D)) {
     static_assert(sizeof(Block) == 480 && sizeof(Block) <= kPartBytes);
@@ -199,8 +193,7 @@ Result<void> ForestCulling::reload(const ShaderSource& shaders) {
          {&programs.finish, "culling_finish.comp.glsl", ""},
          {&programs.commands, "culling_commands.comp.glsl", ""}}};
     for (const ProgramSpec& one : wanted) {
-        Result<ProgramObject> made =
-            make_compute_program(*device_, shaders, one.name, one.defines);
+        Result<ProgramObject> made = make_compute_program(*device_, shaders, one.name, one.defines);
         if (!made) {
             return made.error();
         }
@@ -261,16 +254,15 @@ bool ForestCulling::show(const ForestLod& lod, ForestBuffers& buffers) {
     upload_identities(lod);
     tree_capacity_ = 0;
     grow_lists(lod.tree_count());
-    max_branches_ = static_cast<std::uint32_t>(
-        std::min<std::uint64_t>(std::uint64_t{sizes_.max_branches} * tree_capacity_,
-                                BranchPool::kMaxBranches));
+    max_branches_ = static_cast<std::uint32_t>(std::min<std::uint64_t>(
+        std::uint64_t{sizes_.max_branches} * tree_capacity_, BranchPool::kMaxBranches));
     nodes_.allocate(std::size_t{max_branches_} * 4 * sizeof(std::uint32_t));
     branches_.allocate(max_branches_ * sizeof(PoolBranch));
     for (Buffer& sorted : sorted_) {
         sorted.allocate(std::size_t{max_branches_} * 2 * sizeof(std::uint32_t));
     }
-    digits_.allocate((std::size_t{max_branches_} / kSortPart + 1) *
-                     (std::size_t{1} << kDigitBits) * sizeof(std::uint32_t));
+    digits_.allocate((std::size_t{max_branches_} / kSortPart + 1) * (std::size_t{1} << kDigitBits) *
+                     sizeof(std::uint32_t));
     keys_.allocate((std::size_t{sizes_.key_count} + 1) * 2 * sizeof(std::uint32_t));
     sort_passes_ = 1;
     while (sort_passes_ < 4 && sizes_.key_count >> (sort_passes_ * kDigitBits) != 0) {
@@ -318,8 +310,7 @@ void ForestCulling::apply_changes(const ForestLod& lod) {
     }
     changes_.fill(std::span<const std::uint32_t>(words));
     for (const Copy& copy : copies) {
-        glCopyNamedBufferSubData(changes_.name(), copy.to->name(),
-                                 static_cast<GLintptr>(copy.from),
+        glCopyNamedBufferSubData(changes_.name(), copy.to->name(), static_cast<GLintptr>(copy.from),
                                  static_cast<GLintptr>(copy.offset),
                                  static_cast<GLsizeiptr>(copy.bytes));
     }
@@ -345,23 +336,24 @@ void ForestCulling::begin(const ForestLod& lod, const ForestBuffers& buffers, Bl
                       sizeof(block));
     glClearNamedBufferData(state_.name(), GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, nullptr);
     glClearNamedBufferData(keys_.name(), GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, nullptr);
-    const std::array<std::pair<GLuint, GLuint>, 17> bound = {{{kBranches, branches_.name()},
-                                                              {kTrees, buffers.trees()},
-                                                              {kTables, tables_.name()},
-                                                              {kIdentities, identities_.name()},
-                                                              {kCells, cells_.name()},
-                                                              {kState, state_.name()},
-                                                              {kCodes, codes_.name()},
-                                                              {kSums, sums_.name()},
-                                                              {kVisibleCells, visible_cells_.name()},
-                                                              {kEntries, entries_.name()},
-                                                              {kCandidates, candidates_.name()},
-                                                              {kNear, near_.name()},
-                                                              {kNodes, nodes_.name()},
-                                                              {kKeys, keys_.name()},
-                                                              {kDigits, digits_.name()},
-                                                              {kCommandKeys, command_keys_.name()},
-                                                              {kCommands, commands_.name()}}};
+    const std::array<std::pair<GLuint, GLuint>, 17> bound = {
+        {{kBranches, branches_.name()},
+         {kTrees, buffers.trees()},
+         {kTables, tables_.name()},
+         {kIdentities, identities_.name()},
+         {kCells, cells_.name()},
+         {kState, state_.name()},
+         {kCodes, codes_.name()},
+         {kSums, sums_.name()},
+         {kVisibleCells, visible_cells_.name()},
+         {kEntries, entries_.name()},
+         {kCandidates, candidates_.name()},
+         {kNear, near_.name()},
+         {kNodes, nodes_.name()},
+         {kKeys, keys_.name()},
+         {kDigits, digits_.name()},
+         {kCommandKeys, command_keys_.name()},
+         {kCommands, commands_.name()}}};
     for (const auto& [binding, name] : bound) {
         glBindBufferBase(GL_SHADER_STORAGE_BUFFER, binding, name);
     }

@@ -217,8 +217,6 @@ Bounds ForestPass::shadow_bounds(const Frame& frame) const {
 }
 
 void ForestPass::prepare(const Frame& frame) {
-    const Clock::time_point start = Clock::now();
-    const double cpu_start = platform::thread_cpu_seconds();
     frustum_ = make_frustum(frame.camera, frame.width, frame.height);
     LodOptions options;
     options.max_triangles = frame.max_triangles;
@@ -229,6 +227,8 @@ void ForestPass::prepare(const Frame& frame) {
     has_old_clusters_ = has_old_clusters_ && !impostors_.is_done();
     options.cluster_pixels = has_clusters_ && !has_old_clusters_ ? options.cluster_pixels : 0.0F;
     terrain_.prepare(frustum_);
+    const Clock::time_point start = Clock::now();
+    const double cpu_start = platform::thread_cpu_seconds();
     // Wireframes occlude nothing.
     const bool hides = frame.style != PlantStyle::Wireframe;
     if (is_culled_on_device_) {
@@ -326,8 +326,8 @@ void ForestPass::draw_device_impostors(bool clusters, FrameStats& stats) {
 void ForestPass::draw_shadows(const glm::mat4& shadow_from_world, ForestFrameStats& stats) {
     if (is_culled_on_device_) {
         const double cpu_start = platform::thread_cpu_seconds();
-        culling_->select_casters(
-            *lod_, buffers_, casters_of(shadow_from_world, bounds().low.y, bounds().high.y));
+        culling_->select_casters(*lod_, buffers_,
+                                 casters_of(shadow_from_world, bounds().low.y, bounds().high.y));
         cull_cpu_seconds_ += platform::thread_cpu_seconds() - cpu_start;
         buffers_.bind_storage();
         glDisable(GL_CULL_FACE);
@@ -430,8 +430,7 @@ void ForestPass::collect_device_stats(ForestFrameStats& stats) {
     stats.expanded_trees = state->near_totals[1] - state->waiting;
     stats.detail = state->detail;
     stats.branches.triangles = state->triangle_count();
-    stats.impostors.triangles =
-        4 * (state->impostor_count(false) + state->impostor_count(true));
+    stats.impostors.triangles = 4 * (state->impostor_count(false) + state->impostor_count(true));
     stats.device_triangles = stats.branches.triangles + stats.impostors.triangles;
 }
 
