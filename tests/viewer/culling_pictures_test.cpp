@@ -146,8 +146,8 @@ TEST_CASE("picking finds the same part with compute shaders") {
             CHECK(one.value().tree.number == other.value().tree.number);
             CHECK(one.value().instance == other.value().instance);
             CHECK(one.value().trees == other.value().trees);
-            branches += one.value().kind == PickedKind::Branch ? 1 : 0;
-            impostors += one.value().kind == PickedKind::Impostor ? 1 : 0;
+            branches += one.value().kind == PickedKind::Branch ? 1U : 0U;
+            impostors += one.value().kind == PickedKind::Impostor ? 1U : 0U;
         }
     }
     CHECK(branches > 0);

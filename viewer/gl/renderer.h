@@ -73,7 +73,8 @@ struct Frame {
     // Forests only.
     // Max triangles of branches; with more, trees are drawn coarser.
     std::uint64_t max_triangles = 1'500'000;
-    std::uint32_t max_expansions = ~0U; // max trees expanded into branches per picture
+    // Max trees expanded into branches per picture; compute shaders expand all.
+    std::uint32_t max_expansions = ~0U;
 
     friend bool operator==(const Frame&, const Frame&) = default;
 };
