@@ -42,7 +42,7 @@ set(LSYS_LAYERS
   "runtime/python:"
   "packaging/pages: grammar/base grammar/dialects runtime/export runtime/cli runtime/mpi viewer/app"
   "viewer/scene: grammar/base runtime/base runtime/turtle runtime/physics runtime/forest runtime/terrain runtime/scene"
-  "viewer/gl: grammar/base runtime/meshing runtime/physics viewer/scene"
+  "viewer/gl: grammar/base runtime/platform runtime/meshing runtime/physics viewer/scene"
   "viewer/app: grammar/base runtime/platform runtime/base runtime/turtle runtime/meshing runtime/placement runtime/physics runtime/scene runtime/pipeline runtime/program viewer/scene viewer/gl")
 
 # lsys_layer(PATH RESULT): sets RESULT to the innermost folder of the table that contains PATH.

@@ -22,6 +22,13 @@ namespace lsys::view {
 
 namespace {
 
+/// Times of choosing trees, ms, by picture.
+struct CullTimes {
+    std::vector<double> wall;
+    std::vector<double> cpu;
+    std::vector<double> gpu;
+};
+
 nlohmann::ordered_json pass_stats(const FrameStats& pass) {
     nlohmann::ordered_json stats;
     stats["draws"] = pass.draws;
@@ -51,7 +58,7 @@ std::string stats_text(const ViewOptions& options,
                        const ForestDocument& document,
                        const Renderer& renderer,
                        const PictureSeries& series,
-                       const std::vector<double>& cull,
+                       const CullTimes& cull,
                        const FrameStats& shadow,
                        const ForestStreamer* streamer) {
     const ForestFrameStats& frame = renderer.forest_stats();
@@ -59,6 +66,7 @@ std::string stats_text(const ViewOptions& options,
     nlohmann::ordered_json stats;
     stats["file"] = options.file;
     stats["device"] = renderer.device_name();
+    stats["culling"] = frame.is_culled_on_device ? "gpu" : "cpu";
     stats["width"] = options.width;
     stats["height"] = options.height;
     stats["samples"] = options.samples;
@@ -92,6 +100,7 @@ std::string stats_text(const ViewOptions& options,
     nlohmann::ordered_json& bytes = stats["bytes"];
     bytes["trees"] = sizes.tree_bytes;
     bytes["branches"] = sizes.branch_bytes;
+    bytes["culling"] = sizes.culling_bytes;
     bytes["meshes"] = sizes.mesh_bytes;
     bytes["textures"] = sizes.texture_bytes;
     bytes["uploaded"] = renderer.uploaded_bytes();
@@ -107,7 +116,11 @@ std::string stats_text(const ViewOptions& options,
     milliseconds["upload"] = sizes.upload_milliseconds;
     milliseconds["impostors"] = sizes.impostor_milliseconds;
     milliseconds["first_draw"] = series.draw.empty() ? 0.0 : series.draw.front();
-    milliseconds["cull"] = median(cull);
+    milliseconds["cull"] = median(cull.wall);
+    milliseconds["cull_cpu"] = median(cull.cpu);
+    milliseconds["cull_gpu"] = median(cull.gpu);
+    milliseconds["draw_cpu"] = median(series.cpu);
+    milliseconds["draw_gpu"] = median(series.gpu);
     milliseconds["draw"] = median(series.draw);
     milliseconds["fastest_draw"] =
         series.draw.empty() ? 0.0 : *std::min_element(series.draw.begin(), series.draw.end());
@@ -181,12 +194,14 @@ ExitStatus take_forest_pictures(const ViewOptions& options,
         };
     }
     PictureSeries series;
-    std::vector<double> cull;
+    CullTimes cull;
     FrameStats shadow;
     std::uint32_t pictures = 0;
     const auto after = [&](const Frame& shown) {
         const ForestFrameStats& drawn = renderer.forest_stats();
-        cull.push_back(drawn.cull_milliseconds);
+        cull.wall.push_back(drawn.cull_milliseconds);
+        cull.cpu.push_back(drawn.cull_cpu_milliseconds);
+        cull.gpu.push_back(drawn.cull_gpu_milliseconds);
         shadow.draws += drawn.shadow.draws;
         shadow.triangles += drawn.shadow.triangles;
         ++pictures;

@@ -49,6 +49,7 @@ ExitStatus make_renderer(const ViewOptions& options, const Console& console, Hid
         return report_error(renderer.error(), console);
     }
     made.renderer = std::move(renderer.value());
+    made.renderer->set_culling(options.culling);
     console.detail(fmt::format("drawing by {}: {}", made.context->description(),
                                made.renderer->device_name()));
     return ExitStatus::Ok;

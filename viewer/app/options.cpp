@@ -201,6 +201,13 @@ void add_picture(CLI::App& app, ViewOptions& options) {
            "MiB (default 128)")
         ->type_name("MIB")
         ->group("Picture");
+    add_choice<Culling>(
+        app, "--culling", options.culling,
+        {{"auto", Culling::Auto}, {"cpu", Culling::Cpu}, {"gpu", Culling::Gpu}},
+        "Where the trees of a picture of a forest are chosen: on the processor, or by compute "
+        "shaders; the pictures are the same (default auto: gpu with a graphics card, cpu with a "
+        "software renderer)")
+        ->group("Picture");
     app.add_option("--shaders", options.shaders,
                    "Read shaders from this folder instead of the built-in ones")
         ->type_name("FOLDER")

@@ -63,6 +63,15 @@ void draw_plant_times(const PlantView& view) {
     count_row("Triangles", stats.drawn.triangles);
 }
 
+/// Where trees are chosen, and the times for it.
+void draw_culling(const ForestFrameStats& frame) {
+    line(frame.is_culled_on_device ? "Culling: GPU" : "Culling: CPU");
+    time_row("  CPU", 1e-3 * frame.cull_cpu_milliseconds);
+    if (frame.is_culled_on_device) {
+        time_row("  GPU", 1e-3 * frame.cull_gpu_milliseconds);
+    }
+}
+
 void draw_forest_times(const ForestView& view) {
     const ForestViewStats& stats = view.stats();
     if (const ForestDocument* const document = view.document()) {
@@ -82,12 +91,13 @@ void draw_forest_times(const ForestView& view) {
         count_row("Impostors", frame.far_trees);
         count_row("Clusters", frame.clusters);
         count_row("  trees", frame.clustered_trees);
+        draw_culling(frame);
         if (!view.has_impostors()) {
             line("Baking impostors");
         }
     }
     count_row("Draw calls", stats.drawn.draws);
-    count_row("Triangles", stats.drawn.triangles);
+    count_row("Triangles", stats.drawn.triangles + view.renderer().forest_stats().device_triangles);
 }
 
 void draw_statistics(ViewSwitcher& switcher, const Area& area) {
@@ -100,6 +110,8 @@ void draw_statistics(ViewSwitcher& switcher, const Area& area) {
             draw_plant_times(*plant);
         }
         const Renderer& renderer = switcher.current().renderer();
+        time_row("Frame CPU", 1e-3 * renderer.frame_times().cpu);
+        time_row("Frame GPU", 1e-3 * renderer.frame_times().gpu);
         count_row("GL objects", renderer.live_objects());
         count_row("GL errors", renderer.errors().size());
     }

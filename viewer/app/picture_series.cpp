@@ -44,6 +44,7 @@ draw_picture(const Frame& frame, Renderer& renderer, FrameStats& stats, double& 
         const Clock::time_point start = Clock::now();
         renderer.read(stripe);
         read_milliseconds += milliseconds_since(start);
+        stats.triangles += renderer.forest_stats().device_triangles;
         if (height == frame.height) {
             picture.texels = std::move(stripe);
         } else {
@@ -121,6 +122,8 @@ ExitStatus take_series(const ViewOptions& options,
         const Texture picture = draw_picture(frame, renderer, series.drawn, read_milliseconds);
         series.draw.push_back(milliseconds_since(start));
         series.read.push_back(read_milliseconds);
+        series.cpu.push_back(renderer.frame_times().cpu);
+        series.gpu.push_back(renderer.frame_times().gpu);
         start = Clock::now();
         series.digest = golden_multiple(series.digest) + fnv1a(picture.texels);
         const std::string bytes = encode_png(picture);

@@ -19,6 +19,8 @@ struct PictureSeries {
     std::vector<double> prepare; // work of the caller before drawing
     std::vector<double> draw;
     std::vector<double> read; // read-back from the GPU
+    std::vector<double> cpu;  // processor time of the drawing thread
+    std::vector<double> gpu;  // by timer queries
     std::vector<double> write;
     FrameStats drawn;         // of the last picture
     std::uint64_t digest = 0; // equal for runs with the same pictures

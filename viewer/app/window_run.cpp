@@ -142,6 +142,7 @@ ExitStatus run_window(const ViewOptions& options, const Console& console) {
     if (!renderer) {
         return report_error(renderer.error(), console);
     }
+    renderer.value()->set_culling(options.culling);
     console.detail(fmt::format("drawing by a window: {}", renderer.value()->device_name()));
     ViewSwitcher switcher(options, console, *renderer.value(),
                           [made = window.value().get()] { made->wake(); });

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "viewer/gl/renderer.h"
 
+#include "runtime/platform/cpu_time.h"
+#include "viewer/gl/impl/forest_culling.h"
 #include "viewer/gl/impl/forest_pass.h"
 #include "viewer/gl/impl/frame_block.h"
+#include "viewer/gl/impl/gpu_timer.h"
 #include "viewer/gl/impl/line_set.h"
 #include "viewer/gl/impl/material_textures.h"
 #include "viewer/gl/impl/pick_target.h"
@@ -11,9 +14,13 @@
 #include "viewer/gl/impl/render_target.h"
 #include "viewer/gl/impl/shadow_map.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <span>
+#include <string>
 #include <utility>
 
 namespace lsys::view {
@@ -87,8 +94,9 @@ bool overlaps(const Bounds& a, const Bounds& b) {
 class GlRenderer final : public Renderer {
 public:
     GlRenderer()
-        : target_(device_), shadow_(device_, kShadowTexels), textures_(device_), plant_(device_),
-          lines_(device_), forest_(device_), frame_(device_), empty_(make_vertex_array(device_)) {}
+        : timer_(device_), target_(device_), shadow_(device_, kShadowTexels), textures_(device_),
+          plant_(device_), lines_(device_), forest_(device_), frame_(device_),
+          empty_(make_vertex_array(device_)) {}
 
     void show_plant(const Mesh& mesh) override {
         plant_.upload(mesh, textures_);
@@ -102,11 +110,15 @@ public:
             }
             has_forest_shaders_ = true;
         }
+        if (Result<void> done = choose_culling(); !done) {
+            return done;
+        }
         forest_.show(std::move(model), textures_);
         shadow_.invalidate();
         is_forest_ = true;
         return {};
     }
+    void set_culling(Culling culling) override { culling_ = culling; }
     void show_trees() override {
         if (is_forest_) {
             forest_.show_trees();
@@ -159,6 +171,8 @@ public:
     }
 
     FrameStats draw(const Frame& world_frame, const PixelArea& area) override {
+        const double cpu_start = platform::thread_cpu_seconds();
+        timer_.begin();
         FrameStats stats;
         forest_stats_ = {};
         const Frame frame = localised(world_frame);
@@ -215,6 +229,9 @@ public:
             stats.draws += pass->draws;
             stats.triangles += pass->triangles;
         }
+        timer_.end();
+        collect_device_stats();
+        times_.cpu = 1e3 * (platform::thread_cpu_seconds() - cpu_start);
         return stats;
     }
     Result<Picked> pick(const Frame& world_frame, std::uint32_t x, std::uint32_t y) override {
@@ -267,7 +284,11 @@ public:
     ForestSizes forest_sizes() const override {
         return is_forest_ ? forest_.sizes() : ForestSizes{};
     }
-    void read(std::vector<std::uint8_t>& pixels) override { target_.read(pixels); }
+    FrameTimes frame_times() const override { return times_; }
+    void read(std::vector<std::uint8_t>& pixels) override {
+        target_.read(pixels);
+        collect_device_stats();
+    }
     void present(const PixelArea& area) override { target_.present(area); }
 
     std::string device_name() const override { return device_.renderer(); }
@@ -289,6 +310,26 @@ private:
             shadow_.invalidate();
         }
         return local;
+    }
+
+    /// Decides where the trees of the next forest are chosen.
+    Result<void> choose_culling() {
+        if (culling_ == Culling::Cpu || (culling_ == Culling::Auto && device_.is_software())) {
+            return forest_.cull_on_device(false, shaders_);
+        }
+        if (const std::optional<std::string> lacking = lacking_for_culling(culling_limits())) {
+            return culling_ == Culling::Auto ? forest_.cull_on_device(false, shaders_)
+                                             : Error{fmt::format("--culling gpu: {} has {}",
+                                                                 device_.renderer(), *lacking)};
+        }
+        Result<void> done = forest_.cull_on_device(true, shaders_);
+        return done || culling_ == Culling::Gpu ? done : forest_.cull_on_device(false, shaders_);
+    }
+    void collect_device_stats() {
+        times_.gpu = timer_.milliseconds();
+        if (is_forest_) {
+            forest_.collect_device_stats(forest_stats_);
+        }
     }
 
     void draw_shadows(const glm::mat4& matrix, FrameStats& stats) {
@@ -354,6 +395,9 @@ private:
     Device device_; // first member: must outlive the members below
     Programs programs_;
     ProgramObject pick_plant_; // compiled on first use
+    GpuTimer timer_;
+    FrameTimes times_;
+    Culling culling_ = Culling::Auto;
     RenderTarget target_;
     ShadowMap shadow_;
     MaterialTextures textures_;

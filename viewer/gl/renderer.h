@@ -75,7 +75,8 @@ struct Frame {
     // Forests only.
     // Max triangles of branches; with more, trees are drawn coarser.
     std::uint64_t max_triangles = 1'500'000;
-    std::uint32_t max_expansions = ~0U; // max trees expanded into branches per picture
+    // Max trees expanded into branches per picture; compute shaders expand all.
+    std::uint32_t max_expansions = ~0U;
     /// WantedSquares::range of a streamed forest, m; other forests show all their trees.
     float tree_range = std::numeric_limits<float>::infinity();
 
@@ -88,6 +89,19 @@ struct Frame {
 struct FrameStats {
     std::uint64_t draws = 0;
     std::uint64_t triangles = 0;
+};
+
+/// Device that chooses the trees and branches of a picture of a forest; the pictures are the same.
+enum class Culling : std::uint8_t {
+    Auto, // Gpu if a hardware renderer has the needed limits, else Cpu
+    Cpu,
+    Gpu,
+};
+
+/// Times of the last picture, ms.
+struct FrameTimes {
+    double cpu = 0.0; // processor time of the thread that called draw()
+    double gpu = 0.0; // by timer queries; of an earlier picture while the device draws the last one
 };
 
 /// Statistics of the last picture of a forest.
@@ -106,7 +120,14 @@ struct ForestFrameStats {
     FrameStats impostors;
     FrameStats terrain;
     FrameStats shadow;
-    double cull_milliseconds = 0.0; // includes expansion of trees
+    double cull_milliseconds = 0.0;     // includes expansion of trees
+    double cull_cpu_milliseconds = 0.0; // processor time of the thread, without waiting
+    // With compute shaders, counts above, except of draws, are those of the last picture that the
+    // device has finished: this one after read(), an earlier one before.
+    bool is_culled_on_device = false;
+    double cull_gpu_milliseconds = 0.0;
+    /// Triangles that draw() does not return, because only the device knows them.
+    std::uint64_t device_triangles = 0;
 };
 
 /// Sizes of the forest in use.
@@ -114,6 +135,7 @@ struct ForestSizes {
     std::uint64_t trees = 0;
     std::uint64_t tree_bytes = 0;
     std::uint64_t branch_bytes = 0;
+    std::uint64_t culling_bytes = 0; // of the compute shaders; includes their branches
     std::uint64_t mesh_bytes = 0;
     std::uint64_t texture_bytes = 0;
     double upload_milliseconds = 0.0;
@@ -152,9 +174,12 @@ public:
     virtual void show_plant(const Mesh& mesh) = 0;
     /// Replaces the lines drawn over everything.
     virtual void show_lines(std::span<const LineVertex> lines) = 0;
+    /// Sets where the trees of later forests are chosen; Auto at first.
+    virtual void set_culling(Culling culling) = 0;
     /// Shows a forest in place of the plant or forest before. Forest and terrain of the model must
     /// live as long as it is shown. Impostors of the previous forest are drawn until
-    /// bake_impostors() has made new ones. Error: a shader does not compile.
+    /// bake_impostors() has made new ones. Error: a shader does not compile, or the device cannot do
+    /// what set_culling() wants.
     [[nodiscard]] virtual Result<void> show_forest(ForestModel model) = 0;
     /// Updates the trees of the forest shown after a change; its other parts must be unchanged.
     virtual void show_trees() = 0;
@@ -184,6 +209,7 @@ public:
     /// Statistics of the last draw(); empty without a forest.
     [[nodiscard]] virtual const ForestFrameStats& forest_stats() const = 0;
     [[nodiscard]] virtual ForestSizes forest_sizes() const = 0;
+    [[nodiscard]] virtual FrameTimes frame_times() const = 0;
     /// Rows of the last picture from top to bottom, RGBA.
     virtual void read(std::vector<std::uint8_t>& pixels) = 0;
     /// Copies the last picture to a part of the window whose context is current.

@@ -49,6 +49,8 @@ public:
         return slot < added_.size() && !added_[slot].lod_tree.is_removed();
     }
 
+    /// Count of slots, also of removed trees.
+    [[nodiscard]] std::uint32_t size() const { return static_cast<std::uint32_t>(added_.size()); }
     [[nodiscard]] const LodTree& at(std::uint32_t slot) const { return added_[slot].lod_tree; }
     [[nodiscard]] const Tree& tree(std::uint32_t slot) const { return added_[slot].tree; }
 

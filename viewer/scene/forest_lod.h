@@ -215,6 +215,12 @@ public:
     [[nodiscard]] std::uint64_t alive_count() const { return alive_count_; }
     [[nodiscard]] std::span<const ForestCell> cells() const { return cells_; }
     [[nodiscard]] const Bounds& bounds() const { return bounds_; }
+    /// Cell of a tree of the forest, not of an added one. Precondition: there are cells.
+    [[nodiscard]] std::uint32_t cell_number(const glm::vec3& place) const {
+        return static_cast<std::uint32_t>(cell_of(place));
+    }
+    /// Count of the trees of the forest and of added trees, removed ones included.
+    [[nodiscard]] std::uint32_t tree_count() const { return first_added() + added_.size(); }
     [[nodiscard]] double cell_size() const { return cell_size_; } // m
     [[nodiscard]] BranchPool& pool() { return pool_; }
     [[nodiscard]] const BranchPool& pool() const { return pool_; }

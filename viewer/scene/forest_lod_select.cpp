@@ -247,14 +247,14 @@ std::uint32_t ForestLod::level_of(float pixels, const LodOptions& options) {
 
 float ForestLod::detail_in_budget(const LodOptions& options) const {
     const auto fits = [&](float detail) {
-        double triangles = 0.0;
+        std::uint64_t triangles = 0;
         for (const Candidate& candidate : candidates_) {
             const std::uint32_t level = level_of(candidate.pixels * detail, options);
             if (level < kTreeLevels) {
-                triangles += model_.forms[lod_tree(candidate.tree).form].triangles[level];
+                triangles += model_.forms[lod_tree(candidate.tree).form].triangle_count(level);
             }
         }
-        return triangles <= static_cast<double>(options.max_triangles);
+        return triangles <= options.max_triangles;
     };
     if (fits(1.0F)) {
         return 1.0F;

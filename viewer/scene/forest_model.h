@@ -8,6 +8,7 @@
 #include "runtime/terrain/terrain.h"
 
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -49,6 +50,10 @@ struct TreeForm {
     std::vector<std::uint32_t> impostor_of; // impostor by instance of a whole plant; 0 for others
 
     [[nodiscard]] float height() const { return high - low; }
+    /// triangles[level], rounded: sums over trees do not depend on their order.
+    [[nodiscard]] std::uint32_t triangle_count(std::uint32_t level) const {
+        return static_cast<std::uint32_t>(std::lround(triangles[level]));
+    }
 };
 
 struct StreamedTrees;

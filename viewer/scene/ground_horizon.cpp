@@ -27,12 +27,29 @@ float steps_to(float distance) {
 
 } // namespace
 
+std::uint32_t GroundHorizon::distance_count(const TerrainLod& ground) {
+    return static_cast<std::uint32_t>(steps_to(TerrainLod::range(ground.levels() - 1)));
+}
+
+std::vector<float> GroundHorizon::rays() {
+    std::vector<float> rays;
+    float distance = kFirst;
+    for (std::uint32_t i = 0; i < kMaxDistances; ++i, distance *= kRatio) {
+        rays.push_back(distance);
+    }
+    for (std::uint32_t i = 0; i <= kDirections; ++i) {
+        const float angle = kTurn / kDirections * static_cast<float>(i);
+        rays.push_back(std::sin(angle));
+        rays.push_back(std::cos(angle));
+    }
+    return rays;
+}
+
 void GroundHorizon::set_viewpoint(const TerrainLod& ground, const glm::vec3& eye) {
     // Seen from below, the ground is invisible and occludes nothing.
     ground_ = ground.eye_height() > 0.0F ? &ground : nullptr;
     eye_ = eye;
-    const float reach = TerrainLod::range(ground.levels() - 1);
-    steps_ = static_cast<std::uint32_t>(steps_to(reach));
+    steps_ = distance_count(ground);
     for (Sector& sector : sectors_) {
         sector.known = false;
     }

@@ -20,9 +20,16 @@ public:
     /// Whether the ground occludes a whole box, m.
     [[nodiscard]] bool occludes(const glm::vec3& low, const glm::vec3& high);
 
-private:
+    /// Directions around the eye, and max distances; also in shaders/culling_horizon*.glsl.
     static constexpr std::uint32_t kDirections = 512;
+    static constexpr std::uint32_t kMaxDistances = 256;
+    /// Count of distances up to the range of the drawn ground.
+    [[nodiscard]] static std::uint32_t distance_count(const TerrainLod& ground);
+    /// kMaxDistances distances, m, then sine and cosine of the kDirections + 1 angles that bound
+    /// the directions.
+    [[nodiscard]] static std::vector<float> rays();
 
+private:
     /// Steepest slope (rise / distance) of the ground between two directions, up to each distance:
     /// the ground occludes everything behind it below that slope.
     struct Sector {

@@ -25,6 +25,9 @@ public:
     /// Bytes sent to buffers and textures since the start.
     [[nodiscard]] std::uint64_t uploaded_bytes() const { return uploaded_; }
 
+    /// Whether the processor draws, as llvmpipe does.
+    [[nodiscard]] bool is_software() const { return is_software_; }
+
     void add_object() { ++live_; }
     void remove_object() { --live_; }
     void add_upload(std::uint64_t bytes) { uploaded_ += bytes; }

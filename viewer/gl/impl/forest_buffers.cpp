@@ -468,21 +468,58 @@ void ForestBuffers::upload_commands(const DrawLists& lists) {
     }
 }
 
-std::uint64_t ForestBuffers::draw(const Commands& commands) const {
-    if (commands.count == 0) {
+CommandTemplates
+ForestBuffers::command_templates(const std::vector<std::uint32_t>& first_keys) const {
+    CommandTemplates templates;
+    for (std::size_t kind = 0; kind < class_count(); ++kind) {
+        for (const bool blends : {false, true}) {
+            CommandRange& range = templates.ranges.emplace_back();
+            range.first = static_cast<std::uint32_t>(templates.commands.size());
+            // Finer levels first, as ForestLod::list_runs().
+            for (std::uint32_t group = blends ? kTreeLevels : 0;
+                 group < (blends ? kTreeLevels + 1 : kTreeLevels); ++group) {
+                for (std::size_t f = 0; f < form_levels_.size(); ++f) {
+                    const FormLevel& level = form_levels_[f][std::min(group, kTreeLevels - 1)];
+                    const auto instances =
+                        static_cast<std::uint32_t>(level.ranges.size() / class_count());
+                    for (std::uint32_t i = 0; i < instances; ++i) {
+                        const IndexRange& indices = level.ranges[i * class_count() + kind];
+                        if (indices.count != 0) {
+                            templates.commands.push_back(
+                                {indices.count, 0, indices.first, level.base_vertex, 0});
+                            templates.keys.push_back(first_keys[f] + group * instances + i);
+                        }
+                    }
+                }
+            }
+            range.count = static_cast<std::uint32_t>(templates.commands.size()) - range.first;
+        }
+    }
+    return templates;
+}
+
+std::uint64_t ForestBuffers::draw(std::size_t kind, bool blends) const {
+    GLuint buffer = commands_of(kind, blends).buffer.name();
+    CommandRange range{0, commands_of(kind, blends).count};
+    if (uses_device_draws()) {
+        buffer = device_draws_->commands;
+        range = device_draws_->ranges[command_index(kind, blends)];
+    }
+    if (range.count == 0) {
         return 0;
     }
     glBindVertexArray(array_.name());
-    glBindBuffer(GL_DRAW_INDIRECT_BUFFER, commands.buffer.name());
-    glMultiDrawElementsIndirect(GL_TRIANGLES, GL_UNSIGNED_INT, nullptr,
-                                static_cast<GLsizei>(commands.count), sizeof(DrawCommand));
+    glBindBuffer(GL_DRAW_INDIRECT_BUFFER, buffer);
+    glMultiDrawElementsIndirect(GL_TRIANGLES, GL_UNSIGNED_INT,
+                                reinterpret_cast<const void*>(range.first * sizeof(DrawCommand)),
+                                static_cast<GLsizei>(range.count), sizeof(DrawCommand));
     glBindBuffer(GL_DRAW_INDIRECT_BUFFER, 0);
     return 1;
 }
 
 std::uint64_t ForestBuffers::draw(BranchClass kind, bool blends) const {
     (kind == BranchClass::OneSided ? glEnable : glDisable)(GL_CULL_FACE);
-    return draw(commands_of(static_cast<std::size_t>(kind), blends));
+    return draw(static_cast<std::size_t>(kind), blends);
 }
 
 std::uint64_t ForestBuffers::draw_pictures(GLuint solid, GLuint cut_out, bool blends) const {
@@ -498,13 +535,20 @@ std::uint64_t ForestBuffers::draw_pictures(GLuint solid, GLuint cut_out, bool bl
             glBindTextureUnit(kNormalMapTexture, picture.normal_map.name());
         }
         glDisable(GL_CULL_FACE); // meshes of files have two sides
-        draws += draw(commands_of(kBranchClasses + i, blends));
+        draws += draw(kBranchClasses + i, blends);
     }
     return draws;
 }
 
 void ForestBuffers::bind_storage() const {
-    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, kBranches, current_->branches.name());
+    GLuint branches = current_->branches.name();
+    if (uses_device_draws()) {
+        branches = device_draws_->branches;
+        constexpr GLsizei kPair = 2 * sizeof(std::uint32_t);
+        glVertexArrayVertexBuffer(array_.name(), 1, device_draws_->list, sizeof(std::uint32_t),
+                                  kPair);
+    }
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, kBranches, branches);
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, kTrees, current_->trees.name());
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, kForms, forms_.name());
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, kMaterials, materials_.name());

@@ -42,6 +42,27 @@ struct DrawCommand { // layout of glMultiDrawElementsIndirect
 };
 static_assert(sizeof(DrawCommand) == 20);
 
+/// Commands of a draw class in a common buffer.
+struct CommandRange {
+    std::uint32_t first = 0;
+    std::uint32_t count = 0;
+};
+
+/// Commands of all branches that a picture may draw, without counts of instances.
+struct CommandTemplates {
+    std::vector<DrawCommand> commands;
+    std::vector<std::uint32_t> keys;  // by command; see CullingTables
+    std::vector<CommandRange> ranges; // by ForestBuffers::command_index()
+};
+
+/// Buffers that compute shaders have written, for the draws of a forest.
+struct DeviceDraws {
+    GLuint branches = 0; // PoolBranch
+    GLuint list = 0;     // pairs of a key and a BranchEntry
+    GLuint commands = 0;
+    std::vector<CommandRange> ranges; // as CommandTemplates::ranges
+};
+
 class ForestBuffers {
 public:
     explicit ForestBuffers(Device& device);
@@ -71,6 +92,13 @@ public:
     void set_branches(std::span<const PoolBranch> branches);
     /// Uploads the lists of branches and the draw commands of each class.
     void upload_commands(const DrawLists& lists);
+    /// `first_keys`: by form, of CullingTables.
+    [[nodiscard]] CommandTemplates
+    command_templates(const std::vector<std::uint32_t>& first_keys) const;
+    /// Draws forests with these commands instead of uploaded ones, until they are null.
+    void use_device_draws(const DeviceDraws* draws) { device_draws_ = draws; }
+    /// Buffer of the records of trees.
+    [[nodiscard]] GLuint trees() const { return forest_.trees.name(); }
 
     /// Draws a class with the bound program of branch.*.glsl; returns the count of draw calls.
     /// `blends`: runs of blended trees; the program needs BLENDS.
@@ -137,7 +165,10 @@ private:
     [[nodiscard]] const Commands& commands_of(std::size_t kind, bool blends) const {
         return current_->commands[command_index(kind, blends)];
     }
-    std::uint64_t draw(const Commands& commands) const;
+    std::uint64_t draw(std::size_t kind, bool blends) const;
+    [[nodiscard]] bool uses_device_draws() const {
+        return device_draws_ != nullptr && current_ == &forest_;
+    }
     void upload_clusters(const ForestLod& lod);
 
     VertexArray array_;
@@ -156,6 +187,7 @@ private:
     std::vector<std::array<FormLevel, kTreeLevels>> form_levels_;
     std::vector<BranchPicture> pictures_;
     Device* device_;
+    const DeviceDraws* device_draws_ = nullptr;
     std::uint64_t mesh_bytes_ = 0;
     std::uint64_t texture_bytes_ = 0;
 };

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "viewer/gl/impl/forest_pass.h"
 
+#include "runtime/platform/cpu_time.h"
 #include "viewer/gl/impl/program.h"
 
 #include <glm/common.hpp>
@@ -92,6 +93,11 @@ Result<void> ForestPass::reload(const ShaderSource& shaders) {
     if (Result<void> done = terrain_.reload(shaders); !done) {
         return done;
     }
+    if (culling_ != nullptr) {
+        if (Result<void> done = culling_->reload(shaders); !done) {
+            return done;
+        }
+    }
     programs_ = std::move(programs);
     pick_programs_.reset();
     return {};
@@ -110,6 +116,7 @@ void ForestPass::show(ForestModel model, const MaterialTextures& textures) {
     buffers_.set_colours(model_, colours_);
     impostors_.begin(model_, std::move(plan), buffers_);
     buffers_.upload_trees(*lod_);
+    show_on_device();
     const Region& region = model_.terrain->region();
     const float whole = static_cast<float>(std::hypot(region.width, region.depth)) + kGroundBeyond;
     const StreamedTrees* const streamed = model_.streamed.get();
@@ -137,6 +144,25 @@ void ForestPass::show_trees() {
     buffers_.upload_forms(model_, plan);
     impostors_.begin(model_, std::move(plan), buffers_);
     buffers_.upload_trees(*lod_);
+    show_on_device();
+}
+
+Result<void> ForestPass::cull_on_device(bool on_device, const ShaderSource& shaders) {
+    if (on_device && culling_ == nullptr) {
+        auto culling = std::make_unique<ForestCulling>(*device_);
+        if (Result<void> done = culling->reload(shaders); !done) {
+            return done;
+        }
+        culling_ = std::move(culling);
+    }
+    culls_on_device_ = on_device;
+    return {};
+}
+
+void ForestPass::show_on_device() {
+    is_culled_on_device_ =
+        culls_on_device_ && model_.streamed == nullptr && culling_->show(*lod_, buffers_);
+    buffers_.use_device_draws(is_culled_on_device_ ? &culling_->draws() : nullptr);
 }
 
 bool ForestPass::bake_impostors(double seconds, MaterialTextures& textures) {
@@ -158,6 +184,9 @@ void ForestPass::change_tree(std::uint32_t index, const Tree& tree, bool alive) 
     const std::uint32_t number = lod_->change_tree(index, tree, alive);
     if (alive && number >= lod_->trees().size()) {
         buffers_.upload_tree(*lod_, number);
+    }
+    if (is_culled_on_device_) {
+        culling_->change_tree(number);
     }
 }
 
@@ -249,7 +278,6 @@ Bounds ForestPass::shadow_bounds(const Frame& frame) {
 }
 
 void ForestPass::prepare(const Frame& frame) {
-    const Clock::time_point start = Clock::now();
     frustum_ = make_frustum(frame.camera, frame.width, frame.height);
     LodOptions options;
     options.max_triangles = frame.max_triangles;
@@ -261,16 +289,33 @@ void ForestPass::prepare(const Frame& frame) {
     has_old_clusters_ = has_old_clusters_ && !impostors_.is_done();
     options.cluster_pixels = has_clusters_ && !has_old_clusters_ ? options.cluster_pixels : 0.0F;
     terrain_.prepare(frustum_, frame.tree_range);
+    const Clock::time_point start = Clock::now();
+    const double cpu_start = platform::thread_cpu_seconds();
     // Wireframes occlude nothing.
     const bool hides = frame.style != PlantStyle::Wireframe;
+    if (is_culled_on_device_) {
+        view_ = {frustum_, options, hides ? terrain_.lod() : nullptr, terrain_.heights()};
+        cull_seconds_ = seconds_since(start);
+        cull_cpu_seconds_ = platform::thread_cpu_seconds() - cpu_start;
+        return;
+    }
     horizon_.set_viewpoint(*terrain_.lod(), frustum_.eye);
     lists_ = &lod_->select(frustum_, options, hides ? &horizon_ : nullptr);
     cull_seconds_ = seconds_since(start);
+    cull_cpu_seconds_ = platform::thread_cpu_seconds() - cpu_start;
     if (model_.streamed != nullptr) {
         buffers_.upload_changed_trees(*lod_, lod_->take_changed_trees());
     }
     buffers_.upload_branches(lod_->pool());
     buffers_.upload_commands(*lists_);
+}
+
+void ForestPass::select_on_device() {
+    const Clock::time_point start = Clock::now();
+    const double cpu_start = platform::thread_cpu_seconds();
+    culling_->select(*lod_, buffers_, view_);
+    cull_seconds_ += seconds_since(start);
+    cull_cpu_seconds_ += platform::thread_cpu_seconds() - cpu_start;
 }
 
 void ForestPass::draw_impostors(std::span<const ImpostorEntry> trees, FrameStats& stats) {
@@ -301,18 +346,59 @@ ForestPass::draw_quads(const ProgramObject& program, std::size_t first, std::siz
     if (count == 0) {
         return 0;
     }
-    glVertexArrayVertexBuffer(quads_.name(), 0, quad_trees_.name(), 0, sizeof(ImpostorEntry));
-    glUseProgram(program.name());
-    glBindTextureUnit(kAlbedos, impostors_.albedos());
-    glBindTextureUnit(kNormals, impostors_.normals());
-    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, kBoxes, impostors_.boxes());
-    glBindVertexArray(quads_.name());
+    bind_quads(program, quad_trees_.name());
     glDrawArraysInstancedBaseInstance(GL_TRIANGLE_STRIP, 0, 4, static_cast<GLsizei>(count),
                                       static_cast<GLuint>(first));
     return 1;
 }
 
+void ForestPass::bind_quads(const ProgramObject& program, GLuint entries) {
+    glVertexArrayVertexBuffer(quads_.name(), 0, entries, 0, sizeof(ImpostorEntry));
+    glUseProgram(program.name());
+    glBindTextureUnit(kAlbedos, impostors_.albedos());
+    glBindTextureUnit(kNormals, impostors_.normals());
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, kBoxes, impostors_.boxes());
+    glBindVertexArray(quads_.name());
+}
+
+std::uint64_t ForestPass::draw_device_quads(const ProgramObject& program,
+                                            bool clusters,
+                                            std::uint32_t first,
+                                            std::uint32_t count) {
+    constexpr std::size_t kCommand = 4 * sizeof(std::uint32_t);
+    bind_quads(program, culling_->entries(clusters));
+    glBindBuffer(GL_DRAW_INDIRECT_BUFFER, culling_->impostor_commands());
+    const std::size_t offset = ForestCulling::impostor_command(clusters) + first * kCommand;
+    glMultiDrawArraysIndirect(GL_TRIANGLE_STRIP, reinterpret_cast<const void*>(offset),
+                              static_cast<GLsizei>(count), kCommand);
+    glBindBuffer(GL_DRAW_INDIRECT_BUFFER, 0);
+    return 1;
+}
+
+void ForestPass::draw_device_impostors(bool clusters, FrameStats& stats) {
+    // As draw_impostors().
+    glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
+    stats.draws += draw_device_quads(programs().impostor_depth, clusters, 0, 1);
+    stats.draws += draw_device_quads(programs().blending_impostor_depth, clusters, 1, 1);
+    glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+    glDepthFunc(GL_EQUAL);
+    glDepthMask(GL_FALSE);
+    stats.draws += draw_device_quads(programs().impostor, clusters, 0, 2);
+    glDepthMask(GL_TRUE);
+    glDepthFunc(GL_GEQUAL);
+}
+
 void ForestPass::draw_shadows(const glm::mat4& shadow_from_world, ForestFrameStats& stats) {
+    if (is_culled_on_device_) {
+        const double cpu_start = platform::thread_cpu_seconds();
+        culling_->select_casters(*lod_, buffers_,
+                                 casters_of(shadow_from_world, bounds().low.y, bounds().high.y));
+        cull_cpu_seconds_ += platform::thread_cpu_seconds() - cpu_start;
+        buffers_.bind_storage();
+        glDisable(GL_CULL_FACE);
+        stats.shadow.draws += draw_device_quads(programs().impostor_shadow, false, 0, 1);
+        return;
+    }
     std::vector<std::uint32_t> numbers;
     lod_->find_within(casters_of(shadow_from_world, caster_altitudes_[0], caster_altitudes_[1]),
                       numbers);
@@ -342,6 +428,9 @@ void ForestPass::draw_branches(const BranchPrograms& programs, bool blends, Fram
 }
 
 void ForestPass::draw(MaterialTextures& textures, ForestFrameStats& stats) {
+    if (is_culled_on_device_) {
+        select_on_device();
+    }
     buffers_.bind_storage();
     for (const bool blends : {false, true}) {
         glBindTextureUnit(kBarkTexture, textures.base(MaterialKind::Bark));
@@ -351,28 +440,64 @@ void ForestPass::draw(MaterialTextures& textures, ForestFrameStats& stats) {
                       stats.branches);
     }
     device_->end_pass();
-    stats.branches.triangles += lists_->triangles;
     glDisable(GL_CULL_FACE);
-    draw_impostors(lists_->trees, stats.impostors);
-    if (!lists_->clusters.empty()) {
+    if (is_culled_on_device_) {
+        draw_device_impostors(false, stats.impostors);
         buffers_.bind_clusters();
-        draw_impostors(lists_->clusters, stats.impostors);
+        draw_device_impostors(true, stats.impostors);
         buffers_.bind_storage();
+    } else {
+        draw_impostors(lists_->trees, stats.impostors);
+        if (!lists_->clusters.empty()) {
+            buffers_.bind_clusters();
+            draw_impostors(lists_->clusters, stats.impostors);
+            buffers_.bind_storage();
+        }
+        set_stats(*lists_, stats);
     }
     const FrameStats ground = terrain_.draw();
     stats.terrain.draws += ground.draws;
     stats.terrain.triangles += ground.triangles;
-    stats.trees_of_level = lists_->trees_of_level;
-    stats.far_trees = lists_->far_trees;
-    stats.blended_trees = lists_->blended;
-    stats.occluded_trees = lists_->occluded;
-    stats.clustered_trees = lists_->clustered_trees;
-    stats.clusters = lists_->clusters.size();
-    stats.drawn_branches = lists_->branches.size();
-    stats.expanded_trees = lists_->expanded;
-    stats.waiting_trees = lists_->waiting;
-    stats.detail = lists_->detail;
+    stats.is_culled_on_device = is_culled_on_device_;
     stats.cull_milliseconds = 1e3 * cull_seconds_;
+    stats.cull_cpu_milliseconds = 1e3 * cull_cpu_seconds_;
+}
+
+void ForestPass::set_stats(const DrawLists& lists, ForestFrameStats& stats) const {
+    stats.branches.triangles += lists.triangles;
+    stats.trees_of_level = lists.trees_of_level;
+    stats.far_trees = lists.far_trees;
+    stats.blended_trees = lists.blended;
+    stats.occluded_trees = lists.occluded;
+    stats.clustered_trees = lists.clustered_trees;
+    stats.clusters = lists.clusters.size();
+    stats.drawn_branches = lists.branches.size();
+    stats.expanded_trees = lists.expanded;
+    stats.waiting_trees = lists.waiting;
+    stats.detail = lists.detail;
+}
+
+void ForestPass::collect_device_stats(ForestFrameStats& stats) {
+    if (!is_culled_on_device_) {
+        return;
+    }
+    stats.cull_gpu_milliseconds = culling_->gpu_milliseconds();
+    const CullingState* const state = culling_->finished_state();
+    if (state == nullptr) {
+        return;
+    }
+    stats.trees_of_level = state->level_counts;
+    stats.far_trees = state->impostor_count(false) - state->near_blended;
+    stats.blended_trees = std::uint64_t{state->cell_blended} + state->near_blended;
+    stats.occluded_trees = state->occluded;
+    stats.clustered_trees = state->clustered;
+    stats.clusters = state->impostor_count(true);
+    stats.drawn_branches = state->drawn_branches;
+    stats.expanded_trees = state->near_totals[1] - state->waiting;
+    stats.detail = state->detail;
+    stats.branches.triangles = state->triangle_count();
+    stats.impostors.triangles = 4 * (state->impostor_count(false) + state->impostor_count(true));
+    stats.device_triangles = stats.branches.triangles + stats.impostors.triangles;
 }
 
 Result<void> ForestPass::compile_pick_programs(const ShaderSource& shaders) {
@@ -403,6 +528,9 @@ void ForestPass::draw_picked(MaterialTextures& textures) {
         glUseProgram(program.name());
         glUniform1ui(kPickedContent, static_cast<GLuint>(kind));
     };
+    if (is_culled_on_device_) {
+        select_on_device();
+    }
     buffers_.bind_storage();
     for (const bool blends : {false, true}) {
         glBindTextureUnit(kLeafTexture, textures.base(MaterialKind::Leaf));
@@ -433,14 +561,30 @@ void ForestPass::draw_picked(MaterialTextures& textures) {
         use(picks.blending_impostor, kind);
         draw_quads(picks.blending_impostor, whole, entries.size() - whole);
     };
-    draw_impostors(lists_->trees, PickedKind::Impostor);
-    if (!lists_->clusters.empty()) {
+    if (is_culled_on_device_) {
+        draw_picked_impostors(picks, false);
         buffers_.bind_clusters();
-        draw_impostors(lists_->clusters, PickedKind::Cluster);
+        draw_picked_impostors(picks, true);
         buffers_.bind_storage();
+    } else {
+        draw_impostors(lists_->trees, PickedKind::Impostor);
+        if (!lists_->clusters.empty()) {
+            buffers_.bind_clusters();
+            draw_impostors(lists_->clusters, PickedKind::Cluster);
+            buffers_.bind_storage();
+        }
     }
     use(pick_programs_->ground, PickedKind::Ground);
     terrain_.draw_with(pick_programs_->ground);
+}
+
+void ForestPass::draw_picked_impostors(const ForestPickPrograms& picks, bool clusters) {
+    const PickedKind kind = clusters ? PickedKind::Cluster : PickedKind::Impostor;
+    std::uint32_t command = 0; // whole ones, then blended ones
+    for (const ProgramObject* program : {&picks.impostor, &picks.blending_impostor}) {
+        glProgramUniform1ui(program->name(), kPickedContent, static_cast<GLuint>(kind));
+        draw_device_quads(*program, clusters, command++, 1);
+    }
 }
 
 Picked ForestPass::picked(PickedKind kind, std::uint32_t item) const {
@@ -452,7 +596,8 @@ Picked ForestPass::picked(PickedKind kind, std::uint32_t item) const {
     }
     std::uint32_t number = item;
     if (kind == PickedKind::Branch) {
-        const PoolBranch& branch = lod_->pool().branches()[item];
+        const PoolBranch branch =
+            is_culled_on_device_ ? culling_->branch(item) : lod_->pool().branches()[item];
         picked.instance = branch.mesh;
         number = branch.tree;
     }
@@ -480,6 +625,7 @@ ForestSizes ForestPass::sizes() const {
     sizes.tree_bytes =
         lod_->byte_count() + buffers_.tree_bytes() + model_.forest->trees.size() * sizeof(Tree);
     sizes.branch_bytes = buffers_.branch_bytes();
+    sizes.culling_bytes = is_culled_on_device_ ? culling_->byte_count() : 0;
     sizes.mesh_bytes = buffers_.mesh_bytes();
     sizes.texture_bytes =
         impostors_.texture_bytes() + terrain_.texture_bytes() + buffers_.texture_bytes();

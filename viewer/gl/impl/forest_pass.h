@@ -5,6 +5,7 @@
 
 #include "grammar/base/result.h"
 #include "viewer/gl/impl/forest_buffers.h"
+#include "viewer/gl/impl/forest_culling.h"
 #include "viewer/gl/impl/forest_programs.h"
 #include "viewer/gl/impl/impostor_atlas.h"
 #include "viewer/gl/impl/material_textures.h"
@@ -35,6 +36,12 @@ public:
     /// Replaces the forest. Old impostors stand in until new ones are baked. Forest and terrain
     /// must outlive the pass or the next call.
     void show(ForestModel model, const MaterialTextures& textures);
+    /// Chooses trees and branches of later forests by compute shaders, or on the CPU. Error: a
+    /// shader does not compile.
+    [[nodiscard]] Result<void> cull_on_device(bool on_device, const ShaderSource& shaders);
+    /// Whether compute shaders choose the trees of the forest shown. Streamed forests and forests
+    /// with deeply nested instances are left to the CPU.
+    [[nodiscard]] bool is_culled_on_device() const { return is_culled_on_device_; }
     /// Updates the trees of the forest after a change. Clusters are drawn once their new impostors
     /// are baked.
     void show_trees();
@@ -55,7 +62,8 @@ public:
 
     /// Box of the shadow map for a camera; changes only in large steps of the camera.
     [[nodiscard]] Bounds shadow_bounds(const Frame& frame);
-    /// Selects trees and branches for the frame and uploads them.
+    /// Selects trees and branches for the frame and uploads them, unless compute shaders select
+    /// them later.
     void prepare(const Frame& frame);
     /// Draws all casters into the bound shadow map.
     void draw_shadows(const glm::mat4& shadow_from_world, ForestFrameStats& stats);
@@ -73,6 +81,9 @@ public:
     [[nodiscard]] std::vector<std::uint32_t> trees_of(std::uint32_t form) const;
 
     [[nodiscard]] ForestSizes sizes() const;
+    /// Sets counts and times of the last picture that the device has finished, if compute shaders
+    /// have selected its trees.
+    void collect_device_stats(ForestFrameStats& stats);
 
 private:
     /// Lowest and highest place of ground and trees near the middle of a shadow map.
@@ -83,6 +94,19 @@ private:
     void draw_impostors(std::span<const ImpostorEntry> trees, FrameStats& stats);
     /// Draws quads of quad_trees_; returns the count of draw calls.
     std::uint64_t draw_quads(const ProgramObject& program, std::size_t first, std::size_t count);
+    /// Draws impostors that compute shaders have listed: `count` commands from `first` on, 0: whole
+    /// ones, 1: blended ones. Returns the count of draw calls.
+    std::uint64_t draw_device_quads(const ProgramObject& program,
+                                    bool clusters,
+                                    std::uint32_t first,
+                                    std::uint32_t count);
+    void bind_quads(const ProgramObject& program, GLuint entries);
+    void draw_device_impostors(bool clusters, FrameStats& stats);
+    void draw_picked_impostors(const ForestPickPrograms& picks, bool clusters);
+    /// Lets compute shaders select the trees and branches of the prepared frame.
+    void select_on_device();
+    void show_on_device();
+    void set_stats(const DrawLists& lists, ForestFrameStats& stats) const;
 
     Device* device_;
     std::array<ForestPrograms, 2> programs_; // without wind, with wind
@@ -110,6 +134,11 @@ private:
     double bake_seconds_ = 0.0;
     double upload_seconds_ = 0.0;
     double cull_seconds_ = 0.0;
+    double cull_cpu_seconds_ = 0.0;
+    std::unique_ptr<ForestCulling> culling_; // null: never used
+    bool culls_on_device_ = false;           // later forests
+    bool is_culled_on_device_ = false;       // the forest shown
+    ForestCulling::View view_;               // of the prepared frame
 };
 
 } // namespace lsys::view

@@ -129,4 +129,15 @@ Result<ProgramObject> make_program(Device& device,
     return link(device, vertex, {&first.value(), &second.value()});
 }
 
+Result<ProgramObject> make_compute_program(Device& device,
+                                           const ShaderSource& source,
+                                           std::string_view name,
+                                           std::string_view defines) {
+    Result<ShaderObject> shader = compile_shader(device, source, name, GL_COMPUTE_SHADER, defines);
+    if (!shader) {
+        return shader.error();
+    }
+    return link(device, name, {&shader.value()});
+}
+
 } // namespace lsys::view

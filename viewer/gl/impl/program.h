@@ -20,4 +20,10 @@ namespace lsys::view {
                                                  std::string_view fragment,
                                                  std::string_view defines = "");
 
+/// Makes a program of a compute shader.
+[[nodiscard]] Result<ProgramObject> make_compute_program(Device& device,
+                                                         const ShaderSource& source,
+                                                         std::string_view name,
+                                                         std::string_view defines);
+
 } // namespace lsys::view

@@ -40,6 +40,8 @@ public:
     FrameStats draw_with(const ProgramObject& program);
 
     [[nodiscard]] const TerrainLod* lod() const { return lod_.get(); }
+    /// Texture of heights, a layer per level of lod().
+    [[nodiscard]] GLuint heights() const { return heights_.name(); }
     [[nodiscard]] std::uint64_t texture_bytes() const;
     /// Heights of a level read back from the device, in rows.
     [[nodiscard]] std::vector<float> read_heights(std::uint32_t level) const;

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: MIT
+// CullingTables: forms, slots, instances and exits of a forest as words for the compute shaders that
+// expand trees; shaders/culling_tables.glsl reads them. No OpenGL.
+#pragma once
+
+#include "viewer/scene/forest_model.h"
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace lsys::view {
+
+/// Max depth of nested instances that shaders/culling_walk.glsl expands.
+inline constexpr std::uint32_t kMaxWalkDepth = 64;
+
+struct CullingTables {
+    std::vector<std::uint32_t> words;
+    /// Keys of branches: one per form, group and instance. Groups: a level each, then blended ones.
+    std::vector<std::uint32_t> first_keys; // by form
+    std::uint32_t key_count = 0;
+    /// Max branches of one tree; at most 2^32 - 1.
+    std::uint32_t max_branches = 0;
+};
+
+/// Groups of branches: one for each level, and one for blended trees.
+inline constexpr std::uint32_t kBranchGroups = kTreeLevels + 1;
+
+/// Nullopt: instances are nested deeper than kMaxWalkDepth.
+[[nodiscard]] std::optional<CullingTables> make_culling_tables(const ForestModel& model);
+
+} // namespace lsys::view

@@ -1,0 +1,192 @@
+// SPDX-License-Identifier: MIT
+// ForestCulling: chooses the trees and branches of a picture on the device, as ForestLod::select()
+// does on the CPU. Compute shaders (shaders/culling*.comp.glsl) cull cells and trees by view and
+// horizon, find the LOD band of each tree, expand near trees into branches, and write the commands
+// of indirect draws. The CPU work of a picture does not depend on the number of trees.
+#pragma once
+
+#include "grammar/base/result.h"
+#include "viewer/gl/impl/culling_tables.h"
+#include "viewer/gl/impl/forest_buffers.h"
+#include "viewer/gl/impl/gpu_timer.h"
+#include "viewer/gl/impl/mapped_buffer.h"
+#include "viewer/gl/impl/objects.h"
+#include "viewer/gl/renderer.h"
+#include "viewer/scene/forest_lod.h"
+#include "viewer/scene/terrain_lod.h"
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace lsys::view {
+
+/// Why a device cannot choose trees with compute shaders; nullopt: it can. Limits of OpenGL:
+/// GL_MAX_SHADER_STORAGE_BUFFER_BINDINGS, GL_MAX_COMPUTE_SHADER_STORAGE_BLOCKS and
+/// GL_MAX_COMPUTE_WORK_GROUP_INVOCATIONS.
+struct CullingLimits {
+    std::int32_t storage_bindings = 0;
+    std::int32_t storage_blocks = 0;
+    std::int32_t invocations = 0;
+};
+[[nodiscard]] std::optional<std::string> lacking_for_culling(const CullingLimits& limits);
+/// Limits of the current context.
+[[nodiscard]] CullingLimits culling_limits();
+
+/// Counts that the shaders keep; layout of State in shaders/culling.glsl.
+struct CullingState {
+    std::array<std::uint32_t, 24> dispatches{};
+    std::array<std::uint32_t, 16> draws{};
+    std::array<std::uint32_t, 4> cell_totals{};
+    std::array<std::uint32_t, 4> tree_totals{};
+    std::array<std::uint32_t, 4> near_totals{};
+    std::uint32_t pool_used = 0;
+    std::uint32_t waiting = 0;
+    std::uint32_t occluded = 0;
+    std::uint32_t clustered = 0;
+    std::uint32_t cell_blended = 0;
+    std::uint32_t near_blended = 0;
+    std::uint32_t drawn_branches = 0;
+    float detail = 1.0F;
+    std::array<std::uint32_t, kTreeLevels> level_counts{};
+    std::array<std::uint32_t, 2> triangles{};
+    std::array<std::uint32_t, 2> unused{};
+
+    [[nodiscard]] std::uint64_t triangle_count() const {
+        return std::uint64_t{triangles[1]} << 32U | triangles[0];
+    }
+    /// Impostors of trees, or of clusters.
+    [[nodiscard]] std::uint64_t impostor_count(bool clusters) const {
+        const std::size_t at = clusters ? 8 : 0;
+        return std::uint64_t{draws[at + 1]} + draws[at + 5];
+    }
+};
+
+/// Lists of a picture read back from the device, for tests.
+struct CulledLists {
+    CullingState state;
+    std::vector<ImpostorEntry> trees;
+    std::vector<ImpostorEntry> clusters;
+    std::vector<PoolBranch> pool;
+    std::vector<BranchEntry> branches; // in the order of their keys
+};
+
+class ForestCulling {
+public:
+    explicit ForestCulling(Device& device);
+
+    /// Error: a shader does not compile; the old ones stay in use.
+    [[nodiscard]] Result<void> reload(const ShaderSource& shaders);
+    [[nodiscard]] bool has_programs() const { return static_cast<bool>(programs_.sum); }
+    /// Uploads cells, trees and tables. Returns false if the forest is beyond kMaxWalkDepth.
+    /// `buffers`: of this forest.
+    [[nodiscard]] bool show(const ForestLod& lod, ForestBuffers& buffers);
+    /// Records a change of a tree, which the next select() uploads.
+    void change_tree(std::uint32_t number);
+
+    /// Parameters of a picture. `ground`: occluder, or null. `heights`: its texture.
+    struct View {
+        Frustum frustum;
+        LodOptions options;
+        const TerrainLod* ground = nullptr;
+        GLuint heights = 0;
+    };
+    /// Makes the lists of a picture.
+    void select(const ForestLod& lod, const ForestBuffers& buffers, const View& view);
+    /// Lists the trees of all cells that overlap a box seen from above. Replaces other lists.
+    void select_casters(const ForestLod& lod, const ForestBuffers& buffers, const Bounds& box);
+
+    /// Draws for ForestBuffers.
+    [[nodiscard]] const DeviceDraws& draws() const { return draws_; }
+    /// Buffer of ImpostorEntry of trees or of clusters.
+    [[nodiscard]] GLuint entries(bool clusters) const {
+        return clusters ? cluster_entries_.name() : entries_.name();
+    }
+    /// Buffer of draw commands for impostors.
+    [[nodiscard]] GLuint impostor_commands() const { return state_.name(); }
+    /// Offset in bytes of two commands, for whole and for blended impostors.
+    [[nodiscard]] static std::size_t impostor_command(bool clusters);
+
+    /// Counts of the last picture that the device has finished; null: none. Does not wait.
+    [[nodiscard]] const CullingState* finished_state() const;
+    [[nodiscard]] double gpu_milliseconds() { return timer_.milliseconds(); }
+    /// A branch of the last picture; waits for it.
+    [[nodiscard]] PoolBranch branch(std::uint32_t slot) const;
+    [[nodiscard]] CulledLists read_lists() const;
+    [[nodiscard]] std::uint64_t byte_count() const;
+
+private:
+    struct Programs {
+        ProgramObject horizon;
+        ProgramObject mark_cells;
+        ProgramObject list_cells;
+        ProgramObject sum;
+        ProgramObject mark_trees;
+        ProgramObject list_trees;
+        ProgramObject detail;
+        ProgramObject mark_near;
+        ProgramObject list_near;
+        ProgramObject nodes;
+        ProgramObject branches;
+        ProgramObject visible;
+        ProgramObject count_digits;
+        ProgramObject sum_digits;
+        ProgramObject sort;
+        ProgramObject finish;
+        ProgramObject commands;
+    };
+    struct Block;
+
+    void upload_identities(const ForestLod& lod);
+    void grow_lists(std::uint32_t trees);
+    void apply_changes(const ForestLod& lod);
+    /// Uploads the parameters and binds all buffers.
+    void begin(const ForestLod& lod, const ForestBuffers& buffers, Block& block);
+    void make_horizon(const View& view);
+    void list_trees(std::uint32_t cells);
+    void list_branches();
+
+    Device* device_;
+    Programs programs_;
+    MappedBuffer blocks_;
+    MappedBuffer states_;
+    GpuTimer timer_;
+    CullingTables sizes_; // without words
+    Buffer rays_;
+    Buffer tables_;
+    Buffer identities_;
+    Buffer cells_;
+    Buffer state_;
+    Buffer codes_;
+    Buffer sums_;
+    Buffer visible_cells_;
+    Buffer entries_;
+    Buffer cluster_entries_;
+    Buffer candidates_;
+    Buffer near_;
+    Buffer nodes_;
+    Buffer branches_;
+    std::array<Buffer, 2> sorted_;
+    Buffer digits_;
+    Buffer keys_;
+    Buffer command_keys_;
+    Buffer commands_;
+    Buffer changes_;
+    TextureObject horizon_;
+    std::vector<std::uint32_t> changed_;
+    DeviceDraws draws_;
+    std::uint32_t command_count_ = 0;
+    std::uint32_t tree_capacity_ = 0;
+    std::uint32_t max_candidates_ = 0;
+    std::uint32_t max_branches_ = 0;
+    std::uint32_t sort_passes_ = 1;
+    // Viewpoint of the slopes in horizon_.
+    std::optional<glm::vec3> horizon_eye_;
+    std::vector<glm::ivec2> horizon_origins_;
+};
+
+} // namespace lsys::view

@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: MIT
+// Shared by the compute shaders that choose the trees and branches of a picture. The C++ side is
+// gl/impl/forest_culling.cpp; the reference on the CPU is scene/forest_lod_select.cpp. Lists keep the
+// order of their input, so the same forest and camera always give the same lists.
+layout(std140, binding = 1) uniform Culling {
+    vec4 planes[5];     // of the view, pointing inward
+    vec4 eye_pixels;    // xyz: eye, m; w: height in pixels of an object as high as it is far away
+    vec4 level_pixels;  // min height in pixels for each level of branches
+    vec4 sway;          // Sway: per m of height, per m of width, m; w: LodOptions::blend
+    vec4 clusters;      // x: LodOptions::cluster_pixels; y: side of a cell, m
+    vec4 casters_low;   // box of the casters of shadows, m
+    vec4 casters_high;
+    uvec4 trees;        // x: cells; y: trees in cells; z: added trees; w: 1: casters of shadows
+    uvec4 limits;       // max of: xy: triangles (64 bits); z: branches; w: candidates
+    uvec4 key;          // xy: key of the forest; z: max impostors; w: keys of branches
+    vec4 ground;        // x: 1: the ground occludes; y: height of the eye above it, m
+    uvec4 heights;      // x: levels of the ground; y: distances of the horizon
+    ivec4 origins[14];  // xy: first texel of the heights of a level, in cells of the level
+} culling;
+
+const uint kBlock = 256u; // elements of a workgroup of a kernel that makes a list
+const uint kLevels = 4u;
+const float kNearest = 0.1; // m: min distance
+
+// The C++ side is CullingState.
+layout(std430, binding = 5) buffer State {
+    uint dispatches[24];   // sizes of indirect dispatches, three words each
+    uint draws[16];        // commands: impostors of trees, whole and blended; then of clusters
+    uint cell_totals[4];   // clusters, blended clusters, cells with visible trees, their trees
+    uint tree_totals[4];   // candidates, far trees, blended far trees, 0
+    uint near_totals[4];   // candidates drawn as impostors, near trees, their branches, 0
+    uint pool_used;        // branches made
+    uint waiting;          // near trees without room for their branches
+    uint occluded;         // trees occluded by the ground
+    uint clustered;        // trees drawn only in clusters
+    uint cell_blended;     // trees drawn both alone and in a cluster
+    uint near_blended;     // trees drawn both as branches and as an impostor
+    uint drawn_branches;
+    uint detail;           // bits of the factor of heights
+    uint level_counts[4];  // near trees with branches in view, by level
+    uint triangles[2];     // of branches, 64 bits
+    uint unused[2];
+    uint sums[192];        // of triangles, by step and part of the search: 64 bits each
+} state;
+
+// Number of a workgroup of a dispatch in two dimensions.
+uint block_number() {
+    return gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x;
+}
+// Sets the size of an indirect dispatch of `count` elements, `size` per workgroup.
+void set_dispatch(uint which, uint count, uint size) {
+    const uint kWidest = 32768u;
+    uint groups = (count + size - 1u) / size;
+    state.dispatches[3u * which] = min(groups, kWidest);
+    state.dispatches[3u * which + 1u] = (groups + kWidest - 1u) / kWidest;
+    state.dispatches[3u * which + 2u] = 1u;
+}
+void set_draw(uint which, uint instances, uint first) {
+    state.draws[4u * which] = 4u;
+    state.draws[4u * which + 1u] = instances;
+    state.draws[4u * which + 2u] = 0u;
+    state.draws[4u * which + 3u] = first;
+}
+
+bool is_in_view(vec3 centre, float radius) {
+    for (int i = 0; i < 5; ++i) {
+        vec4 plane = culling.planes[i];
+        if (plane.x * centre.x + plane.y * centre.y + plane.z * centre.z + plane.w < -radius) {
+            return false;
+        }
+    }
+    return true;
+}
+bool is_within_view(vec3 centre, float radius) {
+    for (int i = 0; i < 5; ++i) {
+        vec4 plane = culling.planes[i];
+        if (plane.x * centre.x + plane.y * centre.y + plane.z * centre.z + plane.w < radius) {
+            return false;
+        }
+    }
+    return true;
+}
+// Max displacement by wind, m.
+float displacement(float height, float width) {
+    return culling.sway.x * height + culling.sway.y * width + culling.sway.z;
+}
+float finer_weight(float pixels, float limit) {
+    float blend = culling.sway.w;
+    return blend > 1.0 ? clamp((pixels / limit - 1.0) / (blend - 1.0), 0.0, 1.0) : 1.0;
+}
+uint level_of(float pixels) {
+    uint level = 0u;
+    while (level < kLevels && pixels < culling.level_pixels[level]) {
+        ++level;
+    }
+    return level;
+}
+float factor_of_heights() {
+    return uintBitsToFloat(state.detail);
+}
+vec3 rotate(vec4 q, vec3 v) {
+    return v + 2.0 * cross(q.xyz, cross(q.xyz, v) + q.w * v);
+}
+vec4 times(vec4 a, vec4 b) {
+    return vec4(a.w * b.xyz + b.w * a.xyz + cross(a.xyz, b.xyz), a.w * b.w - dot(a.xyz, b.xyz));
+}

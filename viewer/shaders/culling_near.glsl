@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: MIT
+// Near trees, as culling_near.comp.glsl lists them.
+struct NearTree {
+    uint tree;
+    uint form;
+    uint level;
+    uint steps; // weight of its branches in 1/255
+    uint first; // branch in the pool
+    uint count; // of branches; 0: no room
+    uint is_drawn;
+    float yaw;
+    vec4 position_scale;
+};
+layout(std430, binding = 12) buffer NearTrees { NearTree near_trees[]; };
