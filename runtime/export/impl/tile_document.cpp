@@ -74,17 +74,29 @@ TileDocument::TileDocument(const std::string& generator) : buffers_(1) {
     json_["scenes"][0]["nodes"] = Json::array();
 }
 
-std::size_t TileDocument::add_buffer(const MeshDocument& part) {
-    if (part.uri.empty()) {
-        return 0;
-    }
+std::size_t TileDocument::add_buffer(const std::string& uri, std::uint64_t bytes) {
     const auto found = std::find_if(buffers_.begin(), buffers_.end(),
-                                    [&](const Buffer& buffer) { return buffer.uri == part.uri; });
+                                    [&](const Buffer& buffer) { return buffer.uri == uri; });
     if (found == buffers_.end()) {
-        buffers_.push_back({part.uri, part.file_bytes});
+        buffers_.push_back({uri, bytes});
         return buffers_.size() - 1;
     }
     return static_cast<std::size_t>(found - buffers_.begin());
+}
+
+void TileDocument::place_pictures(const MeshDocument& part, Json& images) {
+    for (std::size_t i = 0; i < part.pictures.size(); ++i) {
+        const FilePart& picture = part.pictures[i];
+        const Json view{{"buffer", add_buffer(picture.uri, picture.file_bytes)},
+                        {"byteOffset", picture.offset},
+                        {"byteLength", picture.bytes}};
+        Json& views = json_["bufferViews"];
+        const auto found = std::find(views.begin(), views.end(), view);
+        images[i] = {{"bufferView", found - views.begin()}, {"mimeType", "image/png"}};
+        if (found == views.end()) {
+            views.push_back(view);
+        }
+    }
 }
 
 std::uint64_t TileDocument::reserve_decoded(std::size_t buffer, std::uint64_t bytes) {
@@ -94,7 +106,7 @@ std::uint64_t TileDocument::reserve_decoded(std::size_t buffer, std::uint64_t by
 
 TileDocument::DrawnMesh TileDocument::add_mesh(const MeshDocument& part) {
     Json from = part.json;
-    const std::size_t buffer = add_buffer(part);
+    const std::size_t buffer = add_buffer(part.uri, part.file_bytes);
     std::uint64_t shift = part.offset;
     if (part.uri.empty()) {
         data_.resize(aligned(data_.size()), '\0');
@@ -121,7 +133,12 @@ TileDocument::DrawnMesh TileDocument::add_mesh(const MeshDocument& part) {
             holder["bufferView"] = holder["bufferView"].get<std::size_t>() + first_view;
         }
     };
-    const GltfNumbers images = add_missing(json_, "images", take_list(from, "images"), move_view);
+    Json pictures = take_list(from, "images");
+    for (Json& image : pictures) {
+        move_view(image);
+    }
+    place_pictures(part, pictures);
+    const GltfNumbers images = add_missing(json_, "images", std::move(pictures), [](Json&) {});
     const GltfNumbers samplers =
         add_missing(json_, "samplers", take_list(from, "samplers"), [](Json&) {});
     const GltfNumbers textures =
