@@ -75,8 +75,11 @@ let bytes = 0;
 const kinds = {}; // by ending of the path: number of requests, bytes
 const list = [];
 network.on('Network.responseReceived', event => answers.set(event.requestId, event.response.url));
+const cached = new Set(); // answered by the browser itself
+network.on('Network.requestServedFromCache', event => cached.add(event.requestId));
 network.on('Network.loadingFinished', event => {
-    if (prefix !== '' && answers.get(event.requestId)?.startsWith(prefix)) {
+    if (prefix !== '' && answers.get(event.requestId)?.startsWith(prefix) && event.encodedDataLength > 0 &&
+        !cached.has(event.requestId)) {
         const url = answers.get(event.requestId);
         const kind = kinds[extname(new URL(url).pathname).slice(1)] ??= { requests: 0, bytes: 0 };
         ++requests;

@@ -37,6 +37,10 @@ public:
                 MeshDocument& model = made_.models[i][detail];
                 if (model.json.is_null() && !mesh.positions.empty()) {
                     model = add(mesh, tile_part_info(names[i], generator));
+                    waiting_.push_back(&model);
+                    if (buffer_.size() + waiting_bytes_ >= kModelFileBytes) {
+                        end_file();
+                    }
                 }
             }
             end_file();
@@ -62,9 +66,7 @@ private:
     }
     MeshDocument add(const Mesh& mesh, const ExportInfo& info) {
         MeshDocument model = make_mesh_document(mesh, info);
-        const FilePart place = put(std::exchange(model.data, {}));
-        model.uri = place.uri;
-        model.offset = place.offset;
+        waiting_bytes_ += model.data.size();
         std::map<std::string, FilePart> parts; // by the name that the document has for a picture
         for (const PictureFile& picture : tile_pictures(mesh)) {
             auto known = pictures_.find(picture.bytes);
@@ -76,12 +78,15 @@ private:
         for (const auto& image : model.json.value("images", nlohmann::ordered_json::array())) {
             model.pictures.push_back(parts.at(image["uri"].get<std::string>()));
         }
-        if (buffer_.size() >= kModelFileBytes) {
-            end_file();
-        }
         return model;
     }
     void end_file() {
+        join_buffers(waiting_, buffer_);
+        for (MeshDocument* const model : waiting_) {
+            model->uri = "../../" + path();
+        }
+        waiting_.clear();
+        waiting_bytes_ = 0;
         if (!buffer_.empty()) {
             sizes_["../../" + path()] = buffer_.size();
             made_.files.push_back({path(), std::exchange(buffer_, {})});
@@ -102,7 +107,9 @@ private:
     ModelFiles made_;
     std::uint32_t level_ = 0;                    // of the quadtree, of the current file
     std::size_t part_ = 0;                       // number of the current file of the level
-    std::string buffer_;                         // the current file
+    std::string buffer_;                         // pictures of the current file, then its meshes
+    std::vector<MeshDocument*> waiting_;         // meshes that it will have
+    std::size_t waiting_bytes_ = 0;              // their size before they are joined
     std::map<std::string, FilePart> pictures_;   // by their bytes
     std::map<std::string, std::uint64_t> sizes_; // of files, by URI
 };
