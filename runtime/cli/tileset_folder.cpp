@@ -50,9 +50,10 @@ std::string tileset_stats(const TileForest& forest, const TileTotals& totals, bo
         const TileLevel& level = levels[i];
         text += fmt::format("{:>5} {:>10.1f} {:>8} {:>9.3f}  {}\n", i, level.side,
                             forest.extent(i).count(), level.error,
-                            level.has_trees ? fmt::format("{:.0f} trees of {} triangles",
-                                                          level.trees, level.triangles)
-                                            : std::string("ground and crowns as one surface"));
+                            !level.has_content ? std::string("nothing")
+                            : level.has_trees  ? fmt::format("{:.0f} trees of {} triangles",
+                                                             level.trees, level.triangles)
+                                               : std::string("ground and crowns as one surface"));
     }
     text +=
         fmt::format("{} written, {}", counted(totals.files, "file"), byte_size_text(totals.bytes));
@@ -70,7 +71,9 @@ TilesetFolder::TilesetFolder(const TilesCommand& command,
     sections_.push_back({Kind::Shared, 0, 0, forest.files().size()});
     const auto levels = static_cast<std::uint32_t>(forest.levels().size());
     for (std::uint32_t level = 0; level < levels; ++level) {
-        add_section(Kind::Content, level);
+        if (forest_.levels()[level].has_content) {
+            add_section(Kind::Content, level);
+        }
     }
     for (std::uint32_t level = levels; level-- > 0;) {
         if (forest_.has_tileset(level)) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // TileDocument: a GLB of a tile, composed of glTF documents: one of the ground, whose buffer goes
-// into the GLB, and one per hero, whose buffer and pictures are separate files. Adds the trees as
+// into the GLB, and one per hero, whose buffer and pictures are parts of other files. Adds the trees as
 // instances (EXT_mesh_gpu_instancing) with a table of their properties (EXT_instance_features,
 // EXT_structural_metadata).
 #pragma once
@@ -14,11 +14,20 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
 namespace lsys {
+
+/// Bytes of a file that tiles share.
+struct FilePart {
+    std::string uri;              // percent-encoded, relative to the tile
+    std::uint64_t file_bytes = 0; // size of the file
+    std::uint64_t offset = 0;
+    std::uint64_t bytes = 0;
+};
 
 /// A glTF document of one mesh without its member `buffers`, and the place of its buffer.
 struct MeshDocument {
@@ -27,7 +36,7 @@ struct MeshDocument {
     std::uint64_t decoded_bytes = 0; // size of the fallback; 0: no fallback
     std::string uri;                 // percent-encoded, relative to the tile; empty: none
     std::uint64_t file_bytes = 0;    // size of the file `uri`
-    std::uint64_t offset = 0;        // of the buffer in the file
+    std::vector<FilePart> pictures;  // by image: PNG; empty: as the document says
 };
 /// The document of a mesh at rest. It refers to the picture files that make_picture_files() makes
 /// for ExportFormat::Gltf and `info`. Precondition: the mesh has triangles, a few million at most;
@@ -36,6 +45,11 @@ struct MeshDocument {
 /// Stores a picture in the buffer of the document; image `number` then refers to it, not to a file.
 /// Precondition: the buffer is `data`.
 void embed_picture(std::size_t number, const std::string& png, MeshDocument& document);
+
+/// Moves the buffers of compressed documents into a file: appends to `file`. Items of one kind, for
+/// example all positions, become one view, which all documents have. The documents get no `uri` and
+/// `file_bytes`. Precondition: their views have nothing but items of accessors, each those of one.
+void join_buffers(std::span<MeshDocument* const> documents, std::string& file);
 
 /// A tree of a tile, with its transform from the coordinates of its hero.
 struct TileTree {
@@ -80,9 +94,14 @@ private:
     };
 
     DrawnMesh add_mesh(const MeshDocument& part);
-    std::size_t add_buffer(const MeshDocument& part);
+    /// The number of the buffer with this file; empty: that of the GLB.
+    std::size_t add_buffer(const std::string& uri, std::uint64_t bytes);
+    /// Makes the images of a document refer to its pictures.
+    void place_pictures(const MeshDocument& part, Json& images);
     /// Reserves `bytes` bytes of decoded items in the fallback of a buffer; returns their offset.
     std::uint64_t reserve_decoded(std::size_t buffer, std::uint64_t bytes);
+    /// The number of a view, which is added if the document does not have it.
+    std::size_t add_view_once(Json view);
     std::size_t add_view(std::string_view bytes);
     std::size_t add_packed_view(const std::string& items, std::uint32_t stride);
     void add_node(Json node);

@@ -333,7 +333,8 @@ std::optional<TileService::MadeFile> TileService::made_file(std::string_view pat
     if (path == TileForest::tileset_path(tile)) {
         return MadeFile{tile, true};
     }
-    if (parse_tile_path(path, ".glb", tile) && forest_.has_tile(tile)) {
+    if (parse_tile_path(path, ".glb", tile) && forest_.has_tile(tile) &&
+        forest_.levels()[tile.level].has_content) {
         return MadeFile{tile, false};
     }
     // The tileset of the root has another path.

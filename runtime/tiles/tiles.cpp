@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "runtime/tiles/tiles.h"
 
-#include "grammar/base/hash.h"
 #include "runtime/export/export.h"
 #include "runtime/export/tile_document.h"
 #include "runtime/forest/instance_meshes.h"
@@ -14,6 +13,7 @@
 #include "runtime/tiles/impl/ground_patch.h"
 #include "runtime/tiles/impl/hero_table.h"
 #include "runtime/tiles/impl/level_plan.h"
+#include "runtime/tiles/impl/model_files.h"
 #include "runtime/tiles/impl/tile_boxes.h"
 #include "runtime/tiles/impl/tile_ground.h"
 #include "runtime/tiles/impl/tileset.h"
@@ -33,24 +33,10 @@ namespace lsys {
 
 namespace {
 
-constexpr std::uint64_t kPictureHash = 0x6C616E6473636170; // initial state of the hash
-/// Heroes of a species share a file of meshes up to about this size, so that a client needs few
-/// requests for distant trees, and gets only the meshes it needs of near ones.
-constexpr std::size_t kModelFileBytes = std::size_t{1} << 20;
+constexpr const char* kGroundPicture = "pictures/ground.png";
 constexpr std::uint32_t kSampleTrees = 1024; // per species, for means of a placement on a grid
 // Mean colour of the ground without a picture, as in make_terrain_mesh().
 constexpr glm::dvec3 kGroundColour(0.055, 0.07, 0.025);
-
-/// The name of a species as part of a path: letters, digits, `-` and `_`.
-std::string path_part(const std::string& name) {
-    std::string part;
-    for (const char c : name) {
-        const bool fits = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') ||
-                          (c >= '0' && c <= '9') || c == '-' || c == '_';
-        part += fits ? c : '_';
-    }
-    return part;
-}
 
 } // namespace
 
@@ -95,11 +81,6 @@ struct TileForest::State {
     [[nodiscard]] Outcome<void> make_models(const Project& project);
     void make_ground_picture();
     void make_canopies();
-    [[nodiscard]] ExportInfo info_of(const std::string& name) const;
-    [[nodiscard]] std::vector<PictureFile> pictures_of(const Mesh& mesh) const;
-    [[nodiscard]] MeshDocument
-    model_of(const Mesh& mesh, const std::string& name, std::string& buffer);
-    [[nodiscard]] std::string picture_path(const std::string& bytes);
     [[nodiscard]] MeshDocument ground_of(const TileId& tile, const glm::dmat4& to_tile) const;
     std::uint64_t
     add_trees(const TileId& tile, const glm::dmat4& to_tile, TileDocument& document) const;
@@ -120,7 +101,7 @@ bool TileForest::has_tile(const TileId& tile) const {
     return tile.level < levels().size() && state_->grid.has_ground(tile);
 }
 bool TileForest::has_tileset(std::uint32_t level) const {
-    return is_subtree_root(level, state_->plan.finest());
+    return level == 0 || has_subtrees(level, state_->plan.finest());
 }
 std::string TileForest::content_path(const TileId& tile) {
     return fmt::format("{}/{}/{}.glb", tile.level, tile.column, tile.row);
@@ -290,109 +271,27 @@ void TileForest::State::plan_levels() {
     boxes.emplace(*grown.terrain, earth, grid, reach, plan.skirts);
 }
 
-ExportInfo TileForest::State::info_of(const std::string& name) const {
-    ExportInfo info;
-    info.name = name;
-    info.generator = options.generator;
-    info.compression = ExportCompression::Meshopt;
-    info.buffer_name = "buffer";
-    info.picture_prefix = "picture";
-    info.threads = 1;
-    return info;
-}
-
-std::vector<PictureFile> TileForest::State::pictures_of(const Mesh& mesh) const {
-    Outcome<std::vector<PictureFile>> pictures =
-        make_picture_files(mesh, ExportFormat::Gltf, info_of(""));
-    if (!pictures) {
-        throw std::bad_alloc(); // make_picture_files() stops for no other reason
-    }
-    return std::move(pictures.value());
-}
-
-std::string TileForest::State::picture_path(const std::string& bytes) {
-    std::string path =
-        fmt::format("pictures/{:016x}.png", mix64(combine_bytes(kPictureHash, bytes)));
-    const bool is_known = std::any_of(files.begin(), files.end(),
-                                      [&](const TileFile& file) { return file.path == path; });
-    if (!is_known) {
-        files.push_back({path, bytes});
-    }
-    return path;
-}
-
-/// The document of a mesh, whose pictures become shared files; appends its buffer to `buffer`.
-MeshDocument
-TileForest::State::model_of(const Mesh& mesh, const std::string& name, std::string& buffer) {
-    MeshDocument document = make_mesh_document(mesh, info_of(name));
-    document.offset = buffer.size();
-    buffer += std::exchange(document.data, {});
-    buffer.resize((buffer.size() + 7) / 8 * 8, '\0');
-    for (const PictureFile& picture : pictures_of(mesh)) {
-        const std::string path = "../../" + picture_path(picture.bytes);
-        for (auto& image : document.json["images"]) {
-            if (image["uri"] == picture.name) {
-                image = {{"uri", path}};
-            }
-        }
-    }
-    return document;
-}
-
 Outcome<void> TileForest::State::make_models(const Project& project) {
     Step step(project);
     if (!step.take(mesh_heroes(grown, options.mesh, project, heroes))) {
         return step.end();
     }
-    for (const Hero& hero : heroes) {
-        models.emplace_back(hero.levels.levels.size());
-    }
-    for (std::size_t first = 0; first < heroes.size();) {
-        const ForestSpecies& species = grown.forest.species[heroes[first].species];
-        const std::string stage =
-            species.stages.size() == 1
-                ? std::string()
-                : fmt::format("-n{}", species.stages[heroes[first].stage].generations);
-        std::size_t end = first;
-        std::size_t details = 0;
-        while (end < heroes.size() && heroes[end].species == heroes[first].species &&
-               heroes[end].stage == heroes[first].stage) {
-            details = std::max(details, models[end++].size());
+    std::vector<std::string> names;
+    std::size_t first = 0; // hero of the same species and stage
+    for (std::size_t i = 0; i < heroes.size(); ++i) {
+        const Hero& hero = heroes[i];
+        if (hero.species != heroes[first].species || hero.stage != heroes[first].stage) {
+            first = i;
         }
-        for (std::size_t detail = 0; detail < details; ++detail) {
-            std::string buffer;
-            std::size_t begin = first; // the first hero in the buffer
-            std::size_t part = 0;
-            const auto end_file = [&](std::size_t last) {
-                const std::string path =
-                    fmt::format("models/{}-{}{}-{}-{}.bin", heroes[first].species,
-                                path_part(species.name), stage, detail, part++);
-                for (std::size_t i = begin; i < last; ++i) {
-                    if (detail < models[i].size()) {
-                        models[i][detail].uri = "../../" + path;
-                        models[i][detail].file_bytes = buffer.size();
-                    }
-                }
-                files.push_back({path, std::exchange(buffer, {})});
-                begin = last;
-            };
-            for (std::size_t i = first; i < end; ++i) {
-                if (detail >= models[i].size() || !heroes[i].in_use[detail] ||
-                    heroes[i].meshes[detail].positions.empty()) {
-                    continue;
-                }
-                const std::string name = fmt::format("{}{} {}", species.name, stage, i - first);
-                models[i][detail] = model_of(heroes[i].meshes[detail], name, buffer);
-                if (buffer.size() >= kModelFileBytes) {
-                    end_file(i + 1);
-                }
-            }
-            if (!buffer.empty()) {
-                end_file(end);
-            }
-        }
-        first = end;
+        const ForestSpecies& species = grown.forest.species[hero.species];
+        const std::string stage = species.stages.size() == 1
+                                      ? std::string()
+                                      : fmt::format("-n{}", species.stages[hero.stage].generations);
+        names.push_back(fmt::format("{}{} {}", species.name, stage, i - first));
     }
+    ModelFiles made = make_model_files(heroes, names, plan, options.generator);
+    models = std::move(made.models);
+    files = std::move(made.files);
     return step.done();
 }
 
@@ -413,7 +312,8 @@ void TileForest::State::make_ground_picture() {
     material.picture = grown.ground.colour;
     sample.materials.push_back(material);
     sample.parts.push_back({0, 0, 3});
-    ground_picture = "../../" + picture_path(pictures_of(sample).front().bytes);
+    files.push_back({kGroundPicture, tile_pictures(sample).front().bytes});
+    ground_picture = std::string("../../") + kGroundPicture;
 }
 
 void TileForest::State::make_canopies() {
@@ -464,9 +364,10 @@ MeshDocument TileForest::State::ground_of(const TileId& tile, const glm::dmat4& 
     const Mesh mesh = make_tile_ground({*grown.terrain, grown.ground, ground_colour, earth, grid,
                                         has_trees ? no_canopy : canopy_at, tile, to_tile,
                                         plan.cells[tile.level], plan.skirts[tile.level]});
-    MeshDocument document = make_mesh_document(mesh, info_of(has_trees ? "ground" : "forest"));
+    MeshDocument document = make_mesh_document(
+        mesh, tile_part_info(has_trees ? "ground" : "forest", options.generator));
     if (!has_trees) {
-        embed_picture(0, pictures_of(mesh).front().bytes, document);
+        embed_picture(0, tile_pictures(mesh).front().bytes, document);
     } else if (!ground_picture.empty()) {
         document.json["images"][0]["uri"] = ground_picture;
     }

@@ -69,7 +69,9 @@ struct TileId {
 /// One level of the quadtree.
 struct TileLevel {
     double side = 0.0;           // m
-    double error = 0.0;          // m, upper bound of the distance between its tiles and the forest
+    double error = 0.0;          // m, upper bound of the distance between its tiles and the forest;
+                                 // without content the side of the ground
+    bool has_content = true;     // else its tiles show nothing, and clients go on to the next level
     bool has_trees = false;      // single trees, else one surface of ground and crowns
     double trees = 0.0;          // mean number in a tile
     std::uint64_t triangles = 0; // mean number per tree
@@ -110,14 +112,14 @@ public:
     [[nodiscard]] TileExtent extent(std::uint32_t level) const;
     /// The tiles of a level, row by row.
     [[nodiscard]] std::vector<TileId> tiles(std::uint32_t level) const;
-    /// Makes a tile. Precondition: has_tile(). May be called from several threads. Throws
-    /// std::bad_alloc.
+    /// Makes a tile. Precondition: has_tile(), and its level has content. May be called from several
+    /// threads. Throws std::bad_alloc.
     [[nodiscard]] TileContent content(const TileId& tile) const;
-    /// Makes the tileset with a tile as its root, a JSON document that lists its tiles and names the
-    /// tilesets below them. Precondition: has_tile() and has_tileset(). May be called from several
-    /// threads.
+    /// Makes the tileset of the tiles below a tile, with the tile itself only if it is that of level
+    /// 0: a JSON document that lists them and names the tilesets below them. Precondition: has_tile()
+    /// and has_tileset(). May be called from several threads.
     [[nodiscard]] std::string tileset(const TileId& root) const;
-    /// Whether tiles of the level are roots of a tileset.
+    /// Whether tiles of the level have a tileset.
     [[nodiscard]] bool has_tileset(std::uint32_t level) const;
     /// The path of the content of a tile, "3/5/2.glb", and that of its tileset, "4/7/1.json" or
     /// "tileset.json".

@@ -48,16 +48,26 @@ const visit = (file, tile, matrix, parent, depth) => {
             check(contains(parent.tile.boundingVolume.box, there, 0.01), `${name}: beyond its parent`);
         }
     }
-    const uri = path.posix.join(path.posix.dirname(file), tile.content.uri);
+    check(tile.content === undefined || tile.content.uri !== undefined, `${name}: content without a file`);
+    const uri = tile.content === undefined ? '' : path.posix.join(path.posix.dirname(file), tile.content.uri);
     if (uri.endsWith('.json')) {
         const tileset = read(uri);
         check(tileset.asset.version === '1.1', `${uri}: no version`);
         check(tile.children === undefined, `${name}: children beside another tileset`);
-        visit(uri, tileset.root, frame, { tile: { ...tile, geometricError: tile.geometricError } }, depth);
+        check(tileset.geometricError === tile.geometricError, `${uri}: another error than its reference`);
+        check(tileset.root.content === undefined, `${uri}: its root shows the tile of the reference`);
+        for (const child of tileset.root.children) {
+            visit(uri, child, frame, { tile }, depth);
+        }
         return;
     }
     check(tile.refine === 'REPLACE', `${name}: no refine`);
-    tiles.push({ uri, box, frame, depth, leaf: tile.children === undefined });
+    if (uri !== '') {
+        tiles.push({ uri, box, frame, depth });
+    } else { // a client must go on to its children, which show something
+        check(tile.geometricError >= top.geometricError, `${name}: without content, but its error is small`);
+        check(tile.children?.length > 0, `${name}: neither content nor children`);
+    }
     for (const child of tile.children ?? []) {
         visit(file, child, frame, { tile }, depth + 1);
     }

@@ -6,11 +6,12 @@
 //   ORIGIN   longitude, latitude in degrees, height in m
 //   EYE, AT  camera and target in coordinates of the scene
 //   ERROR    tolerated error in pixels
-// Prints a line of JSON: requests and bytes of the tileset, seconds until the view was complete, visible tiles, failures.
+// Prints a line of JSON: requests and bytes of the tileset, also by kind of file, seconds until the view was complete,
+// seconds in which a server made files, visible tiles, failures. With LIST=FILE it writes the requests into a file.
 // Modules are found in the working folder, which holds node_modules.
 import { createServer } from 'node:http';
 import { existsSync } from 'node:fs';
-import { readFile } from 'node:fs/promises';
+import { readFile, writeFile } from 'node:fs/promises';
 import { createRequire } from 'node:module';
 import { dirname, extname, join, normalize } from 'node:path';
 import { fileURLToPath, pathToFileURL } from 'node:url';
@@ -71,13 +72,31 @@ await network.send('Network.enable');
 const answers = new Map();
 let requests = 0;
 let bytes = 0;
+const kinds = {}; // by ending of the path: number of requests, bytes
+const list = [];
 network.on('Network.responseReceived', event => answers.set(event.requestId, event.response.url));
+const cached = new Set(); // answered by the browser itself
+network.on('Network.requestServedFromCache', event => cached.add(event.requestId));
 network.on('Network.loadingFinished', event => {
-    if (prefix !== '' && answers.get(event.requestId)?.startsWith(prefix)) {
+    if (prefix !== '' && answers.get(event.requestId)?.startsWith(prefix) && event.encodedDataLength > 0 &&
+        !cached.has(event.requestId)) {
+        const url = answers.get(event.requestId);
+        const kind = kinds[extname(new URL(url).pathname).slice(1)] ??= { requests: 0, bytes: 0 };
         ++requests;
         bytes += event.encodedDataLength;
+        ++kind.requests;
+        kind.bytes += event.encodedDataLength;
+        list.push(`${url} ${event.encodedDataLength}`);
     }
 });
+const secondsOfServer = async () => {
+    if (address === '' || isFolder) {
+        return 0;
+    }
+    const metrics = await (await fetch(new URL('/metrics', address))).text();
+    return Number(/^lsc_make_seconds_sum (.*)$/m.exec(metrics)?.[1] ?? 0);
+};
+const busyBefore = await secondsOfServer();
 const messages = [];
 tab.on('console', message => message.type() === 'error' && messages.push(message.text()));
 tab.on('pageerror', failure => messages.push(String(failure)));
@@ -93,7 +112,11 @@ try {
 const seconds = (performance.now() - begin) / 1000;
 await tab.screenshot({ path: picture });
 const [failures, tiles] = await tab.evaluate(() => [window.failures ?? [], window.tileCounts ?? {}]);
-console.log(JSON.stringify({ client, isSettled, requests, bytes, seconds, ...tiles, failures: [...failures, ...messages] }));
+const serverSeconds = await secondsOfServer() - busyBefore;
+if (process.env.LIST) {
+    await writeFile(process.env.LIST, list.map(line => `${line}\n`).join(''));
+}
+console.log(JSON.stringify({ client, isSettled, requests, bytes, kinds, seconds, serverSeconds, ...tiles, failures: [...failures, ...messages] }));
 await browser.close();
 server.close();
 process.exit(isSettled && failures.length + messages.length === 0 ? 0 : 1);

@@ -74,17 +74,35 @@ TileDocument::TileDocument(const std::string& generator) : buffers_(1) {
     json_["scenes"][0]["nodes"] = Json::array();
 }
 
-std::size_t TileDocument::add_buffer(const MeshDocument& part) {
-    if (part.uri.empty()) {
-        return 0;
-    }
+std::size_t TileDocument::add_buffer(const std::string& uri, std::uint64_t bytes) {
     const auto found = std::find_if(buffers_.begin(), buffers_.end(),
-                                    [&](const Buffer& buffer) { return buffer.uri == part.uri; });
+                                    [&](const Buffer& buffer) { return buffer.uri == uri; });
     if (found == buffers_.end()) {
-        buffers_.push_back({part.uri, part.file_bytes});
+        buffers_.push_back({uri, bytes});
         return buffers_.size() - 1;
     }
     return static_cast<std::size_t>(found - buffers_.begin());
+}
+
+void TileDocument::place_pictures(const MeshDocument& part, Json& images) {
+    for (std::size_t i = 0; i < part.pictures.size(); ++i) {
+        const FilePart& picture = part.pictures[i];
+        const std::size_t view =
+            add_view_once({{"buffer", add_buffer(picture.uri, picture.file_bytes)},
+                           {"byteOffset", picture.offset},
+                           {"byteLength", picture.bytes}});
+        images[i] = {{"bufferView", view}, {"mimeType", "image/png"}};
+    }
+}
+
+std::size_t TileDocument::add_view_once(Json view) {
+    Json& views = json_["bufferViews"];
+    const auto found = std::find(views.begin(), views.end(), view);
+    const auto number = static_cast<std::size_t>(found - views.begin());
+    if (found == views.end()) {
+        views.push_back(std::move(view));
+    }
+    return number;
 }
 
 std::uint64_t TileDocument::reserve_decoded(std::size_t buffer, std::uint64_t bytes) {
@@ -94,16 +112,19 @@ std::uint64_t TileDocument::reserve_decoded(std::size_t buffer, std::uint64_t by
 
 TileDocument::DrawnMesh TileDocument::add_mesh(const MeshDocument& part) {
     Json from = part.json;
-    const std::size_t buffer = add_buffer(part);
-    std::uint64_t shift = part.offset;
+    const std::size_t buffer = add_buffer(part.uri, part.file_bytes);
+    // Places in a file that tiles share are final; those in the buffer of the GLB are not.
+    std::uint64_t shift = 0;
+    std::uint64_t decoded = 0;
     if (part.uri.empty()) {
         data_.resize(aligned(data_.size()), '\0');
         shift = data_.size();
         data_ += part.data;
+        decoded = reserve_decoded(buffer, part.decoded_bytes);
+    } else {
+        buffers_[buffer].decoded_bytes = part.decoded_bytes;
     }
-    const std::size_t first_view = count_of(json_, "bufferViews");
-    const std::uint64_t decoded =
-        part.decoded_bytes != 0 ? reserve_decoded(buffer, part.decoded_bytes) : 0;
+    GltfNumbers views;
     // Fallbacks get their numbers in point_to_fallbacks(); until then a compressed view has the
     // number of its stored buffer.
     for (Json& view : take_list(from, "bufferViews")) {
@@ -114,14 +135,15 @@ TileDocument::DrawnMesh TileDocument::add_mesh(const MeshDocument& part) {
         }
         stored["buffer"] = buffer;
         stored["byteOffset"] = stored.value("byteOffset", std::uint64_t{0}) + shift;
-        json_["bufferViews"].push_back(std::move(view));
+        views.push_back(add_view_once(std::move(view)));
     }
-    const auto move_view = [first_view](Json& holder) {
-        if (holder.contains("bufferView")) {
-            holder["bufferView"] = holder["bufferView"].get<std::size_t>() + first_view;
-        }
-    };
-    const GltfNumbers images = add_missing(json_, "images", take_list(from, "images"), move_view);
+    const auto move_view = [&views](Json& holder) { renumber(holder, "bufferView", views); };
+    Json pictures = take_list(from, "images");
+    for (Json& image : pictures) {
+        move_view(image);
+    }
+    place_pictures(part, pictures);
+    const GltfNumbers images = add_missing(json_, "images", std::move(pictures), [](Json&) {});
     const GltfNumbers samplers =
         add_missing(json_, "samplers", take_list(from, "samplers"), [](Json&) {});
     const GltfNumbers textures =

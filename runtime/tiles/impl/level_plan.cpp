@@ -12,6 +12,7 @@ namespace {
 /// Too many triangles do not divide a tile whose parts would have fewer trees than this on average.
 constexpr double kMinTileTrees = 4.0;
 constexpr double kGroundError = 0.1;        // m, tolerated error of the ground in every tile
+constexpr std::uint32_t kEmptyLevels = 2;   // of a forest with more levels without trees
 constexpr std::uint32_t kGroundCells = 128; // max along a side of a tile with trees
 
 class Planner {
@@ -48,6 +49,7 @@ public:
             error = std::max(error, level.has_trees ? plan_trees(number) : plan_canopy(number));
             level.error = error;
         }
+        leave_out_content();
         set_skirts();
         return std::move(plan_);
     }
@@ -134,6 +136,17 @@ private:
             cells /= 2;
         }
         return cells;
+    }
+
+    /// Clients load the tiles around a view at every level, so the first two levels of many have no
+    /// content: then the forest as a whole is 16 tiles.
+    void leave_out_content() {
+        for (std::uint32_t number = 0; number < kEmptyLevels; ++number) {
+            if (plan_.first_tree_level > kEmptyLevels) {
+                plan_.levels[number].has_content = false;
+                plan_.levels[number].error = needs_.grid.square().width;
+            }
+        }
     }
 
     /// A skirt reaches down to the surface of a neighbour of the next coarser level.

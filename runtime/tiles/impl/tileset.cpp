@@ -58,9 +58,14 @@ public:
     TilesetWriter(const TilesetPlan& plan, const TileId& root) : plan_(plan), root_(root) {}
 
     std::string write() {
-        Json node = node_of(root_);
+        Json node;
         if (root_.level == 0) {
+            node = node_of(root_);
             node["transform"] = json_of(plan_.boxes.frame_of(root_));
+        } else {
+            node = bounds_of(root_);
+            node["refine"] = "REPLACE";
+            node["children"] = children_of(root_);
         }
         Json tileset;
         tileset["asset"] = {{"version", "1.1"}, {"extras", {{"generator", plan_.generator}}}};
@@ -74,8 +79,27 @@ public:
 private:
     /// A tile that the tileset lists, with those below it, without a transform.
     Json node_of(const TileId& tile) {
-        Json node = reference(tile, TileForest::content_path(tile));
+        Json node = bounds_of(tile);
+        if (plan_.levels[tile.level].has_content) {
+            node["content"]["uri"] = path_to(TileForest::content_path(tile));
+        }
         node["refine"] = "REPLACE";
+        if (has_subtrees(tile.level, static_cast<std::uint32_t>(plan_.levels.size()) - 1)) {
+            // One reference for all tiles below, so that a client asks for one tileset when it
+            // refines this tile, and for none before.
+            Json below = bounds_of(tile);
+            below["content"]["uri"] = path_to(TileForest::tileset_path(tile));
+            node["children"].push_back(std::move(below));
+            return node;
+        }
+        Json children = children_of(tile);
+        if (!children.empty()) {
+            node["children"] = std::move(children);
+        }
+        return node;
+    }
+
+    Json children_of(const TileId& tile) {
         Json children = Json::array();
         const glm::dmat4 to_tile = inverse_of_frame(plan_.boxes.frame_of(tile));
         for (std::uint32_t i = 0; i < 4; ++i) {
@@ -83,26 +107,22 @@ private:
             if (below.level >= plan_.levels.size() || !plan_.grid.has_ground(below)) {
                 continue;
             }
-            Json child =
-                is_subtree_root(below.level, static_cast<std::uint32_t>(plan_.levels.size()) - 1)
-                    ? reference(below, TileForest::tileset_path(below))
-                    : node_of(below);
+            Json child = node_of(below);
             child["transform"] = json_of(to_tile * plan_.boxes.frame_of(below));
             children.push_back(std::move(child));
         }
-        if (!children.empty()) {
-            node["children"] = std::move(children);
-        }
-        return node;
+        return children;
     }
 
-    [[nodiscard]] Json reference(const TileId& tile, const std::string& path) const {
+    [[nodiscard]] Json bounds_of(const TileId& tile) const {
         Json node;
         node["boundingVolume"]["box"] = json_of(plan_.boxes.box_of(tile));
         node["geometricError"] = rounded(plan_.levels[tile.level].error);
-        // Tilesets other than the root are two folders deeper.
-        node["content"]["uri"] = root_.level == 0 ? path : "../../" + path;
         return node;
+    }
+    /// Tilesets other than the root are two folders deeper.
+    [[nodiscard]] std::string path_to(const std::string& path) const {
+        return root_.level == 0 ? path : "../../" + path;
     }
 
     const TilesetPlan& plan_;

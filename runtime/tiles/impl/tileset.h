@@ -11,12 +11,11 @@
 
 namespace lsys {
 
-inline constexpr std::uint32_t kSubtreeLevels = 4; // number of levels that most tilesets list
-/// Whether tiles of a level are roots of a tileset. The tilesets that end at the finest level, which are
-/// the most, have all their levels; that of level 0 has one to five.
-[[nodiscard]] constexpr bool is_subtree_root(std::uint32_t level, std::uint32_t finest) {
-    return level == 0 || (level > 1 && level <= finest &&
-                          (finest - level) % kSubtreeLevels == kSubtreeLevels - 1);
+inline constexpr std::uint32_t kSubtreeLevels = 3; // number of levels that most tilesets list
+/// Whether tiles of a level, apart from level 0, have a tileset of the tiles below them. That of level 0
+/// has one to five levels, or three to five if there are others.
+[[nodiscard]] constexpr bool has_subtrees(std::uint32_t level, std::uint32_t finest) {
+    return level > 1 && level < finest && finest > 4 && (finest - level) % kSubtreeLevels == 0;
 }
 
 struct TilesetPlan {
