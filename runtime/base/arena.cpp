@@ -4,7 +4,9 @@
 #include "runtime/platform/memory.h"
 
 #include <algorithm>
+#include <cstring>
 #include <limits>
+#include <new>
 #include <utility>
 
 namespace lsys {
@@ -13,6 +15,9 @@ namespace {
 
 using platform::kHugePage;
 
+/// Max bytes of an arena on the heap: mapping and unmapping pages costs more than small words do.
+constexpr std::size_t kMaxHeapArena = std::size_t{16} << 10;
+constexpr std::align_val_t kHeapAlignment{64}; // a cache line
 /// Max bytes of an arena on small pages; larger arenas use huge pages.
 constexpr std::size_t kMaxSmallArena = std::size_t{1} << 20;
 /// Min bytes in use for which a huge page pays off: zeroing it takes as long as zeroing a third of
@@ -21,6 +26,15 @@ constexpr std::size_t kMinHugePageUse = kHugePage / 3;
 /// Min bytes of address space of a large arena; only pages that are written take memory.
 constexpr std::size_t kLargeReservation = std::size_t{256} << 20;
 static_assert(kMaxSmallArena % platform::kPage == 0);
+
+/// Zeroed like mapped memory. Returns null if there is no memory.
+std::byte* allocate_on_heap(std::size_t bytes) {
+    void* const data = ::operator new(bytes, kHeapAlignment, std::nothrow);
+    if (data != nullptr) {
+        std::memset(data, 0, bytes);
+    }
+    return static_cast<std::byte*>(data);
+}
 
 std::size_t round_up(std::size_t bytes, std::size_t unit) {
     return (bytes + unit - 1) / unit * unit;
@@ -49,7 +63,9 @@ Arena& Arena::operator=(Arena&& other) noexcept {
 }
 
 void Arena::release() {
-    if (data_ != nullptr) {
+    if (data_ != nullptr && capacity_ <= kMaxHeapArena) {
+        ::operator delete(data_, kHeapAlignment);
+    } else if (data_ != nullptr) {
         platform::release_memory(data_, capacity_);
     }
     data_ = nullptr;
@@ -64,7 +80,10 @@ bool Arena::reserve(std::size_t bytes) {
             return false;
         }
         release();
-        if (bytes <= kMaxSmallArena) {
+        if (bytes <= kMaxHeapArena) {
+            capacity_ = kMaxHeapArena;
+            data_ = allocate_on_heap(capacity_);
+        } else if (bytes <= kMaxSmallArena) {
             capacity_ = kMaxSmallArena;
             data_ = platform::reserve_memory(capacity_, platform::kPage);
         } else {
@@ -83,25 +102,34 @@ bool Arena::reserve(std::size_t bytes) {
         }
     }
     if (bytes > max_reserved_) {
-        if (!platform::commit_memory(data_ + max_reserved_, bytes - max_reserved_)) {
+        const std::size_t before = max_reserved_;
+        const bool is_mapped = capacity_ > kMaxHeapArena;
+        if (is_mapped && !platform::commit_memory(data_ + before, bytes - before)) {
             return false;
         }
         max_reserved_ = bytes;
+        if (is_mapped) {
+            prepare_pages(before);
+        }
     }
-    advise();
     return true;
 }
 
 /// Requests huge pages for the bytes in use; for the last page only if a third of it is in use.
-void Arena::advise() {
-    if (capacity_ <= kMaxSmallArena) {
-        return;
+/// Populates the small pages after them, of which those before byte `before` are in use already.
+void Arena::prepare_pages(std::size_t before) {
+    if (capacity_ > kMaxSmallArena) {
+        const std::size_t rest = max_reserved_ % kHugePage;
+        const std::size_t end = max_reserved_ - rest + (rest >= kMinHugePageUse ? kHugePage : 0);
+        if (end > advised_) {
+            platform::advise_huge_pages(data_ + advised_, end - advised_);
+            advised_ = end;
+        }
     }
-    const std::size_t rest = max_reserved_ % kHugePage;
-    const std::size_t end = max_reserved_ - rest + (rest >= kMinHugePageUse ? kHugePage : 0);
-    if (end > advised_) {
-        platform::advise_huge_pages(data_ + advised_, end - advised_);
-        advised_ = end;
+    const std::size_t first = std::max(advised_, round_up(before, platform::kPage));
+    const std::size_t end = round_up(max_reserved_, platform::kPage);
+    if (first < end) {
+        platform::populate_pages(data_ + first, end - first);
     }
 }
 

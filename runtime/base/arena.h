@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Arena: anonymous memory, mapped from the system, that grows without keeping its contents and is
-// never initialised. Holds the words of a derivation and tables with an entry per module.
+// Arena: memory that grows without keeping its contents and is never initialised: a block of the
+// heap if it is small, else anonymous memory mapped from the system. Holds the words of a
+// derivation and tables with an entry per module.
 #pragma once
 
 #include <cstddef>
@@ -24,7 +25,7 @@ public:
     [[nodiscard]] bool reserve(std::size_t bytes);
     void release();
     /// The memory as an array of T, an implicit-lifetime type: the bytes were written as T, or are
-    /// about to be. Mapped memory is aligned for any T.
+    /// about to be. The memory begins at a cache line.
     template <typename T>
     [[nodiscard]] T* as() {
         static_assert(std::is_trivially_copyable_v<T>);
@@ -41,7 +42,7 @@ public:
     [[nodiscard]] std::size_t max_reserved() const { return max_reserved_; }
 
 private:
-    void advise();
+    void prepare_pages(std::size_t before);
 
     std::byte* data_ = nullptr;
     std::size_t capacity_ = 0;

@@ -33,6 +33,10 @@ void release_memory(std::byte* address, std::size_t bytes) noexcept;
 /// is only slower. Precondition: `address` is a multiple of kHugePage.
 void advise_huge_pages(void* address, std::size_t bytes);
 
+/// Gives the pages memory now, if the system can, instead of by a fault of each page when it is
+/// first written. Precondition: `address` and `bytes` are multiples of kPage.
+void populate_pages(void* address, std::size_t bytes);
+
 /// Memory of the machine in bytes; 2^64 - 1 if unknown.
 [[nodiscard]] std::uint64_t physical_memory();
 /// Peak memory of this process so far, in bytes; 0 if unknown.

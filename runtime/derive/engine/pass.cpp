@@ -30,8 +30,10 @@ constexpr std::uint64_t kMinChunk = 1U << 14;
 /// less time than two need to synchronize.
 constexpr std::uint64_t kMinSharedWord = 1U << 17;
 /// Modules of the word at which threads are started, a few generations before they are needed:
-/// starting them takes as long as rewriting such a word.
+/// starting them takes as long as rewriting such a word. A word that grows by less than
+/// 1 / kMinGrowth per generation may never need them.
 constexpr std::uint64_t kMinWordForThreads = 1U << 13;
+constexpr std::uint64_t kMinGrowth = 8;
 /// Modules between two reports of progress.
 constexpr std::uint64_t kProgressStride = std::uint64_t{1} << 24;
 
@@ -152,8 +154,10 @@ Passes::run_typed(const WordView<C>& word, const Word& in, Word& out, const Pass
 template <typename C>
 void Passes::make_chunks(const WordView<C>& word) {
     std::uint64_t size = std::max(options_.chunk_modules, 1U);
+    const std::uint64_t previous = std::exchange(previous_modules_, word.count);
     if (workers_.count() > 1 && size > kMinChunk) {
-        if (word.count >= kMinWordForThreads) {
+        if (word.count >= kMinWordForThreads && previous != 0 &&
+            word.count >= previous + previous / kMinGrowth) {
             workers_.start();
         }
         size =

@@ -35,7 +35,6 @@ public:
     [[nodiscard]] const RuntimeError& error() const { return error_; }
     [[nodiscard]] const LimitReport& limit() const { return limit_; }
     [[nodiscard]] std::uint64_t held_bytes() const;
-    [[nodiscard]] const Workers& workers() const { return workers_; }
 
 private:
     /// Modules [begin, end) of the word for one thread, and the place of their successors.
@@ -94,6 +93,7 @@ private:
     ContextTables contexts_;
     ActiveMask mask_;
     std::vector<Chunk> chunks_;
+    std::uint64_t previous_modules_ = 0; // of the word that the last pass read; 0: none
     Arena records_;                     // records of a chunk begin at the index of its first module
     std::vector<std::uint64_t> census_; // number of modules of each code in the word
     bool census_known_ = false;

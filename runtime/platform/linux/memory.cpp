@@ -10,6 +10,15 @@ void advise_huge_pages(void* address, std::size_t bytes) {
     static_cast<void>(::madvise(address, bytes, MADV_HUGEPAGE));
 }
 
+void populate_pages(void* address, std::size_t bytes) {
+#ifdef MADV_POPULATE_WRITE // Linux 5.14; earlier systems return an error
+    static_cast<void>(::madvise(address, bytes, MADV_POPULATE_WRITE));
+#else
+    static_cast<void>(address);
+    static_cast<void>(bytes);
+#endif
+}
+
 std::uint64_t peak_memory() {
     rusage usage{};
     ::getrusage(RUSAGE_SELF, &usage);

@@ -9,6 +9,10 @@ void advise_huge_pages(void* /*address*/, std::size_t /*bytes*/) {
     // Only the system chooses the sizes of pages.
 }
 
+void populate_pages(void* /*address*/, std::size_t /*bytes*/) {
+    // macOS has no call that populates pages.
+}
+
 std::uint64_t peak_memory() {
     rusage usage{};
     ::getrusage(RUSAGE_SELF, &usage);

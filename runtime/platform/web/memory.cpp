@@ -27,6 +27,10 @@ void advise_huge_pages(void* /*address*/, std::size_t /*bytes*/) {
     // WebAssembly has one size of page.
 }
 
+void populate_pages(void* /*address*/, std::size_t /*bytes*/) {
+    // The pages of WebAssembly are always present.
+}
+
 std::uint64_t physical_memory() {
     return ::emscripten_get_heap_max();
 }

@@ -48,6 +48,10 @@ void advise_huge_pages(void* /*address*/, std::size_t /*bytes*/) {
     // Large pages need a privilege that ordinary programs do not have.
 }
 
+void populate_pages(void* /*address*/, std::size_t /*bytes*/) {
+    // Windows has no call that populates committed pages.
+}
+
 std::uint64_t physical_memory() {
     MEMORYSTATUSEX status{};
     status.dwLength = sizeof status;

@@ -8,12 +8,18 @@
 #include <limits>
 #include <utility>
 
+#if defined(__linux__)
+#include <sys/mman.h>
+#include <vector>
+#endif
+
 using lsys::Arena;
 
-TEST_CASE("reserved memory can be written, with small and with huge pages") {
+TEST_CASE("reserved memory can be written, on the heap, with small and with huge pages") {
     Arena arena;
     CHECK(arena.max_reserved() == 0);
-    for (const std::size_t count : {std::size_t{10}, std::size_t{1} << 20}) {
+    for (const std::size_t count :
+         {std::size_t{10}, std::size_t{2048}, std::size_t{2049}, std::size_t{1} << 20}) {
         REQUIRE(arena.reserve(count * sizeof(std::uint64_t)));
         CHECK(arena.max_reserved() == count * sizeof(std::uint64_t));
         CHECK(arena.capacity() >= arena.max_reserved());
@@ -70,3 +76,35 @@ TEST_CASE("an arena grows, keeps its capacity and can be released") {
     CHECK_FALSE(other.reserve(std::numeric_limits<std::size_t>::max()));
     CHECK(other.as<std::byte>() == nullptr);
 }
+
+#if defined(__linux__) && defined(MADV_POPULATE_WRITE)
+TEST_CASE("pages of an arena have memory before they are written, except huge pages") {
+    constexpr std::size_t kPage = 4096;
+    const auto resident = [](std::byte* begin, std::size_t bytes) {
+        std::vector<unsigned char> pages((bytes + kPage - 1) / kPage);
+        REQUIRE(::mincore(begin, bytes, pages.data()) == 0);
+        std::size_t count = 0;
+        for (const unsigned char page : pages) {
+            count += page & 1U;
+        }
+        return count;
+    };
+    void* const probe =
+        ::mmap(nullptr, kPage, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+    REQUIRE(probe != MAP_FAILED);
+    const bool populates = ::madvise(probe, kPage, MADV_POPULATE_WRITE) == 0;
+    ::munmap(probe, kPage);
+    if (!populates) {
+        WARN("this kernel cannot populate pages");
+        return;
+    }
+    Arena arena;
+    REQUIRE(arena.reserve(10 * kPage));
+    CHECK(resident(arena.as<std::byte>(), 20 * kPage) == 10);
+    REQUIRE(arena.reserve(12 * kPage + 1));
+    CHECK(resident(arena.as<std::byte>(), 20 * kPage) == 13);
+    constexpr std::size_t kHuge = std::size_t{2} << 20;
+    REQUIRE(arena.reserve(kHuge + 5 * kPage));
+    CHECK(resident(arena.as<std::byte>() + kHuge, 20 * kPage) == 5);
+}
+#endif

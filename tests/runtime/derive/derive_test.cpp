@@ -7,6 +7,8 @@
 #include <catch2/catch.hpp>
 
 #include <algorithm>
+#include <filesystem>
+#include <iterator>
 #include <string>
 #include <vector>
 
@@ -276,3 +278,30 @@ TEST_CASE("a derivation proceeds by steps, and its word can be moved out") {
     REQUIRE(derivation.start() == std::nullopt);
     CHECK(derivation.word().module_count() == 1);
 }
+
+#if defined(__linux__)
+TEST_CASE("threads are started for a word that grows, and not for one of constant length") {
+    const auto threads = [] {
+        const std::filesystem::directory_iterator tasks("/proc/self/task");
+        return std::distance(begin(tasks), end(tasks));
+    };
+    const auto started = [&](const char* production) {
+        std::string axiom = "F";
+        for (int i = 0; i < 20'000; ++i) {
+            axiom += " A";
+        }
+        BytecodeBuilder builder;
+        builder.axiom(axiom).production(production);
+        const Bytecode bytecode = builder.build();
+        DeriveOptions options;
+        options.generations = 3;
+        options.threads = 2;
+        const auto before = threads();
+        Derivation derivation(bytecode, options);
+        REQUIRE_FALSE(derivation.derive());
+        return threads() - before;
+    };
+    CHECK(started("p : F : * : A") == 0);
+    CHECK(started("p : A : * : A A") == 1);
+}
+#endif
