@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Predictions of word sizes before deriving: limits that words will exceed, and numbers of modules.
-// Exact, except predict_expected_modules(). Programs of more than 10,000 productions have no predictions,
-// which would be slow.
+// Exact, except predict_expected_modules(). Programs of more than 10,000 productions have no
+// predictions, which would be slow.
 #pragma once
 
 #include "compiler/bytecode/bytecode.h"
