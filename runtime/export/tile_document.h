@@ -47,8 +47,9 @@ struct MeshDocument {
 void embed_picture(std::size_t number, const std::string& png, MeshDocument& document);
 
 /// Moves the buffers of compressed documents into a file: appends to `file`. Items of one kind, for
-/// example all positions, become one view, which all documents have. The documents get no `uri` and
-/// `file_bytes`. Precondition: their views have nothing but items of accessors, each those of one.
+/// example all positions, become one view, which all documents have; but each accessor of texture
+/// coordinates keeps a view of its own. The documents get no `uri` and `file_bytes`. Precondition:
+/// their views have nothing but items of accessors, each those of one.
 void join_buffers(std::span<MeshDocument* const> documents, std::string& file);
 
 /// A tree of a tile, with its transform from the coordinates of its hero.

@@ -21,21 +21,22 @@ using namespace lsys::tests;
 
 namespace {
 
-constexpr int kWidth = 160;
-constexpr int kHeight = 120;
+constexpr int kPictureWidth = 160;
+constexpr int kPictureHeight = 120;
 constexpr const char* kCross = "#n = 1;\n"
                                "#w : !(0.4) A;\n"
                                "#up : A : * : F(2) [ +(90) F(1.5) ] F(3);\n";
 
 /// Options for a view of a plant from the front; the picture is 12 m high.
 const std::vector<std::string> kFront = {"--camera", "eye 0,3,60 target 0,3,0 fov 11.421186",
-                                         "--size", fmt::format("{}x{}", kWidth, kHeight)};
+                                         "--size",
+                                         fmt::format("{}x{}", kPictureWidth, kPictureHeight)};
 
 /// The pixel of a place in the plane of a plant that kFront shows, m.
 std::string pixel(double x, double y) {
-    const double metre = kHeight / 12.0;
-    return fmt::format("{},{}", static_cast<int>(std::floor(0.5 * kWidth + x * metre)),
-                       static_cast<int>(std::floor(0.5 * kHeight - (y - 3.0) * metre)));
+    const double metre = kPictureHeight / 12.0;
+    return fmt::format("{},{}", static_cast<int>(std::floor(0.5 * kPictureWidth + x * metre)),
+                       static_cast<int>(std::floor(0.5 * kPictureHeight - (y - 3.0) * metre)));
 }
 
 struct PickRun {

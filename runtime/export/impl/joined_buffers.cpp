@@ -5,6 +5,8 @@
 #include "runtime/export/impl/gltf_join.h"
 #include "runtime/export/tile_document.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <map>
 #include <meshoptimizer.h>
@@ -23,6 +25,9 @@ void align(std::string& bytes) {
 }
 
 /// What the items of a view are: the name of an attribute or "indices", and their size in bytes.
+/// Texture coordinates have a view for each accessor, so their name has the numbers of the document
+/// and of the accessor: loaders.gl 4.3 applies KHR_texture_transform to an accessor by replacing
+/// its whole view, which breaks the other accessors of the view.
 using ItemKind = std::pair<std::string, std::uint32_t>;
 
 /// Items of one kind of several documents.
@@ -89,7 +94,12 @@ void join_buffers(std::span<MeshDocument* const> documents, std::string& file) {
             GltfJson& view = document["bufferViews"][accessor["bufferView"].get<std::size_t>()];
             const GltfJson& stored = stored_part(view);
             LSYS_CHECK(&stored != &view, number);
-            const ItemKind kind{names.at(number++), stored["byteStride"].get<std::uint32_t>()};
+            std::string name = names.at(number);
+            if (name.starts_with("TEXCOORD")) {
+                name += fmt::format(" {} {}", i, number);
+            }
+            const ItemKind kind{std::move(name), stored["byteStride"].get<std::uint32_t>()};
+            ++number;
             JoinedView& joined = kinds.try_emplace(kind, JoinedView{view, {}}).first->second;
             auto own = std::find(used[i].begin(), used[i].end(), kind);
             accessor["bufferView"] = own - used[i].begin();

@@ -320,13 +320,7 @@ void ImpostorBaker::render_slab(const Mesh& mesh, int slab, Canvas& canvas, View
                                 glm::dot(normal, view.towards));
             count += 1.0F;
             view.colours[texel] += colour;
-            // Light is not linear in normals: that of the mean normal differs from the mean light,
-            // and means of crowns face the viewer. So a texel has the normal of one sample, each
-            // with equal probability (reservoir sampling).
-            const auto number = static_cast<std::uint32_t>(count);
-            if (lowbias32(static_cast<std::uint32_t>(pixel)) % number == 0) {
-                view.normals[texel] = own.z < 0.0F ? -own : own;
-            }
+            view.normals[texel] += own.z < 0.0F ? -own : own;
             view.depths[texel] += buffer.depths[pixel];
         }
         view.coverage[texel] = count / static_cast<float>(samples * samples);

@@ -14,6 +14,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <map>
 #include <memory>
 #include <optional>
@@ -45,7 +46,7 @@ struct CulledWood {
         buffers.upload(model, plan_impostors(lod), textures);
         buffers.upload_trees(lod);
         REQUIRE(terrain.reload(built_in_shader));
-        terrain.show(*wood->terrain, {}, 3000.0F, textures);
+        terrain.show(*wood->terrain, {}, 3000.0F, GroundCover(), textures);
         const Result<void> compiled = culling.reload(built_in_shader);
         INFO((compiled ? std::string() : compiled.error().message));
         REQUIRE(compiled);
@@ -53,7 +54,7 @@ struct CulledWood {
     }
     CulledLists on_device(const Camera& camera, const LodOptions& options, bool hides) {
         const Frustum frustum = make_frustum(camera, 640, 480);
-        terrain.prepare(frustum);
+        terrain.prepare(frustum, std::numeric_limits<float>::infinity());
         culling.select(lod, buffers,
                        {frustum, options, hides ? terrain.lod() : nullptr, terrain.heights()});
         CHECK(device->errors().empty());
@@ -61,7 +62,7 @@ struct CulledWood {
     }
     const DrawLists& on_cpu(const Camera& camera, const LodOptions& options, bool hides) {
         const Frustum frustum = make_frustum(camera, 640, 480);
-        terrain.prepare(frustum);
+        terrain.prepare(frustum, std::numeric_limits<float>::infinity());
         horizon.set_viewpoint(*terrain.lod(), frustum.eye);
         return lod.select(frustum, options, hides ? &horizon : nullptr);
     }
