@@ -82,7 +82,7 @@ void draw_forest_times(const ForestView& view) {
         count_row("Impostors", frame.far_trees);
         count_row("Clusters", frame.clusters);
         count_row("  trees", frame.clustered_trees);
-        if (!view.has_impostors()) {
+        if (!view.has_all_impostors()) {
             line("Baking impostors");
         }
     }

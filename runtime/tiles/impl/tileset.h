@@ -12,8 +12,9 @@
 namespace lsys {
 
 inline constexpr std::uint32_t kSubtreeLevels = 4; // number of levels that most tilesets list
-/// Whether tiles of a level are roots of a tileset. The tilesets that end at the finest level, which are
-/// the most, have all their levels; that of level 0 has one to five.
+/// Whether tiles of a level are roots of a tileset. The tileset of level 0 lists one to five
+/// levels, all others kSubtreeLevels, so that the most numerous ones, which end at the finest
+/// level, have all their levels.
 [[nodiscard]] constexpr bool is_subtree_root(std::uint32_t level, std::uint32_t finest) {
     return level == 0 || (level > 1 && level <= finest &&
                           (finest - level) % kSubtreeLevels == kSubtreeLevels - 1);
