@@ -40,7 +40,7 @@ std::string stats_text(const GrownForest& grown,
                         ? 0.0
                         : static_cast<double>(counts.branches) / static_cast<double>(counts.trees),
                     counts.max_branches, counts.segments, counts.objects, counts.polygons,
-                    find_tallest(grown, project), counts.digest, grown.cache_seconds * 1e3,
+                    tallest_height(grown, project), counts.digest, grown.cache_seconds * 1e3,
                     grown.place_seconds * 1e3, seconds * 1e3);
     std::vector<std::uint64_t> trees(forest.species.size(), 0);
     for (const Tree& tree : forest.trees) {

@@ -24,7 +24,7 @@ namespace {
 
 // Ratio of the triangles of a level to those of the next one: usual value and bounds.
 constexpr double kUsualFactor = 2.45;
-constexpr double kRootFactor = 1.5652; // its square root
+constexpr double kRootFactor = 1.5652; // square root of kUsualFactor
 constexpr double kLowFactor = 2.0;
 constexpr double kMaxFactor = 3.0;
 constexpr double kSafeFactor = 1.04; // margin within both bounds, where possible
@@ -32,7 +32,7 @@ constexpr double kSafeFactor = 1.04; // margin within both bounds, where possibl
 constexpr double kMaxFactorOfBoxes = 4.5;
 constexpr std::uint32_t kMaxSideLevel = 8; // max increase of MeshOptions::level
 constexpr int kMaxTries = 24;              // max steps of the search for a number of paths
-constexpr double kEnough = 0.96;           // fraction of the wanted triangles that ends the search
+constexpr double kEnoughTriangles = 0.96;  // fraction of the wanted triangles that ends the search
 constexpr int kFittingSteps = 12;
 constexpr double kCloseAreas = 0.004; // value of Planner::difference() that ends the fitting
 constexpr double kAreaWeight = 0.1;   // weight of the covered area in Planner::difference()
@@ -42,14 +42,14 @@ constexpr double kMaxStep = 1.8;   // max factor of a scale from one try to the 
 constexpr double kMaxExcess = 3.0; // max excess of an area relative to the wanted one
 constexpr double kMinTint = 0.25;
 constexpr double kMaxTint = 4.0;
-constexpr float kMaxModerate = 1.6F; // beyond this tint all materials get one colour
-constexpr double kCloseTint = 0.002; // max distance from 1 of a tint that is left out
-constexpr double kMinCover = 0.25;   // of DetailLevel::cover
+constexpr float kMaxModerateTint = 1.6F; // beyond this tint all materials get one colour
+constexpr double kCloseTint = 0.002;     // a tint nearer to 1 than this counts as 1
+constexpr double kMinCover = 0.25;       // of DetailLevel::cover
 constexpr double kMaxCover = 1.75;
 constexpr double kFirstCover = 0.6;
 constexpr double kCloseCover = 0.005;   // relative error of the area that ends the fitting of cover
-constexpr double kLastTriangles = 45.0; // aimed at for the last level, without impostors
-constexpr double kLastCardTriangles = 24.0; // aimed at for the last level, with impostors
+constexpr double kLastTriangles = 45.0; // wanted in the last level, without impostors
+constexpr double kLastCardTriangles = 24.0; // wanted in the last level, with impostors
 // Max triangles of a level that an impostor may follow if the next mesh would look poor.
 constexpr std::uint64_t kMaxBeforePoor = 450;
 // A mesh looks poor if the wood of the plant lies, on average, more pixels than this from the kept
@@ -58,14 +58,15 @@ constexpr double kPoorPixels = 0.8;
 constexpr std::uint64_t kMaxBeforeCards = 100; // max triangles of a mesh that only cards may follow
 constexpr std::uint64_t kMinBeforeCards = 20;  // a mesh of at most this many triangles is the last
 constexpr std::uint64_t kMinBeforeFewer = 40;  // cards of at most this many triangles are the last
-constexpr double kMaxOfCards = 400.0;          // max triangles of an impostor
+constexpr double kMaxCardTriangles = 400.0;    // max triangles of an impostor
 constexpr double kCloseCount = 0.04; // accepted relative difference from the planned triangles
-constexpr double kNearMax = 1.35; // see Planner::coarser(): ratio to the max triangles of a level
-constexpr int kMaxEqualSteps = 3; // max levels before the end of the chain with equal ratios
+// A mesh with at most this multiple of the max triangles of the next level is thinned to the max.
+constexpr double kNearMax = 1.35;
+constexpr int kMaxEqualSteps = 3; // max steps to the last level that all get the same ratio
 // Factors of the wanted number of triangles, tried one after the other.
-constexpr std::array<double, 6> kParts{1.0, 0.9, 1.1, 0.82, 1.18, 0.72};
-constexpr int kRootSteps = 40;
-constexpr int kSeekSteps = 8;
+constexpr std::array<double, 6> kTriangleFactors{1.0, 0.9, 1.1, 0.82, 1.18, 0.72};
+constexpr int kRootSteps = 40; // bisections in Planner::factor_from()
+constexpr int kSeekSteps = 8;  // max bisections in Planner::seek()
 constexpr int kStraighterTries = 6;
 constexpr int kMaxStraightenings = 48;
 constexpr float kStraightening = 1.15F; // factor of MeshOptions::axis_error per straightening
@@ -127,8 +128,8 @@ void colour_materials(const DetailLevel& level, Mesh& mesh) {
 
 /// Whether a tint changes materials little.
 bool is_moderate(const glm::vec3& tint) {
-    return std::max({tint.x, tint.y, tint.z}) < kMaxModerate &&
-           std::min({tint.x, tint.y, tint.z}) > 1.0F / kMaxModerate;
+    return std::max({tint.x, tint.y, tint.z}) < kMaxModerateTint &&
+           std::min({tint.x, tint.y, tint.z}) > 1.0F / kMaxModerateTint;
 }
 
 /// Plans and fits the levels of one plant. After a failure stop_ is set and all steps do nothing.
@@ -577,11 +578,11 @@ private:
         const double factor = before.triangles <= kMaxBeforeCards
                                   ? std::clamp(all / last_, kLowFactor, kMaxFactor)
                                   : factor_from(all);
-        const double wanted = std::min(all / factor, kMaxOfCards);
+        const double wanted = std::min(all / factor, kMaxCardTriangles);
         DetailLevel level{.options = options_, .impostor = true};
         level.triangles = 2 * static_cast<std::uint64_t>(0.5 * wanted);
         if (kMaxFactor * static_cast<double>(level.triangles) < all &&
-            static_cast<double>(level.triangles + 2) <= kMaxOfCards) {
+            static_cast<double>(level.triangles + 2) <= kMaxCardTriangles) {
             level.triangles += 2;
         }
         set_error(static_cast<double>(level.triangles), level);
@@ -661,8 +662,8 @@ private:
                 return rounder;
             }
             wood = static_cast<double>(wood_triangles(base));
-            // Both leave too many triangles, because straight wood loses nearly all joints at one
-            // error. Continue with the smaller of the two.
+            // `base` and `rounder` have too many triangles, because straight wood loses nearly all
+            // joints at one error. Continue with the smaller one.
             const auto rounder_wood = static_cast<double>(wood_triangles(rounder));
             if (rounder_wood < wood) {
                 base = rounder;
@@ -710,7 +711,7 @@ private:
         DetailLevel best = before;
         double min_difference = std::numeric_limits<double>::infinity();
         for (const bool fewer_sides : {false, true}) {
-            for (const double part : kParts) {
+            for (const double part : kTriangleFactors) {
                 DetailLevel level = base;
                 level.options.level += fewer_sides ? 1 : 0;
                 level = thinner(level, wood, foliage, part * aim);
@@ -747,7 +748,7 @@ private:
         level.options.*option = low;
     }
 
-    /// Changes `options` to tubes without relief of the bark and without smooth joints.
+    /// Changes `options` to tubes without bark noise, grooves, smooth joints and deviation.
     static void make_plain(MeshOptions& options) {
         options.method = MeshMethod::Tubes;
         options.bark_noise = 0.0F;
@@ -827,7 +828,7 @@ private:
             if (static_cast<double>(now) <= wanted) {
                 low = level.paths;
                 low_count = now;
-                if (static_cast<double>(now) >= kEnough * wanted) {
+                if (static_cast<double>(now) >= kEnoughTriangles * wanted) {
                     return;
                 }
             } else {

@@ -65,7 +65,7 @@ void apply_look(const Looks* looks, ItemColour colour, Material& material) {
     }
     material.roughness = look->roughness;
     if (look->picture != nullptr) {
-        if (material.kind == MaterialKind::Bark) { // the built-in relief belongs to its picture
+        if (material.kind == MaterialKind::Bark) { // the built-in normal map fits its picture only
             material.kind = MaterialKind::Plain;
             material.roughness = look->roughness.value_or(kBarkRoughness);
         }
@@ -77,7 +77,7 @@ void apply_look(const Looks* looks, ItemColour colour, Material& material) {
     if (look->normal_map != nullptr) {
         material.normal_map = look->normal_map;
         if (material.textured && material.picture == nullptr) {
-            material.picture = built_in_picture(material.kind); // drawn together with the relief
+            material.picture = built_in_picture(material.kind); // drawn with the normal map
         }
     }
     material.translucency = look->translucency;

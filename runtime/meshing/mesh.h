@@ -67,7 +67,7 @@ struct Mesh {
     TriangleList indices;
     std::vector<MeshPart> parts; // one for each material in use, in order of indices
     std::vector<Material> materials;
-    std::shared_ptr<const Looks> looks; // of `colours`: Skeleton::looks
+    std::shared_ptr<const Looks> looks; // of the indexes in `colours`: Skeleton::looks
     std::uint64_t shells = 0;           // separate closed pieces; of MeshMethod::Solid only
 
     [[nodiscard]] std::uint64_t byte_count() const {

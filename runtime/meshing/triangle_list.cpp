@@ -78,8 +78,8 @@ void TriangleList::write_unit(const Patch& patch, std::uint32_t vertex, std::uin
         }
         return;
     }
-    // Walk around both rings at once; the ring whose next corner comes first makes the next
-    // triangle.
+    // The corners i of the low ring and j of the high ring advance around the axis. The next
+    // triangle has the side of the ring whose next corner comes first.
     const std::uint32_t high_sides = patch.second_sides;
     std::uint32_t i = 0;
     std::uint32_t j = 0;

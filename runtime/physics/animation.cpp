@@ -231,7 +231,7 @@ private:
             if (!(angle > 0.0)) {
                 break;
             }
-            // About (-z, 0, x), which takes the level direction (x, 0, z) to +Y.
+            // A rotation about (-z, 0, x) turns the level direction (x, 0, z) towards +Y.
             const glm::dvec3 axis(-way.z, 0.0, way.x);
             const SineCosine half = sine_cosine(0.5 * angle);
             const glm::dquat up(half.cosine, half.sine * axis);

@@ -66,7 +66,7 @@ namespace {
 constexpr double kDragCoefficient = 1.1; // approximate value of long cylinders and of plates
 constexpr double kFriction = 0.5;        // approximate value of bark on soil
 constexpr int kTrials = 12;              // max number of shares of a step that are tried
-constexpr int kInexactTrials = 2;    // kTrials with Forces::exactness; later rounds are less exact
+constexpr int kExactTrials = 2; // kTrials if Forces::exactness > 0; then settle() lowers exactness
 constexpr double kTrialShare = 0.25; // factor from one share to the next
 constexpr double kRounding = 1e-12;  // relative to Energies::potential_magnitude
 constexpr double kRestStep = 1e6;    // s, step of settle(), for which inertia is negligible
@@ -344,7 +344,7 @@ struct PlantPhysics::State {
     /// Makes a step; without `keep_velocity` it ends at standstill.
     Step advance(const Forces& current_forces, bool keep_velocity) {
         solve_spins(plant, current_forces, workers);
-        const int trials = current_forces.exactness > 0.0 ? kInexactTrials : kTrials;
+        const int trials = current_forces.exactness > 0.0 ? kExactTrials : kTrials;
         double share = 1.0;
         double turn = 0.0;
         for (int trial = 0; trial <= trials; ++trial) {

@@ -519,7 +519,7 @@ grow_species(const LoadedScene& loaded, const Project& project, const PreviousFo
     return step.done(std::move(grown));
 }
 
-double find_tallest(const GrownForest& grown, const Project& project) {
+double tallest_height(const GrownForest& grown, const Project& project) {
     return tallest_tree(grown.forest, project.threads);
 }
 
@@ -589,7 +589,7 @@ std::vector<double> unit_heights(const Scene& scene, const GrownForest& grown) {
     return heights;
 }
 
-// Structured bindings, so that a new member that is not combined does not compile.
+// Structured bindings list all members, so that a new member which the hash lacks does not compile.
 std::uint64_t placement_digest(const Scene& scene,
                                const Project& project,
                                const GrownForest& grown,

@@ -80,7 +80,7 @@ grow_species(const LoadedScene& loaded, const Project& project, const PreviousFo
 /// The options of the placement of `grown`, which must outlive them.
 [[nodiscard]] PlacementOptions
 placement_options(const Scene& scene, const Project& project, const GrownForest& grown);
-/// By species: the height in m of a tree at scale 1 after TreeSizer; 0: as drawn.
+/// By species: the height in m that TreeSizer gives a tree of scale 1; 0: trees keep their size.
 [[nodiscard]] std::vector<double> unit_heights(const Scene& scene, const GrownForest& grown);
 
 /// A hash of all that the trees of place_forest() depend on, for species with rho 0. `sizer`: of
@@ -100,7 +100,7 @@ size_forest(const Scene& scene, const Project& project, GrownForest& grown);
 place_forest(const Scene& scene, const Project& project, GrownForest& grown);
 
 /// Height of the tallest tree in m, at its scale. Time is linear in the branches of all trees.
-[[nodiscard]] double find_tallest(const GrownForest& grown, const Project& project);
+[[nodiscard]] double tallest_height(const GrownForest& grown, const Project& project);
 
 /// Ends `step` with the `stop` of make_instance_meshes() or make_detail_mesh(), and a message.
 [[nodiscard]] Step::Ended end_mesh_of_heroes(Stop stop, Step& step);

@@ -24,7 +24,7 @@ struct Hero {
     DetailLevels levels;
     Bounds bounds;            // of level 0
     std::vector<bool> in_use; // by level: whether some tree uses it
-    std::vector<Mesh> meshes; // of levels in use
+    std::vector<Mesh> meshes; // by level; made only for levels in use
 
     /// Largest side of the bounding box, in m.
     [[nodiscard]] float extent() const {

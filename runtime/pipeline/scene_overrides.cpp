@@ -66,7 +66,7 @@ std::string stage_conflict(const SceneOverrides& overrides, const Scene& scene) 
     return {};
 }
 
-void note_written(bool heroes, bool rho, SceneSpecies& species) {
+void mark_explicit(bool heroes, bool rho, SceneSpecies& species) {
     species.explicit_instancing.heroes = species.explicit_instancing.heroes || heroes;
     species.explicit_instancing.rho = species.explicit_instancing.rho || rho;
 }
@@ -87,7 +87,7 @@ Result<void> apply(const SceneOverrides& overrides, Scene& scene) {
         replace_if_set(overrides.cache_cap, species.cache.cap);
         replace_if_set(overrides.tolerance, species.cache.tolerance);
         replace_if_set(overrides.rho, species.rho);
-        note_written(overrides.heroes.has_value(), overrides.rho.has_value(), species);
+        mark_explicit(overrides.heroes.has_value(), overrides.rho.has_value(), species);
         species.explicit_instancing.cap =
             species.explicit_instancing.cap || overrides.cache_cap.has_value();
         const GrammarOptions& grammar = overrides.grammar;
@@ -130,8 +130,8 @@ Result<void> apply(const SceneOverrides& overrides, Scene& scene) {
         const SpeciesOverrides& species_overrides = found->second;
         replace_if_set(species_overrides.heroes, species.cache.heroes);
         replace_if_set(species_overrides.rho, species.rho);
-        note_written(species_overrides.heroes.has_value(), species_overrides.rho.has_value(),
-                     species);
+        mark_explicit(species_overrides.heroes.has_value(), species_overrides.rho.has_value(),
+                      species);
         PlacementSpecies& placed = scene.placement.species[i];
         replace_if_set(species_overrides.share, placed.share);
         replace_if_set(species_overrides.min_scale, placed.min_scale);

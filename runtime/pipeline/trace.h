@@ -64,14 +64,14 @@ struct TracedPlace {
     std::uint64_t position = 0;
     TracedModule module;
     TraceOrigin origin;
-    /// Scope Next: traces of the next step: of the module itself, and of the modules written for it
-    /// in later passes of the step. ModuleTrace::parent is an index of this list.
+    /// Scope Next: the traces of the next step, of `module` and of the modules that earlier passes
+    /// of this step wrote for it. ModuleTrace::parent is an index in this list.
     std::vector<ModuleTrace> step;
     /// The modules of the next word that replace the module.
     std::vector<TracedModule> next;
     std::uint64_t first_next = 0;     // position of next[0] in the next word
     std::vector<ModuleTrace> drawing; // traces of #interpret, in the form of `step`
-    std::vector<TracedModule> drawn;  // the modules that are drawn for it; empty without `drawing`
+    std::vector<TracedModule> drawn;  // drawn in place of `module`; empty without `drawing`
     /// Scopes Written and Back: the steps from the previous word back to the step that wrote the
     /// module, or to the axiom. Empty for the axiom itself.
     std::vector<AncestorStep> back;

@@ -203,7 +203,7 @@ TileResponse TileService::respond(const TileRequest& request) {
 }
 
 TileResponse TileService::answer(const TileRequest& request) {
-    if (request.method == "OPTIONS") { // asked by pages of other sites
+    if (request.method == "OPTIONS") { // a CORS preflight, sent for pages of other sites
         TileResponse response;
         response.status = 204;
         response.fields.emplace_back("Access-Control-Allow-Methods", "GET, HEAD, OPTIONS");
@@ -363,7 +363,7 @@ std::shared_ptr<TileService::Entry> TileService::entry_of(const std::string& pat
     return entry;
 }
 
-/// Notes the size of an entry, and drops those that have not been used for longest.
+/// Stores the size of an entry; while the cache is too large, drops its least recently used entry.
 void TileService::keep(const std::string& path,
                        const std::shared_ptr<Entry>& entry,
                        std::uint64_t bytes) {

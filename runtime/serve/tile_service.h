@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// TileService: answers requests for the files of a tileset, which it makes when they are asked for. It
-// knows HTTP (RFC 9110) but no sockets; http_server.h connects it to a network. It reads no file.
+// TileService: answers requests for the files of a tileset, which it makes on request. Implements
+// HTTP (RFC 9110) without sockets; http_server.h connects it to a network. Reads no files.
 #pragma once
 
 #include "runtime/tiles/tiles.h"
@@ -42,13 +42,14 @@ struct TileResponse {
 
 /// Counts since the start, for /metrics.
 struct TileCounts {
+    /// Upper bounds of the classes of `times`; the last class has none.
     static constexpr std::array<double, 8> kSeconds{0.001, 0.003, 0.01, 0.03, 0.1, 0.3, 1.0, 3.0};
 
     std::array<std::atomic<std::uint64_t>, 6> responses{}; // by first digit of the status
     std::atomic<std::uint64_t> bytes{0};                   // of bodies
     std::atomic<std::uint64_t> made{0};                    // tiles and tilesets made
     std::atomic<std::uint64_t> hits{0};                    // requests answered from the cache
-    std::array<std::atomic<std::uint64_t>, kSeconds.size() + 1> times{}; // files made, by time
+    std::array<std::atomic<std::uint64_t>, kSeconds.size() + 1> times{}; // files by time to make
     std::atomic<std::uint64_t> microseconds{0};                          // spent on making files
     std::atomic<std::int64_t> connections{0};
     std::atomic<std::uint64_t> refused_connections{0};
@@ -111,8 +112,8 @@ private:
     std::uint64_t used_bytes_ = 0;
 };
 
-/// The tile that `path`, such as "3/5/2.glb", names with this extension; nothing else is accepted, not
-/// even other ways to write the same numbers.
+/// Sets `tile` to the tile that `path` names, such as "3/5/2.glb" with the extension ".glb".
+/// Returns false for any other path, also for another spelling of the numbers: "03/5/2.glb".
 [[nodiscard]] bool parse_tile_path(std::string_view path, std::string_view extension, TileId& tile);
 
 } // namespace lsys

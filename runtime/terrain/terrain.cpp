@@ -215,7 +215,7 @@ double Terrain::mesh_error(double cell) const {
     const auto value = [&](std::uint32_t column, std::uint32_t row) {
         return static_cast<double>(map_->values[std::size_t{row} * map_->columns + column]);
     };
-    double bend = 0.0; // the max of this sum, from differences of pixels
+    double bend = 0.0; // max of |f_xx| + 2 |f_xz| + |f_zz|, from differences of pixels
     const auto [low, high] = std::minmax_element(map_->values.begin(), map_->values.end());
     for (std::uint32_t row = 0; row + 1 < map_->rows; ++row) {
         for (std::uint32_t column = 0; column + 1 < map_->columns; ++column) {

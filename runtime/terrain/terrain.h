@@ -119,7 +119,7 @@ struct GroundPictures {
 struct TerrainMeshOptions {
     std::uint32_t columns = 256;
     std::uint32_t rows = 256;
-    double texture_size = 0.0; // m of ground per texture; 0: one texture for all
+    double texture_size = 0.0; // m of ground per texture; 0: one over the region
     std::uint32_t threads = 0; // 0: as many as the machine has
     GroundPictures pictures;   // if its colour is set, `texture_size` is ignored
     bool tangents = false;     // whether to make Mesh::tangents, along X

@@ -62,7 +62,7 @@ struct TileForest::State {
     double largest_extent = 0.0; // m, of a tree, at least its height
 
     std::unique_ptr<DensityField> field;     // of a placement on an unbounded grid
-    std::optional<CanopyField> field_canopy; // the same
+    std::optional<CanopyField> field_canopy; // of such a placement
     std::vector<Canopy> counted_canopies;    // of other placements, by level without trees
     CanopyAtCorner canopy_at;
 

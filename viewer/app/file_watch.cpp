@@ -52,7 +52,7 @@ struct FileWatch::State {
     Options options;
     Changed changed;
     platform::FolderEvents events;
-    std::mutex mutex; // guards the next two
+    std::mutex mutex; // guards `requested` and `stops`
     std::optional<std::vector<std::string>> requested;
     bool stops = false;
     // Used by the thread only.

@@ -121,7 +121,7 @@ Outcome<std::shared_ptr<ForestDocument>> make(const ViewOptions& options,
     // Max trees to measure; more would delay the first picture.
     constexpr std::size_t kMeasuredTrees = 20'000;
     if (document->squares == nullptr && document->grown.forest.trees.size() <= kMeasuredTrees) {
-        document->tallest = find_tallest(document->grown, project);
+        document->tallest = tallest_height(document->grown, project);
     }
     const Stopwatch meshing;
     if (!step.take(make_model(options, known, project, *document))) {

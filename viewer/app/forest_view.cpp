@@ -131,7 +131,7 @@ void ForestView::set_years(std::uint32_t years) {
 bool ForestView::update() {
     bool has_news = false;
     if (reload_shaders()) {
-        has_impostors_ = false;
+        has_all_impostors_ = false;
         watch_files();
         has_news = true;
     }
@@ -141,9 +141,9 @@ bool ForestView::update() {
     }
     has_news = take_picked() || has_news;
     show_colours();
-    if (!has_impostors_ && document_ != nullptr) {
-        has_impostors_ = renderer_->bake_impostors(kBakeTime);
-        changed_ = changed_ || has_impostors_;
+    if (!has_all_impostors_ && document_ != nullptr) {
+        has_all_impostors_ = renderer_->bake_impostors(kBakeTime);
+        changed_ = changed_ || has_all_impostors_;
     }
     grow();
     if (document_ != nullptr) {
@@ -163,7 +163,7 @@ void ForestView::show_colours() {
     shown_colours_ = settings.colours;
     legend_ = legend_of(document_->model, shown_colours_);
     renderer_->colour_branches(shown_colours_);
-    has_impostors_ = false;
+    has_all_impostors_ = false;
     changed_ = true;
 }
 
@@ -233,7 +233,7 @@ void ForestView::swap(ForestOutcome outcome) {
     if (is_other) {
         painting_.clear();
     }
-    has_impostors_ = false;
+    has_all_impostors_ = false;
     if (std::exchange(frame_next_, false)) {
         settings.camera = with_parts(options_.camera, first_camera);
     }
@@ -377,7 +377,7 @@ void ForestView::take_moment() {
     ++stats_.moments;
     renderer_->show_trees();
     static_cast<void>(painting_.set_document(document_));
-    has_impostors_ = false;
+    has_all_impostors_ = false;
     changed_ = true;
 }
 
@@ -613,7 +613,7 @@ void ForestView::save() {
 }
 
 bool ForestView::is_busy() const {
-    return loader_.is_busy() || settings.plays || grown_ || settings.windy || !has_impostors_ ||
+    return loader_.is_busy() || settings.plays || grown_ || settings.windy || !has_all_impostors_ ||
            is_coarse_ || is_picking() || is_streaming_;
 }
 

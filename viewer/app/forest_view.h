@@ -129,7 +129,7 @@ public:
     /// The colours of the branches; empty for natural ones.
     [[nodiscard]] const std::vector<LegendEntry>& legend() const { return legend_; }
     /// Whether all impostors are baked.
-    [[nodiscard]] bool has_impostors() const { return has_impostors_; }
+    [[nodiscard]] bool has_all_impostors() const { return has_all_impostors_; }
 
 protected:
     [[nodiscard]] PickRequest request_for(const Picked& picked) const override;
@@ -163,7 +163,7 @@ private:
     bool frame_next_ = true;  // the next swap fits the camera to the forest
     bool plays_next_ = false; // growth starts to play at the next swap
     bool logs_next_frame_ = false;
-    bool has_impostors_ = true;
+    bool has_all_impostors_ = true;
     BranchColours shown_colours_ = BranchColours::Natural;
     std::vector<LegendEntry> legend_;
     std::optional<SceneOverrides> requested_;

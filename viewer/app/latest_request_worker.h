@@ -113,7 +113,7 @@ private:
 
     Run run_request_;
     std::function<void()> done_;
-    mutable std::mutex mutex_; // guards all below
+    mutable std::mutex mutex_; // guards the members from here to `began_`
     std::condition_variable changed_;
     std::optional<Request> pending_;
     std::optional<Request> last_;

@@ -92,7 +92,7 @@ void draw_forest_times(const ForestView& view) {
         count_row("Clusters", frame.clusters);
         count_row("  trees", frame.clustered_trees);
         draw_culling(frame);
-        if (!view.has_impostors()) {
+        if (!view.has_all_impostors()) {
             line("Baking impostors");
         }
     }

@@ -38,7 +38,7 @@ StandingOutcome check_plant_stands(const StandingRequest& request,
         },
         [&] {
             return StandingOutcome{request.document, {}};
-        }); // the simulation will report missing memory
+        }); // without memory there is no warning
 }
 
 struct PlantMotion::State {

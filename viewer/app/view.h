@@ -22,7 +22,7 @@
 
 namespace lsys::view {
 
-constexpr double kMillisecondsPerSecond = 1e3; // per second
+constexpr double kMillisecondsPerSecond = 1e3;
 /// Time that a note stays on the screen.
 constexpr std::chrono::seconds kNoteTime{10};
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Renderer: draws plants and forests. The interface of viewer/gl, the only code that knows OpenGL.
+// Renderer: draws plants and forests. The interface of viewer/gl, the only code that calls OpenGL.
 // Every call needs a current context.
 #pragma once
 

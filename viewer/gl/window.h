@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Window: a GLFW window with an OpenGL 4.5 core context, its input, and panels of Dear ImGui over
-// the picture. The only code that knows GLFW and its binding to ImGui.
+// the picture. The only code that calls GLFW and its binding to ImGui.
 #pragma once
 
 #include "grammar/base/result.h"

@@ -16,7 +16,7 @@ namespace lsys::view {
 struct Frustum {
     std::array<glm::vec4, 5> planes{}; // unit normals, pointing inward
     glm::vec3 eye{};
-    float pixels = 1.0F; // height in pixels of an object as high as it is far away
+    float pixels = 1.0F; // projected height of an object whose height is its distance
 
     [[nodiscard]] bool intersects(const Sphere& sphere) const {
         for (const glm::vec4& plane : planes) {

@@ -22,8 +22,8 @@ layout(location = 5) uniform vec3 up;
 layout(location = 0) out vec4 albedo_out; // square roots of linear RGB; opacity
 // Normal in the frame of the impostor (2 channels); depth; translucency.
 layout(location = 1) out vec4 normal_out;
-// Stereographic projection of a normal to 0..1. It is continuous, so that mip levels may
-// average them. impostor.frag.glsl has the inverse.
+// Stereographic projection of a normal to 0..1. The projection is continuous, so that mip levels
+// may average its values. impostor.frag.glsl has the inverse.
 vec2 projected(vec3 normal) {
     vec2 at = vec2(dot(normal, right), dot(normal, up)) / max(1.0 + dot(normal, to_eye), 1e-3);
     return 0.5 + 0.25 * at * min(1.0, 2.0 / max(length(at), 1e-6));
@@ -34,7 +34,7 @@ in vec2 fog;
 in vec3 from_eye; // m
 out vec4 colour;
 layout(binding = 5) uniform sampler2D normal_map; // normals as in glTF
-// Normal with the relief texture applied. The axes of the texture come from differences between
+// Normal with the normal map applied. The axes of the texture come from differences between
 // pixels, because vertices have no tangents (Schueler 2006, "Normal Mapping without Precomputed
 // Tangents", ShaderX 5). `normal`: the normal of the visible side.
 vec3 bumped(vec3 normal) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "light.glsl"
-// CDLOD (Strugar 2010): vertices morph to those of the next level before it takes over.
+// CDLOD (Strugar 2010): vertices morph to the next level and reach it at the distance where it
+// begins.
 layout(binding = 1) uniform sampler2DArray heights; // a layer per level, vertices at texels
 layout(binding = 5) uniform sampler2DArray covers;  // fraction hidden by crowns
 layout(location = 0) uniform ivec2 origins[14];     // by layer, in cells of its level

@@ -34,9 +34,9 @@ constexpr float kRim = 0.72F;
 constexpr float kBevel = 0.28F;
 // Min half side with a rim, relative to the distance from the origin.
 constexpr float kMinRim = 2e-4F;
-// Overlap, in half sides, at a tip whose branches have separate surfaces. The parent ends
-// beyond its tip, and branches begin before the tip: by less, so that no thick branch shows on the
-// far side.
+// Overlaps, in half sides, at a tip whose branches have separate surfaces: of the parent beyond its
+// tip, and of branches before this tip. The overlap of branches is smaller, so that no thick branch
+// shows on the far side of the parent.
 constexpr float kParentOverlap = 0.6F;
 constexpr float kBranchOverlap = 0.1F;
 // Min relative difference of widths at which an unsmoothed box has a step.

@@ -15,7 +15,7 @@ namespace lsys {
 
 namespace {
 
-// Max rows of prepared leaves.
+// Max rows of vertices of a leaf.
 constexpr std::size_t kMaxRows = 16;
 // Max turn of a leaf that stands on its edge, radians.
 constexpr float kSidewaysTurn = 2.1F;

@@ -24,9 +24,9 @@ namespace {
 constexpr int kMinTile = 16; // texels of a side of a picture
 constexpr int kMaxTile = 128;
 constexpr float kTexelsPerPixel = 1.3F; // max, where the impostor is first shown on screen
-constexpr int kMinSide = 256;           // samples of a side of a picture
-constexpr int kMaxSide = 512;
-constexpr int kSamplesPerTexel = 8; // along each side, within these bounds
+constexpr int kMinSamples = 256;        // samples of a side of a picture
+constexpr int kMaxSamples = 512;
+constexpr int kSamplesPerTexel = 8; // along each side, within kMinSamples and kMaxSamples
 constexpr int kOpaqueByte = 128;
 constexpr float kHalfRoot3 = 0.8660254F;
 constexpr float kEmptyDepth = -std::numeric_limits<float>::infinity(); // depth of empty samples
@@ -49,7 +49,7 @@ std::uint8_t unit_byte(float value) {
 
 /// Samples of a side of a picture.
 int samples_of(int tile) {
-    return std::clamp(kSamplesPerTexel * tile, kMinSide, kMaxSide);
+    return std::clamp(kSamplesPerTexel * tile, kMinSamples, kMaxSamples);
 }
 
 /// Width in texels of the margin around the plant in a picture.

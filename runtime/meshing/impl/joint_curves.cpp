@@ -15,7 +15,7 @@ namespace {
 
 // Turn from one part to the next, as the difference of their unit headings.
 constexpr double kTurnOfPart = 0.2;
-// Square of the sum of two unit headings below which an axis turns back.
+// An axis turns back where the square of the sum of the two unit headings is at most this.
 constexpr float kTurnsBack = 1e-4F;
 constexpr std::size_t kSamples = 32; // of an edge, to find where it turns
 

@@ -90,7 +90,7 @@ public:
     MeshBuilder& operator=(const MeshBuilder&) = delete;
 
     [[nodiscard]] const MeshOptions& options() const { return options_; }
-    /// Sets the pictures of files, by MaterialKey::picture.
+    /// Sets the pictures of files, by MaterialKey::picture - 1.
     void set_pictures(std::vector<FilePictures> pictures) { pictures_ = std::move(pictures); }
     /// Sets the looks of colour indexes; null: none.
     void set_looks(std::shared_ptr<const Looks> looks) { mesh_.looks = std::move(looks); }

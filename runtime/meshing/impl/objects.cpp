@@ -152,7 +152,7 @@ std::string small_letters(std::string text) {
 } // namespace
 
 std::vector<std::string> object_file_names(const std::vector<std::string>& files) {
-    // Names that materials of the library have, or pictures beside a file.
+    // Names of the materials of the library and of pictures written beside a mesh file.
     std::set<std::string> taken{"", "bark", "bark normals", "leaf", "polygon", "impostor"};
     std::vector<std::string> names;
     for (const std::string& file : files) {

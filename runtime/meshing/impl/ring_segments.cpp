@@ -26,7 +26,7 @@ constexpr std::size_t kMaxBetween = 32;
 constexpr std::uint32_t kUnknown = kNoSegment;
 
 /// Squared distance of a point from a segment's axis.
-double distance(const glm::vec3& point, const Segment& segment) {
+double squared_distance(const glm::vec3& point, const Segment& segment) {
     const glm::dvec3 from(segment.base);
     const glm::dvec3 way = glm::dvec3(tip(segment)) - from;
     const glm::dvec3 off = glm::dvec3(point) - from;
@@ -149,7 +149,7 @@ private:
         double min_distance = std::numeric_limits<double>::max();
         std::uint32_t nearest = first;
         for (std::uint32_t k = first; k < end; ++k) {
-            const double away = distance(point, skeleton_.segments[chain_[k]]);
+            const double away = squared_distance(point, skeleton_.segments[chain_[k]]);
             if (away < min_distance) {
                 min_distance = away;
                 nearest = k;

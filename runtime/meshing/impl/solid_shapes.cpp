@@ -29,7 +29,7 @@ double distance_from(const SolidShape& triangle, const glm::dvec3& point) {
     const glm::dvec3 offset = point - triangle.corners[0];
     const glm::dvec2 at(glm::dot(offset, triangle.axes[0]), glm::dot(offset, triangle.axes[1]));
     const double above = glm::dot(offset, triangle.axes[2]);
-    double nearest = std::numeric_limits<double>::max(); // square, within the plane
+    double nearest = std::numeric_limits<double>::max(); // square, to the sides, in the plane
     bool outside = triangle.is_flat;
     for (const SolidShape::Side& side : triangle.sides) {
         const glm::dvec2 arm = at - side.from;

@@ -13,7 +13,7 @@ namespace {
 
 // Coordinates are scaled to 0 ... 1 first; an area below this is rounding.
 constexpr double kFlat = 1e-13;
-// Below this number of corners, comparing with all is faster than an index.
+// With fewer corners, comparing an ear with all corners is faster than using an index.
 constexpr std::uint32_t kIndexedFrom = 64;
 // Budget in corners for repeated searches for ears in a polygon without any.
 constexpr std::uint32_t kSearches = 400'000;

@@ -39,11 +39,11 @@ using asio::ip::tcp;
 using std::chrono::milliseconds;
 using std::chrono::seconds;
 
-constexpr seconds kIdle{10};
-constexpr seconds kSending{120};
-constexpr seconds kFinishing{5};
-constexpr milliseconds kPoll{100};
-constexpr std::uint32_t kHeaderBytes = 16 * 1024;
+constexpr seconds kIdleTimeout{10};
+constexpr seconds kSendTimeout{120};
+constexpr seconds kFinishTimeout{5};
+constexpr milliseconds kPollInterval{100};
+constexpr std::uint32_t kMaxHeaderBytes = 16 * 1024;
 
 class Session;
 
@@ -79,9 +79,9 @@ public:
 
     void read() {
         parser_.emplace();
-        parser_->header_limit(kHeaderBytes);
+        parser_->header_limit(kMaxHeaderBytes);
         is_idle_ = true;
-        stream_.expires_after(kIdle);
+        stream_.expires_after(kIdleTimeout);
         http::async_read(stream_, buffer_, *parser_,
                          [self = shared_from_this()](beast::error_code error, std::size_t) {
                              self->is_idle_ = false;
@@ -166,7 +166,7 @@ private:
         }
         is_last_ = is_last_ || shared_.is_stopping || !parser_->get().keep_alive();
         message_->keep_alive(!is_last_);
-        stream_.expires_after(kSending);
+        stream_.expires_after(kSendTimeout);
         http::async_write(stream_, *message_,
                           [self = shared_from_this()](beast::error_code error, std::size_t) {
                               self->response_.body.reset();
@@ -180,7 +180,7 @@ private:
 
     Shared& shared_;
     beast::tcp_stream stream_;
-    beast::flat_buffer buffer_{kHeaderBytes + 4096};
+    beast::flat_buffer buffer_{kMaxHeaderBytes + 4096};
     std::optional<http::request_parser<http::empty_body>> parser_;
     TileResponse response_;
     std::optional<http::response<http::span_body<const char>>> message_;
@@ -217,7 +217,7 @@ public:
                 return;
             }
             if (error) { // no descriptor is left, for example
-                retry_.expires_after(kPoll);
+                retry_.expires_after(kPollInterval);
                 retry_.async_wait([this](beast::error_code) { accept(); });
                 return;
             }
@@ -255,7 +255,7 @@ public:
         : shared_(shared), listener_(listener), should_stop_(should_stop), timer_(shared.network) {}
 
     void wait() {
-        timer_.expires_after(kPoll);
+        timer_.expires_after(kPollInterval);
         timer_.async_wait([this](beast::error_code) { check(); });
     }
 
@@ -263,7 +263,7 @@ private:
     void check() {
         if (!shared_.is_stopping && should_stop_()) {
             shared_.is_stopping = true;
-            end_ = std::chrono::steady_clock::now() + kFinishing;
+            end_ = std::chrono::steady_clock::now() + kFinishTimeout;
             listener_.close();
             const std::set<Session*> sessions = shared_.sessions;
             for (Session* const session : sessions) {

@@ -33,7 +33,7 @@ struct CrownSums {
 
     void add(const CrownSums& other, double weight);
 };
-/// A tree of the given scale.
+/// The sums of one tree of the given scale.
 [[nodiscard]] CrownSums sums_of(const Crown& crown, double scale);
 /// The means of crowns on `ground` m2. The cover is the expected one if each tree stands anywhere on
 /// the ground, independently of the others: 1 - (1 - area of a crown / ground)^trees, in the limit

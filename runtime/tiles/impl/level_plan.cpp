@@ -9,7 +9,7 @@ namespace lsys {
 
 namespace {
 
-/// Too many triangles do not divide a tile whose parts would have fewer trees than this on average.
+/// A tile with too many triangles stays whole if its quarters would have a lower mean of trees.
 constexpr double kMinTileTrees = 4.0;
 constexpr double kGroundError = 0.1;        // m, tolerated error of the ground in every tile
 constexpr std::uint32_t kEmptyLevels = 2;   // of a forest with more levels without trees

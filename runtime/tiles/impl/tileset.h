@@ -12,8 +12,8 @@
 namespace lsys {
 
 inline constexpr std::uint32_t kSubtreeLevels = 3; // number of levels that most tilesets list
-/// Whether tiles of a level, apart from level 0, have a tileset of the tiles below them. That of level 0
-/// has one to five levels, or three to five if there are others.
+/// Whether tiles of a level, apart from level 0, have a tileset of the tiles below them. That of
+/// level 0 has one to five levels, or three to five if there are others.
 [[nodiscard]] constexpr bool has_subtrees(std::uint32_t level, std::uint32_t finest) {
     return level > 1 && level < finest && finest > 4 && (finest - level) % kSubtreeLevels == 0;
 }

@@ -26,7 +26,7 @@ std::uint64_t morton_code(const TileId& tile) {
     return number;
 }
 
-/// The position of the place of a tree, as a tile of the deepest level.
+/// The position on the Z-order curve of the tile of level kMaxTileLevel in which a tree stands.
 std::uint64_t morton_code(const TileGrid& grid, const Tree& tree) {
     return morton_code(grid.tile_at(kMaxTileLevel, tree.position.x, tree.position.z));
 }

@@ -81,11 +81,13 @@ public:
         return false;
     }
     bool until_swaps(std::uint64_t count) {
-        return until([&] { return forest().stats().swaps >= count && forest().has_impostors(); });
+        return until(
+            [&] { return forest().stats().swaps >= count && forest().has_all_impostors(); });
     }
     bool until_trees(std::uint64_t count) {
-        return until(
-            [&] { return forest().painting().tree_count() == count && forest().has_impostors(); });
+        return until([&] {
+            return forest().painting().tree_count() == count && forest().has_all_impostors();
+        });
     }
     std::vector<std::uint8_t> picture() {
         REQUIRE(until([&] { return !forest().is_coarse(); }));

@@ -105,7 +105,7 @@ public:
     std::uint64_t draw(BranchClass kind, bool blends = false) const;
     /// Draws the branches whose material has a picture file: with the program `cut_out` if the
     /// picture has holes, else with `solid`. Binds these programs and textures of bark, leaves and
-    /// relief; returns the count of draw calls.
+    /// normal maps; returns the count of draw calls.
     std::uint64_t draw_pictures(GLuint solid, GLuint cut_out, bool blends) const;
     void bind_storage() const;
     /// Rebinds storage so that tree indices of later draws mean clusters. Call after
@@ -137,7 +137,7 @@ private:
     struct BranchPicture {
         std::shared_ptr<const Texture> colour_file;
         std::shared_ptr<const Texture> normal_map_file;
-        TextureObject colour; // empty: the material has only a relief
+        TextureObject colour; // empty: the material has only a normal map
         TextureObject normal_map;
         bool has_holes = false;
     };
