@@ -35,11 +35,12 @@ inline constexpr double kOriginStep = 4096.0;
 /// The same camera with another origin.
 [[nodiscard]] Camera relative_to(const Camera& camera, const glm::dvec3& origin);
 
-/// `eye X,Y,Z target X,Y,Z fov DEGREES`; parse_camera() reads it back as an equal camera.
+/// `eye X,Y,Z target X,Y,Z fov DEGREES` with places in the world; parse_camera() reads back a camera
+/// with the same places and field of view.
 [[nodiscard]] std::string to_text(const Camera& camera);
 /// Reads parts in any order; missing ones are taken from `otherwise`. An eye more than 16 km from
-/// the origin of the world gets its nearest_origin(), any other one the origin of the world. Error: unknown text, eye
-/// equal to target, a field of view outside 1 to 170 degrees.
+/// the origin of the world gets its nearest_origin(), any other one the origin of the world. Error:
+/// unknown text, eye equal to target, a field of view outside 1 to 170 degrees.
 [[nodiscard]] Result<Camera> parse_camera(std::string_view text, const Camera& otherwise);
 /// `first` with the parts of `text` in place of its own; unchanged if parse_camera() fails.
 [[nodiscard]] Camera with_parts(std::string_view text, const Camera& first);

@@ -26,12 +26,18 @@ glm::vec3 clip(const Camera& camera, float aspect, const glm::vec3& place) {
 
 TEST_CASE("a written camera is read back unchanged") {
     Camera camera;
-    camera.eye = {0.1F, -3.25e-5F, 1e6F};
+    camera.eye = {0.1F, -3.25e-5F, 1e4F};
     camera.target = {1.0F / 3.0F, 2.0F, -7.0F};
     camera.field_of_view = 33.3F;
     const Result<Camera> read = parse_camera(to_text(camera), Camera{});
     REQUIRE(read);
     CHECK(read.value() == camera);
+
+    camera.eye = {0.1F, -3.25e-5F, 1e6F};
+    const Result<Camera> far = parse_camera(to_text(camera), Camera{});
+    REQUIRE(far);
+    CHECK(far.value().origin == glm::dvec3(0.0, 0.0, 244.0 * kOriginStep));
+    CHECK(relative_to(far.value(), camera.origin) == camera);
 }
 
 TEST_CASE("parts of a camera may be omitted") {
