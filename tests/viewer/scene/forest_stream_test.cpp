@@ -23,16 +23,16 @@ using namespace lsys::view;
 
 namespace {
 
-constexpr double kDensity = 0.01;             // trees per m2
-constexpr std::uint64_t kBudget = 20'000'000; // bytes
-constexpr Region kGround{-100'000.0, -90'000.0, 200'000.0, 180'000.0};
+constexpr double kStreamedDensity = 0.01;          // trees per m2
+constexpr std::uint64_t kStreamBytes = 20'000'000; // bytes
+constexpr Region kStreamedGround{-100'000.0, -90'000.0, 200'000.0, 180'000.0};
 
 ForestStream make_stream(std::uint64_t bytes) {
-    return {make_square_layout(kGround, kDensity), 12.0F,
-            [](const Region& region) { return kDensity * region.area(); }, bytes};
+    return {make_square_layout(kStreamedGround, kStreamedDensity), 12.0F,
+            [](const Region& region) { return kStreamedDensity * region.area(); }, bytes};
 }
 
-Camera at(double x, double y, double z) {
+Camera camera_over(double x, double y, double z) {
     Camera camera;
     camera.origin = nearest_origin({x, y, z});
     camera.eye = glm::vec3(glm::dvec3(x, y, z) - camera.origin);
@@ -41,7 +41,7 @@ Camera at(double x, double y, double z) {
 }
 
 /// Distance in m from the eye to a square, seen from above.
-double distance_to(const ForestStream& stream, const SquareId& id, const Camera& camera) {
+double distance_to_square(const ForestStream& stream, const SquareId& id, const Camera& camera) {
     const Region region = stream.layout().region_of(id);
     const glm::dvec3 eye = eye_of(camera);
     return std::hypot(eye.x - std::clamp(eye.x, region.x, region.x + region.width),
@@ -83,18 +83,18 @@ StreamedWood make_streamed_wood(double shift) {
     return made;
 }
 
-struct DrawnList {
+struct DrawnSquares {
     std::vector<std::array<float, 4>> trees; // place and first threshold, in the order of drawing
     std::vector<std::array<float, 4>> clusters;                // likewise
     std::vector<std::pair<std::uint32_t, std::uint32_t>> runs; // instance and count
     std::uint64_t triangles = 0;
 
-    friend bool operator==(const DrawnList&, const DrawnList&) = default;
+    friend bool operator==(const DrawnSquares&, const DrawnSquares&) = default;
 };
 
-DrawnList drawn_by(ForestLod& lod, const Camera& camera) {
+DrawnSquares drawn_list_of(ForestLod& lod, const Camera& camera) {
     const DrawLists& lists = lod.select(make_frustum(camera, 640, 480), wood_lod());
-    DrawnList drawn;
+    DrawnSquares drawn;
     for (const ImpostorEntry& entry : lists.trees) {
         const glm::vec3& place = lod.lod_tree(entry.index).position;
         drawn.trees.push_back({place.x, place.y, place.z, entry.range.low});
@@ -110,7 +110,7 @@ DrawnList drawn_by(ForestLod& lod, const Camera& camera) {
     return drawn;
 }
 
-Camera wood_camera() {
+Camera streamed_wood_camera() {
     return {{20.0F, 5.0F, 20.0F}, {200.0F, 2.0F, 190.0F}, 70.0F};
 }
 
@@ -118,7 +118,7 @@ Camera wood_camera() {
 
 TEST_CASE("a layout has squares of about 4,096 trees and cells of about 16") {
     for (const double density : {0.0004, 0.01, 0.04, 1.0}) {
-        const SquareLayout layout = make_square_layout(kGround, density);
+        const SquareLayout layout = make_square_layout(kStreamedGround, density);
         const double trees = density * layout.side * layout.side;
         CHECK(trees >= 2048.0);
         CHECK(trees <= 8192.0);
@@ -129,21 +129,21 @@ TEST_CASE("a layout has squares of about 4,096 trees and cells of about 16") {
 }
 
 TEST_CASE("a camera wants the nearest squares within its budget, each once") {
-    const ForestStream stream = make_stream(kBudget);
+    const ForestStream stream = make_stream(kStreamBytes);
     const auto [x, z] = GENERATE(std::pair(0.0, 0.0), std::pair(99'999.0, 12.5),
                                  std::pair(-100'000.0, -90'000.0), std::pair(70'000.5, -33.0));
-    const Camera camera = at(x, 60.0, z);
+    const Camera camera = camera_over(x, 60.0, z);
     const WantedSquares wanted = stream.wanted(camera, 30.0F, 720);
     REQUIRE(!wanted.squares.empty());
     double bytes = 0.0;
     double before = 0.0;
     for (const SquareId& id : wanted.squares) {
         bytes += stream.expected_bytes(id);
-        const double distance = distance_to(stream, id, camera);
+        const double distance = distance_to_square(stream, id, camera);
         CHECK(distance >= before);
         before = distance;
     }
-    CHECK(bytes <= kWantedPart * static_cast<double>(kBudget));
+    CHECK(bytes <= kWantedPart * static_cast<double>(kStreamBytes));
     const std::set<SquareId> unique(wanted.squares.begin(), wanted.squares.end());
     CHECK(unique.size() == wanted.squares.size());
     // No gap: every place of the ground within the range is in a wanted square.
@@ -153,7 +153,7 @@ TEST_CASE("a camera wants the nearest squares within its budget, each once") {
         const double away = range * 0.9995 * (i % 50) / 49.0;
         const double px = x + away * std::cos(angle);
         const double pz = z + away * std::sin(angle);
-        if (kGround.contains(static_cast<float>(px), static_cast<float>(pz))) {
+        if (kStreamedGround.contains(static_cast<float>(px), static_cast<float>(pz))) {
             CHECK(unique.count(stream.layout().square_at(px, pz)) == 1);
         }
     }
@@ -161,15 +161,18 @@ TEST_CASE("a camera wants the nearest squares within its budget, each once") {
 
 TEST_CASE("a larger budget shows more, up to trees of three pixels") {
     std::size_t before = 0;
-    for (const std::uint64_t bytes : {kBudget, 4 * kBudget, 16 * kBudget}) {
-        const std::size_t count = make_stream(bytes).wanted(at(0, 2, 0), 0.0F, 720).squares.size();
+    for (const std::uint64_t bytes : {kStreamBytes, 4 * kStreamBytes, 16 * kStreamBytes}) {
+        const std::size_t count =
+            make_stream(bytes).wanted(camera_over(0, 2, 0), 0.0F, 720).squares.size();
         CHECK(count > before);
         before = count;
     }
-    const WantedSquares all = make_stream(64 * kBudget).wanted(at(0, 2, 0), 0.0F, 720);
+    const WantedSquares all =
+        make_stream(64 * kStreamBytes).wanted(camera_over(0, 2, 0), 0.0F, 720);
     CHECK(all.range == Approx(12.0 * 360.0 / std::tan(20.0 * 3.14159265358979 / 180.0) / 3.0));
-    CHECK(make_stream(128 * kBudget).wanted(at(0, 2, 0), 0.0F, 720).squares == all.squares);
-    CHECK(make_stream(kBudget).wanted(at(0, 9000, 0), 0.0F, 720).squares.empty());
+    CHECK(make_stream(128 * kStreamBytes).wanted(camera_over(0, 2, 0), 0.0F, 720).squares ==
+          all.squares);
+    CHECK(make_stream(kStreamBytes).wanted(camera_over(0, 9000, 0), 0.0F, 720).squares.empty());
 }
 
 TEST_CASE("trees of squares are drawn alike whatever way the squares have come") {
@@ -193,11 +196,14 @@ TEST_CASE("trees of squares are drawn alike whatever way the squares have come")
     other.set_origin({});
     CHECK(direct.alive_count() == 3000);
     CHECK(other.alive_count() == 3000);
-    const DrawnList drawn = drawn_by(direct, wood_camera());
-    CHECK(drawn.trees.size() > 100);
-    CHECK(!drawn.clusters.empty());
-    CHECK(drawn.triangles > 0);
-    CHECK(drawn == drawn_by(other, wood_camera()));
+    const DrawnSquares near = drawn_list_of(direct, streamed_wood_camera());
+    CHECK(near.trees.size() > 100);
+    CHECK(near.triangles > 0);
+    CHECK(near == drawn_list_of(other, streamed_wood_camera()));
+    const Camera away{{-3000.0F, 50.0F, 100.0F}, {100.0F, 0.0F, 100.0F}, 20.0F};
+    const DrawnSquares far = drawn_list_of(direct, away);
+    CHECK(far.clusters.size() > 10);
+    CHECK(far == drawn_list_of(other, away));
     std::set<std::uint32_t> numbers;
     other.for_each_alive([&](const LodTree&, const Tree& tree) { numbers.insert(tree.number); });
     CHECK(numbers.size() == 3000);
@@ -214,9 +220,9 @@ TEST_CASE("a forest 147 km away is drawn exactly as the same forest at the origi
         far_lod.add_square(far.squares[i]);
     }
     far_lod.set_origin({kShift, 0.0, kShift});
-    const DrawnList drawn = drawn_by(near_lod, wood_camera());
+    const DrawnSquares drawn = drawn_list_of(near_lod, streamed_wood_camera());
     CHECK(drawn.trees.size() > 100);
-    CHECK(drawn == drawn_by(far_lod, wood_camera()));
+    CHECK(drawn == drawn_list_of(far_lod, streamed_wood_camera()));
 }
 
 TEST_CASE("a far camera keeps places of a tenth of a millimetre") {
@@ -258,7 +264,7 @@ TEST_CASE("heights of a moved ground are those of the terrain") {
         }
     };
     for (const double x : {0.0, 100.0, 2040.0, 2060.0, 6200.0, 147'000.0, 2060.0}) {
-        const Camera camera = at(x, 40.0, 0.5 * x);
+        const Camera camera = camera_over(x, 40.0, 0.5 * x);
         lod.set_origin(camera.origin);
         lod.select(make_frustum(camera, 640, 480));
         check_all(camera.origin);
