@@ -242,7 +242,7 @@ TEST_CASE("times of the frames of a flight of 15 km", "[.flight]") {
     std::vector<double> culls;
     constexpr int kFrames = 300; // of 50 m
     for (int i = 0; i <= kFrames; ++i) {
-        view.camera() = flying_camera(-50'000.0 + 100'000.0 * i / kFrames, 20'000.0);
+        view.camera() = flying_camera(-50'000.0 + 50.0 * i, 20'000.0);
         const double seconds = frame();
         if (i > 20) { // not the jump to the start
             times.push_back(seconds);
