@@ -73,7 +73,7 @@ def leaf(card, place, direction, length, outline, colour, vein, veins=6, vein_an
     card.line([base, along(base, direction, length * 0.97)], 0.022 * length, vein)
     for i in range(veins):
         t = 0.06 + 0.8 * i / veins
-        reach = max(np.interp(t + 0.12, [p for p, _ in outline], [w for _, w in outline]), 0.02)
+        reach = max(min(np.interp([t + 0.1, t + 0.3], [p for p, _ in outline], [w for _, w in outline])), 0.02)
         for side in (-1, 1):
             start = along(base, direction, t * length)
             run = 0.92 * reach * length / math.sin(math.radians(vein_angle))
