@@ -68,8 +68,10 @@ def leaf(card, place, direction, length, outline, colour, vein, veins=6, vein_an
     right = [along(base, direction, t * length, w * length) for t, w in outline]
     left = [along(base, direction, t * length, -w * length) for t, w in outline]
     card.area(right + left[::-1], colour)
-    # The right half lies a little in the shade, so that the leaf looks folded along its midrib.
+    # The right half lies a little in the shade, so that the leaf looks folded along its midrib; a dark
+    # edge sets it off from the leaves below.
     card.area(right + [along(base, direction, length), base], shaded(colour, 0.9))
+    card.line(right + left[::-1] + right[:1], 0.016 * length, shaded(colour, 0.66))
     card.line([base, along(base, direction, length * 0.97)], 0.022 * length, vein)
     for i in range(veins):
         t = 0.06 + 0.8 * i / veins

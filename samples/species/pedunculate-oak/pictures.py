@@ -34,7 +34,7 @@ def lobed():
 
 def leafy(card, place, direction, length, bend, leaves):
     """A twig with few leaves along it and a cluster at its end, or without leaves."""
-    steps = max(2, round(length / 0.1))
+    steps = max(2, round(length / 0.12))
     heading = direction
     for i in range(steps):
         ahead = along(place, heading, length / steps)
@@ -48,16 +48,15 @@ def leafy(card, place, direction, length, bend, leaves):
                 continue
             tone = draw.uniform(0.74, 1.0)
             hue = draw.uniform(-10, 10)
-            leaf(card, place, heading + angle + draw.uniform(-12, 12), draw.uniform(0.115, 0.15), lobed(),
+            leaf(card, place, heading + angle + draw.uniform(-12, 12), draw.uniform(0.125, 0.155), lobed(),
                  ((218 + hue) * tone, 224 * tone, (190 - hue) * tone), (240 * tone, 242 * tone, 206 * tone),
                  veins=5, vein_angle=48, stalk=0.03)
 
 
 for name, leaves in (("spray.png", True), ("twig.png", False)):
     card = Card(512, 512)
-    for start, direction, length, bend in ((0.05, -66, 0.36, 24), (0.08, 64, 0.38, -24), (0.22, -58, 0.38, 30),
-                                           (0.28, 60, 0.36, -30), (0.4, -50, 0.32, 25), (0.46, 48, 0.3, -25),
-                                           (0.6, -40, 0.2, 25), (0.64, 42, 0.18, -25)):
+    for start, direction, length, bend in ((0.05, -66, 0.38, 24), (0.1, 64, 0.4, -24), (0.32, -58, 0.36, 30),
+                                           (0.4, 58, 0.32, -30), (0.58, -46, 0.22, 25), (0.64, 46, 0.2, -25)):
         leafy(card, (0, start), direction, length, bend, leaves)
     leafy(card, (0, 0), 0, 0.86, 6, leaves)
     card.save(name, levels=16)
