@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
 """Draws the pictures of silver-birch.lsys: bark.jpg, base.jpg with its normals, and spray.png, a hanging twig with
-leaves.
+leaves, and twig.png, the same without them.
 Usage: samples/species/silver-birch/pictures.py      Needs Pillow and NumPy (Debian: python3-pil, python3-numpy)."""
 import math
 import os
@@ -30,18 +30,17 @@ def toothed():
     return outline
 
 
-card = Card(384, 512)
-
-
-def leafy(place, direction, length, bend):
-    """A twig with a leaf by turns to each side; its tip turns by `bend` degrees."""
+def leafy(card, place, direction, length, bend, leaves):
+    """A twig with a leaf by turns to each side, or without; its tip turns by `bend` degrees."""
     steps = max(3, round(length / 0.055))
     heading = direction
     for i in range(steps):
         ahead = along(place, heading, length / steps)
-        card.line([place, ahead], 0.008, (104, 78, 66))
+        card.line([place, ahead], 0.008 if leaves else 0.014, (104, 78, 66))
         place = ahead
         heading += bend / steps + draw.uniform(-9, 9)
+        if not leaves:
+            continue
         side = 1 if i % 2 else -1
         tone = draw.uniform(0.72, 1.0)
         hue = draw.uniform(-12, 12)
@@ -50,11 +49,13 @@ def leafy(place, direction, length, bend):
              veins=6, vein_angle=42, stalk=0.35)
 
 
-leafy((0, 0), 0, 0.86, 8)
-for start, direction, length, bend in ((0.05, -62, 0.42, 50), (0.14, 58, 0.46, -48), (0.3, -50, 0.42, 45),
-                                       (0.4, 46, 0.38, -40), (0.55, -42, 0.3, 40), (0.63, 44, 0.24, -40)):
-    leafy((0, start), direction, length, bend)
-card.save("spray.png")
+for name, leaves in (("spray.png", True), ("twig.png", False)):
+    card = Card(384, 512)
+    leafy(card, (0, 0), 0, 0.86, 8, leaves)
+    for start, direction, length, bend in ((0.05, -62, 0.42, 50), (0.14, 58, 0.46, -48), (0.3, -50, 0.42, 45),
+                                           (0.4, 46, 0.38, -40), (0.55, -42, 0.3, 40), (0.63, 44, 0.24, -40)):
+        leafy(card, (0, start), direction, length, bend, leaves)
+    card.save(name)
 
 size = 512
 white = blend((240, 236, 228), (222, 212, 202), 0.5 + 0.28 * field(size, 30, 18, 1))
