@@ -80,11 +80,18 @@ std::size_t ScratchFolder::file_count() const {
 }
 
 std::vector<Sample> all_samples() {
+    std::vector<fs::path> folders;
+    for (const char* const parent : {"/samples", "/samples/species"}) {
+        for (const fs::directory_entry& entry :
+             fs::directory_iterator(LSYS_SOURCE_DIR + std::string(parent))) {
+            folders.push_back(entry.path());
+        }
+    }
     std::vector<Sample> samples;
-    for (const fs::directory_entry& entry : fs::directory_iterator(LSYS_SOURCE_DIR "/samples")) {
-        const std::string name = path_text(entry.path().filename());
+    for (const fs::path& folder : folders) {
+        const std::string name = path_text(folder.filename());
         Sample sample;
-        sample.file = entry.path() / (name + ".lsys");
+        sample.file = folder / (name + ".lsys");
         if (!fs::exists(sample.file)) {
             continue;
         }

@@ -43,7 +43,7 @@ private:
     std::filesystem::path path_;
 };
 
-/// A sample of the gallery: samples/NAME/NAME.lsys.
+/// A sample of the gallery: samples/NAME/NAME.lsys or samples/species/NAME/NAME.lsys.
 struct Sample {
     std::filesystem::path file;
     std::vector<std::vector<std::string>> runs; // with the name of the file inserted
