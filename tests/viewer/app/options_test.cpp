@@ -78,6 +78,14 @@ TEST_CASE("the option --air is for forests") {
     }
 }
 
+TEST_CASE("the option --culling says where trees are chosen") {
+    CHECK(parsed<ViewOptions>({"wood.toml"}).culling == Culling::Auto);
+    CHECK(parsed<ViewOptions>({"wood.toml", "--culling", "cpu"}).culling == Culling::Cpu);
+    CHECK(parsed<ViewOptions>({"wood.toml", "--culling", "gpu"}).culling == Culling::Gpu);
+    CHECK(parsed<UsageError>({"wood.toml", "--culling", "both"}).message.find("--culling") !=
+          std::string::npos);
+}
+
 TEST_CASE("an option of forests shows a grammar as a forest") {
     CHECK(parsed<ViewOptions>({"tree.lsys", "--heroes", "3"}).is_forest);
     CHECK(parsed<ViewOptions>({"wood.toml"}).is_forest);
