@@ -147,12 +147,12 @@ void add_without_letters(const StatementRepair& repair, std::vector<std::string>
     }
 }
 
-/// Whether the parenthesis at `at` may be a mistyped digit: `)` after a digit, as in `/(6))`, or
-/// `(` between blanks, as in `a - ( - b`.
-bool may_be_digit(std::string_view text, std::size_t at) {
+/// Whether the parenthesis at `at` may be a mistyped digit or name: `)` after a digit, as in
+/// `/(6))`, or after `(`, as in `F())`, or `(` between blanks, as in `a - ( - b`.
+bool may_be_value(std::string_view text, std::size_t at) {
     const char before = at == 0 ? ' ' : text[at - 1];
     const char after = at + 1 == text.size() ? ' ' : text[at + 1];
-    return (text[at] == ')' && is_number_part(before)) ||
+    return (text[at] == ')' && (is_number_part(before) || before == '(')) ||
            (text[at] == '(' && before == ' ' && after == ' ');
 }
 
@@ -189,7 +189,7 @@ std::vector<std::string> bracket_repairs(std::string_view broken, bool is_single
         const std::size_t next = broken.find_first_not_of(" \t\r\n", at + 1);
         const bool is_doubled = (at > 0 && broken[at - 1] == broken[at]) ||
                                 next == std::string_view::npos || broken[next] == ';';
-        if (is_single && may_be_digit(broken, at)) {
+        if (is_single && may_be_value(broken, at)) {
             add(at, 1, "1");
         }
         if (broken[at] == ')' || broken[at] == '}' ||

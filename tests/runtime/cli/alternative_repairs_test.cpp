@@ -53,6 +53,14 @@ TEST_CASE("every other place of a bracket with a different meaning is an alterna
           std::vector<std::string>{"#w : F({1, k}*2);"});
 }
 
+TEST_CASE("the second parenthesis of an empty pair may be a mistyped argument") {
+    StatementRepair repair{
+        DiagnosticCode::ExtraParenthesis, "#w : F())[G(2)];", "#w : F()[G(2)];", 8, {}};
+    CHECK(!has(alternative_repairs(repair), "#w : F(1)[G(2)];"));
+    repair.is_single = true;
+    CHECK(has(alternative_repairs(repair), "#w : F(1)[G(2)];"));
+}
+
 TEST_CASE("a comma may stand for a product unless a number follows") {
     using Code = DiagnosticCode;
     CHECK(alternatives(Code::MissingComma, "#w : F(km 20);", "#w : F(km, 20);").empty());
