@@ -287,6 +287,7 @@ public:
     FrameTimes frame_times() const override { return times_; }
     void read(std::vector<std::uint8_t>& pixels) override {
         target_.read(pixels);
+        glFinish(); // reading waits for the texels only, not for the queries after them
         collect_device_stats();
     }
     void present(const PixelArea& area) override { target_.present(area); }
