@@ -148,12 +148,16 @@ void add_without_letters(const StatementRepair& repair, std::vector<std::string>
 }
 
 /// Whether the parenthesis at `at` may be a mistyped digit or name: `)` after a digit, as in
-/// `/(6))`, or after `(`, as in `F())`, or `(` between blanks, as in `a - ( - b`.
+/// `/(6))`, or after `(`, as in `F())`, or `(` between blanks, as in `a - ( - b`, or between a blank
+/// and a digit, as in `= (6`, but not in `(0.5`.
 bool may_be_value(std::string_view text, std::size_t at) {
     const char before = at == 0 ? ' ' : text[at - 1];
     const char after = at + 1 == text.size() ? ' ' : text[at + 1];
-    return (text[at] == ')' && (is_number_part(before) || before == '(')) ||
-           (text[at] == '(' && before == ' ' && after == ' ');
+    if (text[at] == ')') {
+        return is_number_part(before) || before == '(';
+    }
+    return text[at] == '(' && before == ' ' &&
+           (after == ' ' || (is_number_part(after) && text.substr(at + 1, 2) != "0."));
 }
 
 std::vector<std::string> bracket_repairs(std::string_view broken, bool is_single) {
@@ -185,15 +189,18 @@ std::vector<std::string> bracket_repairs(std::string_view broken, bool is_single
         if (is_pair) {
             add(at, 2, std::string{broken[at + 1], broken[at]});
         }
-        // An opening bracket is removed only after an equal one, before `;` or at the end.
+        // An opening bracket is removed only after an equal one or an operator of comparison, before
+        // `;` or at the end.
         const std::size_t next = broken.find_first_not_of(" \t\r\n", at + 1);
-        const bool is_doubled = (at > 0 && broken[at - 1] == broken[at]) ||
-                                next == std::string_view::npos || broken[next] == ';';
+        const bool is_removable =
+            (at > 0 && (broken[at - 1] == broken[at] ||
+                        std::string_view("<>=").find(broken[at - 1]) != std::string_view::npos)) ||
+            next == std::string_view::npos || broken[next] == ';';
         if (is_single && may_be_value(broken, at)) {
             add(at, 1, "1");
         }
         if (broken[at] == ')' || broken[at] == '}' ||
-            ((broken[at] == '(' || broken[at] == '{') && is_doubled)) {
+            ((broken[at] == '(' || broken[at] == '{') && is_removable)) {
             add(at, 1, "");
         }
         for (const std::string_view direction : {kOpening, kClosing}) {

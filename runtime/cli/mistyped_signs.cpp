@@ -19,9 +19,14 @@ std::pair<bool, bool> sides_of(std::string_view text, std::size_t at) {
     return {at == 0 || is_blank_at(text, at - 1), is_blank_at(text, at + 1)};
 }
 
-/// Whether the sign at `at` is the only one of its kind in the text, or another one has blanks on
-/// the same sides.
+/// Whether the sign at `at` is the only one of its kind in the text, another one has blanks on the
+/// same sides, or it follows a `:`, as the `;` after an empty successor.
 bool is_laid_out_as_others(std::string_view text, std::size_t at) {
+    const std::size_t before =
+        at == 0 ? std::string_view::npos : text.find_last_not_of(kWhitespace, at - 1);
+    if (before != std::string_view::npos && text[before] == ':') {
+        return true;
+    }
     const std::pair<bool, bool> sides = sides_of(text, at);
     bool has_others = false;
     for (std::size_t other = text.find(text[at]); other != std::string_view::npos;

@@ -61,6 +61,15 @@ TEST_CASE("the second parenthesis of an empty pair may be a mistyped argument") 
     CHECK(has(alternative_repairs(repair), "#w : F(1)[G(2)];"));
 }
 
+TEST_CASE("an opening parenthesis may be mistyped") {
+    StatementRepair digit{DiagnosticCode::UnclosedParenthesis, "#n = (6;", "#n = (6);", 7, {}};
+    digit.is_single = true;
+    CHECK(has(alternative_repairs(digit), "#n = 16;"));
+    CHECK(has(alternatives(DiagnosticCode::UnclosedParenthesis, "#p : A(i) : i >=(8 && i : B;",
+                           "#p : A(i) : i >=(8 && i) : B;"),
+              "#p : A(i) : i >=8 && i : B;"));
+}
+
 TEST_CASE("a comma may stand for a product unless a number follows") {
     using Code = DiagnosticCode;
     CHECK(alternatives(Code::MissingComma, "#w : F(km 20);", "#w : F(km, 20);").empty());

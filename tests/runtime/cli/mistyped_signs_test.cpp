@@ -41,6 +41,8 @@ TEST_CASE("an added sign has the same blanks as others of the text") {
     // No other `;` follows a blank.
     CHECK(others("#n = 3;\n#w : F A", ";", "\n#p : F : * : F;\n").empty());
     CHECK(others("#n = 3 ;\n#w : F A", ";", "\n").size() == 1);
+    // The `;` of an empty successor has a blank before it in any layout.
+    CHECK(others("#n = 3;\n#p : F : * : p", ";", "\n").size() == 1);
 }
 
 TEST_CASE("an equal sign before the last character may have been exchanged with it") {
