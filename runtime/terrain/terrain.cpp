@@ -9,7 +9,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <stb/stb_perlin.h>
 #include <string_view>
 #include <utility>
 
@@ -17,7 +16,7 @@ namespace lsys {
 
 namespace {
 
-constexpr double kPeriod = 256.0; // cells after which stb's noise repeats
+constexpr double kPeriod = NoiseLayer::kPeriod; // lattice cells
 /// Fraction of the finest feature over which slopes are measured. Coordinates in the noise are
 /// exact to 2^-17 of a cell, which leaves an error of 1 in 2,000 in this distance.
 constexpr double kSlopePart = 1.0 / 32.0;
@@ -101,9 +100,10 @@ Result<Terrain> Terrain::noise(const Region& region, const NoiseOptions& options
     for (std::uint32_t number = 0; number < options.octaves; ++number) {
         // each octave is shifted, because otherwise the zeros of all octaves would coincide
         const PhiloxBlock words = draw_block(options.seed, kTerrainGeneration, number, 0);
+        const auto layer = static_cast<float>(words[2] >> 24U);
         terrain.octaves_.push_back({frequency, static_cast<double>(words[0]) * (kPeriod * 0x1p-32),
-                                    static_cast<double>(words[1]) * (kPeriod * 0x1p-32),
-                                    static_cast<float>(words[2] >> 24U), amplitude});
+                                    static_cast<double>(words[1]) * (kPeriod * 0x1p-32), layer,
+                                    amplitude, NoiseLayer(layer)});
         sum += amplitude;
         terrain.slope_step_ = std::max(kMinSlopeStep, kSlopePart / frequency);
         frequency *= options.lacunarity;
@@ -147,9 +147,8 @@ Terrain::height_map(const Region& region, GreyMap map, const HeightMapOptions& o
 double Terrain::noise_height(double x, double z) const {
     double height = 0.0;
     for (const Octave& octave : octaves_) {
-        const float noise =
-            stb_perlin_noise3(wrapped(x * octave.frequency + octave.shift_x), octave.layer,
-                              wrapped(z * octave.frequency + octave.shift_z), 0, 0, 0);
+        const float noise = octave.noise.at(wrapped(x * octave.frequency + octave.shift_x),
+                                            wrapped(z * octave.frequency + octave.shift_z));
         height += octave.amplitude * std::clamp(static_cast<double>(noise), -1.0, 1.0);
     }
     return height;

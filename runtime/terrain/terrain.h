@@ -6,6 +6,7 @@
 #include "grammar/base/result.h"
 #include "runtime/base/grey_map.h"
 #include "runtime/meshing/mesh.h"
+#include "runtime/terrain/noise_layer.h"
 #include "runtime/terrain/region.h"
 
 #include <glm/vec3.hpp>
@@ -85,6 +86,7 @@ private:
         double shift_z = 0.0;
         float layer = 0.0F;     // third coordinate in the noise
         double amplitude = 0.0; // m
+        NoiseLayer noise;
     };
 
     explicit Terrain(const Region& region) : region_(region) {}
