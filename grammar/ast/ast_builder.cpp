@@ -2,6 +2,7 @@
 #include "grammar/ast/ast_builder.h"
 
 #include "grammar/ast/reports.h"
+#include "grammar/base/characters.h"
 #include "grammar/base/contract.h"
 #include "grammar/base/utf8.h"
 
@@ -413,7 +414,7 @@ SourceSpan AstBuilder::name_without_hash(SourceSpan label) const {
     }
     const std::string_view text = sources_.text(label);
     if (text.starts_with('#')) {
-        const std::size_t name = text.find_first_not_of(" \t\r\n", 1);
+        const std::size_t name = text.find_first_not_of(kWhitespace, 1);
         label.begin += static_cast<std::uint32_t>(name == std::string_view::npos ? 1 : name);
     } else if (text.starts_with("\xEF\xBC\x83")) { // the full-width number sign
         label.begin += 3;

@@ -2,7 +2,11 @@
 // Classes of ASCII characters, independent of the locale.
 #pragma once
 
+#include <string_view>
+
 namespace lsys {
+
+inline constexpr std::string_view kWhitespace = " \t\r\n";
 
 [[nodiscard]] constexpr bool is_digit(char c) {
     return c >= '0' && c <= '9';

@@ -23,11 +23,10 @@ struct ParsedStatement {
 
 /// The text of the statement `#set names` of a file; empty if there is none.
 std::string find_names_setting(std::string_view text) {
-    constexpr std::string_view kBlanks = " \t\r\n";
     for (std::size_t at = text.find("#set"); at != std::string_view::npos;
          at = text.find("#set", at + 1)) {
         const std::string_view rest = text.substr(at, std::min<std::size_t>(text.size() - at, 200));
-        const std::size_t key = rest.find_first_not_of(kBlanks, 4);
+        const std::size_t key = rest.find_first_not_of(kWhitespace, 4);
         if (key != std::string_view::npos && rest.substr(key, 5) == "names") {
             const std::string_view setting = rest.substr(0, rest.find(';'));
             return std::string(setting) + ";\n";
@@ -95,7 +94,7 @@ bool has_balanced_modules(std::string_view text) {
 /// Whether a number follows `place`, where a comma was added. If so, no `*` can be missing at
 /// `place`.
 bool is_before_number(std::string_view text, std::size_t place) {
-    const std::size_t next = text.find_first_not_of(" \t\r\n", place);
+    const std::size_t next = text.find_first_not_of(kWhitespace, place);
     return next != std::string_view::npos &&
            ((text[next] >= '0' && text[next] <= '9') || text[next] == '.');
 }
@@ -113,7 +112,7 @@ bool is_number_part(char c) {
 void add_joined_numbers(const StatementRepair& repair, std::vector<std::string>& texts) {
     const std::string_view text = repair.broken;
     const std::size_t begin = repair.place;
-    const std::size_t end = text.find_first_not_of(" \t\r\n", begin);
+    const std::size_t end = text.find_first_not_of(kWhitespace, begin);
     if (begin == 0 || end == std::string_view::npos || end == begin ||
         !is_number_part(text[begin - 1]) || !is_number_part(text[end])) {
         return;
@@ -129,7 +128,7 @@ void add_joined_numbers(const StatementRepair& repair, std::vector<std::string>&
 void add_without_letters(const StatementRepair& repair, std::vector<std::string>& texts) {
     const std::string_view text = repair.broken;
     const std::size_t before = repair.place;
-    const std::size_t after = text.find_first_not_of(" \t\r\n", before);
+    const std::size_t after = text.find_first_not_of(kWhitespace, before);
     const auto remove = [&](std::size_t at) {
         const bool is_alone = is_word_character(text[at]) &&
                               (at == 0 || !is_word_character(text[at - 1])) &&
@@ -191,7 +190,7 @@ std::vector<std::string> bracket_repairs(std::string_view broken, bool is_single
         }
         // An opening bracket is removed only after an equal one or an operator of comparison, before
         // `;` or at the end.
-        const std::size_t next = broken.find_first_not_of(" \t\r\n", at + 1);
+        const std::size_t next = broken.find_first_not_of(kWhitespace, at + 1);
         const bool is_removable =
             (at > 0 && (broken[at - 1] == broken[at] ||
                         std::string_view("<>=").find(broken[at - 1]) != std::string_view::npos)) ||

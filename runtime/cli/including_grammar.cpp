@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "runtime/cli/including_grammar.h"
 
+#include "grammar/base/characters.h"
 #include "grammar/base/paths.h"
 
 #include <algorithm>
@@ -45,7 +46,7 @@ void for_each_include(std::string_view text, const Visit& visit) {
     for (std::size_t at = text.find(kInclude); at != std::string_view::npos;
          at = text.find(kInclude, at)) {
         at += kInclude.size();
-        const std::size_t quote = text.find_first_not_of(" \t\r\n", at);
+        const std::size_t quote = text.find_first_not_of(kWhitespace, at);
         if (quote == std::string_view::npos || text[quote] != '"') {
             continue;
         }

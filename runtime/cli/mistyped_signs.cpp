@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
 #include "runtime/cli/mistyped_signs.h"
 
+#include "grammar/base/characters.h"
+
 #include <cstddef>
 #include <utility>
 
 namespace lsys::lsc {
 
 namespace {
-
-constexpr std::string_view kWhitespace = " \t\r\n";
 
 bool is_blank_at(std::string_view text, std::size_t at) {
     return at >= text.size() || kWhitespace.find(text[at]) != std::string_view::npos;

@@ -16,7 +16,6 @@ namespace {
 
 /// Max number of rounds. Each round compiles the text again, because a mistake may hide others.
 constexpr int kMaxRounds = 100;
-constexpr std::string_view kBlankCharacters = " \t\r\n";
 
 std::string describe(const Diagnostic& diagnostic, const Fix& fix, const SourceMap& sources) {
     const SourceSpan span = fix.edits.front().span;
@@ -50,7 +49,7 @@ bool may_be_slip(std::string_view text, const Edit& edit) {
         edit.replacement[0] == text[at + 1] && edit.replacement[1] == text[at]) {
         return true;
     }
-    if (edit.span.end - at != 1 || kBlankCharacters.find(text[at]) != std::string_view::npos) {
+    if (edit.span.end - at != 1 || kWhitespace.find(text[at]) != std::string_view::npos) {
         return false;
     }
     const bool is_doubled = (at > 0 && text[at - 1] == text[at]) ||

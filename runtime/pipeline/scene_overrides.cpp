@@ -13,8 +13,6 @@ namespace lsys {
 
 namespace {
 
-constexpr double kDiskTrees = 0.7; // trees that poisson-disk places per square of side `spacing`
-
 /// Replaces `target` if the option is set.
 template <typename Target, typename Value>
 void replace_if_set(const std::optional<Value>& option, Target& target) {

@@ -4,6 +4,7 @@
 // only passed on, so it equals itself. Computed: everything else.
 #include "compiler/lint/impl/lints.h"
 #include "compiler/lint/impl/places.h"
+#include "grammar/base/characters.h"
 
 #include <fmt/format.h>
 
@@ -221,8 +222,8 @@ private:
         const std::uint32_t place = value.span.begin + static_cast<std::uint32_t>(at);
         diagnostic.span = {value.span.file, place, place + 2};
         const auto trim = [](std::string_view side) {
-            const std::size_t first = side.find_first_not_of(" \t\r\n");
-            const std::size_t last = side.find_last_not_of(" \t\r\n");
+            const std::size_t first = side.find_first_not_of(kWhitespace);
+            const std::size_t last = side.find_last_not_of(kWhitespace);
             return first == std::string_view::npos ? std::string_view()
                                                    : side.substr(first, last - first + 1);
         };

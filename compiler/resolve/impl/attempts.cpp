@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "compiler/resolve/impl/attempts.h"
 
+#include "grammar/base/characters.h"
+
 #include <algorithm>
 
 namespace lsys {
@@ -9,7 +11,7 @@ namespace {
 
 /// The identifier at the start of `text`, after blanks, or an empty string.
 std::string_view leading_identifier(std::string_view text) {
-    text.remove_prefix(std::min(text.find_first_not_of(" \t\r\n"), text.size()));
+    text.remove_prefix(std::min(text.find_first_not_of(kWhitespace), text.size()));
     std::size_t length = 0;
     while (
         length < text.size() && is_identifier(text.substr(0, 1)) &&

@@ -94,10 +94,10 @@ std::vector<std::string_view> arguments_in(std::string_view call) {
         depth += c == '(' || c == '{' ? 1 : c == ')' || c == '}' ? -1 : 0;
         if (c == ',' && depth == 0) {
             const std::string_view argument = inside.substr(begin, at - begin);
-            const std::size_t first = argument.find_first_not_of(" \t\r\n");
+            const std::size_t first = argument.find_first_not_of(kWhitespace);
             if (first != std::string_view::npos) {
                 arguments.push_back(
-                    argument.substr(first, argument.find_last_not_of(" \t\r\n") + 1 - first));
+                    argument.substr(first, argument.find_last_not_of(kWhitespace) + 1 - first));
             }
             begin = at + 1;
         }

@@ -3,6 +3,7 @@
 // generator's window; each rule is a line `LHS=RHS:ratio`. Rewriting is cyclic, a left side may be
 // several symbols, ratios are normalised.
 #include "grammar/ast/reports.h"
+#include "grammar/base/characters.h"
 #include "grammar/dialects/carey/parameters.h"
 #include "grammar/dialects/carey/reader.h"
 #include "grammar/dialects/carey/writer.h"
@@ -147,7 +148,7 @@ void write_rules(const CareyFile& file,
 
 std::string_view recognise_carey(std::string_view text) {
     text.remove_prefix(text.starts_with("\xEF\xBB\xBF") ? 3 : 0);
-    text.remove_prefix(std::min(text.find_first_not_of(" \t\r\n"), text.size()));
+    text.remove_prefix(std::min(text.find_first_not_of(kWhitespace), text.size()));
     return find_carey_key(text) != nullptr ? "its first line, a setting as `axiom:`,"
                                            : std::string_view();
 }

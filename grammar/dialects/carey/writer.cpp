@@ -2,6 +2,7 @@
 #include "grammar/dialects/carey/writer.h"
 
 #include "grammar/ast/reports.h"
+#include "grammar/base/characters.h"
 
 #include <algorithm>
 
@@ -11,13 +12,12 @@ namespace {
 
 /// Symbols that the forest generator reserves for its instancing.
 constexpr std::string_view kReserved = "@$<>";
-constexpr std::string_view kBlanks = " \t\r\n";
 
 } // namespace
 
 std::string remove_blanks(std::string_view text) {
     std::string bare(text);
-    std::erase_if(bare, [](char c) { return kBlanks.find(c) != std::string_view::npos; });
+    std::erase_if(bare, [](char c) { return kWhitespace.find(c) != std::string_view::npos; });
     return bare;
 }
 

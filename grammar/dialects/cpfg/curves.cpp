@@ -2,6 +2,7 @@
 #include "grammar/dialects/cpfg/curves.h"
 
 #include "grammar/ast/number.h"
+#include "grammar/base/characters.h"
 #include "grammar/base/number_chars.h"
 #include "grammar/dialects/impl/text.h"
 
@@ -19,25 +20,23 @@ constexpr double kTolerance = 1e-3;   // relative to the range of values of the 
 constexpr std::size_t kMaxPoints = 1000;
 constexpr std::size_t kMaxCurves = 256;
 
-constexpr std::string_view kBlanks = " \t\r\n";
-
 /// Removes the first line of `text`; returns it without blanks at its ends.
 std::string_view next_line(std::string_view& text) {
     const std::size_t end = std::min(text.find('\n'), text.size());
     const std::string_view line = text.substr(0, end);
     text.remove_prefix(std::min(end + 1, text.size()));
-    return trimmed(line, kBlanks);
+    return trimmed(line, kWhitespace);
 }
 
 std::optional<std::string_view> value_of(std::string_view line, std::string_view key) {
     if (!line.starts_with(key)) {
         return std::nullopt;
     }
-    return trimmed(line.substr(key.size()), kBlanks);
+    return trimmed(line.substr(key.size()), kWhitespace);
 }
 
 bool read_number(std::string_view& text, double& value) {
-    text = trimmed(text, kBlanks);
+    text = trimmed(text, kWhitespace);
     const auto [end, error] = number_from_chars(text.data(), text.data() + text.size(), value);
     text.remove_prefix(static_cast<std::size_t>(end - text.data()));
     return error == std::errc() && std::isfinite(value);

@@ -2,6 +2,7 @@
 #include "grammar/dialects/impl/letter_modules.h"
 
 #include "grammar/ast/reports.h"
+#include "grammar/base/characters.h"
 #include "grammar/base/utf8.h"
 #include "grammar/dialects/impl/syntax_message.h"
 #include "grammar/dialects/impl/text.h"
@@ -12,7 +13,6 @@ namespace lsys {
 
 namespace {
 
-constexpr std::string_view kBlanks = " \t\r\n";
 constexpr std::string_view kSymbols = "+-/\\^&|$!\"'.[]{}%";
 
 /// One past the `)` that closes the `(` at the start of `text`; 0 if no `)` closes it.
@@ -44,7 +44,7 @@ bool read_letter_modules(SourceSpan text,
     const std::string_view whole = context.sources.text(text);
     bool is_valid = true;
     for (std::size_t at = 0; at < whole.size();) {
-        if (is_one_of(whole[at], kBlanks)) {
+        if (is_one_of(whole[at], kWhitespace)) {
             ++at;
             continue;
         }
@@ -97,7 +97,7 @@ bool write_plain_arguments(SourceSpan arguments,
     const std::string_view inner = whole.substr(1, whole.size() - 2);
     for (std::size_t at = 0; at <= inner.size();) {
         const std::size_t end = std::min(inner.find(',', at), inner.size());
-        const std::string_view number = trimmed(inner.substr(at, end - at), kBlanks);
+        const std::string_view number = trimmed(inner.substr(at, end - at), kWhitespace);
         if (!is_number(number, "-")) {
             const auto begin =
                 static_cast<std::uint32_t>(arguments.begin + 1 + (number.data() - inner.data()));

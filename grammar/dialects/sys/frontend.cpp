@@ -4,6 +4,7 @@
 // profile `sys`.
 #include "grammar/ast/number.h"
 #include "grammar/ast/reports.h"
+#include "grammar/base/characters.h"
 #include "grammar/dialects/impl/frontends.h"
 #include "grammar/dialects/impl/letter_modules.h"
 #include "grammar/dialects/impl/line_reader.h"
@@ -36,12 +37,11 @@ struct SysFile {
 };
 
 constexpr std::string_view kHeader = "LSYSTEM";
-constexpr std::string_view kBlanks = " \t\r\n";
 
 /// Length in bytes of the word at the start of `ahead`. Parentheses of a word may hold blanks.
 std::size_t word_length(std::string_view ahead) {
     std::size_t at = 0;
-    while (at < ahead.size() && kBlanks.find(ahead[at]) == std::string_view::npos) {
+    while (at < ahead.size() && kWhitespace.find(ahead[at]) == std::string_view::npos) {
         if (ahead[at] == '(') {
             const std::size_t close = ahead.find_first_of("()\n", at + 1);
             if (close == std::string_view::npos || ahead[close] != ')') {
@@ -262,13 +262,13 @@ void note_reading(const SysRule& rule, std::size_t parameters, const ParseContex
 } // namespace
 
 std::string_view recognise_sys(std::string_view text) {
-    const std::size_t begin = text.find_first_not_of(kBlanks);
+    const std::size_t begin = text.find_first_not_of(kWhitespace);
     if (begin == std::string_view::npos || text.substr(begin, kHeader.size()) != kHeader) {
         return {};
     }
     const std::string_view rest = text.substr(begin + kHeader.size());
-    return rest.empty() || rest.find_first_of(kBlanks) == 0 ? "its first word, `LSYSTEM`"
-                                                            : std::string_view();
+    return rest.empty() || rest.find_first_of(kWhitespace) == 0 ? "its first word, `LSYSTEM`"
+                                                                : std::string_view();
 }
 
 void translate_sys(const DialectRow& row, const ParseContext& context, Translation& translation) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "grammar/lsys/impl/bracket_search.h"
 
+#include "grammar/base/characters.h"
 #include "grammar/lsys/impl/lookahead.h"
 
 #include <algorithm>
@@ -73,7 +74,7 @@ unmatched_branch(std::string_view text, std::uint32_t begin, std::uint32_t at) {
 
 char character_before(std::string_view text, std::uint32_t at) {
     const std::size_t before =
-        at == 0 ? std::string_view::npos : text.find_last_not_of(" \t\r\n", at - 1);
+        at == 0 ? std::string_view::npos : text.find_last_not_of(kWhitespace, at - 1);
     return before == std::string_view::npos ? '\0' : text[before];
 }
 

@@ -106,11 +106,11 @@ StatementText statement_at(std::string_view text, std::size_t at) {
 }
 
 std::string_view stripped(std::string_view text) {
-    const std::size_t first = text.find_first_not_of(" \t\r\n");
+    const std::size_t first = text.find_first_not_of(kWhitespace);
     if (first == std::string_view::npos) {
         return {};
     }
-    return text.substr(first, text.find_last_not_of(" \t\r\n") + 1 - first);
+    return text.substr(first, text.find_last_not_of(kWhitespace) + 1 - first);
 }
 
 std::size_t end_of_line(std::string_view text, std::size_t at) {

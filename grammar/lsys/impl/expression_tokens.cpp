@@ -88,7 +88,7 @@ std::optional<float> percentage(ParseSession& session, std::string_view text) {
         // If the percentage is the whole condition, its `~` is missing as well.
         const bool lacks_tilde = scan.part == Part::Condition && scan.open.empty() &&
                                  all.substr(scan.part_begin, scan.begin - scan.part_begin)
-                                         .find_first_not_of(" \t\r\n") == std::string_view::npos;
+                                         .find_first_not_of(kWhitespace) == std::string_view::npos;
         const std::string replacement = (lacks_tilde ? "* ~ " : "") + number_text(value);
         add_fix(diagnostic, "write `" + replacement + "`", span, replacement, false);
     }
@@ -393,8 +393,8 @@ bool report_exchanged_parts(ParseSession& session) {
     }
     if (session.wants(DiagnosticCode::SyntaxError)) {
         const auto trimmed = [&](std::size_t from, std::size_t to) {
-            const std::size_t begin = text.find_first_not_of(" \t\r\n", from);
-            const std::size_t last = text.find_last_not_of(" \t\r\n", to - 1);
+            const std::size_t begin = text.find_first_not_of(kWhitespace, from);
+            const std::size_t last = text.find_last_not_of(kWhitespace, to - 1);
             return session.scanned.span(static_cast<std::uint32_t>(begin),
                                         static_cast<std::uint32_t>(last) + 1);
         };

@@ -27,7 +27,7 @@ struct Piece {
 
 Piece trimmed(std::string_view text, std::size_t begin, std::size_t end) {
     const auto is_blank = [&](std::size_t at) {
-        return std::string_view(" \t\r\n").find(text[at]) != std::string_view::npos;
+        return kWhitespace.find(text[at]) != std::string_view::npos;
     };
     while (begin < end && is_blank(begin)) {
         ++begin;
@@ -560,7 +560,7 @@ private:
         std::size_t let = text().find("let", body_);
         while (let < statement_.end &&
                (is_word_character(char_at(let + 3)) || is_word_character(char_at(let - 1)) ||
-                char_at(std::min(text().find_last_not_of(" \t\r\n", let - 1), let)) != ':')) {
+                char_at(std::min(text().find_last_not_of(kWhitespace, let - 1), let)) != ':')) {
             let = text().find("let", let + 3);
         }
         if (let >= statement_.end) {
@@ -702,7 +702,7 @@ private:
         bool begins_part = true; // true also after a repaired module
         for (std::size_t at = colon + 1; at < statement_.end; ++at) {
             const char c = char_at(at);
-            if (std::string_view(" \t\r\n").find(c) != std::string_view::npos) {
+            if (kWhitespace.find(c) != std::string_view::npos) {
                 continue;
             }
             if (c == ':') {
@@ -747,7 +747,7 @@ private:
                                            " : " + word + "(t) : t < " + inside + " : " + word +
                                            "(t + 1);`");
                 const std::size_t star = text().find_first_not_of(
-                    " \t\r\n", std::min(text().find(':', close), statement_.end) + 1);
+                    kWhitespace, std::min(text().find(':', close), statement_.end) + 1);
                 if (star < statement_.end && char_at(star) == '*') {
                     value_edit = Edit{draft_.span(star, star + 1), "t >= " + inside};
                 }
@@ -953,7 +953,7 @@ void repair_hexadecimal_colour(DraftText& draft, std::size_t at) {
     constexpr std::size_t kDigits = 6;
     // Searches backwards from `at`: the masked comments before the first statement may be long.
     const std::size_t last =
-        at == 0 ? std::string::npos : draft.masked.find_last_not_of(" \t\r\n", at - 1);
+        at == 0 ? std::string::npos : draft.masked.find_last_not_of(kWhitespace, at - 1);
     const std::string_view before =
         std::string_view(draft.masked).substr(0, last == std::string::npos ? 0 : last + 1);
     const std::string_view digits = std::string_view(draft.masked).substr(at + 1, kDigits);

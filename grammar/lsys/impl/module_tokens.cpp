@@ -2,6 +2,7 @@
 #include "grammar/lsys/impl/module_tokens.h"
 
 #include "grammar/ast/reports.h"
+#include "grammar/base/characters.h"
 #include "grammar/base/message_levels.h"
 #include "grammar/base/utf8.h"
 #include "grammar/lsys/impl/bracket_search.h"
@@ -148,7 +149,7 @@ std::optional<std::uint32_t> comment_before(const ParseSession& session) {
 /// end of the file.
 bool is_before_statement(const ParseSession& session) {
     const std::string_view text = session.scanned.text;
-    const std::size_t next = text.find_first_not_of(" \t\r\n", session.scan.end);
+    const std::size_t next = text.find_first_not_of(kWhitespace, session.scan.end);
     return next == std::string_view::npos || text[next] == '#';
 }
 

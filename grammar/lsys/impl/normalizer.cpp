@@ -187,8 +187,9 @@ bool Normalizer::report_greek(std::uint32_t begin, TextPart word, const CodePoin
     Diagnostic& diagnostic =
         diagnostics_->add(DiagnosticCode::UnknownCharacter, {file_, word.begin, word.end},
                           "`" + std::string(letter) + "` is not a name");
-    const std::size_t before = begin == 0 ? 0 : text_.find_last_not_of(" \t\r\n", begin - 1);
-    const std::size_t after = std::min(text_.find_first_not_of(" \t\r\n", word.end), text_.size());
+    const std::size_t before = begin == 0 ? 0 : text_.find_last_not_of(kWhitespace, begin - 1);
+    const std::size_t after =
+        std::min(text_.find_first_not_of(kWhitespace, word.end), text_.size());
     if (name == "epsilon" && before != std::string_view::npos && text_[before] == ':' &&
         text_.substr(after, 1) == ";") {
         diagnostic.message = "the empty word is written by writing nothing";

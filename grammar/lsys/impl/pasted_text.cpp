@@ -318,7 +318,7 @@ void repair_entities(DraftText& draft) {
 void repair_second_copy(DraftText& draft) {
     const std::string_view text = draft.text;
     const std::size_t w = text.find("#w");
-    std::size_t first = text.find_first_not_of(" \t\r\n");
+    std::size_t first = text.find_first_not_of(kWhitespace);
     while (first < text.size() && !is_statement_start(text, first)) {
         first = end_of_line(text, first) + 1;
     }
@@ -333,7 +333,7 @@ void repair_second_copy(DraftText& draft) {
         stripped(text.substr(first, second - first)) != stripped(text.substr(second))) {
         return;
     }
-    const std::size_t end = text.find_last_not_of(" \t\r\n") + 1;
+    const std::size_t end = text.find_last_not_of(kWhitespace) + 1;
     Diagnostic& diagnostic =
         draft.report(DiagnosticCode::PastedText, draft.span(second, second + line.size()),
                      "from here on the text of the file is repeated");

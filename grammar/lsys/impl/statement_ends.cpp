@@ -144,14 +144,14 @@ comment_after_modules(std::string_view text, std::uint32_t begin, std::uint32_t 
     std::size_t first = comments.size() - 1;
     while (first > 0 && is_first_on_line(text, comments[first])) {
         const std::size_t previous_end = line_end(text, comments[first - 1]);
-        if (text.find_first_not_of(" \t\r\n", previous_end) != comments[first]) {
+        if (text.find_first_not_of(kWhitespace, previous_end) != comments[first]) {
             break;
         }
         --first;
     }
     const std::uint32_t comment = comments[first];
     const std::size_t before =
-        comment == 0 ? std::string_view::npos : text.find_last_not_of(" \t\r\n", comment - 1);
+        comment == 0 ? std::string_view::npos : text.find_last_not_of(kWhitespace, comment - 1);
     if (before == std::string_view::npos || before + 1 < begin) {
         return std::nullopt;
     }
@@ -179,7 +179,7 @@ void report_missing_semicolon(ParseSession& session) {
     SourceSpan place = session.insertion_place();
     if (comment) {
         session.builder.remove_slashes(comment->begin);
-        const std::size_t last = text.find_last_not_of(" \t\r\n", comment->begin - 1);
+        const std::size_t last = text.find_last_not_of(kWhitespace, comment->begin - 1);
         place = session.scanned.after(static_cast<std::uint32_t>(last) + 1);
     }
     Diagnostic& diagnostic = session.report(DiagnosticCode::MissingSemicolon, place,

@@ -93,7 +93,7 @@ std::string_view text_after_semicolon(std::string_view text, std::size_t at) {
 /// other colons of the production, `missing` in number.
 bool is_mistyped_colon(std::string_view text, std::size_t at, std::ptrdiff_t missing) {
     const std::string_view rest = text_after_semicolon(text, at);
-    const std::size_t first = rest.find_first_not_of(" \t\r\n");
+    const std::size_t first = rest.find_first_not_of(kWhitespace);
     const bool is_ended = at + 1 + rest.size() < text.size() && text[at + 1 + rest.size()] == ';';
     return is_ended && first != std::string_view::npos && rest.substr(first, 2) != "//" &&
            rest.substr(first, 2) != "/*" && std::count(rest.begin(), rest.end(), ':') == missing;
@@ -102,7 +102,7 @@ bool is_mistyped_colon(std::string_view text, std::size_t at, std::ptrdiff_t mis
 /// Whether a `;` follows the `#word` in place of its `:`.
 bool lacks_first_colon(const ParseSession& session) {
     const std::string_view text = session.scanned.text;
-    const std::size_t next = text.find_first_not_of(" \t\r\n", session.scan.end);
+    const std::size_t next = text.find_first_not_of(kWhitespace, session.scan.end);
     if (next == std::string_view::npos || text[next] != ';') {
         return false;
     }
@@ -520,10 +520,9 @@ namespace {
 bool report_probability_at_end(ParseSession& session) {
     const ScanState& scan = session.scan;
     const std::string_view text = session.scanned.text;
-    constexpr std::string_view kBlanks = " \t\r\n";
-    const std::size_t number = std::min(text.find_first_not_of(kBlanks, scan.end), text.size());
+    const std::size_t number = std::min(text.find_first_not_of(kWhitespace, scan.end), text.size());
     const std::size_t end = std::min(text.find_first_not_of("0123456789.", number), text.size());
-    const std::size_t behind = std::min(text.find_first_not_of(kBlanks, end), text.size());
+    const std::size_t behind = std::min(text.find_first_not_of(kWhitespace, end), text.size());
     const std::size_t third = text.rfind(':', scan.part_begin);
     const std::size_t second =
         third == std::string_view::npos || third == 0 ? third : text.rfind(':', third - 1);
@@ -532,14 +531,14 @@ bool report_probability_at_end(ParseSession& session) {
         return false;
     }
     const std::string_view part = text.substr(second + 1, third - second - 1);
-    const std::size_t last = part.find_last_not_of(kBlanks);
+    const std::size_t last = part.find_last_not_of(kWhitespace);
     if (last == std::string_view::npos || part.find_first_of("~=") != std::string_view::npos) {
         return false; // it has a probability, or local values stand here
     }
     const std::string probability(text.substr(number, end - number));
     const auto condition_end = static_cast<std::uint32_t>(second + 1 + last + 1);
     const std::size_t successor_end =
-        scan.begin == 0 ? 0 : text.find_last_not_of(kBlanks, scan.begin - 1) + 1;
+        scan.begin == 0 ? 0 : text.find_last_not_of(kWhitespace, scan.begin - 1) + 1;
     Diagnostic& diagnostic = session.report(
         DiagnosticCode::ExtraColon,
         session.scanned.span(scan.begin, static_cast<std::uint32_t>(end)),
@@ -547,8 +546,8 @@ bool report_probability_at_end(ParseSession& session) {
             "` at the end is a probability of Houdini; in .lsys it comes after the condition");
     Fix fix;
     fix.title = "write `" +
-                shown(std::string(part.substr(part.find_first_not_of(kBlanks),
-                                              last + 1 - part.find_first_not_of(kBlanks)))) +
+                shown(std::string(part.substr(part.find_first_not_of(kWhitespace),
+                                              last + 1 - part.find_first_not_of(kWhitespace)))) +
                 " ~ " + probability + "`";
     fix.edits = {{session.scanned.span(condition_end, condition_end), " ~ " + probability},
                  {session.scanned.span(static_cast<std::uint32_t>(successor_end),
@@ -775,12 +774,12 @@ void report_unclosed(ParseSession& session) {
 bool has_plain_head(const ParseSession& session) {
     const std::string_view text = session.scanned.text;
     const std::size_t first = text.find(':', session.scan.statement_begin);
-    std::size_t at = text.find_first_not_of(" \t\r\n", first + 1);
+    std::size_t at = text.find_first_not_of(kWhitespace, first + 1);
     const std::string_view word = leading_word(text.substr(std::min(at, text.size())));
-    at = text.find_first_not_of(" \t\r\n", at + std::max<std::size_t>(word.size(), 1));
+    at = text.find_first_not_of(kWhitespace, at + std::max<std::size_t>(word.size(), 1));
     if (at != std::string_view::npos && text[at] == '(') {
         at = text.find(')', at);
-        at = at == std::string_view::npos ? at : text.find_first_not_of(" \t\r\n", at + 1);
+        at = at == std::string_view::npos ? at : text.find_first_not_of(kWhitespace, at + 1);
     }
     return at != std::string_view::npos && (text[at] == ':' || text[at] == '~');
 }
@@ -846,7 +845,7 @@ void report_missing_parts(ParseSession& session) {
         return;
     }
     const std::uint32_t first =
-        scan.part_begin + static_cast<std::uint32_t>(condition.find_first_not_of(" \t\r\n"));
+        scan.part_begin + static_cast<std::uint32_t>(condition.find_first_not_of(kWhitespace));
     Diagnostic& diagnostic =
         diagnostics.add(DiagnosticCode::MissingColon, session.scanned.span(first, scan.last_end),
                         "the production has three parts, not four");
@@ -940,7 +939,7 @@ namespace {
 /// modules, or if `text` compares nothing and begins with a capital letter, perhaps after `+`, `-`
 /// or `/`.
 bool begins_successor(std::string_view text, char stray) {
-    const std::size_t first = text.find_first_not_of(" \t\r\n");
+    const std::size_t first = text.find_first_not_of(kWhitespace);
     if (first == std::string_view::npos) {
         return std::string_view("[]+-/\\&^$\"'{}|").find(stray) != std::string_view::npos;
     }
@@ -988,9 +987,9 @@ bool report_missing_condition(ParseSession& session) {
     }
     const auto first =
         scan.part_begin +
-        static_cast<std::uint32_t>(std::min(before.find_first_not_of(" \t\r\n"), before.size()));
+        static_cast<std::uint32_t>(std::min(before.find_first_not_of(kWhitespace), before.size()));
     std::size_t end = std::min(text.find_first_of(";\n", scan.begin), text.size());
-    end = text.find_last_not_of(" \t\r\n", end - 1) + 1;
+    end = text.find_last_not_of(kWhitespace, end - 1) + 1;
     Diagnostic& diagnostic = session.report(
         DiagnosticCode::MissingColon,
         session.scanned.span(first, std::max(static_cast<std::uint32_t>(end), scan.end)),

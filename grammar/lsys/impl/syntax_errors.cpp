@@ -272,7 +272,7 @@ bool report_modules_in_parentheses(ParseSession& session, const Unexpected& erro
             {error.place, "`" + std::string(error.text) + "` is not part of an argument"});
         if (scan.open.size() == 1) {
             const std::size_t last =
-                session.scanned.text.find_last_not_of(" \t\r\n", scan.begin - 1);
+                session.scanned.text.find_last_not_of(kWhitespace, scan.begin - 1);
             add_fix(diagnostic, "add `)` before `" + std::string(error.text) + "`",
                     session.scanned.after(static_cast<std::uint32_t>(last) + 1), ")", false);
         }
@@ -284,7 +284,7 @@ bool report_empty_condition(ParseSession& session, const Unexpected& error) {
     const std::string_view text = session.scanned.text;
     const std::size_t before = session.scan.begin == 0
                                    ? std::string_view::npos
-                                   : text.find_last_not_of(" \t\r\n", session.scan.begin - 1);
+                                   : text.find_last_not_of(kWhitespace, session.scan.begin - 1);
     if (error.token != Kind::S_COLON || error.part != Part::Successor ||
         before == std::string_view::npos || text[before] != ':') {
         return false;

@@ -19,10 +19,6 @@ constexpr double kMinSide = 0.25;     // m, of a region: several ulps of any bin
 constexpr double kMinSpacing = 0.001; // m
 /// Max places to sample in a density map, which may be black nearly everywhere.
 constexpr double kMaxMapPlaces = 1.0e9;
-/// Upper estimate of the trees of PoissonDisk per square with side `spacing`: random sequential
-/// adsorption of discs whose diameter is the spacing covers 0.547 of the plane (Tanemura 1979), by
-/// 0.547 / (pi / 4) discs per square.
-constexpr double kDiskTrees = 0.70;
 
 struct Bound {
     std::string_view name;

@@ -38,7 +38,6 @@ constexpr double kDefaultSpacing = 5.0;  // m
 constexpr double kDefaultDensity = 0.04; // 400 per hectare
 constexpr std::uint32_t kDefaultYears = 100;
 constexpr double kMinSpacing = 0.001; // m
-constexpr double kDiskTrees = 0.7;    // PoissonDisk: max trees per spacing squared
 
 /// The keys that the method reads, for messages.
 std::string keys_of(const MethodRow& method) {
