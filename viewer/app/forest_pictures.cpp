@@ -183,13 +183,14 @@ ExitStatus take_forest_pictures(const ViewOptions& options,
         streamer = std::make_unique<ForestStreamer>(document, options.stream_bytes,
                                                     streaming_threads(options.run.threads), [] {});
         prepare = [&](Frame& shown) {
-            const std::optional<StreamStep> step =
-                streamer->settle(shown.camera, shown.height, [&] { return console.interrupted(); });
-            if (!step) {
+            const std::optional<float> range = streamer->settle(
+                shown.camera, shown.height,
+                [&](const SquareChanges& changes) { renderer.change_squares(changes); },
+                [&] { return console.interrupted(); });
+            if (!range) {
                 return ExitStatus::Interrupted;
             }
-            renderer.change_squares(step->changes);
-            shown.tree_range = step->range;
+            shown.tree_range = *range;
             return ExitStatus::Ok;
         };
     }

@@ -112,23 +112,23 @@ void ForestStreamer::want(const WantedSquares& wanted) {
     }
     std::reverse(missing_.begin(), missing_.end());
     stats_.wanted = wanted.squares.size();
-    if (!missing_.empty()) {
-        has_work_.notify_all();
-    }
 }
 
-StreamStep ForestStreamer::changes_to(const WantedSquares& wanted, std::uint64_t max_trees) {
-    if (out_of_memory_) {
-        throw std::bad_alloc();
-    }
-    StreamStep step;
-    step.range = wanted.range;
+void ForestStreamer::hide_squares(SquareChanges& changes) {
     for (auto& [id, ready] : ready_) {
         if (ready.is_shown && ready.last_wanted != step_) {
             ready.is_shown = false;
-            step.changes.removed.push_back(id);
+            changes.removed.push_back(id);
             --stats_.shown;
         }
+    }
+}
+
+void ForestStreamer::show_squares(const WantedSquares& wanted,
+                                  std::uint64_t max_trees,
+                                  SquareChanges& changes) {
+    if (out_of_memory_) {
+        throw std::bad_alloc();
     }
     std::uint64_t trees = 0;
     for (const SquareId& id : wanted.squares) {
@@ -142,12 +142,10 @@ StreamStep ForestStreamer::changes_to(const WantedSquares& wanted, std::uint64_t
         }
         trees += more;
         found->second.is_shown = true;
-        step.changes.added.push_back(found->second.square);
+        changes.added.push_back(found->second.square);
         ++stats_.shown;
     }
-    step.is_ready = stats_.shown == wanted.squares.size();
     forget_squares();
-    return step;
 }
 
 void ForestStreamer::forget_squares() {
@@ -174,19 +172,32 @@ ForestStreamer::step(const Camera& camera, std::uint32_t picture_height, std::ui
     const WantedSquares wanted = wanted_for(camera, picture_height);
     const std::lock_guard lock(mutex_);
     want(wanted);
-    StreamStep step = changes_to(wanted, max_trees);
+    StreamStep step;
+    step.range = wanted.range;
+    hide_squares(step.changes);
+    show_squares(wanted, max_trees, step.changes);
+    step.is_ready = stats_.shown == wanted.squares.size();
+    has_work_.notify_all();
     stats_.slowest_step = std::max(stats_.slowest_step, watch.seconds());
     return step;
 }
 
-std::optional<StreamStep> ForestStreamer::settle(const Camera& camera,
-                                                 std::uint32_t picture_height,
-                                                 const std::function<bool()>& is_cancelled) {
+std::optional<float>
+ForestStreamer::settle(const Camera& camera,
+                       std::uint32_t picture_height,
+                       const std::function<void(const SquareChanges& changes)>& apply,
+                       const std::function<bool()>& is_cancelled) {
     constexpr std::chrono::milliseconds kPause(100);
     const Stopwatch watch;
     const WantedSquares wanted = wanted_for(camera, picture_height);
+    SquareChanges hidden;
     std::unique_lock lock(mutex_);
     want(wanted);
+    hide_squares(hidden);
+    lock.unlock();
+    apply(hidden);
+    has_work_.notify_all();
+    lock.lock();
     const auto is_complete = [&] {
         return out_of_memory_ ||
                std::all_of(wanted.squares.begin(), wanted.squares.end(),
@@ -204,7 +215,11 @@ std::optional<StreamStep> ForestStreamer::settle(const Camera& camera,
             found->second.last_wanted = step_;
         }
     }
-    return changes_to(wanted, std::numeric_limits<std::uint64_t>::max());
+    SquareChanges shown;
+    show_squares(wanted, std::numeric_limits<std::uint64_t>::max(), shown);
+    lock.unlock();
+    apply(shown);
+    return wanted.range;
 }
 
 StreamStats ForestStreamer::stats() const {

@@ -57,11 +57,15 @@ public:
     /// out of memory.
     [[nodiscard]] StreamStep
     step(const Camera& camera, std::uint32_t picture_height, std::uint64_t max_trees);
-    /// Changes for a camera, after waiting until all wanted squares are ready. Returns nothing if
-    /// `is_cancelled` returns true, which is asked ten times a second.
-    [[nodiscard]] std::optional<StreamStep> settle(const Camera& camera,
-                                                   std::uint32_t picture_height,
-                                                   const std::function<bool()>& is_cancelled);
+    /// Shows all wanted squares of a camera: hands `apply` the squares to hide, waits until all
+    /// wanted squares are ready, and hands `apply` the squares to show. Hiding first keeps the budget
+    /// when the camera jumps. Returns WantedSquares::range, or nothing if `is_cancelled`, which is
+    /// called ten times a second, returns true. Throws std::bad_alloc if a thread ran out of memory.
+    [[nodiscard]] std::optional<float>
+    settle(const Camera& camera,
+           std::uint32_t picture_height,
+           const std::function<void(const SquareChanges& changes)>& apply,
+           const std::function<bool()>& is_cancelled);
     [[nodiscard]] StreamStats stats() const;
 
 private:
@@ -76,8 +80,10 @@ private:
     void want(const WantedSquares& wanted);
     [[nodiscard]] WantedSquares wanted_for(const Camera& camera,
                                            std::uint32_t picture_height) const;
-    /// Needs the lock.
-    [[nodiscard]] StreamStep changes_to(const WantedSquares& wanted, std::uint64_t max_trees);
+    /// Hides the squares that are not wanted. Needs the lock.
+    void hide_squares(SquareChanges& changes);
+    /// Shows wanted squares that are ready, see step(). Needs the lock.
+    void show_squares(const WantedSquares& wanted, std::uint64_t max_trees, SquareChanges& changes);
     /// Forgets squares that are not wanted, those wanted longest ago first, until the rest is within
     /// the budget. Needs the lock.
     void forget_squares();

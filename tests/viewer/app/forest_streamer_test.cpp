@@ -62,6 +62,12 @@ public:
             REQUIRE(squares.emplace(square->id, square).second);
         }
     }
+    /// Shows what a camera wants in a picture 720 pixels high.
+    std::optional<float> settle(ForestStreamer& streamer, const Camera& camera) {
+        return streamer.settle(
+            camera, 720, [this](const SquareChanges& changes) { apply(changes); },
+            [] { return false; });
+    }
 
     std::map<SquareId, std::shared_ptr<const ForestSquare>> squares;
 };
@@ -104,10 +110,9 @@ TEST_CASE("squares have each tree of the ground exactly once") {
 TEST_CASE("the squares shown do not depend on the way of the camera") {
     const auto document = make_endless_document();
     const Camera end = flying_camera(40'000.0, -25'000.0);
-    const auto never = [] { return false; };
     ForestStreamer direct(*document, kStreamerBytes, 1, [] {});
     ShownSquares wanted;
-    wanted.apply(direct.settle(end, 720, never)->changes);
+    REQUIRE(wanted.settle(direct, end));
     REQUIRE(wanted.squares.size() > 20);
     ForestStreamer flown(*document, kStreamerBytes, 2, [] {});
     ShownSquares shown;
@@ -115,10 +120,8 @@ TEST_CASE("the squares shown do not depend on the way of the camera") {
         shown.apply(flown.step(flying_camera(38'000.0 + 50.0 * i, -25'000.0), 720, 20'000).changes);
         std::this_thread::sleep_for(std::chrono::milliseconds(2));
     }
-    const std::optional<StreamStep> last = flown.settle(end, 720, never);
-    REQUIRE(last);
-    CHECK(last->is_ready);
-    shown.apply(last->changes);
+    REQUIRE(shown.settle(flown, end));
+    CHECK(flown.step(end, 720, 1).is_ready);
     REQUIRE(shown.squares.size() == wanted.squares.size());
     for (const auto& [id, square] : wanted.squares) {
         REQUIRE(shown.squares.count(id) == 1);
@@ -166,21 +169,40 @@ TEST_CASE("a flight of 100 km keeps the budget and never waits for trees") {
 
 TEST_CASE("a square that is not wanted any more is kept for a camera that turns back") {
     const auto document = make_endless_document();
-    const auto never = [] { return false; };
     ForestStreamer streamer(*document, kStreamerBytes, 1, [] {});
+    ShownSquares shown;
     const Camera first = flying_camera(0.0, 0.0);
-    static_cast<void>(streamer.settle(first, 720, never));
+    REQUIRE(shown.settle(streamer, first));
+    const auto squares_then = shown.squares;
     const std::uint64_t made = streamer.stats().made;
-    const std::optional<StreamStep> away = streamer.settle(flying_camera(600.0, 0.0), 720, never);
-    CHECK(!away->changes.removed.empty());
+    REQUIRE(shown.settle(streamer, flying_camera(600.0, 0.0)));
+    CHECK(shown.squares != squares_then);
     const std::uint64_t made_then = streamer.stats().made;
     CHECK(made_then > made);
-    const std::optional<StreamStep> back = streamer.settle(first, 720, never);
-    CHECK(!back->changes.added.empty());
+    REQUIRE(shown.settle(streamer, first));
+    CHECK(shown.squares == squares_then);
     CHECK(streamer.stats().made == made_then);
-    // Far away, they are forgotten within the budget.
-    static_cast<void>(streamer.settle(flying_camera(60'000.0, 0.0), 720, never));
-    CHECK(streamer.stats().bytes <= kStreamerBytes);
+}
+
+TEST_CASE("a camera that jumps keeps the budget") {
+    const auto document = make_endless_document();
+    ForestStreamer streamer(*document, kStreamerBytes, 2, [] {});
+    ShownSquares shown;
+    std::uint64_t jumps_without_squares = 0;
+    for (int i = 0; i < 4; ++i) {
+        const std::optional<float> range = streamer.settle(
+            flying_camera(30'000.0 * i, 0.0), 720,
+            [&](const SquareChanges& changes) {
+                shown.apply(changes);
+                jumps_without_squares += shown.squares.empty() ? 1U : 0U;
+            },
+            [] { return false; });
+        REQUIRE(range);
+        CHECK(*range > 0.0F);
+        CHECK(shown.squares.size() > 20);
+    }
+    CHECK(jumps_without_squares == 4); // squares are hidden before others are made
+    CHECK(streamer.stats().peak_bytes <= kStreamerBytes);
 }
 
 TEST_CASE("a picture by a flight equals the picture at its end", "[window]") {
