@@ -234,6 +234,69 @@ TEST_CASE("the counts of a forest are reported and are the same in every run") {
     CHECK(less["trees_expanded"] == 0);
 }
 
+TEST_CASE("a picture in the wind does not depend on the pictures before it") {
+    const ScratchFolder folder;
+    const std::vector<std::string> view = {scene("mixed-forest"),
+                                           "--size",
+                                           "160x120",
+                                           "--camera",
+                                           "eye 120,20,120 target 60,10,60 fov 60",
+                                           "--wind",
+                                           "8,0,0,0.5",
+                                           "--screenshot"};
+    std::vector<std::string> series = view;
+    series.insert(series.end(), {folder / "series.png", "--frames", "2", "--fps", "0.5"});
+    REQUIRE(run_lsview(series).status == 0);
+    std::vector<std::string> alone = view;
+    alone.insert(alone.end(), {folder / "alone.png", "--time", "2"});
+    REQUIRE(run_lsview(alone).status == 0);
+    CHECK(read_text(folder / "series.0001.png") != read_text(folder / "series.0002.png"));
+    CHECK(read_text(folder / "series.0002.png") == read_text(folder / "alone.png"));
+}
+
+TEST_CASE("the edges of cut-out leaves are smooth with several samples") {
+    const ScratchFolder folder;
+    write_text(folder / "leaf.lsys", "#object L \"" LSYS_SOURCE_DIR
+                                     "/samples/teach-picture/maple.obj\";\n#n = 0;\n#w : L(1);\n");
+    const auto view = [&](const char* samples) {
+        return decode_picture(
+            drawn({folder / "leaf.lsys", "--no-ground", "--size", "160x120", "--camera",
+                   "eye 0,0.5,1.5 target 0,0.5,0 fov 50", "--samples", samples}));
+    };
+    const PictureDifference difference = difference_of(view("1"), view("4"));
+    CHECK(difference.far > 0.002);
+    CHECK(difference.mean < 2.0); // as much leaf as before
+}
+
+TEST_CASE("the sky has no bands of equal colour") {
+    const Picture picture =
+        decode_picture(drawn({scene("mixed-forest"), "--size", "320x240", "--camera",
+                              "eye 120,40,120 target 60,90,60 fov 60"}));
+    // Means of squares of a smooth sky lie between two colours of 8 bits; in bands they are equal to
+    // one.
+    constexpr std::uint32_t kSide = 8;
+    std::uint32_t squares = 0;
+    std::uint32_t flat = 0;
+    for (std::uint32_t y = 0; y < 160; y += kSide) {
+        for (std::uint32_t x = 0; x < 320; x += kSide) {
+            const double blue = mean_of(picture, {x, y, kSide})[2];
+            flat += std::abs(blue - std::round(blue)) < 0.01 ? 1U : 0U;
+            ++squares;
+        }
+    }
+    CHECK(10 * flat < squares);
+}
+
+TEST_CASE("the ground does not repeat with its noise tile") {
+    const auto view = [](double x) {
+        return decode_picture(drawn(
+            {LSYS_SOURCE_DIR "/tests/bench/view-forest.toml", "--count", "1", "--size", "160x120",
+             "--camera", fmt::format("eye {},150,3000 target {},0,3010 fov 60", x, x)}));
+    };
+    constexpr double kLargestTile = 173.0; // m, in terrain.frag.glsl
+    CHECK(difference_of(view(3000.0), view(3000.0 + kLargestTile)).mean > 2.0);
+}
+
 TEST_CASE("a picture is the same in every run and for any stripes") {
     const std::vector<std::string> arguments = {sample("abop-1-25-bush"), "--size", "150x80"};
     CHECK(drawn(arguments) == drawn(arguments));

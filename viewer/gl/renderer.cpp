@@ -370,12 +370,9 @@ private:
         glUseProgram(programs_.mesh.name());
         if (style == PlantStyle::Wireframe) {
             glPolygonMode(GL_FRONT_AND_BACK, GL_LINE);
-        } else {
-            glEnable(GL_SAMPLE_ALPHA_TO_COVERAGE);
         }
         stats.draws += plant_.draw(textures_, PlantMesh::Pass::Colour);
         stats.triangles += plant_.triangles();
-        glDisable(GL_SAMPLE_ALPHA_TO_COVERAGE);
         glPolygonMode(GL_FRONT_AND_BACK, GL_FILL);
     }
 

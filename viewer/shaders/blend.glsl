@@ -1,12 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Blending of LOD bands by dithering: each band draws a range of the pixels: BlendRange in C++.
+// Samples of a pixel that a surface covers: LOD bands blend by dithering, each in a range of the
+// pixels (BlendRange in C++), and cut-out pictures have smooth edges.
+#include "dither.glsl"
 
-// Dither threshold of a pixel of the picture, 0 to 1; thresholds of neighbours lie far apart (Jimenez
-// 2014, "Next Generation Post Processing in Call of Duty", interleaved gradient noise).
-float dither_threshold() {
-    vec2 at = floor(gl_FragCoord.xy) + frame.viewport.xy;
-    return fract(52.9829189 * fract(dot(at, vec2(0.06711056, 0.00583715))));
-}
 bool is_in_range(float threshold, vec2 range) {
     return threshold >= range.x && threshold < range.y;
 }
@@ -22,4 +18,19 @@ void keep_range(vec2 range) {
         discard;
     }
     gl_SampleMask[0] = mask;
+}
+// Fraction of a pixel that a cut-out picture covers. The edge is where the opacity is 0.5, and a pixel
+// wide; without multisampling it is hard. Call it before any discard.
+float cut_out_cover(float opacity) {
+    float cover = (opacity - 0.5) / max(fwidth(opacity), 1e-4) + 0.5;
+    return gl_NumSamples > 1 ? clamp(cover, 0.0, 1.0) : step(0.5, opacity);
+}
+// Keeps the samples that a cut-out picture covers.
+void keep_cover(float opacity) {
+    keep_range(vec2(0.0, cut_out_cover(opacity)));
+}
+// Keeps the samples that a cut-out picture covers in a band. All bands together keep those of
+// keep_cover().
+void keep_cover_in_range(float opacity, vec2 range) {
+    keep_range(vec2(range.x, min(range.y, cut_out_cover(opacity))));
 }

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "light.glsl"
-#ifdef BLENDS
+#if defined(BLENDS) || (defined(CUT_OUT) && !defined(BAKE))
 #include "blend.glsl"
+#endif
+#ifdef BLENDS
 flat in vec2 blend_range;
 #endif
 layout(binding = 1) uniform sampler2D bark_texture;
@@ -50,16 +52,22 @@ vec3 bumped(vec3 normal) {
 }
 #endif
 void main() {
-#ifdef BLENDS
+#if defined(BLENDS) && !defined(CUT_OUT)
     keep_range(blend_range);
 #endif
     vec3 albedo = tint;
     bool is_translucent = (kind & 2u) != 0u;
 #ifdef CUT_OUT
     vec4 texel = texture(leaf_texture, uv);
+#if defined(BAKE)
     if (texel.a < 0.5) {
         discard;
     }
+#elif defined(BLENDS)
+    keep_cover_in_range(texel.a, blend_range);
+#else
+    keep_cover(texel.a);
+#endif
     if ((kind & 8u) == 0u) {
         albedo *= texel.rgb;
     }

@@ -58,6 +58,7 @@ void main() {
     float size = at.position_scale.w * forms[tree.form].cylinder.w;
     vec3 world = at.position_scale.xyz + rotate(turn, size * position);
     vec3 in_crown = (world - crown_centre(tree)) / crown_axes(tree);
+    vec3 unswayed = world; // the shadow map shows the trees without wind
 #ifdef CUT_OUT
     world = swayed(world, tree, 1.0);
 #else
@@ -73,7 +74,8 @@ void main() {
         material.kind = (material.kind & ~1u) | kColoured;
     }
 #ifdef LIT_AT_CORNERS
-    float lit = sunlight_at(shadow_map_position(world, frame.to_sun.xyz), crown_sunlight(in_crown));
+    float lit =
+        sunlight_at(shadow_map_position(unswayed, frame.to_sun.xyz), crown_sunlight(in_crown));
     float visibility = ambient_visibility(in_crown);
     vec2 fog = fog_to(world);
     vec3 fogged_albedo = fog.y * material.colour;
@@ -99,7 +101,7 @@ void main() {
 #if defined(BAKE)
     world_position = world;
 #elif !defined(LIT_AT_CORNERS)
-    shadow_position = shadow_map_position(world, frame.to_sun.xyz);
+    shadow_position = shadow_map_position(unswayed, frame.to_sun.xyz);
     fog = fog_to(world);
     from_eye = world - frame.eye_time.xyz;
 #endif

@@ -2,8 +2,10 @@
 #include "light.glsl"
 layout(binding = 3) uniform sampler2DArray albedos; // square roots of linear RGB; opacity
 layout(binding = 4) uniform sampler2DArray normals; // normal (2 channels), depth, translucency
-#ifdef BLENDS
+#if defined(BLENDS) || defined(DEPTH)
 #include "blend.glsl"
+#endif
+#ifdef BLENDS
 flat in vec2 blend_range;
 #endif
 in vec3 layer_uv;
@@ -27,13 +29,16 @@ out vec4 colour;
 #endif
 void main() {
     vec4 albedo = texture(albedos, layer_uv);
-#if defined(SHADOW) || defined(DEPTH)
+#if defined(DEPTH) && defined(BLENDS)
+    keep_cover_in_range(albedo.a, blend_range);
+#elif defined(DEPTH)
+    keep_cover(albedo.a);
+#elif defined(BLENDS)
+    keep_range(blend_range);
+#elif defined(SHADOW)
     if (albedo.a < 0.5) {
         discard;
     }
-#endif
-#ifdef BLENDS
-    keep_range(blend_range);
 #endif
 #ifdef PICK
     picked = uvec4(content, item, 0u, 0u);

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "light.glsl"
-#ifdef BLENDS
+#if defined(BLENDS) || defined(CUT_OUT)
 #include "blend.glsl"
+#endif
+#ifdef BLENDS
 flat in vec2 blend_range;
 #endif
 // Leaves lit at vertices: cards with an alpha mask, or polygons of one colour.
@@ -18,17 +20,19 @@ in vec3 back;
 #endif
 out vec4 colour;
 void main() {
-#ifdef BLENDS
-    keep_range(blend_range);
-#endif
 #ifdef CUT_OUT
     vec4 texel = texture(leaf_texture, uv);
-    if (texel.a < 0.5) {
-        discard;
-    }
+#ifdef BLENDS
+    keep_cover_in_range(texel.a, blend_range);
+#else
+    keep_cover(texel.a);
+#endif
     vec3 albedo = (kind & 8u) != 0u ? vec3(1.0) : texel.rgb;
     colour = tone_mapped(albedo * (gl_FrontFacing ? front : back) + fog_light);
 #else
+#ifdef BLENDS
+    keep_range(blend_range);
+#endif
     colour = vec4(gl_FrontFacing ? front : back, 1.0);
 #endif
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "light.glsl"
+#include "blend.glsl"
 layout(binding = 1) uniform sampler2D base_texture;
 layout(binding = 2) uniform sampler2D normal_texture;
 layout(location = 0) uniform vec4 base_colour;
@@ -11,13 +12,13 @@ in vec4 world_tangent;
 out vec4 colour;
 void main() {
     vec3 albedo = base_colour.rgb;
+    float opacity = 1.0;
     if (kind.x != 0) {
         vec4 texel = texture(base_texture, uv);
-        if (kind.z != 0 && texel.a < 0.5) {
-            discard;
-        }
+        opacity = kind.z != 0 ? texel.a : 1.0;
         albedo *= texel.rgb;
     }
+    keep_cover(opacity);
     vec3 geometric = normalize(world_normal);
     vec3 normal = geometric;
     if (kind.y != 0) {

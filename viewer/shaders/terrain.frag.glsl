@@ -8,7 +8,8 @@ layout(location = 17) uniform vec3 mean;      // mean of the colours
 layout(location = 18) uniform int has_normal_map;
 #else
 layout(binding = 2) uniform sampler2D noise; // tileable
-layout(location = 21) uniform vec2 noise_shifts[3]; // place of the origin in each noise tile
+layout(location = 20) uniform vec2 widest_shift;    // place of the origin in the turned noise tile
+layout(location = 21) uniform vec2 noise_shifts[3]; // and in the others
 #endif
 layout(location = 24) uniform vec3 canopy;       // colour of crowns
 layout(location = 25) uniform vec2 canopy_range; // m, where the canopy begins and is complete; y 0: none
@@ -36,14 +37,17 @@ void main() {
 // Grass on level ground, earth on steep ground and in bare patches.
 void main() {
     vec3 up = normalize(world_normal);
-    // Noise tiles of 173, 37 and 3.1 m; the smaller ones fade before their repetition is visible.
+    // Noise tiles of 173, 37 and 3.1 m; the smaller ones fade before their repetition is visible. One
+    // of 611 m, turned by the angle of a triangle 3-4-5, hides that of the largest.
     float away = fog.z;
+    vec4 widest_noise =
+        texture(noise, mat2(0.8, 0.6, -0.6, 0.8) * world_position.xz * (1.0 / 611.0) + widest_shift);
     vec4 large_noise = texture(noise, world_position.xz * (1.0 / 173.0) + noise_shifts[0]);
     vec4 medium_noise = mix(vec4(0.5), texture(noise, world_position.zx * (1.0 / 37.0) + noise_shifts[1].yx),
                        clamp(2.0 - away / 150.0, 0.0, 1.0));
     vec4 small_noise = mix(vec4(0.5), texture(noise, world_position.xz * (1.0 / 3.1) + noise_shifts[2]),
                      clamp(2.0 - away / 15.0, 0.0, 1.0));
-    float wide = large_noise.r;
+    float wide = 0.5 + 0.8 * (large_noise.r - 0.5) + 0.8 * (widest_noise.b - 0.5);
     float middle = 0.4 * large_noise.g + 0.4 * medium_noise.r + 0.2 * small_noise.r;
     float fine = 0.5 * (medium_noise.g + small_noise.b);
     float steep = 1.0 - up.y;

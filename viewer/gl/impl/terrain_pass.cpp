@@ -27,10 +27,12 @@ constexpr GLint kTiles = kLevels + 1;
 constexpr GLint kMean = kTiles + 1;
 constexpr GLint kHasNormalMap = kMean + 1;
 constexpr GLuint kCovers = 5;
+constexpr GLint kWidestShift = 20;
 constexpr GLint kNoiseShifts = 21; // 3 locations
 constexpr GLint kCanopy = 24;
 constexpr GLint kCanopyRange = 25;
 constexpr std::array<double, 3> kNoiseTiles = {173.0, 37.0, 3.1}; // m, in terrain.frag.glsl
+constexpr double kWidestTile = 611.0;                             // m, turned
 constexpr std::uint32_t kNoiseTexels = 128;
 constexpr GLsizei kPatchIndices = 6 * kPatchCells * kPatchCells;
 
@@ -219,6 +221,10 @@ FrameStats TerrainPass::draw() {
             shifts[2 * i + 1] = static_cast<GLfloat>(std::fmod(origin_.z / kNoiseTiles[i], 1.0));
         }
         glUniform2fv(kNoiseShifts, 3, shifts.data());
+        const glm::dvec2 turned(0.8 * origin_.x - 0.6 * origin_.z,
+                                0.6 * origin_.x + 0.8 * origin_.z);
+        glUniform2f(kWidestShift, static_cast<GLfloat>(std::fmod(turned.x / kWidestTile, 1.0)),
+                    static_cast<GLfloat>(std::fmod(turned.y / kWidestTile, 1.0)));
     }
     // The colour of the canopy begins before the trees end, so that no border is visible.
     constexpr float kBegin = 0.45F;
