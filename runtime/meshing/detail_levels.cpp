@@ -445,7 +445,8 @@ private:
             return;
         }
         const auto wanted = static_cast<double>(planned.triangles);
-        // Equal branches lose their joints at the same error, so adding some paths is tried too.
+        // Equal branches lose a joint at the same error, so the number of triangles jumps and may miss
+        // the wanted one; a few more paths come closer.
         const std::uint64_t max_paths =
             std::min(before.paths, level.paths + std::min(level.paths, kMorePaths));
         double min_difference = std::numeric_limits<double>::infinity();

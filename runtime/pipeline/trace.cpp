@@ -215,7 +215,8 @@ private:
         }
     }
 
-    /// Selects by the text of `module` or `name`.
+    /// Lists the positions of the modules that match `options_.module` or `options_.name`. Returns
+    /// false after reporting an error.
     bool select_by_text(const Word& word, std::vector<std::uint64_t>& positions) {
         const bool exact = !options_.module.empty();
         const Result<WantedModule> wanted =

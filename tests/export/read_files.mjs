@@ -315,9 +315,9 @@ const checks = {
         }
     },
 
-    // At each key, a skin has its vertices where the mesh of that frame has them. Vertices of
-    // cylinders agree exactly, so every tip of a segment is right; vertices of joined tubes and
-    // boxes may be off as far as their rings turn and smooth.
+    // At each keyframe the skinned vertices match the mesh of that frame. Cylinders match exactly, so
+    // every tip of a segment is right; joined tubes and boxes may deviate, because their rings turn at
+    // bends and their surfaces are smoothed.
     async motion() {
         const { three, GLTFLoader } = await threeAndLoader();
         await eachMesh(['glb', 'gltf'], async (file, mesh) => {

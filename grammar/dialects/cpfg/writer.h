@@ -35,7 +35,7 @@ private:
         std::vector<std::vector<ForeignId>> arguments; // per module of the successor
         std::size_t first_local = 0;                   // index of its first local value
         std::size_t end_local = 0;
-        std::uint32_t first_draw = 0; // in a group: index of its first random number
+        std::uint32_t first_draw = 0; // index of its first random number in its group
         std::uint32_t draws = 0;
     };
 

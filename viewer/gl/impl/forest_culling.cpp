@@ -50,7 +50,7 @@ constexpr std::uint32_t kRoomForTrees = 1U << 14U; // added trees
 constexpr std::size_t kIdentityBytes = 12;
 constexpr std::size_t kCellBytes = 48;
 constexpr std::size_t kNearBytes = 48;
-constexpr std::size_t kSumsBytes = 192 * sizeof(std::uint32_t); // of State, after CullingState
+constexpr std::size_t kSumsBytes = 192 * sizeof(std::uint32_t); // `sums` of State (culling.glsl)
 constexpr std::uint32_t kRemoved = 0x8000'0000U;
 constexpr std::size_t kPartBytes = 512;
 static_assert(sizeof(CullingState) <= kPartBytes && sizeof(CullingState) % 4 == 0);
