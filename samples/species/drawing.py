@@ -21,7 +21,7 @@ class Card:
     def pixel(self, place):
         return ((place[0] * self.high + self.wide / 2) * FINE, (1 - place[1]) * self.high * FINE)
 
-    def area(self, places, colour):
+    def fill_polygon(self, places, colour):
         self.pen.polygon([self.pixel(place) for place in places], fill=opaque(colour))
 
     def line(self, places, width, colour):
@@ -67,10 +67,10 @@ def leaf(card, place, direction, length, outline, colour, vein, veins=6, vein_an
         card.line([place, base], 0.03 * length, vein)
     right = [along(base, direction, t * length, w * length) for t, w in outline]
     left = [along(base, direction, t * length, -w * length) for t, w in outline]
-    card.area(right + left[::-1], colour)
+    card.fill_polygon(right + left[::-1], colour)
     # The right half lies a little in the shade, so that the leaf looks folded along its midrib; a dark
     # edge sets it off from the leaves below.
-    card.area(right + [along(base, direction, length), base], shaded(colour, 0.9))
+    card.fill_polygon(right + [along(base, direction, length), base], shaded(colour, 0.9))
     card.line(right + left[::-1] + right[:1], 0.016 * length, shaded(colour, 0.66))
     card.line([base, along(base, direction, length * 0.97)], 0.022 * length, vein)
     for i in range(veins):

@@ -250,8 +250,9 @@ Bounds ForestPass::shadow_bounds(const Frame& frame) {
     const glm::vec3 along = forward_of(camera);
     const glm::vec2 flat(along.x, along.z);
     const float length = glm::length(flat);
-    const float down = along.y < -0.05F ? above / -along.y * length : 2.0F * half;
-    const float reach = std::min((above > 0.5F * half ? 1.5F : 0.75F) * half, std::max(down, 0.0F));
+    const float ground_distance = along.y < -0.05F ? above / -along.y * length : 2.0F * half;
+    const float reach =
+        std::min((above > 0.5F * half ? 1.5F : 0.75F) * half, std::max(ground_distance, 0.0F));
     const glm::vec2 wanted = glm::vec2(camera.eye.x, camera.eye.z) +
                              (length > 1e-4F ? flat / length * reach : glm::vec2(0.0F));
     const float step = 0.25F * half;
@@ -487,8 +488,8 @@ void ForestPass::collect_device_stats(ForestFrameStats& stats) {
         return;
     }
     stats.trees_of_level = state->level_counts;
-    stats.far_trees = state->impostor_count(false) - state->near_blended;
-    stats.blended_trees = std::uint64_t{state->cell_blended} + state->near_blended;
+    stats.far_trees = state->impostor_count(false) - state->branch_blended;
+    stats.blended_trees = std::uint64_t{state->cluster_blended} + state->branch_blended;
     stats.occluded_trees = state->occluded;
     stats.clustered_trees = state->clustered;
     stats.clusters = state->impostor_count(true);
