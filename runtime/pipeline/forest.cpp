@@ -246,6 +246,7 @@ Outcome<GrownStage> grow_stage(const SceneSpecies& species,
     if (!step.take(load_grammar(path, options, project), grammar)) {
         return step.end();
     }
+    project.begin(LongStep::GrowHeroes);
     if (!grammar.program) {
         return step.fail(fmt::format("`{}` is compiled; a forest needs the grammar itself", path));
     }
@@ -405,6 +406,7 @@ Outcome<LoadedScene> load_scene(const std::vector<std::string>& files,
 Outcome<GrownForest>
 grow_species(const LoadedScene& loaded, const Project& project, const PreviousForest& previous) {
     Step step(project);
+    project.begin(LongStep::GrowHeroes);
     const Scene& scene = loaded.scene;
     GrownForest grown;
     FileBudget budget{project.limits.max_bytes};
@@ -643,6 +645,7 @@ Outcome<void> size_forest(const Scene& scene, const Project& project, GrownFores
 
 Outcome<void> place_forest(const Scene& scene, const Project& project, GrownForest& grown) {
     Step step(project);
+    project.begin(LongStep::Place);
     const Stopwatch placing;
     const PlacementOptions options = placement_options(scene, project, grown);
     Result<Placement> placed = place_trees(options, *grown.terrain);

@@ -26,6 +26,7 @@ Outcome<void> make_model(const ViewOptions& options,
                          const Project& project,
                          ForestDocument& document) {
     Step step(project);
+    project.begin(LongStep::Mesh);
     MeshOptions mesh = options.mesh;
     mesh.threads = project.threads;
     mesh.max_bytes = project.limits.max_bytes;

@@ -2,6 +2,7 @@
 #include "viewer/app/plant_panel.h"
 
 #include "grammar/base/counted_text.h"
+#include "runtime/pipeline/constant_text.h"
 #include "runtime/pipeline/setting_controls.h"
 #include "viewer/app/widgets.h"
 
@@ -89,7 +90,8 @@ std::vector<Definition>::iterator find_definition(PlantViewSettings& settings,
                         [&name](const Definition& one) { return one.name == name; });
 }
 
-void draw_constant(PlantViewSettings& settings, const Constant& constant, const std::string& name) {
+void draw_constant(PlantViewSettings& settings, const Constant& constant, const Grammar& grammar) {
+    const std::string name(grammar.names.text(constant.name));
     const auto set = find_definition(settings, name);
     const bool is_set = set != settings.definitions.end();
     float value = is_set ? set->value : constant.value;
@@ -117,6 +119,7 @@ void draw_constant(PlantViewSettings& settings, const Constant& constant, const 
         ImGui::SameLine();
     }
     line(name);
+    draw_tooltip(describe_constant(constant, grammar));
     if (changed && std::isfinite(value)) {
         if (is_set) {
             set->value = value;
@@ -140,8 +143,7 @@ void draw_constants(PlantView& view) {
     for (const bool params : {true, false}) {
         for (const Constant& constant : program.constants) {
             if (constant.is_param == params) {
-                draw_constant(view.settings, constant,
-                              std::string(document->grammar.names.text(constant.name)));
+                draw_constant(view.settings, constant, document->grammar);
             }
         }
     }
@@ -208,6 +210,8 @@ void draw_setting(PlantViewSettings& settings, const SettingControl& control) {
         ImGui::SameLine();
     }
     line(key);
+    draw_tooltip(
+        fmt::format("#set {}{}{}", key, control.accepts.empty() ? "" : ": ", control.accepts));
     ImGui::PopID();
     if (is_reset) {
         settings.set_values.erase(set);
@@ -230,8 +234,18 @@ void draw_settings(PlantView& view) {
 }
 
 void draw_writing(PlantView& view) {
-    if (view.has_changed_values() && ImGui::Button("Write to file")) {
-        view.write_values();
+    if (ImGui::Button("Undo")) {
+        view.undo();
+    }
+    ImGui::SameLine();
+    if (ImGui::Button("Redo")) {
+        view.redo();
+    }
+    if (view.has_changed_values()) {
+        ImGui::SameLine();
+        if (ImGui::Button("Write to file")) {
+            view.write_values();
+        }
     }
 }
 

@@ -15,10 +15,10 @@ namespace lsys::view {
 
 namespace {
 
-/// Whether both settings make the same plant.
-bool makes_same_plant(const PlantViewSettings& a, const PlantViewSettings& b) {
-    return a.file == b.file && a.generations == b.generations && a.seed == b.seed &&
-           a.mesh == b.mesh && a.definitions == b.definitions && a.set_values == b.set_values;
+/// Whether both edits of one file make the same plant.
+bool makes_same_plant(const PlantEdits& a, const PlantEdits& b) {
+    return a.generations == b.generations && a.seed == b.seed && a.mesh == b.mesh &&
+           a.definitions == b.definitions && a.set_values == b.set_values;
 }
 
 bool is_same(const Bending& a, const Bending& b) {
@@ -51,12 +51,18 @@ PlantViewSettings first_plant_settings(const ViewOptions& options) {
 
 } // namespace
 
+bool operator==(const PlantEdits& a, const PlantEdits& b) {
+    return makes_same_plant(a, b) && a.style == b.style && a.lines == b.lines &&
+           a.shadows == b.shadows && a.ground == b.ground && a.antialiasing == b.antialiasing &&
+           a.simulates == b.simulates && is_same(a.bending, b.bending);
+}
+
 PlantView::PlantView(const ViewOptions& options,
                      const Console& console,
                      Renderer& renderer,
                      std::function<void()> wake)
     : View(options, console, renderer, std::move(wake)), settings(first_plant_settings(options)),
-      plays_next_(options.grow), loader_(wake_),
+      history_(settings), plays_next_(options.grow), loader_(wake_),
       watch_(FileWatch::Options{},
              [this](const std::vector<std::string>& files, SteadyClock::time_point changed_at) {
                  const auto shaders =
@@ -117,7 +123,8 @@ bool PlantView::update() {
     if (shown_lines_ != settings.lines) {
         show_lines();
     }
-    if (!requested_ || !makes_same_plant(*requested_, settings)) {
+    if (!requested_ || requested_->file != settings.file ||
+        !makes_same_plant(*requested_, settings)) {
         requested_ = settings;
         loader_.request(options_with_settings(), SteadyClock::now());
     }
@@ -158,6 +165,7 @@ void PlantView::drop_unknown_definitions() {
     if (std::erase_if(settings.definitions, is_unknown) != 0 && requested_) {
         requested_->definitions = settings.definitions; // same plant
     }
+    std::erase_if(history_.current().definitions, is_unknown);
 }
 
 void PlantView::swap(LoadOutcome outcome) {
@@ -186,6 +194,8 @@ void PlantView::swap(LoadOutcome outcome) {
     if (std::exchange(is_new_file_, false)) {
         settings.bending.forces.damping = document_->grammar.bytecode.settings.damping;
     }
+    history_.current().bending.forces.load = settings.bending.forces.load;
+    history_.current().bending.forces.damping = settings.bending.forces.damping;
     stats_.upload_seconds = seconds_since(start);
     stats_.make_seconds = outcome.seconds;
     stats_.swap_seconds = seconds_since(outcome.changed_at);
@@ -301,6 +311,32 @@ void PlantView::grow() {
         // The growth thread makes this generation, so the loader must not make it.
         requested_->generations = generation;
     }
+}
+
+void PlantView::record_edits() {
+    if (!settings.plays) {
+        history_.record(settings);
+    }
+}
+
+void PlantView::undo() {
+    record_edits();
+    if (!history_.can_undo()) {
+        set_note("Nothing to undo");
+        return;
+    }
+    settings.plays = false;
+    static_cast<PlantEdits&>(settings) = history_.undo();
+}
+
+void PlantView::redo() {
+    record_edits();
+    if (!history_.can_redo()) {
+        set_note("Nothing to redo");
+        return;
+    }
+    settings.plays = false;
+    static_cast<PlantEdits&>(settings) = history_.redo();
 }
 
 void PlantView::play_or_pause() {
@@ -526,6 +562,7 @@ void PlantView::open(const std::string& file) {
     is_new_file_ = true;
     files_ = {file};
     requested_.reset();
+    history_ = EditHistory<PlantEdits>(settings);
     watch_files();
 }
 
@@ -538,6 +575,36 @@ void PlantView::reload() {
 
 void PlantView::frame_all() {
     settings.camera = framing(settings.camera, renderer_->bounds(), aspect_);
+}
+
+std::optional<MakingState> PlantView::making() const {
+    const std::optional<SteadyClock::duration> time = loader_.running_time();
+    return time && *time >= kProgressDelay ? std::optional(loader_.progress().state())
+                                           : std::nullopt;
+}
+
+void PlantView::cancel_making() {
+    loader_.cancel();
+    if (document_ == nullptr) {
+        set_note("Cancelled: no plant is shown");
+        return;
+    }
+    const ViewOptions& shown = shown_outcome_.options;
+    if (settings.file != shown.file) {
+        use_other_file(options_, shown.file);
+        settings.file = shown.file;
+        files_ = shown_outcome_.files;
+        frame_next_ = false;
+        is_new_file_ = false;
+        watch_files();
+    }
+    settings.definitions = shown.grammar.optional_definitions;
+    settings.set_values = shown.grammar.settings;
+    settings.generations = shown.grammar.generations;
+    settings.seed = shown.seed;
+    settings.mesh = shown.mesh;
+    requested_ = settings;
+    set_note("Cancelled: the last plant is shown");
 }
 
 bool PlantView::is_busy() const {

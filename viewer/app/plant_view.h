@@ -4,6 +4,7 @@
 #pragma once
 
 #include "runtime/pipeline/value_edits.h"
+#include "viewer/app/edit_history.h"
 #include "viewer/app/file_watch.h"
 #include "viewer/app/plant_film.h"
 #include "viewer/app/plant_loader.h"
@@ -20,10 +21,9 @@
 
 namespace lsys::view {
 
-/// Settings of the user.
-struct PlantViewSettings {
+/// Settings of the user that undo() takes back.
+struct PlantEdits {
     // Sources: a change makes a new plant.
-    std::string file;
     std::vector<Definition> definitions; // replace constants of the grammar
     std::vector<SettingText> set_values; // replace `#set` statements of the grammar
     std::optional<std::uint32_t> generations;
@@ -31,7 +31,6 @@ struct PlantViewSettings {
     MeshOptions mesh;
 
     // Appearance.
-    Camera camera;
     PlantStyle style = PlantStyle::Surface;
     LineKind lines = LineKind::None;
     bool shadows = true;
@@ -41,6 +40,13 @@ struct PlantViewSettings {
     bool simulates = false; // gravity and wind move the plant
     Bending bending;
 
+    friend bool operator==(const PlantEdits& a, const PlantEdits& b);
+};
+
+/// Settings of the user.
+struct PlantViewSettings : PlantEdits {
+    std::string file;
+    Camera camera;
     bool plays = false;
     float generations_per_second = 2.0F;
 };
@@ -73,6 +79,11 @@ public:
     bool draw(std::uint32_t width, std::uint32_t height) override;
     void picture_shown(double draw_seconds) override;
     [[nodiscard]] bool is_busy() const override;
+    [[nodiscard]] std::optional<MakingState> making() const override;
+    void cancel_making() override;
+    void record_edits() override;
+    void undo() override;
+    void redo() override;
     void reload() override;
     void frame_all() override;
     [[nodiscard]] const std::string& file() const override { return settings.file; }
@@ -126,6 +137,7 @@ private:
     PlantViewStats stats_;
 
     std::optional<PlantViewSettings> requested_; // last request
+    EditHistory<PlantEdits> history_;
     LineKind shown_lines_ = LineKind::None;
     SteadyClock::time_point last_growth_;
     double growth_position_ = 0.0; // generations

@@ -16,6 +16,12 @@ void line(const std::string& text) {
     ImGui::TextUnformatted(text.data(), text.data() + text.size());
 }
 
+void draw_tooltip(const std::string& text) {
+    if (ImGui::IsItemHovered()) {
+        ImGui::SetTooltip("%s", text.c_str());
+    }
+}
+
 std::string grouped(std::uint64_t number) {
     std::string digits = fmt::format("{}", number);
     for (std::size_t at = digits.size(); at > 3;) {

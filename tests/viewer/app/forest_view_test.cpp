@@ -703,3 +703,51 @@ TEST_CASE("replacing the forest a hundred times leaks no objects of the renderer
     CHECK(viewed.renderer->live_objects() == objects);
     CHECK(viewed.renderer->errors().empty());
 }
+
+TEST_CASE("strokes and settings are undone in the order in which they were made") {
+    const WoodFolder files(wood(50));
+    ViewedForest viewed(forest_options(files.scene));
+    REQUIRE(viewed.until_swaps(1));
+    ForestView& forest = viewed.forest();
+    forest.settings.tool = PaintTool::OneTree;
+    viewed.look_at(5.0F, 30.0F);
+    viewed.press();
+    forest.settings.wireframe = true;
+    forest.record_edits();
+    viewed.look_at(15.0F, 30.0F);
+    viewed.press();
+    CHECK(forest.painting().tree_count() == 52);
+    forest.undo();
+    CHECK(forest.painting().tree_count() == 51);
+    CHECK(forest.settings.wireframe);
+    forest.undo();
+    CHECK_FALSE(forest.settings.wireframe);
+    CHECK(forest.painting().tree_count() == 51);
+    forest.undo();
+    CHECK(forest.painting().tree_count() == 50);
+    forest.undo();
+    CHECK(forest.note() == "Nothing to undo");
+    forest.redo();
+    forest.redo();
+    CHECK(forest.painting().tree_count() == 51);
+    CHECK(forest.settings.wireframe);
+    forest.settings.shadows = false;
+    forest.redo();
+    CHECK(forest.note() == "Nothing to redo");
+    CHECK(forest.painting().tree_count() == 51);
+}
+
+TEST_CASE("a forest that takes long is reported and cancelled") {
+    const WoodFolder files(wood(50));
+    ViewedForest viewed(forest_options(files.scene));
+    REQUIRE(viewed.until_swaps(1));
+    ForestView& forest = viewed.forest();
+    forest.settings.edits.heroes = 100'000;
+    REQUIRE(viewed.until([&] { return forest.making().has_value(); }));
+    CHECK(forest.making()->text == "Growing heroes");
+    forest.cancel_making();
+    CHECK(forest.note() == "Cancelled: the last forest is shown");
+    CHECK_FALSE(forest.settings.edits.heroes);
+    REQUIRE(viewed.until([&] { return !forest.making() && forest.stats().swaps == 1; }));
+    CHECK(forest.painting().tree_count() == 50);
+}
