@@ -24,7 +24,7 @@ std::string quoted(const std::string& text) {
     return escaped;
 }
 
-/// The part after the description: `:FILE:_files -g "*.lsys(-.)"`.
+/// `:message:action` of an option for `_arguments`: `:FILE:_files -g "*.lsys(-.)"`.
 std::string action(const OptionText& option) {
     const std::string words = fmt::format("({})", fmt::join(option.words, " "));
     switch (option.kind) {

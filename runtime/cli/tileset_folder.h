@@ -64,7 +64,8 @@ public:
     /// Writes files until none is left. May be called from several threads. Throws std::bad_alloc.
     void write_from(const NextFile& next);
 
-    /// Stops the writer, for example because of another process. The first error is kept.
+    /// Stops the writer, for example when another rank of `lsc-mpi` has failed. The first error is
+    /// kept.
     void stop(const Error& error);
     [[nodiscard]] bool is_stopped() const { return is_stopped_ || console_.interrupted(); }
     /// The error that has stopped the writer.

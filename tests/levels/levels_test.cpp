@@ -140,8 +140,8 @@ Picture draw(const Drawing& drawing, const Bounds& frame, int samples, float tur
     const Mesh& mesh = drawing.mesh;
     const glm::vec3 middle = 0.5F * (frame.low + frame.high);
     const glm::vec3 half = frame.high - middle;
-    const float across = std::hypot(half.x, half.z);
-    const float reach = std::max(across, std::cos(tilt) * half.y + std::sin(tilt) * across);
+    const float radius = std::hypot(half.x, half.z); // horizontal
+    const float reach = std::max(radius, std::cos(tilt) * half.y + std::sin(tilt) * radius);
     const float largest = std::max({half.x, half.y, half.z});
     const float scale = 0.5F * static_cast<float>(samples) / largest;
     const int size = static_cast<int>(std::ceil(2.0F * scale * reach)) + 1;

@@ -119,9 +119,9 @@ public:
         return {};
     }
     void set_culling(Culling culling) override { culling_ = culling; }
-    void show_trees() override {
+    void update_trees() override {
         if (is_forest_) {
-            forest_.show_trees();
+            forest_.update_trees();
             shadow_.invalidate();
         }
     }

@@ -182,7 +182,7 @@ public:
     /// what set_culling() wants.
     [[nodiscard]] virtual Result<void> show_forest(ForestModel model) = 0;
     /// Updates the trees of the forest shown after a change; its other parts must be unchanged.
-    virtual void show_trees() = 0;
+    virtual void update_trees() = 0;
     /// Bakes missing impostors for about `seconds`. Returns whether all are done.
     [[nodiscard]] virtual bool bake_impostors(double seconds) = 0;
     /// Adds or removes a tree of the forest: ForestLod::change_tree().

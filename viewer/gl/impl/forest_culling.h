@@ -88,7 +88,8 @@ public:
     /// Records a change of a tree, which the next select() uploads.
     void change_tree(std::uint32_t number);
 
-    /// Parameters of a picture. `ground`: occluder, or null. `heights`: its texture.
+    /// Parameters of a picture. `ground`: occluder, or null. `heights`: height texture of
+    /// the ground.
     struct View {
         Frustum frustum;
         LodOptions options;

@@ -135,7 +135,7 @@ void ForestPass::set_colours(BranchColours by) {
     impostors_.begin(model_, plan_impostors(*lod_), buffers_);
 }
 
-void ForestPass::show_trees() {
+void ForestPass::update_trees() {
     lists_ = nullptr;
     lod_ = std::make_unique<ForestLod>(model_);
     ImpostorPlan plan = plan_impostors(*lod_);
@@ -174,7 +174,7 @@ bool ForestPass::bake_impostors(double seconds, MaterialTextures& textures) {
         }
     }
     if (impostors_.is_done() && model_.streamed != nullptr) {
-        terrain_.set_canopy(impostors_.mean_colour_from_above(model_.streamed->crown_parts));
+        terrain_.set_canopy(impostors_.mean_colour_from_above(model_.streamed->crown_weights));
     }
     bake_seconds_ += seconds_since(start);
     return impostors_.is_done();

@@ -44,7 +44,7 @@ public:
     [[nodiscard]] bool is_culled_on_device() const { return is_culled_on_device_; }
     /// Updates the trees of the forest after a change. Clusters are drawn once their new impostors
     /// are baked.
-    void show_trees();
+    void update_trees();
     /// Bakes missing impostors for about `seconds`. Returns whether all are done.
     [[nodiscard]] bool bake_impostors(double seconds, MaterialTextures& textures);
     /// Colours the branches of this forest and of all later ones.
