@@ -239,6 +239,11 @@ Outcome<GrownStage> grow_stage(const SceneSpecies& species,
     for (const SceneDefinition& definition : species.definitions) {
         options.definitions.push_back({definition.name, definition.value});
     }
+    const auto is_season = [](const Definition& each) { return each.name == "season"; };
+    if (species.season &&
+        std::none_of(options.definitions.begin(), options.definitions.end(), is_season)) {
+        options.optional_definitions.push_back({"season", *species.season});
+    }
     for (const auto& [key, values] : species.settings) {
         options.settings.push_back({key, values});
     }
@@ -344,6 +349,7 @@ bool has_same_heroes(const SceneSpecies& a, const SceneSpecies& b) {
            a.stages == b.stages && a.rho == b.rho && a.cache.heroes == b.cache.heroes &&
            a.cache.seed == b.cache.seed && a.cache.cap == b.cache.cap &&
            a.cache.tolerance == b.cache.tolerance && a.settings == b.settings &&
+           a.season == b.season &&
            std::equal(a.definitions.begin(), a.definitions.end(), b.definitions.begin(),
                       b.definitions.end(), same_definition);
 }

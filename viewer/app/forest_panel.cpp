@@ -358,6 +358,13 @@ void draw_look(ForestView& view) {
     ImGui::Checkbox("Wind", &settings.windy);
     draw_wind(settings.wind);
     if (view.document() != nullptr) {
+        if (const std::optional<float> season = view.document()->scene.species.front().season) {
+            draw_edit("Season", *season, settings.edits.season, [](float& value) {
+                return ImGui::SliderFloat("##value", &value, 0.0F, 1.0F, "%.2f",
+                                          ImGuiSliderFlags_AlwaysClamp);
+            });
+        }
+        draw_sun(view.document()->scene.light, settings.light);
         edit_length("Visibility", default_visibility(*view.document()), settings.visibility, 0.01,
                     1e6, "%.3g km");
     }

@@ -37,6 +37,7 @@ ForestViewSettings first_forest_settings(const ViewOptions& options) {
     settings.wind = options.wind.value_or(Wind{{5.0F, 0.0F, 0.0F}, 0.5F});
     settings.max_triangles = options.max_triangles;
     settings.visibility = options.visibility;
+    settings.light = options.light;
     return settings;
 }
 
@@ -318,7 +319,7 @@ bool ForestView::draw(std::uint32_t width, std::uint32_t height) {
         frame.time = seconds_since(start_);
     }
     if (document_ != nullptr) {
-        frame.light = forest_light(*document_, settings.visibility);
+        frame.light = forest_light(*document_, settings.visibility, settings.light);
     }
     const bool moves = settings.windy || settings.plays || grown_ || used_tool_ ||
                        (frame_ && !(frame_->camera == frame.camera));
@@ -486,6 +487,7 @@ void ForestView::open(const std::string& file) {
     use_other_file(options_, file);
     settings.edits = {};
     settings.visibility.reset();
+    settings.light = {};
     settings.plays = false;
     grown_.reset();
     frame_next_ = true;

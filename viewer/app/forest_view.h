@@ -36,6 +36,7 @@ struct ForestEdits {
     bool windy = false; // wind is on
     Wind wind;
     std::optional<double> visibility; // km; empty: default_visibility()
+    SceneLight light;                 // in place of the scene's
     std::uint64_t max_triangles = 1'500'000;
 
     friend bool operator==(const ForestEdits&, const ForestEdits&) = default;

@@ -266,6 +266,7 @@ void draw_look(PlantViewSettings& settings) {
     ImGui::Checkbox("Ground", &settings.ground);
     ImGui::SameLine();
     ImGui::Checkbox("Antialiasing", &settings.antialiasing);
+    draw_sun({}, settings.light);
     draw_camera(settings.camera);
 }
 

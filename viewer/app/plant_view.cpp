@@ -4,6 +4,7 @@
 #include "runtime/pipeline/stopwatch.h"
 #include "runtime/program/files.h"
 #include "runtime/program/host.h"
+#include "viewer/app/daylight.h"
 
 #include <fmt/format.h>
 
@@ -40,6 +41,7 @@ PlantViewSettings first_plant_settings(const ViewOptions& options) {
     settings.shadows = options.shadows;
     settings.ground = options.ground;
     settings.antialiasing = options.samples > 1;
+    settings.light = options.light;
     settings.simulates = options.gravity || options.wind;
     if (settings.simulates) {
         settings.bending.forces.gravity = options.gravity.value_or(0.0F);
@@ -54,7 +56,7 @@ PlantViewSettings first_plant_settings(const ViewOptions& options) {
 bool operator==(const PlantEdits& a, const PlantEdits& b) {
     return makes_same_plant(a, b) && a.style == b.style && a.lines == b.lines &&
            a.shadows == b.shadows && a.ground == b.ground && a.antialiasing == b.antialiasing &&
-           a.simulates == b.simulates && is_same(a.bending, b.bending);
+           a.light == b.light && a.simulates == b.simulates && is_same(a.bending, b.bending);
 }
 
 PlantView::PlantView(const ViewOptions& options,
@@ -524,6 +526,7 @@ bool PlantView::draw(std::uint32_t width, std::uint32_t height) {
     frame.ground = settings.ground;
     frame.samples = settings.antialiasing ? 4 : 1;
     frame.style = settings.style;
+    frame.light = daylight_of(settings.light, Light{});
     if (shows_growth_) {
         frame.ground_disc = film_ground_;
     }

@@ -36,6 +36,7 @@ struct PlantEdits {
     bool shadows = true;
     bool ground = true;
     bool antialiasing = true;
+    SceneLight light; // in place of daylight at a fixed time
 
     bool simulates = false; // gravity and wind move the plant
     Bending bending;

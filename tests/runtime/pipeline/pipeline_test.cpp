@@ -293,3 +293,19 @@ TEST_CASE("a constant is described by the comment after it, its value and its ra
     CHECK(text("c") == "0.001 in the file");
     CHECK(text("r") == "random in each run");
 }
+
+TEST_CASE("a season sets the constant of grammars that have one") {
+    const char* const kSeasonal = "#n = 1; #param season 0.5 {0, 1}; #w : F(1 + season);";
+    const auto height_of = [](const std::string& grammar, const std::string& species,
+                              const SceneOverrides& overrides) {
+        const Outcome<GrownForest> grown = forest_of(grammar, species, overrides);
+        REQUIRE(grown);
+        return heights_of(grown.value()).begin()->second;
+    };
+    SceneOverrides autumn;
+    autumn.season = 0.75F;
+    CHECK(height_of(kSeasonal, "", {}) == Approx(1.5));
+    CHECK(height_of(kSeasonal, "", autumn) == Approx(1.75));
+    CHECK(height_of(kSeasonal, "define = { season = 0.25 }\n", autumn) == Approx(1.25));
+    CHECK(height_of("#n = 1; #w : F(1);", "", autumn) == Approx(1.0));
+}
