@@ -86,7 +86,7 @@ struct ExplicitInstancing {
 /// Light of pictures; empty values: those of the program that draws.
 struct SceneLight {
     std::optional<SunPlace> sun;
-    /// Haze of the air: 1.7 very clear, 3 clear, 6 hazy, 10 nearly fog.
+    /// Haze of the air, 2 to 10: 2 very clear, 3 clear, 6 hazy.
     std::optional<double> turbidity;
 
     friend bool operator==(const SceneLight&, const SceneLight&) = default;

@@ -91,8 +91,8 @@ def field(size, sx, sy, seed):
     return (smooth - smooth.mean()) / smooth.std()
 
 
-def scales(size, count, tall, seed):
-    """Plates of bark: for each pixel the distance to the edge of its plate, 0 to 1, and a random number of it.
+def bark_plates(size, count, tall, seed):
+    """Plates of bark: for each pixel the distance to the edge of its plate, 0 to 1, and a random number of that plate.
     `tall` is the height of a plate divided by its width."""
     random = np.random.default_rng(seed)
     points = random.random((count, 2)) * size

@@ -368,7 +368,7 @@ void draw_look(ForestView& view) {
         edit_length("Visibility", default_visibility(*view.document()), settings.visibility, 0.01,
                     1e6, "%.3g km");
     }
-    constexpr std::uint64_t kMin = 0;
+    constexpr std::uint64_t kMin = 50'000; // with fewer, impostors of near trees would show
     constexpr std::uint64_t kMax = 20'000'000;
     ImGui::SliderScalar("Max triangles", ImGuiDataType_U64, &settings.max_triangles, &kMin, &kMax,
                         nullptr, ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_AlwaysClamp);

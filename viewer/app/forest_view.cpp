@@ -148,8 +148,9 @@ bool ForestView::update() {
     has_news = take_picked() || has_news;
     show_colours();
     if (!has_all_impostors_ && document_ != nullptr) {
+        const bool had_stand_ins = renderer_->has_stand_ins();
         has_all_impostors_ = renderer_->bake_impostors(kBakeTime);
-        changed_ = changed_ || has_all_impostors_;
+        changed_ = changed_ || has_all_impostors_ || renderer_->has_stand_ins() != had_stand_ins;
     }
     grow();
     if (document_ != nullptr) {
@@ -228,6 +229,7 @@ void ForestView::swap(ForestOutcome outcome) {
         return;
     }
     document_ = document;
+    shown_options_ = outcome.request.options;
     shown_edits_ = outcome.request.edits;
     if (document_->squares != nullptr) {
         streamer_ = std::make_unique<ForestStreamer>(
@@ -667,7 +669,7 @@ void ForestView::cancel_making() {
         return;
     }
     if (document_->files.front() != options_.file) {
-        use_other_file(options_, document_->files.front());
+        options_ = shown_options_;
         files_ = document_->files;
         frame_next_ = false;
         watch_files();

@@ -209,7 +209,8 @@ private:
 
     std::mutex saved_mutex_;
     std::string saved_text_;     // text last written by this view
-    SceneOverrides shown_edits_; // with which document_ was made
+    ViewOptions shown_options_;  // with which document_ was made
+    SceneOverrides shown_edits_; // likewise
     MakingProgress progress_;
     ForestLoader loader_;
     FileWatch watch_; // last member: it calls the loader

@@ -58,9 +58,12 @@ public:
         }
     }
     /// Cancels the running request and drops a pending one: no outcome follows, unless it is made
-    /// already.
+    /// already. repeat() then repeats the last request that was not cancelled, if any.
     void cancel() {
         const std::lock_guard lock(mutex_);
+        if (finished_) {
+            last_ = finished_;
+        }
         // The changed files are still to be read.
         owes_repeat_ = owes_repeat_ || (pending_ && pending_->is_repeat) ||
                        (is_running_ && is_running_repeat_);
@@ -123,6 +126,7 @@ private:
                     continue;
                 }
                 outcome_ = std::move(outcome);
+                finished_ = std::move(request);
                 is_running_ = false;
             }
             done_();
@@ -135,6 +139,7 @@ private:
     std::condition_variable changed_;
     std::optional<Request> pending_;
     std::optional<Request> last_;
+    std::optional<Request> finished_; // the last one that was not cancelled
     std::optional<Outcome> outcome_;
     bool is_running_ = false;
     bool is_running_repeat_ = false; // Request::is_repeat of the running or last request

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <numeric>
 
 namespace lsys::view {
 
@@ -16,20 +17,6 @@ namespace {
 constexpr std::array<const char*, kCountOf<LongStep>> kNames{
     "Reading files",   "Deriving",       "Drawing",      "Making meshes",
     "Choosing heroes", "Growing heroes", "Placing trees"};
-
-/// Expected modules of the first generations divided by those of all; empty if they are unknown.
-std::optional<float> fraction_of(const DerivationProgress& progress) {
-    if (progress.expected.size() <= progress.generations) {
-        return std::nullopt;
-    }
-    double done = static_cast<double>(progress.modules);
-    double all = 0.0;
-    for (std::uint32_t i = 1; i <= progress.generations; ++i) {
-        all += progress.expected[i];
-        done += i < progress.generation ? progress.expected[i] : 0.0;
-    }
-    return all > 0.0 ? std::optional(static_cast<float>(std::min(done / all, 1.0))) : std::nullopt;
-}
 
 } // namespace
 
@@ -41,19 +28,42 @@ void MakingProgress::follow(Host& host) {
 
 MakingState MakingProgress::state() const {
     const std::lock_guard lock(mutex_);
-    return state_;
+    if (step_ != LongStep::Derive || generation_ == 0) {
+        return {kNames[static_cast<std::size_t>(step_)], std::nullopt};
+    }
+    MakingState state{fmt::format("Deriving generation {} of {}: {} modules", generation_,
+                                  generations_, grouped(modules_)),
+                      std::nullopt};
+    if (expected_ > 0.0) {
+        const double done = expected_before_ + static_cast<double>(modules_);
+        state.fraction = static_cast<float>(std::min(done / expected_, 1.0));
+    }
+    return state;
 }
 
 void MakingProgress::begin(LongStep step) {
     const std::lock_guard lock(mutex_);
-    state_ = {kNames[static_cast<std::size_t>(step)], std::nullopt};
+    step_ = step;
+    generation_ = 0;
 }
 
+/// Sums the expected modules as the generations come: plants have up to 2^32 generations.
 void MakingProgress::derive(const DerivationProgress& progress) {
     const std::lock_guard lock(mutex_);
-    state_ = {fmt::format("Deriving generation {} of {}: {} modules", progress.generation,
-                          progress.generations, grouped(progress.modules)),
-              fraction_of(progress)};
+    if (generation_ == 0) {
+        const bool is_known = progress.expected.size() > progress.generations;
+        expected_ =
+            is_known ? std::accumulate(progress.expected.begin() + 1, progress.expected.end(), 0.0)
+                     : 0.0;
+        expected_before_ = 0.0;
+        summed_ = 0;
+    }
+    while (expected_ > 0.0 && summed_ + 1 < progress.generation) {
+        expected_before_ += progress.expected[++summed_];
+    }
+    generation_ = progress.generation;
+    generations_ = progress.generations;
+    modules_ = progress.modules;
 }
 
 } // namespace lsys::view

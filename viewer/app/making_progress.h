@@ -4,6 +4,7 @@
 
 #include "runtime/pipeline/project.h"
 
+#include <cstdint>
 #include <mutex>
 #include <optional>
 #include <string>
@@ -27,7 +28,14 @@ private:
     void derive(const DerivationProgress& progress);
 
     mutable std::mutex mutex_;
-    MakingState state_;
+    LongStep step_ = LongStep::Read;
+    // Of a derivation.
+    std::uint32_t generation_ = 0; // 0: it has not written a module yet
+    std::uint32_t generations_ = 0;
+    std::uint64_t modules_ = 0;
+    double expected_ = 0.0;        // modules of all generations; 0: unknown
+    double expected_before_ = 0.0; // modules of generations before generation_
+    std::uint32_t summed_ = 0;     // generations in expected_before_
 };
 
 } // namespace lsys::view

@@ -104,7 +104,7 @@ void add_picture(CLI::App& app, ViewOptions& options) {
         ->group("Picture");
     add_parsed(
         app, "--turbidity", options.light.turbidity,
-        [](const std::string& text) { return parse_number(text, 1.7F, 10.0F); },
+        [](const std::string& text) { return parse_number(text, 2.0F, 10.0F); },
         "Haze of the sky: 2 very clear, 6 hazy (default 3)")
         ->type_name("T")
         ->group("Picture");

@@ -249,6 +249,38 @@ void draw_writing(PlantView& view) {
     }
 }
 
+void draw_export(PlantView& view) {
+    if (!ImGui::CollapsingHeader("Export")) {
+        return;
+    }
+    ExportSettings& output = view.settings.output;
+    edit_text("File", output.file);
+    draw_tooltip("The extension chooses the format: .glb, .gltf, .obj, .usda, .usdz, .ply, .stl, "
+                 ".off, .svg");
+    if (ImGui::BeginCombo("For", output.preset.empty() ? "any program" : output.preset.c_str())) {
+        if (ImGui::Selectable("any program", output.preset.empty())) {
+            output.preset.clear();
+        }
+        for (const std::string& preset : export_presets()) {
+            if (ImGui::Selectable(preset.c_str(), preset == output.preset)) {
+                output.preset = preset;
+            }
+        }
+        ImGui::EndCombo();
+    }
+    auto lods = static_cast<int>(output.lods);
+    if (ImGui::SliderInt("Levels", &lods, 0, 12)) {
+        output.lods = static_cast<std::uint32_t>(lods);
+    }
+    draw_tooltip(
+        "Levels of detail in the file; 0: only the plant shown, or what the preset writes");
+    std::error_code ignored;
+    const bool exists = std::filesystem::exists(output.file, ignored);
+    if (ImGui::Button(exists ? "Replace the file" : "Export")) {
+        view.export_shown();
+    }
+}
+
 void draw_look(PlantViewSettings& settings) {
     if (!ImGui::CollapsingHeader("Display", ImGuiTreeNodeFlags_DefaultOpen)) {
         return;
@@ -342,6 +374,7 @@ void draw_plant_panel(PlantView& view) {
     draw_mesh(view.settings,
               view.document() == nullptr ? 0.0F : view.document()->plant.skeleton.leaf_droop);
     draw_bending(view.settings);
+    draw_export(view);
     ImGui::PopItemWidth();
 }
 

@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <utility>
 
 namespace lsys::view {
@@ -26,6 +27,11 @@ bool is_same(const Bending& a, const Bending& b) {
     return a.stiffness == b.stiffness && a.forces.gravity == b.forces.gravity &&
            a.forces.wind == b.forces.wind && a.forces.damping == b.forces.damping &&
            a.forces.load == b.forces.load;
+}
+
+/// A file in the current folder, named like the grammar.
+std::string default_output(const std::string& file) {
+    return std::filesystem::path(file).stem().string() + ".glb";
 }
 
 PlantViewSettings first_plant_settings(const ViewOptions& options) {
@@ -48,6 +54,7 @@ PlantViewSettings first_plant_settings(const ViewOptions& options) {
     }
     settings.bending.forces.wind = options.wind.value_or(Wind{});
     settings.bending.forces.threads = options.run.threads;
+    settings.output.file = default_output(options.file);
     return settings;
 }
 
@@ -122,6 +129,12 @@ bool PlantView::update() {
         requested_.reset(); // moments of growth do not bend, so request the plant itself
     }
     has_news = check_standing() || has_news;
+    if (exporter_ != nullptr) {
+        if (const std::optional<ExportOutcome> outcome = exporter_->take()) {
+            set_note(outcome->text);
+            has_news = true;
+        }
+    }
     if (shown_lines_ != settings.lines) {
         show_lines();
     }
@@ -554,6 +567,7 @@ void PlantView::picture_shown(double draw_seconds) {
 void PlantView::open(const std::string& file) {
     use_other_file(options_, file);
     settings.file = file;
+    settings.output.file = default_output(file);
     settings.definitions.clear();
     settings.set_values.clear();
     settings.generations.reset();
@@ -580,13 +594,39 @@ void PlantView::frame_all() {
     settings.camera = framing(settings.camera, renderer_->bounds(), aspect_);
 }
 
+void PlantView::export_shown() {
+    if (document_ == nullptr || shows_growth_) {
+        set_note(document_ == nullptr
+                     ? "No plant to export yet"
+                     : "Stop the growth at a whole generation to export the plant");
+        return;
+    }
+    if (exporter_ == nullptr) {
+        exporter_ = std::make_unique<PlantExporter>(export_plant, wake_);
+    }
+    exported_file_ = settings.output.file;
+    exporter_->request(
+        {document_, shown_outcome_.options, settings.output, SteadyClock::now(), false});
+}
+
 std::optional<MakingState> PlantView::making() const {
+    if (exporter_ != nullptr) {
+        const std::optional<SteadyClock::duration> time = exporter_->running_time();
+        if (time && *time >= kProgressDelay) {
+            return MakingState{"Writing " + exported_file_, std::nullopt};
+        }
+    }
     const std::optional<SteadyClock::duration> time = loader_.running_time();
     return time && *time >= kProgressDelay ? std::optional(loader_.progress().state())
                                            : std::nullopt;
 }
 
 void PlantView::cancel_making() {
+    if (exporter_ != nullptr && exporter_->running_time()) {
+        exporter_->cancel();
+        set_note("Cancelled: no file is written");
+        return;
+    }
     loader_.cancel();
     if (document_ == nullptr) {
         set_note("Cancelled: no plant is shown");
@@ -612,6 +652,7 @@ void PlantView::cancel_making() {
 
 bool PlantView::is_busy() const {
     return loader_.is_busy() || settings.plays || motion_ != nullptr || is_picking() ||
+           (exporter_ != nullptr && exporter_->is_busy()) ||
            (checked_bending_ && standing_checker_->is_busy());
 }
 

@@ -6,6 +6,7 @@
 #include "runtime/pipeline/value_edits.h"
 #include "viewer/app/edit_history.h"
 #include "viewer/app/file_watch.h"
+#include "viewer/app/plant_export.h"
 #include "viewer/app/plant_film.h"
 #include "viewer/app/plant_loader.h"
 #include "viewer/app/plant_motion.h"
@@ -50,6 +51,8 @@ struct PlantViewSettings : PlantEdits {
     Camera camera;
     bool plays = false;
     float generations_per_second = 2.0F;
+
+    ExportSettings output;
 };
 
 /// Statistics of the plant shown.
@@ -101,6 +104,9 @@ public:
     /// has changed on disk since it was read, values in included files, and values whose plant is
     /// not shown.
     void write_values();
+    /// Writes the plant shown, at rest, to settings.output.file on another thread, and reports the
+    /// result in a note. Refuses moments between generations.
+    void export_shown();
 
     /// Last plant without errors; null: none yet.
     [[nodiscard]] const PlantDocument* document() const { return document_.get(); }
@@ -155,6 +161,8 @@ private:
     std::optional<Bending> checked_bending_;
     bool warns_of_fall_ = false;
     std::unique_ptr<StandingChecker> standing_checker_; // made by the first simulation
+    std::unique_ptr<PlantExporter> exporter_;           // made by the first export
+    std::string exported_file_;                         // of the last request
     PlantLoader loader_;
     FileWatch watch_; // last member: it calls the loader
 };

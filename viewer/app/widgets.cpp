@@ -24,6 +24,14 @@ void draw_tooltip(const std::string& text) {
     }
 }
 
+void edit_text(const char* label, std::string& text) {
+    std::array<char, 1024> bytes{};
+    std::snprintf(bytes.data(), bytes.size(), "%s", text.c_str());
+    if (ImGui::InputText(label, bytes.data(), bytes.size())) {
+        text = bytes.data();
+    }
+}
+
 std::string grouped(std::uint64_t number) {
     std::string digits = fmt::format("{}", number);
     for (std::size_t at = digits.size(); at > 3;) {
@@ -59,7 +67,7 @@ void draw_sun(const SceneLight& own, SceneLight& light) {
     constexpr double kTurn = 360.0;
     constexpr double kLowest = -6.0; // civil dusk
     constexpr double kHighest = 90.0;
-    constexpr double kClear = 1.7;
+    constexpr double kClear = 2.0;
     constexpr double kHazy = 10.0;
     bool moved = ImGui::SliderScalar("Sun azimuth", ImGuiDataType_Double, &sun.azimuth, &kZero,
                                      &kTurn, "%.0f deg", ImGuiSliderFlags_AlwaysClamp);

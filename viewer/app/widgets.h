@@ -17,6 +17,8 @@ inline constexpr float kLabelWidth = 110.0F;
 void line(const std::string& text);
 /// Shows text beside the mouse while it is over the last widget.
 void draw_tooltip(const std::string& text);
+/// Edits a text of at most 1,023 bytes.
+void edit_text(const char* label, std::string& text);
 /// Digits in groups: 1,234,567.
 [[nodiscard]] std::string grouped(std::uint64_t number);
 void draw_wind(Wind& wind);

@@ -125,6 +125,7 @@ public:
             shadow_.invalidate();
         }
     }
+    bool has_stand_ins() const override { return forest_.has_stand_ins(); }
     bool bake_impostors(double seconds) override {
         if (!is_forest_) {
             return true;

@@ -392,9 +392,10 @@ TEST_CASE("a key of very many parts is an error and does not exhaust the stack")
     const std::string fine = "# " + dots + "\n[[species]]\ngrammar = \"" + dots + "\\\"" + dots +
                              "\"\nsystem = '" + dots + "'\nshare = 1 # " + dots + "\n";
     CHECK(parsed(fine).scene.has_value());
-    const std::string in_lines = "[[species]]\ngrammar = \"\"\"\n" + dots + "\"\n\\\"\"\"" + dots +
-                                 "\"\"\"\"\"\nsystem = '''\n''" + dots + "\\''''\nshare = 1\n";
-    CHECK(parsed(in_lines).messages.find("more than") == std::string::npos);
+    const std::string multiline_strings = "[[species]]\ngrammar = \"\"\"\n" + dots +
+                                          "\"\n\\\"\"\"" + dots + "\"\"\"\"\"\nsystem = '''\n''" +
+                                          dots + "\\''''\nshare = 1\n";
+    CHECK(parsed(multiline_strings).messages.find("more than") == std::string::npos);
     const std::string longest = repeated("a.", 15) + "a = ";
     CHECK(parsed(repeated(longest + "{ ", 250) + "a = 1" + repeated(" }", 250))
               .messages.find("[unknown-scene-key]") != std::string::npos);

@@ -59,7 +59,7 @@ TEST_CASE("a lower sun is weaker and redder, and at dusk there is only the sky")
 }
 
 TEST_CASE("the light changes smoothly and stays finite and positive for every sun") {
-    for (const double turbidity : {1.7, 3.0, 6.0, 10.0}) {
+    for (const double turbidity : {2.0, 3.0, 6.0, 10.0}) {
         Light before = light_at(-8.0, turbidity);
         for (double elevation = -7.75; elevation <= 90.0; elevation += 0.25) {
             const Light light = light_at(elevation, turbidity);

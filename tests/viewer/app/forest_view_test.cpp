@@ -751,3 +751,27 @@ TEST_CASE("a forest that takes long is reported and cancelled") {
     REQUIRE(viewed.until([&] { return !forest.making() && forest.stats().swaps == 1; }));
     CHECK(forest.painting().tree_count() == 50);
 }
+
+TEST_CASE("all trees are drawn long before each has an impostor of its own") {
+    const WoodFolder files(wood(500));
+    ViewedForest viewed(forest_options(files.scene));
+    REQUIRE(viewed.until(
+        [&] { return viewed.renderer->has_stand_ins() && viewed.forest().stats().swaps == 1; }));
+    CHECK_FALSE(viewed.forest().has_all_impostors());
+    viewed.forest().settings.max_triangles = 0; // impostors only
+    viewed.step();
+    const std::vector<std::uint8_t> early = viewed.picture();
+    REQUIRE(viewed.until([&] { return viewed.forest().has_all_impostors(); }));
+    viewed.step();
+    const std::vector<std::uint8_t> late = viewed.picture();
+    // Without impostors, only ground and sky would be drawn.
+    const auto dark = [](const std::vector<std::uint8_t>& picture) {
+        std::size_t count = 0;
+        for (std::size_t i = 0; i < picture.size(); i += 4) {
+            count += picture[i] + picture[i + 1] + picture[i + 2] < 200 ? 1U : 0U;
+        }
+        return static_cast<double>(count);
+    };
+    CHECK(dark(late) > 0.0);
+    CHECK(dark(early) == Approx(dark(late)).epsilon(0.2));
+}

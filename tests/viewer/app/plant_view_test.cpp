@@ -596,13 +596,16 @@ TEST_CASE("a plant that takes long is reported, and cancelled together with its 
     REQUIRE(viewed.until([&] { return !view.is_busy(); }));
     CHECK(view.stats().swaps == 1);
     CHECK(view.document()->plant.generations == 3);
+    view.reload();
+    REQUIRE(viewed.until_swaps(2));
+    CHECK(view.document()->plant.generations == 3);
 
     // A changed file whose plant was cancelled is read with the next change.
     write_text(file, "#n = 40;\n#w : A(0);\n#p : A(x) : x >= 0 : A(x) F F A(x);\n");
     REQUIRE(viewed.until([&] { return view.making().has_value(); }));
     view.cancel_making();
     view.settings.generations = 2;
-    REQUIRE(viewed.until_swaps(2));
+    REQUIRE(viewed.until_swaps(3));
     CHECK(view.document()->plant.modules == 10);
 
     // So is a plant of another file, which leaves the first one open.
@@ -614,5 +617,45 @@ TEST_CASE("a plant that takes long is reported, and cancelled together with its 
     CHECK(view.file() == file);
     CHECK(view.generations() == 2);
     REQUIRE(viewed.until([&] { return !view.is_busy(); }));
-    CHECK(view.stats().swaps == 2);
+    CHECK(view.stats().swaps == 3);
+}
+
+TEST_CASE("the plant shown is exported with its values, or the reason is reported") {
+    const ScratchFolder scratch;
+    ViewedPlant viewed(plant_options(sample("teach-param")));
+    REQUIRE(viewed.until_swaps(1));
+    PlantView& view = viewed.view;
+    CHECK(view.settings.output.file == "teach-param.glb");
+    view.settings.generations = 2;
+    view.settings.seed = 5;
+    view.settings.mesh.sides = 4;
+    REQUIRE(viewed.until_swaps(2));
+    view.settings.output.file = scratch / "shown.obj";
+    view.export_shown();
+    REQUIRE(viewed.until([&] { return view.note().starts_with("Wrote "); }));
+    CHECK(view.note().ends_with("shown.obj"));
+    CHECK(std::filesystem::exists(scratch / "shown.mtl"));
+    const LscRun run = run_lsc({"export", sample("teach-param"), "-n", "2", "--seed", "5",
+                                "--sides", "4", "-o", scratch / "same.obj", "-q"},
+                               "");
+    REQUIRE(run.status == 0);
+    const auto vertices = [](const std::string& file) {
+        const std::string text = read_text(file);
+        return text.substr(text.find("\nv "), text.rfind("\nv ") - text.find("\nv "));
+    };
+    CHECK(vertices(scratch / "shown.obj") == vertices(scratch / "same.obj"));
+
+    view.settings.output = {scratch / "plant.glb", "web", 0};
+    view.export_shown();
+    REQUIRE(viewed.until([&] { return view.note().find("plant.glb") != std::string::npos; }));
+    CHECK(read_text(scratch / "plant.glb").find("EXT_meshopt_compression") != std::string::npos);
+
+    view.settings.output = {scratch / "plant.doc", "", 0};
+    view.export_shown();
+    REQUIRE(viewed.until([&] { return view.note().find("plant.doc") != std::string::npos; }));
+    CHECK(view.note().find("no extension of a known format") != std::string::npos);
+    view.settings.output = {scratch / "plant.stl", "web", 0};
+    view.export_shown();
+    REQUIRE(viewed.until([&] { return view.note().find("web") != std::string::npos; }));
+    CHECK_FALSE(std::filesystem::exists(scratch / "plant.stl"));
 }

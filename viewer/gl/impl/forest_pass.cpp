@@ -434,8 +434,8 @@ void ForestPass::draw(MaterialTextures& textures, ForestFrameStats& stats) {
     }
     buffers_.bind_storage();
     for (const bool blends : {false, true}) {
-        glBindTextureUnit(kBarkTexture, textures.base(MaterialKind::Bark));
-        glBindTextureUnit(kLeafTexture, textures.base(MaterialKind::Leaf));
+        glBindTextureUnit(kBarkTexture, textures.base_colour(MaterialKind::Bark));
+        glBindTextureUnit(kLeafTexture, textures.base_colour(MaterialKind::Leaf));
         glBindTextureUnit(kNormalMapTexture, textures.bark_normals());
         draw_branches(blends ? programs().blending_branches : programs().branches, blends,
                       stats.branches);
@@ -534,7 +534,7 @@ void ForestPass::draw_picked(MaterialTextures& textures) {
     }
     buffers_.bind_storage();
     for (const bool blends : {false, true}) {
-        glBindTextureUnit(kLeafTexture, textures.base(MaterialKind::Leaf));
+        glBindTextureUnit(kLeafTexture, textures.base_colour(MaterialKind::Leaf));
         use(blends ? picks.blending_branch : picks.branch, PickedKind::Branch);
         for (const BranchClass kind :
              {BranchClass::OneSided, BranchClass::TwoSided, BranchClass::Plain}) {
