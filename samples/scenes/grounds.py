@@ -35,8 +35,8 @@ def scatter(image, seed, count, colours, shape):
         x, y, angle = draw.uniform(0, side), draw.uniform(0, side), draw.uniform(0, 2 * math.pi)
         tone = draw.uniform(0.72, 1.12)
         colour = tuple(min(255, round(part * tone)) for part in draw.choice(colours))
-        corners = [(FINE * (u * math.cos(angle) - v * math.sin(angle)), FINE * (u * math.sin(angle) + v * math.cos(angle)))
-                   for u, v in shape(draw)]
+        c, s = FINE * math.cos(angle), FINE * math.sin(angle)
+        corners = [(u * c - v * s, u * s + v * c) for u, v in shape(draw)]
         for dx in (-side, 0, side):
             for dy in (-side, 0, side):
                 pen.polygon([(x + dx + u, y + dy + v) for u, v in corners], fill=colour)
