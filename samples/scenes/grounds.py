@@ -70,9 +70,9 @@ scatter(ground, 12, 1500, [(140, 92, 54), (116, 74, 44), (164, 112, 66), (96, 66
 scatter(ground, 13, 40, [(96, 84, 72)], strip(30, 0.9))
 save(ground, "beech-wood/leaves.png")
 
-ground = soil((64, 52, 44), (98, 86, 56), 21)
-scatter(ground, 22, 1500, [(94, 70, 72), (112, 76, 84), (84, 78, 54)], leaf(9))              # heather
-scatter(ground, 23, 2400, [(150, 134, 82), (126, 120, 66), (98, 108, 54)], strip(11, 0.5))   # grass
+ground = soil((40, 32, 28), (64, 56, 38), 21)
+scatter(ground, 22, 1500, [(70, 48, 50), (84, 52, 60), (58, 54, 38)], leaf(9))              # heather
+scatter(ground, 23, 2400, [(108, 94, 58), (86, 80, 46), (64, 72, 38)], strip(11, 0.5))   # grass
 save(ground, "birch-heath/heath.png")
 
 ground = soil((56, 76, 34), (76, 96, 44), 31)
