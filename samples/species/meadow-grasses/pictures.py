@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Draws blade.jpg, the surface of a leaf of meadow-grasses.lsys, and the spikelets of its grasses: spikelet.png of false
-oat-grass with its awn, cluster.png of cock's-foot.
+"""Draws blade.jpg, the surface of a leaf of meadow-grasses.lsys, and the spikelets of its grasses: spikelet.png of
+false oat-grass with its awn, cluster.png of cock's-foot.
 Usage: samples/species/meadow-grasses/pictures.py   Needs Pillow and NumPy (Debian: python3-pil, python3-numpy)."""
 import os
 import sys
