@@ -118,8 +118,6 @@ const std::vector<std::string> kOthers = {
     "dialects/cpfg/fern.l",
     "dialects/cpfg/shower.l",
     "dialects/l3d/rose.l++",
-    "scenes/meadow/bush.lsys",
-    "scenes/meadow/grass.lsys",
 };
 /// Plants that need not stand, with the reason.
 const std::map<std::string, std::string> kExceptions = {
