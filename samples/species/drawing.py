@@ -120,7 +120,8 @@ def flower(card, place, radius, turn, outline, colours, stamens, squash=1.0, sla
                 card.area([at(direction, low), at(direction, low, wide[0]), at(direction, high, wide[1]),
                            at(direction, high)], colour)
         for bend in (-0.28, -0.14, 0, 0.14, 0.28):
-            card.line([at(direction, 0.15, bend * 0.3), at(direction, 0.85, bend)], 0.008 * radius, shaded(end, 0.96 * tone))
+            card.line([at(direction, 0.15, bend * 0.3), at(direction, 0.85, bend)], 0.008 * radius,
+                      shaded(end, 0.96 * tone))
         card.line(edge, 0.018 * radius, shaded(end, 0.86 * tone))
     card.area([at(24 * i, 0.13) for i in range(15)], heart)
     count, reach, filament, anther = stamens

@@ -15,7 +15,8 @@ from drawing import Card, along, blend, field, flower, leaf, save_bark, scales, 
 os.chdir(os.path.dirname(os.path.abspath(__file__)))
 draw = random.Random(31)
 
-PETAL = [(0, 0.03), (0.12, 0.07), (0.28, 0.2), (0.45, 0.31), (0.62, 0.36), (0.78, 0.34), (0.9, 0.24), (0.97, 0.1), (1, 0)]
+PETAL = [(0, 0.03), (0.12, 0.07), (0.28, 0.2), (0.45, 0.31), (0.62, 0.36), (0.78, 0.34), (0.9, 0.24), (0.97, 0.1),
+         (1, 0)]
 WHITE = ((238, 246, 222), (255, 250, 250), (252, 226, 233), (206, 214, 132))
 PINK = ((250, 226, 232), (252, 226, 234), (243, 182, 202), (206, 214, 132))
 STAMENS = (18, 0.4, (244, 246, 226), (214, 166, 40))
@@ -67,8 +68,8 @@ def truss(card, middle, size):
     places = [(along(middle, start + 72 * k + draw.uniform(-9, 9), draw.uniform(0.27, 0.32) * size), start + 72 * k)
               for k in range(5)] + [(middle, 0)]
     for spot, slant in places:
-        flower(card, spot, size * draw.uniform(0.19, 0.21), draw.uniform(0, 72), PETAL, PINK if draw.random() < 0.25 else WHITE,
-               STAMENS, draw.uniform(0.8, 1), slant, draw)
+        flower(card, spot, size * draw.uniform(0.19, 0.21), draw.uniform(0, 72), PETAL,
+               PINK if draw.random() < 0.25 else WHITE, STAMENS, draw.uniform(0.8, 1), slant, draw)
 
 
 # Each two spurs, seen from their tips.
@@ -91,8 +92,8 @@ stalk(card)
 card.save("leaves.png", levels=24)
 
 card = Card(384, 384)
-for start, direction, length, bend in ((0.05, -50, 0.4, 34), (0.1, 54, 0.4, -34), (0.38, -44, 0.32, 26), (0.42, 46, 0.3, -26),
-                                       (0, 0, 0.92, 3)):
+for start, direction, length, bend in ((0.05, -50, 0.4, 34), (0.1, 54, 0.4, -34), (0.38, -44, 0.32, 26),
+                                       (0.42, 46, 0.3, -26), (0, 0, 0.92, 3)):
     place, heading, steps = (0, start), direction, round(length / 0.08)
     for i in range(steps):
         ahead = along(place, heading, length / steps)
@@ -109,4 +110,5 @@ edge, number = scales(size, 110, 1.7, 32)
 rough = field(size, 1.5, 2.5, 33)
 moss = np.clip(field(size, 40, 60, 34) - 0.6, 0, 1)
 colour = blend((66, 56, 48), (134, 120, 106), edge**0.6) * (0.88 + 0.24 * number + 0.06 * rough)[..., None]
-save_bark("bark.jpg", colour * (1 - 0.35 * moss[..., None]) + 0.35 * moss[..., None] * np.array((116, 124, 92)), edge, 2.2)
+moss = 0.35 * moss[..., None]
+save_bark("bark.jpg", colour * (1 - moss) + moss * np.array((116, 124, 92)), edge, 2.2)
