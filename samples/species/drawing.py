@@ -107,7 +107,7 @@ def flower(card, place, radius, turn, outline, colours, stamens, squash=1.0, sla
         direction = turn + 72 * k + (random.uniform(-4, 4) if random else 0)
         tone = random.uniform(0.93, 1) if random else 1
         edge = [at(direction, t, w) for t, w in outline] + [at(direction, t, -w) for t, w in outline[::-1]]
-        card.area(edge, shaded(end, tone))
+        card.fill_polygon(edge, shaded(end, tone))
         steps = 14  # bands of colour from the base to the end
         for side, light in ((1, 0.965), (-1, 1.0)):
             for i in range(steps):
@@ -117,19 +117,19 @@ def flower(card, place, radius, turn, outline, colours, stamens, squash=1.0, sla
                 part = mean / 0.45 if mean < 0.45 else (mean - 0.45) / 0.55
                 colour = [(a + (b - a) * part) * tone * light for a, b in zip(*pair)]
                 wide = [float(np.interp(t, *zip(*outline))) * side for t in (low, high)]
-                card.area([at(direction, low), at(direction, low, wide[0]), at(direction, high, wide[1]),
+                card.fill_polygon([at(direction, low), at(direction, low, wide[0]), at(direction, high, wide[1]),
                            at(direction, high)], colour)
         for bend in (-0.28, -0.14, 0, 0.14, 0.28):
             card.line([at(direction, 0.15, bend * 0.3), at(direction, 0.85, bend)], 0.008 * radius,
                       shaded(end, 0.96 * tone))
         card.line(edge, 0.018 * radius, shaded(end, 0.86 * tone))
-    card.area([at(24 * i, 0.13) for i in range(15)], heart)
+    card.fill_polygon([at(24 * i, 0.13) for i in range(15)], heart)
     count, reach, filament, anther = stamens
     for i in range(count):
         direction = turn + 360 * i / count + (random.uniform(-6, 6) if random else 0)
         length = reach * (random.uniform(0.55, 1) if random else 1)
         card.line([at(direction, 0.07), at(direction, length)], 0.02 * radius, filament)
-        card.area([at(direction + 9 * math.sin(0.9 * j), length + 0.05 * math.cos(0.9 * j)) for j in range(7)], anther)
+        card.fill_polygon([at(direction + 9 * math.sin(0.9 * j), length + 0.05 * math.cos(0.9 * j)) for j in range(7)], anther)
 
 
 def field(size, sx, sy, seed):
