@@ -28,7 +28,7 @@ constexpr int kMinSamples = 256;        // samples of a side of a picture
 constexpr int kMaxSamples = 512;
 constexpr int kSamplesPerTexel = 8; // along each side, within kMinSamples and kMaxSamples
 constexpr int kOpaqueByte = 128;
-constexpr float kTurned = 0.3F; // factor of the sideways part of normals of upright cards
+constexpr float kTurned = 0.6F; // factor of the sideways part of normals of upright cards
 constexpr float kHalfRoot3 = 0.8660254F;
 constexpr float kEmptyDepth = -std::numeric_limits<float>::infinity(); // depth of empty samples
 
