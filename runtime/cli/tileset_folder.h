@@ -49,8 +49,8 @@ public:
     /// All arguments must outlive the object.
     TilesetFolder(const TilesCommand& command, const TileForest& forest, const Console& console);
 
-    /// Number of files: shared files, tiles level by level from the root, tilesets from the finest
-    /// level up. At least one.
+    /// Number of files: shared files, tiles level by level from the root, tilesets or subtrees from
+    /// the finest level up. At least one.
     [[nodiscard]] std::uint64_t count() const { return sections_.back().end; }
     /// Number of the last file, tileset.json of the root. If it is written after all others, it
     /// shows that the tileset is complete.
@@ -73,7 +73,7 @@ public:
     [[nodiscard]] TileTotals totals() const { return {files_, bytes_, trees_}; }
 
 private:
-    enum class Kind : std::uint8_t { Shared, Content, Tileset };
+    enum class Kind : std::uint8_t { Shared, Content, Subtree, Tileset };
     /// Files of one kind with consecutive numbers.
     struct Section {
         Kind kind = Kind::Shared;

@@ -9,6 +9,7 @@
 #include "runtime/meshing/mesh.h"
 
 #include <glm/gtc/quaternion.hpp>
+#include <glm/mat4x4.hpp>
 #include <glm/vec3.hpp>
 #include <nlohmann/json.hpp>
 
@@ -72,6 +73,9 @@ public:
     void add_surface(const MeshDocument& surface);
     /// Adds `trees` as instances of the mesh of a document.
     void add_trees(const MeshDocument& hero, const std::vector<TileTree>& trees);
+    /// Moves the whole tile by a matrix that keeps lengths and angles, for coordinates with +Z up. The
+    /// matrix is a part of the file, in binary64.
+    void move(const glm::dmat4& matrix) { matrix_ = matrix; }
     /// The file. `species`: names, for the table of properties. Call it once.
     [[nodiscard]] std::string write(const std::vector<std::string>& species);
 
@@ -110,6 +114,8 @@ private:
         std::size_t view, std::uint64_t offset, int component, const char* type, std::size_t count);
     void put_groups();
     void put_table(const std::vector<std::string>& species);
+    /// Puts all nodes below one that has the matrix.
+    void put_matrix();
     /// Replaces the buffers of compressed views by their fallbacks.
     void point_to_fallbacks();
 
@@ -117,6 +123,7 @@ private:
     std::string data_; // of the GLB
     std::vector<Buffer> buffers_;
     std::vector<Group> groups_;
+    glm::dmat4 matrix_{1.0}; // of the tile, +Z up
 };
 
 } // namespace lsys

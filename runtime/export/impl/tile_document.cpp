@@ -7,6 +7,8 @@
 #include "runtime/export/impl/gltf_parts.h"
 #include "runtime/export/impl/piece_writer.h"
 
+#include <glm/matrix.hpp>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -323,6 +325,28 @@ void TileDocument::put_table(const std::vector<std::string>& species) {
     use_extension(json_, "extensionsUsed", "EXT_structural_metadata");
 }
 
+void TileDocument::put_matrix() {
+    if (matrix_ == glm::dmat4(1.0)) {
+        return;
+    }
+    // Clients turn +Y of the file to +Z of the tile: (x, y, z) becomes (x, -z, y).
+    const glm::dmat4 turn(glm::dvec4(1.0, 0.0, 0.0, 0.0), glm::dvec4(0.0, 0.0, 1.0, 0.0),
+                          glm::dvec4(0.0, -1.0, 0.0, 0.0), glm::dvec4(0.0, 0.0, 0.0, 1.0));
+    const glm::dmat4 matrix = glm::transpose(turn) * matrix_ * turn;
+    Json node{{"name", "tile"}};
+    Json numbers = Json::array();
+    for (int column = 0; column < 4; ++column) {
+        for (int row = 0; row < 4; ++row) {
+            // Rounded to a micrometre and to 12 decimals, as in tilesets.
+            const double steps = column == 3 ? 1e6 : 1e12;
+            numbers.push_back(std::floor(matrix[column][row] * steps + 0.5) / steps + 0.0);
+        }
+    }
+    node["matrix"] = std::move(numbers);
+    node["children"] = std::exchange(json_["scenes"][0]["nodes"], Json::array());
+    add_node(std::move(node));
+}
+
 void TileDocument::point_to_fallbacks() {
     std::vector<std::size_t> fallbacks; // by buffer
     std::size_t next = buffers_.size();
@@ -342,6 +366,7 @@ std::string TileDocument::write(const std::vector<std::string>& species) {
         put_groups();
         put_table(species);
     }
+    put_matrix();
     point_to_fallbacks();
     data_.resize(aligned(data_.size()), '\0');
     GltfFile file;
