@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "tests/support/sample_plants.h"
 
-#include <catch2/catch.hpp>
-
 #include <fstream>
 #include <iterator>
+#include <stdexcept>
 #include <utility>
 
 namespace lsys::test {
@@ -33,9 +32,13 @@ lsys::Plant sample_plant(const std::string& name) {
     PlantOptions options;
     options.file = std::string(LSYS_SOURCE_DIR) + "/samples/" + name + "/" + name + ".lsys";
     Outcome<Grammar> grammar = load_grammar(options.file, {}, project);
-    REQUIRE(grammar);
+    if (!grammar) {
+        throw std::runtime_error("a sample does not compile: " + name);
+    }
     Outcome<lsys::Plant> plant = grow_plant(options, grammar.value(), project);
-    REQUIRE(plant);
+    if (!plant) {
+        throw std::runtime_error("a sample does not grow: " + name);
+    }
     return std::move(plant.value());
 }
 
