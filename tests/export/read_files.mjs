@@ -43,15 +43,24 @@ const sizesOfSamples = [
     [/apple-twig.*(bark|bark_normals|bark normals)\b/, '128 x 128'],
     [/apple-twig.*sphere/, '128 x 64'],
 ];
-// The sizes of the PNG pictures of a species, and of its JPEG pictures of bark, which are 512 x 512; no sizes for
-// other samples.
+// The size of a JPEG, which the first frame header (SOF0 to SOF2) of its segments has.
+function sizeOfJpeg(bytes) {
+    let at = 2;
+    while (bytes[at + 1] < 0xc0 || bytes[at + 1] > 0xc2) {
+        at += 2 + bytes.readUInt16BE(at + 2);
+    }
+    return `${bytes.readUInt16BE(at + 7)} x ${bytes.readUInt16BE(at + 5)}`;
+}
+// The sizes of the pictures of a species; no sizes for other samples.
 function sizesOfSpecies(sample) {
     const pictures = join(dirname(fileURLToPath(import.meta.url)), '../../samples/species', sample);
     if (!existsSync(pictures)) {
         return [];
     }
-    const headers = readdirSync(pictures).filter(name => name.endsWith('.png')).map(name => readFileSync(join(pictures, name)));
-    return [...headers.map(png => `${png.readUInt32BE(16)} x ${png.readUInt32BE(20)}`), '512 x 512'];
+    const read = extension => readdirSync(pictures).filter(name => name.endsWith(extension))
+        .map(name => readFileSync(join(pictures, name)));
+    return [...read('.png').map(png => `${png.readUInt32BE(16)} x ${png.readUInt32BE(20)}`),
+            ...read('.jpg').map(sizeOfJpeg)];
 }
 function expectSize(file, name, png) {
     const found = `${png.width} x ${png.height}`;
