@@ -8,6 +8,14 @@
 
 namespace lsys {
 
+std::vector<double> patch_places(double first, double length, std::uint32_t cells) {
+    std::vector<double> places;
+    for (std::uint32_t i = 0; i < cells + 3; ++i) {
+        places.push_back(first + length / cells * (i - 1.0));
+    }
+    return places;
+}
+
 Mesh make_patch(const PatchPlan& plan) {
     const std::uint32_t cells = plan.cells;
     const std::uint32_t side = cells + 1;
@@ -17,15 +25,8 @@ Mesh make_patch(const PatchPlan& plan) {
     };
     const double step_x = plan.region.width / cells;
     const double step_z = plan.region.depth / cells;
-    // Heights of the vertices and of a border of one cell.
-    const std::uint32_t wide = side + 2;
-    std::vector<double> heights;
-    for (std::uint32_t row = 0; row < wide; ++row) {
-        for (std::uint32_t column = 0; column < wide; ++column) {
-            heights.push_back(plan.height(plan.region.x + step_x * (column - 1.0),
-                                          plan.region.z + step_z * (row - 1.0)));
-        }
-    }
+    const std::uint32_t wide = side + 2; // with the border of one cell
+    const std::vector<double>& heights = plan.heights;
     for (std::uint32_t row = 0; row < side; ++row) {
         for (std::uint32_t column = 0; column < side; ++column) {
             const double x = plan.region.x + step_x * column;
