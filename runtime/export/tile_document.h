@@ -2,7 +2,8 @@
 // TileDocument: a GLB of a tile, composed of glTF documents: one of the ground, whose buffer goes
 // into the GLB, and one per hero, whose buffer and pictures are parts of other files. Adds the trees as
 // instances (EXT_mesh_gpu_instancing) with a table of their properties (EXT_instance_features,
-// EXT_structural_metadata).
+// EXT_structural_metadata). TileParts has the documents of the heroes as text, formatted once for all
+// tiles.
 #pragma once
 
 #include "runtime/export/export.h"
@@ -14,9 +15,12 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace lsys {
@@ -63,59 +67,47 @@ struct TileTree {
     std::uint16_t age = 0; // years; 0: full-grown
 };
 
-class TileDocument {
+/// The parts of documents that tiles share: meshes of heroes with their materials and pictures.
+class TileParts {
 public:
-    /// `generator`: the program and its version.
-    explicit TileDocument(const std::string& generator);
+    /// `generator`: the program and its version. `species`: names, for the table of properties.
+    TileParts(const std::string& generator, const std::vector<std::string>& species);
+    TileParts(TileParts&& other) noexcept;
+    TileParts& operator=(TileParts&& other) noexcept;
+    ~TileParts();
 
-    /// Adds a node with the mesh of a document.
-    void add_surface(const MeshDocument& surface);
-    /// Adds `trees` as instances of the mesh of a document.
-    void add_trees(const MeshDocument& hero, const std::vector<TileTree>& trees);
-    /// The file. `species`: names, for the table of properties. Call it once.
-    [[nodiscard]] std::string write(const std::vector<std::string>& species);
+    /// Adds a document whose buffer is in a file. Returns its number, counted from 0.
+    std::size_t add(const MeshDocument& hero);
 
 private:
-    using Json = nlohmann::ordered_json;
+    friend class TileWriter;
+    struct State;
+    std::unique_ptr<State> state_;
+};
 
-    struct Buffer {
-        std::string uri; // empty: the buffer of the GLB
-        std::uint64_t bytes = 0;
-        std::uint64_t decoded_bytes = 0; // size of its fallback; 0: no fallback
-    };
-    /// A mesh with quantised positions, which are low + step * item.
-    struct DrawnMesh {
-        std::size_t number = 0;
-        glm::vec3 low{0.0F};
-        float step = 1.0F;
-    };
+class TileDocument {
+public:
+    /// `parts` must outlive the document.
+    explicit TileDocument(const TileParts& parts) : parts_(parts) {}
+
+    /// Sets the surface, a node with the mesh of a document whose buffer is `data`.
+    void set_surface(MeshDocument surface) { surface_ = std::move(surface); }
+    /// Adds `trees`, at least one, as instances of the mesh of a part.
+    void add_trees(std::size_t part, std::vector<TileTree> trees) {
+        groups_.push_back({part, std::move(trees)});
+    }
+    /// The file. Precondition: it has a surface. Call it once.
+    [[nodiscard]] std::string write();
+
+private:
+    friend class TileWriter;
     struct Group {
-        DrawnMesh mesh;
+        std::size_t part = 0;
         std::vector<TileTree> trees;
     };
 
-    DrawnMesh add_mesh(const MeshDocument& part);
-    /// The number of the buffer with this file; empty: that of the GLB.
-    std::size_t add_buffer(const std::string& uri, std::uint64_t bytes);
-    /// Makes the images of a document refer to its pictures.
-    void place_pictures(const MeshDocument& part, Json& images);
-    /// Reserves `bytes` bytes of decoded items in the fallback of a buffer; returns their offset.
-    std::uint64_t reserve_decoded(std::size_t buffer, std::uint64_t bytes);
-    /// The number of a view, which is added if the document does not have it.
-    std::size_t add_view_once(Json view);
-    std::size_t add_view(std::string_view bytes);
-    std::size_t add_packed_view(const std::string& items, std::uint32_t stride);
-    void add_node(Json node);
-    std::size_t add_accessor(
-        std::size_t view, std::uint64_t offset, int component, const char* type, std::size_t count);
-    void put_groups();
-    void put_table(const std::vector<std::string>& species);
-    /// Replaces the buffers of compressed views by their fallbacks.
-    void point_to_fallbacks();
-
-    Json json_;
-    std::string data_; // of the GLB
-    std::vector<Buffer> buffers_;
+    const TileParts& parts_;
+    std::optional<MeshDocument> surface_;
     std::vector<Group> groups_;
 };
 

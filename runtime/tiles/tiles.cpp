@@ -66,7 +66,9 @@ struct TileForest::State {
     std::vector<Canopy> counted_canopies;    // of other placements, by level without trees
     CanopyAtCorner canopy_at;
 
-    std::vector<std::vector<MeshDocument>> models; // by hero and level of detail
+    std::optional<TileParts> parts;
+    /// Numbers of parts by hero and level of detail; none: the hero draws nothing.
+    std::vector<std::vector<std::optional<std::size_t>>> part_numbers;
     std::vector<TileFile> files;
     std::vector<std::string> species_names;
     std::string ground_picture; // its path relative to a tile; empty: none
@@ -290,8 +292,15 @@ Outcome<void> TileForest::State::make_models(const Project& project) {
         names.push_back(fmt::format("{}{} {}", species.name, stage, i - first));
     }
     ModelFiles made = make_model_files(heroes, names, plan, options.generator);
-    models = std::move(made.models);
     files = std::move(made.files);
+    parts.emplace(options.generator, species_names);
+    for (const std::vector<MeshDocument>& details : made.models) {
+        std::vector<std::optional<std::size_t>>& numbers = part_numbers.emplace_back();
+        for (const MeshDocument& model : details) {
+            numbers.push_back(model.json.is_null() ? std::nullopt
+                                                   : std::optional(parts->add(model)));
+        }
+    }
     return step.done();
 }
 
@@ -405,10 +414,9 @@ std::uint64_t TileForest::State::add_trees(const TileId& tile,
         groups[hero].push_back({tilt * pose.rotation, foot + tilt * pose.translation, pose.scale,
                                 height, tree.number, tree.species, tree.age});
     }
-    for (const auto& [hero, group] : groups) {
-        const MeshDocument& model = models[hero][plan.detail[tile.level][hero]];
-        if (!model.json.is_null()) { // null: the hero draws nothing
-            document.add_trees(model, group);
+    for (auto& [hero, group] : groups) {
+        if (const auto part = part_numbers[hero][plan.detail[tile.level][hero]]) {
+            document.add_trees(*part, std::move(group));
         }
     }
     return trees.size();
@@ -417,12 +425,12 @@ std::uint64_t TileForest::State::add_trees(const TileId& tile,
 TileContent TileForest::content(const TileId& tile) const {
     TileContent content;
     const glm::dmat4 to_tile = inverse_of_frame(state_->boxes->frame_of(tile));
-    TileDocument document(state_->options.generator);
-    document.add_surface(state_->ground_of(tile, to_tile));
+    TileDocument document(*state_->parts);
+    document.set_surface(state_->ground_of(tile, to_tile));
     if (levels()[tile.level].has_trees) {
         content.trees = state_->add_trees(tile, to_tile, document);
     }
-    content.bytes = document.write(state_->species_names);
+    content.bytes = document.write();
     return content;
 }
 
