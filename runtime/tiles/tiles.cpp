@@ -71,7 +71,8 @@ struct TileForest::State {
     std::vector<std::vector<std::optional<std::size_t>>> part_numbers;
     std::vector<TileFile> files;
     std::vector<std::string> species_names;
-    std::string ground_picture; // its path relative to a tile; empty: none
+    std::map<std::uint32_t, MeshOrder> ground_orders; // by number of cells along a side
+    std::string ground_picture;                       // its path relative to a tile; empty: none
     glm::dvec3 ground_colour = kGroundColour;
 
     [[nodiscard]] Outcome<void> place_trees(const Project& project);
@@ -82,6 +83,7 @@ struct TileForest::State {
     void plan_levels();
     [[nodiscard]] Outcome<void> make_models(const Project& project);
     void make_ground_picture();
+    void order_ground();
     void make_canopies();
     [[nodiscard]] MeshDocument ground_of(const TileId& tile, const glm::dmat4& to_tile) const;
     std::uint64_t
@@ -325,6 +327,15 @@ void TileForest::State::make_ground_picture() {
     ground_picture = std::string("../../") + kGroundPicture;
 }
 
+void TileForest::State::order_ground() {
+    for (const std::uint32_t cells : plan.cells) {
+        if (!ground_orders.contains(cells)) {
+            ground_orders[cells] =
+                make_mesh_order(make_level_patch(cells), tile_part_info("", options.generator));
+        }
+    }
+}
+
 void TileForest::State::make_canopies() {
     if (plan.first_tree_level == 0) {
         return;
@@ -373,8 +384,9 @@ MeshDocument TileForest::State::ground_of(const TileId& tile, const glm::dmat4& 
     const Mesh mesh = make_tile_ground({*grown.terrain, grown.ground, ground_colour, earth, grid,
                                         has_trees ? no_canopy : canopy_at, tile, to_tile,
                                         plan.cells[tile.level], plan.skirts[tile.level]});
-    MeshDocument document = make_mesh_document(
-        mesh, tile_part_info(has_trees ? "ground" : "forest", options.generator));
+    MeshDocument document =
+        make_mesh_document(mesh, tile_part_info(has_trees ? "ground" : "forest", options.generator),
+                           ground_orders.at(plan.cells[tile.level]));
     if (!has_trees) {
         embed_picture(0, tile_pictures(mesh).front().bytes, document);
     } else if (!ground_picture.empty()) {
@@ -483,6 +495,7 @@ make_tile_forest(LoadedScene loaded, const TileOptions& options, const Project& 
         return step.end();
     }
     made.make_ground_picture();
+    made.order_ground();
     made.make_canopies();
     made.options.tree_file.reset();
     return step.done(TileForest(std::move(state)));

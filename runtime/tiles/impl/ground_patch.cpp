@@ -4,6 +4,7 @@
 #include <glm/geometric.hpp>
 
 #include <cstddef>
+#include <optional>
 #include <vector>
 
 namespace lsys {
@@ -85,6 +86,16 @@ Mesh make_patch(const PatchPlan& plan) {
     mesh.materials.push_back(plan.material);
     mesh.parts.push_back({0, 0, mesh.indices.size()});
     return mesh;
+}
+
+Mesh make_level_patch(std::uint32_t cells) {
+    const GroundFrame earth(std::nullopt);
+    const double side = cells;
+    PatchPlan plan{cells, {0.0, 0.0, side, side}, earth, glm::dmat4(1.0), 1.0, Material(), {}, {}};
+    const std::size_t places = patch_places(0.0, side, cells).size();
+    plan.heights.assign(places * places, 0.0);
+    plan.texture = [](std::uint32_t, std::uint32_t, double, double) { return glm::vec2(0.0F); };
+    return make_patch(plan);
 }
 
 } // namespace lsys

@@ -33,8 +33,10 @@ struct PatchPlan {
 /// Places of the vertices of a patch along an axis, and of one cell before and after it, for normals.
 [[nodiscard]] std::vector<double> patch_places(double first, double length, std::uint32_t cells);
 
-/// The mesh in the frame of the tile, with +Y up.
+/// The mesh in the frame of the tile, with +Y up. Its triangles depend on the number of cells alone.
 [[nodiscard]] Mesh make_patch(const PatchPlan& plan);
+/// A level patch, whose triangles are those of all patches with this number of cells.
+[[nodiscard]] Mesh make_level_patch(std::uint32_t cells);
 
 /// Converts (east, north, up) to (east, up, south), because glTF has +Y up.
 [[nodiscard]] inline glm::dvec3 y_up(const glm::dvec3& z_up) {
