@@ -400,6 +400,7 @@ std::uint64_t TileForest::State::add_trees(const TileId& tile,
                                            const glm::dmat4& to_tile,
                                            TileDocument& document) const {
     const std::vector<Tree> trees = source->trees_of(tile);
+    const TileFrame frame(earth, to_tile, grid.region_of(tile));
     std::map<std::size_t, std::vector<TileTree>> groups; // by hero
     for (const Tree& tree : trees) {
         const std::size_t hero = hero_table->hero_of(tree);
@@ -412,10 +413,8 @@ std::uint64_t TileForest::State::add_trees(const TileId& tile,
             pose = pose_of(branch, cache.instances[branch.instance]);
         });
         const glm::dvec3 place(tree.position);
-        const glm::vec3 foot(
-            y_up(glm::dvec3(to_tile * glm::dvec4(earth.place(place.x, place.y, place.z), 1.0))));
-        const glm::vec3 above(y_up(
-            glm::dvec3(to_tile * glm::dvec4(earth.place(place.x, place.y + 1.0, place.z), 1.0))));
+        const glm::vec3 foot(y_up(frame.place(place.x, place.y, place.z)));
+        const glm::vec3 above(y_up(frame.place(place.x, place.y + 1.0, place.z)));
         // A tree follows the vertical at its own place, which differs from that at the middle of
         // the tile.
         const glm::vec3 up = glm::normalize(above - foot);

@@ -21,8 +21,9 @@ Mesh make_patch(const PatchPlan& plan) {
     const std::uint32_t cells = plan.cells;
     const std::uint32_t side = cells + 1;
     Mesh mesh;
-    const auto place = [&](double x, double y, double z) {
-        return y_up(glm::dvec3(plan.to_tile * glm::dvec4(plan.earth.place(x, y, z), 1.0)));
+    const TileFrame frame(plan.earth, plan.to_tile, plan.region);
+    const auto place = [&frame](double x, double y, double z) {
+        return y_up(frame.place(x, y, z));
     };
     const double step_x = plan.region.width / cells;
     const double step_z = plan.region.depth / cells;
