@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <array>
 #include <cstring>
-#include <span>
 
 namespace lsys {
 
@@ -46,14 +45,13 @@ Byte* put_exceptions(const Byte* group, Byte max, Byte* to) {
 
 /// Writes a group and returns its end; `code`: logarithm of its bits, 0 for none.
 Byte* put_group(const Byte* group, unsigned& code, Byte* to) {
-    // Counters of one byte, so that compilers use instructions for 16 bytes.
-    Byte largest = 0;
-    Byte above2 = 0; // number of differences that do not fit into 2 bits
-    Byte above4 = 0;
+    unsigned largest = 0;
+    unsigned above2 = 0; // number of differences that do not fit into 2 bits
+    unsigned above4 = 0;
     for (std::size_t i = 0; i < kGroup; ++i) {
-        largest = std::max(largest, group[i]);
-        above2 = static_cast<Byte>(above2 + (group[i] >= kMax2 ? 1 : 0));
-        above4 = static_cast<Byte>(above4 + (group[i] >= kMax4 ? 1 : 0));
+        largest |= group[i];
+        above2 += group[i] >= kMax2 ? 1U : 0U;
+        above4 += group[i] >= kMax4 ? 1U : 0U;
     }
     const unsigned size2 = kGroup / 4 + above2;
     const unsigned size4 = kGroup / 2 + above4;
@@ -70,7 +68,7 @@ Byte* put_group(const Byte* group, unsigned& code, Byte* to) {
             }
             *to++ = static_cast<Byte>(packed);
         }
-        return above2 == 0 ? to : put_exceptions(group, kMax2, to);
+        return put_exceptions(group, kMax2, to);
     }
     if (size4 < kGroup) {
         code = 2;
@@ -78,50 +76,22 @@ Byte* put_group(const Byte* group, unsigned& code, Byte* to) {
             *to++ =
                 static_cast<Byte>(std::min(group[i], kMax4) << 4U | std::min(group[i + 1], kMax4));
         }
-        return above4 == 0 ? to : put_exceptions(group, kMax4, to);
+        return put_exceptions(group, kMax4, to);
     }
     code = 3;
     std::memcpy(to, group, kGroup);
     return to + kGroup;
 }
 
-constexpr std::size_t kWord = 4;
-
-/// Finds the differences of a group: of `count` items from `from` on, 0 for the rest. `previous`: the
-/// word of the item before them; becomes that of the last one.
-void find_differences(const Byte* from,
-                      std::size_t count,
-                      std::uint32_t stride,
-                      std::array<Byte, kWord>& previous,
-                      std::array<std::array<Byte, kGroup>, kWord>& differences) {
-    std::array<Byte, kWord*(kGroup + 1)> words; // the previous one, then those of the items
-    std::memcpy(words.data(), previous.data(), kWord);
-    for (std::size_t i = 0; i < count; ++i) {
-        std::memcpy(&words[kWord * (i + 1)], from + i * stride, kWord);
-    }
-    std::memcpy(previous.data(), &words[kWord * count], kWord);
-    for (std::size_t i = count; i < kGroup; ++i) {
-        std::memcpy(&words[kWord * (i + 1)], previous.data(), kWord);
-    }
-    std::array<Byte, kWord * kGroup> each;
-    for (std::size_t i = 0; i < each.size(); ++i) {
-        each[i] = zigzag(static_cast<Byte>(words[i + kWord] - words[i]));
-    }
-    for (std::size_t i = 0; i < kGroup; ++i) {
-        for (std::size_t byte = 0; byte < kWord; ++byte) {
-            differences[byte][i] = each[kWord * i + byte];
-        }
-    }
-}
-
-/// Writes one byte of the stride for all items of a block.
-Byte* put_run(std::span<const std::array<Byte, kGroup>> groups, Byte* to) {
+/// Writes the differences of one byte of the stride; `count` is a multiple of kGroup.
+Byte* put_run(const Byte* differences, std::size_t count, Byte* to) {
+    const std::size_t groups = count / kGroup;
     Byte* const header = to;
-    to += (groups.size() + kGroupsPerHeader - 1) / kGroupsPerHeader;
+    to += (groups + kGroupsPerHeader - 1) / kGroupsPerHeader;
     std::fill(header, to, Byte{0});
-    for (std::size_t i = 0; i < groups.size(); ++i) {
+    for (std::size_t i = 0; i < groups; ++i) {
         unsigned code = 0;
-        to = put_group(groups[i].data(), code, to);
+        to = put_group(differences + i * kGroup, code, to);
         header[i / kGroupsPerHeader] |= static_cast<Byte>(code << (2 * (i % kGroupsPerHeader)));
     }
     return to;
@@ -146,26 +116,18 @@ std::size_t encode_items(std::span<const std::byte> items, std::uint32_t stride,
     std::array<Byte, kMaxStride> first{};
     std::copy_n(from, count != 0 ? stride : 0, first.data());
     std::array<Byte, kMaxStride> last = first;
-    std::array<std::array<std::array<Byte, kGroup>, kMaxBlockItems / kGroup>, kWord> groups;
     for (std::size_t begin = 0; begin < count; begin += block) {
         const std::size_t size = std::min(block, count - begin);
-        const std::size_t group_count = (size + kGroup - 1) / kGroup;
-        for (std::size_t word = 0; word < stride; word += kWord) {
-            std::array<Byte, kWord> previous;
-            std::memcpy(previous.data(), &last[word], kWord);
-            for (std::size_t group = 0; group < group_count; ++group) {
-                const std::size_t item = group * kGroup;
-                std::array<std::array<Byte, kGroup>, kWord> found;
-                find_differences(from + (begin + item) * stride + word,
-                                 std::min(kGroup, size - item), stride, previous, found);
-                for (std::size_t byte = 0; byte < kWord; ++byte) {
-                    groups[byte][group] = found[byte];
-                }
+        std::array<Byte, kMaxBlockItems> differences{}; // 0 after the last item
+        for (std::uint32_t byte = 0; byte < stride; ++byte) {
+            Byte previous = last[byte];
+            const Byte* source = from + begin * stride + byte;
+            for (std::size_t i = 0; i < size; ++i, source += stride) {
+                differences[i] = zigzag(static_cast<Byte>(*source - previous));
+                previous = *source;
             }
-            std::memcpy(&last[word], previous.data(), kWord);
-            for (const auto& run : groups) {
-                at = put_run(std::span(run).first(group_count), at);
-            }
+            last[byte] = previous;
+            at = put_run(differences.data(), (size + kGroup - 1) / kGroup * kGroup, at);
         }
     }
     const std::size_t padding = stride < kMinTail ? kMinTail - stride : 0;
