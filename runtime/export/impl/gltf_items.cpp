@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "runtime/export/impl/gltf_items.h"
 
-#include "runtime/export/impl/vertex_codec.h"
 #include "runtime/meshing/looks.h"
 
 #include <glm/common.hpp>
@@ -123,10 +122,11 @@ void write_colours(const Mesh& mesh,
     });
 }
 
-/// Selects the index codec of EXT_meshopt_compression; only once, because meshoptimizer stores its
-/// version in a global variable.
-void set_codec_version() {
+/// Selects the codec versions of EXT_meshopt_compression; only once, because meshoptimizer stores
+/// them in global variables.
+void set_codec_versions() {
     static const bool set = [] {
+        meshopt_encodeVertexVersion(0);
         meshopt_encodeIndexVersion(1);
         return true;
     }();
@@ -315,13 +315,16 @@ void write_wind_items(const Mesh& mesh,
 }
 
 GltfBuffer compress_items(std::span<const std::byte> items, std::uint32_t stride) {
-    GltfBuffer bytes(max_encoded_bytes(items.size() / stride, stride));
-    bytes.resize(encode_items(items, stride, bytes.data()));
+    const std::size_t count = items.size() / stride;
+    set_codec_versions();
+    GltfBuffer bytes(meshopt_encodeVertexBufferBound(count, stride));
+    bytes.resize(meshopt_encodeVertexBuffer(reinterpret_cast<unsigned char*>(bytes.data()),
+                                            bytes.size(), items.data(), count, stride));
     return bytes;
 }
 
 GltfBuffer compress_indices(std::span<const std::uint32_t> indices, std::uint64_t vertices) {
-    set_codec_version();
+    set_codec_versions();
     GltfBuffer bytes(meshopt_encodeIndexBufferBound(indices.size(), vertices));
     bytes.resize(meshopt_encodeIndexBuffer(reinterpret_cast<unsigned char*>(bytes.data()),
                                            bytes.size(), indices.data(), indices.size()));
