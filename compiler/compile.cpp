@@ -21,7 +21,7 @@ CompileOutcome compile(Ast ast,
     Program& program = resolved.program;
     outcome.unknown_definitions = std::move(resolved.unknown_definitions);
 
-    if (program.complete && options.lower) {
+    if (program.is_valid && options.lower) {
         outcome.bytecode = lower(program, names, sources);
         if (!outcome.bytecode) {
             diagnostics.add(DiagnosticCode::ProgramTooLarge, program.axiom_span(),

@@ -41,7 +41,7 @@ constexpr ListedCheck kChecks[] = {
 
 void run_checks(const CheckInput& input, Diagnostics& diagnostics) {
     for (const ListedCheck& listed : kChecks) {
-        if (input.program.complete || !listed.needs_complete) {
+        if (input.program.is_valid || !listed.needs_complete) {
             listed.check(input, diagnostics);
         }
     }

@@ -202,7 +202,7 @@ private:
 
 std::optional<Bytecode>
 lower(const Program& program, const Names& names, const SourceMap& sources) {
-    LSYS_CHECK(program.complete);
+    LSYS_CHECK(program.is_valid);
     return Lowerer(program, names, sources).run();
 }
 

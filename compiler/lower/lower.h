@@ -13,7 +13,7 @@
 namespace lsys {
 
 /// Returns nothing if the number of a formal, draw, slot or global, or the length of a skip,
-/// exceeds kMaxOperand. Precondition: program.complete.
+/// exceeds kMaxOperand. Precondition: program.is_valid.
 [[nodiscard]] std::optional<Bytecode>
 lower(const Program& program, const Names& names, const SourceMap& sources);
 

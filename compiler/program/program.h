@@ -211,9 +211,9 @@ struct IgnoredName {
 };
 
 struct Program {
-    /// No error was found while the program was made. Checks that need the whole program require
-    /// `complete`.
-    bool complete = false;
+    /// No error was found, and the text is not a part of a grammar. Checks that need the whole
+    /// program require it.
+    bool is_valid = false;
     /// No statement was dropped after an error. A statement that is missing here is then missing in
     /// the grammar, too.
     bool has_all_statements = false;

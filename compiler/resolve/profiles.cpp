@@ -68,14 +68,14 @@ constexpr auto kPolygonsAndCut = joined(kPolygons, commands({{"%", Cut}}));
 
 constexpr auto kForwardAndMove = commands({{"F", Forward}, {"f", Move}});
 // The commands that the profiles `lsys` and `abop` share, except turns.
-constexpr auto kSharedCommands = joined(
+constexpr auto kCommandsExceptTurns = joined(
     commands({{"|", TurnAround}, {"$", RollUpright}, {"!", SetWidth}, {"\"", ScaleStep}, kColour}),
     kPolygonsAndCut);
 
 constexpr auto kLsys = joined(kForwardAndMove,
                               turns({YawRight, YawLeft, PitchDown, PitchUp, RollLeft, RollRight}),
-                              kSharedCommands);
-constexpr auto kAbop = joined(kForwardAndMove, kTurnsLeft, kSharedCommands);
+                              kCommandsExceptTurns);
+constexpr auto kAbop = joined(kForwardAndMove, kTurnsLeft, kCommandsExceptTurns);
 
 // Crankshaw 2019, table 5.1.
 constexpr auto kThesis = joined(kForwardAndMove,

@@ -307,7 +307,7 @@ ResolveOutcome resolve(Ast ast,
         resolver.replace(*replacements, *replacing);
     }
     outcome.unknown_definitions = resolver.unknown_definitions();
-    outcome.program.complete = !ast.incomplete && !diagnostics.has_errors() && !options.part;
+    outcome.program.is_valid = !ast.incomplete && !diagnostics.has_errors() && !options.part;
     return outcome;
 }
 

@@ -40,12 +40,12 @@ int main(int count, char** arguments) {
         std::cerr << forest.messages().text();
         return 1;
     }
-    const auto made = lsys::make_instances(*forest);
-    if (!made) {
-        std::cerr << made.messages().text();
+    const auto outcome = lsys::make_instances(*forest);
+    if (!outcome) {
+        std::cerr << outcome.messages().text();
         return 1;
     }
-    const lsys::Instances& instances = *made;
+    const lsys::Instances& instances = *outcome;
 
     // One vertex buffer and one index buffer for all meshes. In a renderer they are mapped buffers
     // of the GPU.

@@ -163,7 +163,7 @@ private:
     void rollback();
     void begin_node(StatementKind kind, std::size_t index);
     void push_module(NameId name, TextRange text);
-    void push_changed_text(NameId name, TextRange text);
+    void push_module_of_edited_text(NameId name, TextRange text);
     void push_with_place(NameId name, SourceSpan span);
     [[nodiscard]] SourceSpan place_in_list(SourceSpan span);
     void extend_list(ModuleList& list, SourceSpan span);

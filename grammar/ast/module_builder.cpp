@@ -71,7 +71,7 @@ void AstBuilder::extend_list(ModuleList& list, SourceSpan span) {
 /// for every module; only translated or edited text takes a function call.
 inline void AstBuilder::push_module(NameId name, TextRange text) {
     if (scanned_.translation != nullptr || scanned_.map != nullptr) {
-        push_changed_text(name, text);
+        push_module_of_edited_text(name, text);
     } else {
         ast_.modules.push_back({name, text.begin});
     }
@@ -79,7 +79,7 @@ inline void AstBuilder::push_module(NameId name, TextRange text) {
 }
 
 /// Appends a module of text that was translated or edited before the scan.
-void AstBuilder::push_changed_text(NameId name, TextRange text) {
+void AstBuilder::push_module_of_edited_text(NameId name, TextRange text) {
     push_with_place(name, place_in_list(scanned_.span(text.begin, text.end)));
 }
 

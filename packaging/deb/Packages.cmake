@@ -58,7 +58,7 @@ if(LSYS_MPI)
   lsys_deb(lsc-mpi lsc-mpi graphics "forests of L-systems as 3D Tiles, written on clusters"
     "lsc-mpi writes a forest as 3D Tiles with all processes of an MPI job. The files
 are those of the command tiles of lsc.")
-  # mpirun, which starts the processes. Slurm can start them too.
+  # openmpi-bin has mpirun, which starts the processes; without it Slurm can start them.
   set(CPACK_DEBIAN_LSC-MPI_PACKAGE_RECOMMENDS "openmpi-bin")
   set(CPACK_DEBIAN_LSC-MPI_PACKAGE_SUGGESTS "lsc")
 endif()

@@ -24,8 +24,8 @@ std::string quoted(const std::string& text) {
     return escaped;
 }
 
-/// The part after the description: `:FILE:_files -g "*.lsys(-.)"`.
-std::string action(const OptionText& option) {
+/// `:message:action` of a specification for `_arguments`: `:file:_files -g "*.(lsys)(-.)"`.
+std::string message_and_action(const OptionText& option) {
     const std::string words = fmt::format("({})", fmt::join(option.words, " "));
     switch (option.kind) {
     case ValueKind::None:
@@ -58,7 +58,7 @@ std::string option_lines(const OptionText& option) {
             mark = is_long ? "=" : "+";
         }
         text += fmt::format(" \\\n        '{}{}{}[{}]{}'", others, name, mark,
-                            quoted(short_text(option.description)), action(option));
+                            quoted(short_text(option.description)), message_and_action(option));
     }
     return text;
 }
@@ -69,7 +69,8 @@ std::string arguments(const CommandText& command) {
         text += option_lines(option);
     }
     for (const OptionText& option : command.positionals) {
-        text += fmt::format(" \\\n        '{}{}'", option.repeatable ? "*" : "", action(option));
+        text += fmt::format(" \\\n        '{}{}'", option.repeatable ? "*" : "",
+                            message_and_action(option));
     }
     return text + '\n';
 }

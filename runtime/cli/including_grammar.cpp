@@ -20,7 +20,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::size_t kMaxFiles = 1000; // files searched per folder
-constexpr std::uintmax_t kMaxBytes = std::uintmax_t{1} << 20;
+constexpr std::uintmax_t kMaxFileBytes = std::uintmax_t{1} << 20;
 
 /// The .lsys files of a folder, by name.
 std::vector<fs::path> grammars_in(const fs::path& folder) {
@@ -31,7 +31,7 @@ std::vector<fs::path> grammars_in(const fs::path& folder) {
          entries.increment(failed)) {
         std::error_code ignored;
         if (entries->path().extension() == ".lsys" && entries->is_regular_file(ignored) &&
-            entries->file_size(ignored) <= kMaxBytes) {
+            entries->file_size(ignored) <= kMaxFileBytes) {
             files.push_back(entries->path());
         }
     }

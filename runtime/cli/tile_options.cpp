@@ -102,6 +102,8 @@ void add_tile_options(CLI::App& app, TileScene& command) {
     add_parsed(app, "--triangles", options.triangles, integer(kMinTriangles, kMaxTriangles),
                "Maximum number of triangles of a tile, on average (default 500000)")
         ->type_name("N");
+    app.add_flag("--implicit", options.implicit,
+                 "Implicit tiling: small binary files list the tiles, instead of tilesets of JSON");
     add_parsed(app, "--error", options.error, tolerated_error,
                "Error of the trees of the nearest tiles in metres (default 0.05); 0: all triangles")
         ->type_name("METRES");

@@ -76,6 +76,9 @@ TilesetFolder::TilesetFolder(const TilesCommand& command,
         }
     }
     for (std::uint32_t level = levels; level-- > 0;) {
+        if (forest_.has_subtree(level)) {
+            add_section(Kind::Subtree, level);
+        }
         if (forest_.has_tileset(level)) {
             add_section(Kind::Tileset, level);
         }
@@ -105,6 +108,10 @@ void TilesetFolder::write(std::uint64_t number) {
                       static_cast<std::uint32_t>(index / section->columns)};
     if (section->kind == Kind::Tileset) {
         write_file_at(TileForest::tileset_path(tile), [&] { return forest_.tileset(tile); });
+        return;
+    }
+    if (section->kind == Kind::Subtree) {
+        write_file_at(TileForest::subtree_path(tile), [&] { return forest_.subtree(tile); });
         return;
     }
     write_file_at(TileForest::content_path(tile), [&] {

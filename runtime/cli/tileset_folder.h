@@ -49,8 +49,8 @@ public:
     /// All arguments must outlive the object.
     TilesetFolder(const TilesCommand& command, const TileForest& forest, const Console& console);
 
-    /// Number of files: shared files, tiles level by level from the root, tilesets from the finest
-    /// level up. At least one.
+    /// Number of files: shared files, tiles level by level from the root, tilesets or subtrees from
+    /// the finest level up. At least one.
     [[nodiscard]] std::uint64_t count() const { return sections_.back().end; }
     /// Number of the last file, tileset.json of the root. If it is written after all others, it
     /// shows that the tileset is complete.
@@ -64,7 +64,8 @@ public:
     /// Writes files until none is left. May be called from several threads. Throws std::bad_alloc.
     void write_from(const NextFile& next);
 
-    /// Stops the writer, for example because of another process. The first error is kept.
+    /// Stops the writer, for example when another rank of `lsc-mpi` has failed. The first error is
+    /// kept.
     void stop(const Error& error);
     [[nodiscard]] bool is_stopped() const { return is_stopped_ || console_.interrupted(); }
     /// The error that has stopped the writer.
@@ -72,7 +73,7 @@ public:
     [[nodiscard]] TileTotals totals() const { return {files_, bytes_, trees_}; }
 
 private:
-    enum class Kind : std::uint8_t { Shared, Content, Tileset };
+    enum class Kind : std::uint8_t { Shared, Content, Subtree, Tileset };
     /// Files of one kind with consecutive numbers.
     struct Section {
         Kind kind = Kind::Shared;

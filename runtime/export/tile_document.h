@@ -11,6 +11,7 @@
 #include "runtime/meshing/mesh.h"
 
 #include <glm/gtc/quaternion.hpp>
+#include <glm/mat4x4.hpp>
 #include <glm/vec3.hpp>
 #include <nlohmann/json.hpp>
 
@@ -108,6 +109,9 @@ public:
     void add_trees(std::size_t part, std::vector<TileTree> trees) {
         groups_.push_back({part, std::move(trees)});
     }
+    /// Moves the whole tile by a matrix that keeps lengths and angles, for coordinates with +Z up. The
+    /// matrix is a part of the file, in binary64.
+    void move(const glm::dmat4& matrix) { matrix_ = matrix; }
     /// The file. Precondition: it has a surface. Call it once.
     [[nodiscard]] std::string write();
 
@@ -121,6 +125,7 @@ private:
     const TileParts& parts_;
     std::optional<MeshDocument> surface_;
     std::vector<Group> groups_;
+    glm::dmat4 matrix_{1.0}; // of the tile, +Z up
 };
 
 } // namespace lsys

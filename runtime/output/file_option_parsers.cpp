@@ -290,7 +290,7 @@ Result<std::vector<std::string>> find_preset_arguments(std::string_view name,
         if (preset.name != name || format == nullptr) {
             continue;
         }
-        if (!suits(preset, command, *format)) {
+        if (!is_suitable(preset, command, *format)) {
             return Error{unsuitable_text(preset, command, format->name)};
         }
         return preset_arguments(preset, command, *format, [&app](std::string_view word) {

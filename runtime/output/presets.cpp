@@ -67,7 +67,7 @@ std::span<const PresetOption> preset_options() {
     return kOptions;
 }
 
-bool suits(const Preset& preset, PresetCommand command, const FormatTraits& format) {
+bool is_suitable(const Preset& preset, PresetCommand command, const FormatTraits& format) {
     const std::vector<std::string_view> names = words_of(formats_of(preset, command));
     return std::find(names.begin(), names.end(), format.name) != names.end();
 }

@@ -40,7 +40,8 @@ struct Preset {
 [[nodiscard]] std::span<const Preset> presets();
 [[nodiscard]] std::span<const PresetOption> preset_options();
 /// Whether the preset supports a format for files of a command.
-[[nodiscard]] bool suits(const Preset& preset, PresetCommand command, const FormatTraits& format);
+[[nodiscard]] bool
+is_suitable(const Preset& preset, PresetCommand command, const FormatTraits& format);
 /// The message that the preset does not suit a format.
 [[nodiscard]] std::string
 unsuitable_text(const Preset& preset, PresetCommand command, std::string_view format);

@@ -239,6 +239,11 @@ Outcome<GrownStage> grow_stage(const SceneSpecies& species,
     for (const SceneDefinition& definition : species.definitions) {
         options.definitions.push_back({definition.name, definition.value});
     }
+    const auto is_season = [](const Definition& each) { return each.name == "season"; };
+    if (species.season &&
+        std::none_of(options.definitions.begin(), options.definitions.end(), is_season)) {
+        options.optional_definitions.push_back({"season", *species.season});
+    }
     for (const auto& [key, values] : species.settings) {
         options.settings.push_back({key, values});
     }
@@ -246,6 +251,7 @@ Outcome<GrownStage> grow_stage(const SceneSpecies& species,
     if (!step.take(load_grammar(path, options, project), grammar)) {
         return step.end();
     }
+    project.begin(LongStep::GrowHeroes);
     if (!grammar.program) {
         return step.fail(fmt::format("`{}` is compiled; a forest needs the grammar itself", path));
     }
@@ -343,6 +349,7 @@ bool has_same_heroes(const SceneSpecies& a, const SceneSpecies& b) {
            a.stages == b.stages && a.rho == b.rho && a.cache.heroes == b.cache.heroes &&
            a.cache.seed == b.cache.seed && a.cache.cap == b.cache.cap &&
            a.cache.tolerance == b.cache.tolerance && a.settings == b.settings &&
+           a.season == b.season &&
            std::equal(a.definitions.begin(), a.definitions.end(), b.definitions.begin(),
                       b.definitions.end(), same_definition);
 }
@@ -405,6 +412,7 @@ Outcome<LoadedScene> load_scene(const std::vector<std::string>& files,
 Outcome<GrownForest>
 grow_species(const LoadedScene& loaded, const Project& project, const PreviousForest& previous) {
     Step step(project);
+    project.begin(LongStep::GrowHeroes);
     const Scene& scene = loaded.scene;
     GrownForest grown;
     FileBudget budget{project.limits.max_bytes};
@@ -643,6 +651,7 @@ Outcome<void> size_forest(const Scene& scene, const Project& project, GrownFores
 
 Outcome<void> place_forest(const Scene& scene, const Project& project, GrownForest& grown) {
     Step step(project);
+    project.begin(LongStep::Place);
     const Stopwatch placing;
     const PlacementOptions options = placement_options(scene, project, grown);
     Result<Placement> placed = place_trees(options, *grown.terrain);

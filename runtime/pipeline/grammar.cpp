@@ -265,6 +265,7 @@ Result<CompiledText> compile_text(const std::string& path,
 Outcome<Grammar>
 load_grammar(const std::string& path, const GrammarOptions& options, const Project& project) {
     Step step(project);
+    project.begin(LongStep::Read);
     Result<std::string> bytes = step.read(path, {kMaxSourceBytes, project.limits.max_bytes});
     if (!bytes) {
         return step.fail(bytes.error());

@@ -299,6 +299,7 @@ Outcome<void> choose_instancing(LoadedScene& loaded, const Project& project) {
     if (!goal.is_set()) {
         return step.done();
     }
+    project.begin(LongStep::ChooseHeroes);
     std::vector<std::vector<Tree>> trees;
     std::vector<bool> is_noted;
     if (!step.take(place_trees_of(loaded, project, is_noted), trees)) {

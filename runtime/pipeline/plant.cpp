@@ -22,8 +22,11 @@ namespace lsys {
 namespace {
 
 /// Derives and stores the last word, then draws it.
-DerivationEnd
-draw_stored(const DeriveOptions& options, const Bytecode& bytecode, Turtle& turtle, Plant& plant) {
+DerivationEnd draw_stored(const DeriveOptions& options,
+                          const Bytecode& bytecode,
+                          const Project& project,
+                          Turtle& turtle,
+                          Plant& plant) {
     const Stopwatch deriving;
     Derivation derivation(bytecode, options);
     if (derivation.derive()) {
@@ -31,6 +34,7 @@ draw_stored(const DeriveOptions& options, const Bytecode& bytecode, Turtle& turt
     }
     plant.modules = derivation.word().module_count();
     plant.derive_seconds = deriving.seconds();
+    project.begin(LongStep::Draw);
     const Stopwatch drawing;
     if (!turtle.reserve(derivation.word())) {
         static_cast<void>(turtle.feed(derivation.word()));
@@ -166,6 +170,7 @@ derive_word(const PlantOptions& options, const Grammar& grammar, const Project& 
     if (exceeds_limit(derive, grammar, step)) {
         return step.end(Stop::Limit);
     }
+    project.begin(LongStep::Derive);
     DerivedWord derived;
     derived.generations = derive.generations;
     derived.seed = derive.seed;
@@ -209,6 +214,7 @@ Outcome<Plant> grow_plant(const PlantOptions& options, Grammar& grammar, const P
         return step.end();
     }
     plant.user_meshes = std::move(meshes.meshes);
+    project.begin(LongStep::Derive);
     turtle_options.mesh_lengths = std::move(meshes.lengths);
     turtle_options.looks = std::move(meshes.looks);
     turtle_options.max_bytes = project.limits.max_bytes;
@@ -216,8 +222,9 @@ Outcome<Plant> grow_plant(const PlantOptions& options, Grammar& grammar, const P
     turtle_options.seed = derive.seed;
     turtle_options.generations = derive.generations;
     Turtle turtle(bytecode, turtle_options);
-    const DerivationEnd derived = options.stream ? draw_streamed(derive, bytecode, turtle, plant)
-                                                 : draw_stored(derive, bytecode, turtle, plant);
+    const DerivationEnd derived = options.stream
+                                      ? draw_streamed(derive, bytecode, turtle, plant)
+                                      : draw_stored(derive, bytecode, project, turtle, plant);
     if (!derived.stop) {
         static_cast<void>(turtle.finish());
     }
@@ -262,6 +269,7 @@ Outcome<Mesh> mesh_plant(const Plant& plant,
                          const MeshOptions& options,
                          const Project& project) {
     Step step(project);
+    project.begin(LongStep::Mesh);
     Mesh mesh;
     const std::optional<Stop> stop =
         make_mesh(skeleton, plant.user_meshes, limited_options(options, project), mesh);

@@ -3,6 +3,7 @@
 // progress, and the limits of a run.
 #pragma once
 
+#include "grammar/base/counted_enum.h"
 #include "grammar/base/message_levels.h"
 #include "grammar/base/result.h"
 #include "runtime/base/limits.h"
@@ -24,6 +25,17 @@ struct DerivationProgress {
     const std::vector<double>& expected;
 };
 
+/// The steps of the pipeline that may take long.
+LSYS_COUNTED_ENUM(LongStep,
+                  Read,         // read and compile files
+                  Derive,       // derive a plant
+                  Draw,         // make the skeleton of a plant
+                  Mesh,         // make meshes of a plant or of heroes
+                  ChooseHeroes, // find the number of heroes for a goal of a scene
+                  GrowHeroes,   // derive and draw the heroes of a forest
+                  Place         // place the trees of a forest
+);
+
 /// Limits of reading a file.
 struct ReadLimit {
     std::uint64_t max_bytes = 0;              // max size of a file of this kind
@@ -44,6 +56,8 @@ struct Host {
     const std::atomic<bool>* cancelled = nullptr;
     /// Reports progress. May be empty.
     std::function<void(const DerivationProgress& progress)> progress;
+    /// Reports that a step begins. May be empty.
+    std::function<void(LongStep step)> step_begins;
 };
 
 struct Project {
@@ -54,6 +68,12 @@ struct Project {
 
     [[nodiscard]] bool is_cancelled() const {
         return host.cancelled != nullptr && host.cancelled->load(std::memory_order_relaxed);
+    }
+    /// Reports to the host that a step begins.
+    void begin(LongStep step) const {
+        if (host.step_begins) {
+            host.step_begins(step);
+        }
     }
 };
 

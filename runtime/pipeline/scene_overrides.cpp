@@ -99,6 +99,7 @@ Result<void> apply(const SceneOverrides& overrides, Scene& scene) {
         if (!overrides.stages.empty()) {
             species.stages = overrides.stages;
         }
+        replace_if_set(overrides.season, species.season);
         replace_if_set(overrides.start, species.start);
         replace_if_set(overrides.years_of_stage, species.years_of_stage);
         for (const Definition& definition : overrides.grammar.definitions) {

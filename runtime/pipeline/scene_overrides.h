@@ -55,6 +55,7 @@ struct SceneOverrides {
     std::optional<float> rho;
     std::optional<std::uint32_t> cache_cap;
     std::optional<float> tolerance;
+    std::optional<float> season;         // SceneSpecies::season
     std::optional<HeightRange> height;   // for the trees of every species
     std::optional<double> variety;       // InstancingGoal::variety
     std::optional<std::uint64_t> memory; // InstancingGoal::max_bytes

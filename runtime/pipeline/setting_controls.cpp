@@ -62,11 +62,13 @@ std::vector<SettingControl> setting_controls(const Grammar& grammar) {
     std::vector<SettingControl> controls;
 #define LSYS_NUMBER(field, initial, use, group, min, wanted)                                       \
     controls.push_back(number_control(#field, SettingKind::Number, settings.field));               \
+    controls.back().accepts = wanted;                                                              \
     controls.back().lowest = min;                                                                  \
     controls.back().highest = -kLowestNumber;
 #include "compiler/bytecode/settings.def"
     SettingControl& tropism = controls.emplace_back();
     tropism.key = "tropism";
+    tropism.accepts = "a direction and a strength: x y z e";
     tropism.kind = SettingKind::Vector;
     tropism.numbers = settings.tropism;
     tropism.lowest = kLowestNumber;
@@ -76,6 +78,7 @@ std::vector<SettingControl> setting_controls(const Grammar& grammar) {
 #define LSYS_COUNT(field, initial, use, group, min, max, wanted, misfit)                           \
     controls.push_back(                                                                            \
         number_control(#field, SettingKind::Count, static_cast<float>(settings.field)));           \
+    controls.back().accepts = wanted;                                                              \
     controls.back().lowest = min;                                                                  \
     controls.back().highest = max;
 #include "compiler/bytecode/settings.def"

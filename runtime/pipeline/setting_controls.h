@@ -25,6 +25,7 @@ struct SettingControl {
     std::string_view key; // key in `#set`
     SettingKind kind = SettingKind::Number;
     std::array<float, 4> numbers{};      // the value; kinds other than Vector use only the first
+    std::string_view accepts;            // "an angle in degrees"; empty for Word
     std::string_view word;               // the value of Word
     std::vector<std::string_view> words; // all values of Word
     float lowest = 0.0F;                 // min valid value of Number, Count and Vector

@@ -69,6 +69,38 @@ Result<Wind> parse_wind(std::string_view text) {
     return Wind{{values[0], values[1], values[2]}, values[3]};
 }
 
+Result<SunPlace> parse_sun(std::string_view text) {
+    const auto is_within = [](double value, double low, double high) {
+        return value >= low && value <= high;
+    };
+    std::vector<double> values;
+    for (std::string_view rest = text; values.size() < 4;) {
+        const std::size_t comma = rest.find(',');
+        const Parsed<double> parsed = parse_all<double>(rest.substr(0, comma));
+        if (parsed.error != std::errc()) {
+            break;
+        }
+        values.push_back(parsed.value);
+        if (comma != std::string_view::npos) {
+            rest.remove_prefix(comma + 1);
+            continue;
+        }
+        if (values.size() == 2 && is_within(values[0], -360.0, 360.0) &&
+            is_within(values[1], -90.0, 90.0)) {
+            return SunPlace{values[0], values[1]};
+        }
+        if (values.size() == 3 && is_within(values[0], 1.0, 366.0) &&
+            is_within(values[1], 0.0, 24.0) && is_within(values[2], -90.0, 90.0)) {
+            return sun_at(values[0], values[1], values[2]);
+        }
+        break;
+    }
+    return Error{
+        fmt::format("`{}` is neither azimuth and elevation in degrees, such as 225,30, nor "
+                    "day of the year, hour and latitude, such as 172,18.5,52",
+                    text)};
+}
+
 Result<glm::vec3> parse_place(std::string_view text) {
     glm::vec3 place(0.0F);
     std::string_view rest = text;

@@ -5,6 +5,7 @@
 #include "compiler/program/compile_options.h"
 #include "grammar/base/result.h"
 #include "runtime/physics/physics.h"
+#include "runtime/scene/sun.h"
 
 #include <cstdint>
 #include <string>
@@ -25,6 +26,8 @@ parse_integer(std::string_view text, std::uint64_t low, std::uint64_t high);
 /// `x,y,z` or `x,y,z,gust`: velocity in metres per second, and amplitude of gusts as a fraction of
 /// the velocity.
 [[nodiscard]] Result<Wind> parse_wind(std::string_view text);
+/// AZIMUTH,ELEVATION in degrees, or DAY,HOUR,LATITUDE as for sun_at().
+[[nodiscard]] Result<SunPlace> parse_sun(std::string_view text);
 
 /// `X,Y,Z`: a place in metres.
 [[nodiscard]] Result<glm::vec3> parse_place(std::string_view text);

@@ -206,11 +206,11 @@ Output::~Output() {
     }
     if (!temporary_.empty()) {
         platform::remove_file(temporary_.c_str());
-        clear_temporary();
+        forget_temporary();
     }
 }
 
-void Output::clear_temporary() {
+void Output::forget_temporary() {
     temporary_.clear();
     if (slot_ != nullptr) {
         unregister_temporary(std::exchange(slot_, nullptr));
@@ -329,7 +329,7 @@ Result<void> Output::commit() {
     if (reason != 0) {
         return failure(reason);
     }
-    clear_temporary();
+    forget_temporary();
     return {};
 }
 

@@ -75,7 +75,7 @@ private:
     Output(const Console& console, std::string path) : console_(&console), path_(std::move(path)) {}
     [[nodiscard]] Error failure(int reason) const;
     [[nodiscard]] Result<void> make_temporary(bool exists, unsigned permissions);
-    void clear_temporary();
+    void forget_temporary();
     [[nodiscard]] Result<void> publish();
     void unpublish();
 

@@ -202,6 +202,11 @@ void add_scene_overrides(CLI::App& app, SceneOverrides& overrides, const char* s
                "Key of the forest: equal keys give equal forests (default 0)")
         ->type_name("K")
         ->group("Placement");
+    add_parsed(app, "--season", overrides.season, fraction,
+               "Time of the year for species with a constant `season`: 0 and 1 are the first of "
+               "March, in the north")
+        ->type_name("S")
+        ->group("Placement");
     add_placement(app, overrides, size);
     add_ground(app, overrides);
     add_cache(app, overrides);

@@ -61,10 +61,17 @@ std::optional<Scene> parse_scene(FileId file, const SourceMap& sources, Diagnost
     constexpr double kBytesOfMiB = 1024.0 * 1024.0;
     scene.goal.max_bytes = static_cast<std::uint64_t>(
         kBytesOfMiB * reader.number("memory", {1.0e-3, 1.0e6, false, "MiB"}).value_or(0.0));
+    const std::optional<double> season = reader.number("season", {0.0, 1.0, false, {}});
     read_terrain_table(reader.table("terrain"), scene, found);
+    read_light_table(reader.table("light"), scene, found);
     read_placement_table(reader.table("placement"), scene, found);
     static_cast<void>(reader.entry("species"));
     read_species_list(*root, scene, found);
+    for (SceneSpecies& species : scene.species) {
+        if (season) {
+            species.season = static_cast<float>(*season);
+        }
+    }
     read_painting_table(reader.table("painted"), scene, found);
     reader.finish();
     copy_stages_to_placement(scene);

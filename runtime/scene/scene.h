@@ -9,6 +9,7 @@
 #include "runtime/forest/instance_cache.h"
 #include "runtime/placement/placement.h"
 #include "runtime/scene/painting.h"
+#include "runtime/scene/sun.h"
 #include "runtime/terrain/region.h"
 #include "runtime/terrain/terrain.h"
 
@@ -82,6 +83,15 @@ struct ExplicitInstancing {
     bool cap = false;
 };
 
+/// Light of pictures; empty values: those of the program that draws.
+struct SceneLight {
+    std::optional<SunPlace> sun;
+    /// Haze of the air, 2 to 10: 2 very clear, 3 clear, 6 hazy.
+    std::optional<double> turbidity;
+
+    friend bool operator==(const SceneLight&, const SceneLight&) = default;
+};
+
 struct SceneSpecies {
     std::string name; // unique
     SceneFile grammar;
@@ -89,6 +99,9 @@ struct SceneSpecies {
     SceneName system;  // name of the system in a file of several; empty: the only one
     bool bug_compatible = false;
     std::vector<SceneDefinition> definitions;
+    /// Value of the constant `season` of the grammar, if it has one and `definitions` does not set
+    /// it: time of the year, 0 to 1.
+    std::optional<float> season;
     /// Key and values of settings that replace those of the grammar, like `--set`.
     std::vector<std::pair<std::string, std::string>> settings;
     /// Generations per stage, ascending; empty: one stage with the generations of the grammar.
@@ -110,6 +123,7 @@ struct Scene {
     PlacementOptions placement;
     Painting painting; // manual changes
     InstancingGoal goal;
+    SceneLight light;
     SceneFile density_map; // DensityMap, DensityCells; spans the region of the terrain
     SourceSpan span;       // place of `[placement]`; kNoFile if missing
 };

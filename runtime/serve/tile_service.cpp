@@ -327,26 +327,38 @@ bool TileService::find(const std::string& path, bool wants_packed, Representatio
     return true;
 }
 
-/// The tile or tileset with this path, if the forest has it.
+/// The tile, tileset or subtree with this path, if the forest has it.
 std::optional<TileService::MadeFile> TileService::made_file(std::string_view path) const {
     TileId tile;
     if (path == TileForest::tileset_path(tile)) {
-        return MadeFile{tile, true};
+        return MadeFile{tile, FileKind::Tileset};
     }
     if (parse_tile_path(path, ".glb", tile) && forest_.has_tile(tile) &&
         forest_.levels()[tile.level].has_content) {
-        return MadeFile{tile, false};
+        return MadeFile{tile, FileKind::Content};
+    }
+    if (parse_tile_path(path, ".subtree", tile) && forest_.has_tile(tile) &&
+        forest_.has_subtree(tile.level)) {
+        return MadeFile{tile, FileKind::Subtree};
     }
     // The tileset of the root has another path.
     if (parse_tile_path(path, ".json", tile) && tile.level != 0 && forest_.has_tile(tile) &&
         forest_.has_tileset(tile.level)) {
-        return MadeFile{tile, true};
+        return MadeFile{tile, FileKind::Tileset};
     }
     return std::nullopt;
 }
 
 std::string TileService::make(const MadeFile& file) const {
-    return file.is_tileset ? forest_.tileset(file.tile) : forest_.content(file.tile).bytes;
+    switch (file.kind) {
+    case FileKind::Tileset:
+        return forest_.tileset(file.tile);
+    case FileKind::Subtree:
+        return forest_.subtree(file.tile);
+    case FileKind::Content:
+        break;
+    }
+    return forest_.content(file.tile).bytes;
 }
 
 /// The entry of the cache for a path, moved to the front; a new one if there is none.

@@ -79,10 +79,11 @@ private:
         std::uint64_t bytes = 0;
         std::list<std::string>::iterator use; // in uses_
     };
-    /// A file that is made on request: the tileset with a tile as its root, or the tile.
+    enum class FileKind : std::uint8_t { Content, Tileset, Subtree };
+    /// A file that is made on request: a tile, or the tileset or subtree with it as its root.
     struct MadeFile {
         TileId tile;
-        bool is_tileset = false;
+        FileKind kind = FileKind::Content;
     };
     /// A file as it is sent.
     struct Representation {

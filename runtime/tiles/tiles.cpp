@@ -14,6 +14,7 @@
 #include "runtime/tiles/impl/hero_table.h"
 #include "runtime/tiles/impl/level_plan.h"
 #include "runtime/tiles/impl/model_files.h"
+#include "runtime/tiles/impl/subtree.h"
 #include "runtime/tiles/impl/tile_boxes.h"
 #include "runtime/tiles/impl/tile_ground.h"
 #include "runtime/tiles/impl/tileset.h"
@@ -105,7 +106,11 @@ bool TileForest::has_tile(const TileId& tile) const {
     return tile.level < levels().size() && state_->grid.has_ground(tile);
 }
 bool TileForest::has_tileset(std::uint32_t level) const {
-    return level == 0 || has_subtrees(level, state_->plan.finest());
+    return level == 0 || (!state_->options.implicit && has_subtrees(level, state_->plan.finest()));
+}
+bool TileForest::has_subtree(std::uint32_t level) const {
+    const auto all = static_cast<std::uint32_t>(levels().size());
+    return state_->options.implicit && level < all && level % subtree_levels(all) == 0;
 }
 std::string TileForest::content_path(const TileId& tile) {
     return fmt::format("{}/{}/{}.glb", tile.level, tile.column, tile.row);
@@ -113,6 +118,10 @@ std::string TileForest::content_path(const TileId& tile) {
 std::string TileForest::tileset_path(const TileId& root) {
     return root.level == 0 ? "tileset.json"
                            : fmt::format("{}/{}/{}.json", root.level, root.column, root.row);
+}
+
+std::string TileForest::subtree_path(const TileId& root) {
+    return fmt::format("{}/{}/{}.subtree", root.level, root.column, root.row);
 }
 
 TileExtent TileForest::extent(std::uint32_t level) const {
@@ -441,12 +450,20 @@ TileContent TileForest::content(const TileId& tile) const {
     if (levels()[tile.level].has_trees) {
         content.trees = state_->add_trees(tile, to_tile, document);
     }
+    if (state_->options.implicit) {
+        document.move(frame_in_root(*state_->boxes, tile));
+    }
     content.bytes = document.write();
     return content;
 }
 
 std::string TileForest::tileset(const TileId& root) const {
-    return make_tileset({state_->options.generator, levels(), state_->grid, *state_->boxes}, root);
+    const TilesetPlan plan{state_->options.generator, levels(), state_->grid, *state_->boxes};
+    return state_->options.implicit ? make_implicit_tileset(plan) : make_tileset(plan, root);
+}
+
+std::string TileForest::subtree(const TileId& root) const {
+    return make_subtree({state_->options.generator, levels(), state_->grid, *state_->boxes}, root);
 }
 
 bool is_placed_by_tile(const Scene& scene) {

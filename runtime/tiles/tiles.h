@@ -44,6 +44,8 @@ struct TileOptions {
     std::optional<GeoPlace> origin;
     std::uint64_t triangles = kTileTriangles; // max per tile with the mean number of trees
     float error = kTileError;                 // m, of the trees of the nearest tiles
+    /// Implicit tiling: subtree files list the tiles, and contents have the coordinates of the root.
+    bool implicit = false;
     /// Whether to place all trees at once and keep them, up to kMaxKeptTrees, which is faster if all
     /// tiles are made. The tiles are the same.
     bool keep_trees = false;
@@ -119,12 +121,19 @@ public:
     /// 0: a JSON document that lists them and names the tilesets below them. Precondition: has_tile()
     /// and has_tileset(). May be called from several threads.
     [[nodiscard]] std::string tileset(const TileId& root) const;
-    /// Whether tiles of the level have a tileset.
+    /// Whether tiles of the level have a tileset. With implicit tiling only that of level 0 has one.
     [[nodiscard]] bool has_tileset(std::uint32_t level) const;
+    /// Makes the subtree file of the tiles below a tile, and of the tile itself. Precondition:
+    /// has_tile() and has_subtree(). May be called from several threads.
+    [[nodiscard]] std::string subtree(const TileId& root) const;
+    /// Whether tiles of the level have a subtree file, as some have with implicit tiling.
+    [[nodiscard]] bool has_subtree(std::uint32_t level) const;
     /// The path of the content of a tile, "3/5/2.glb", and that of its tileset, "4/7/1.json" or
     /// "tileset.json".
     [[nodiscard]] static std::string content_path(const TileId& tile);
     [[nodiscard]] static std::string tileset_path(const TileId& root);
+    /// The path of a subtree file, "5/9/17.subtree".
+    [[nodiscard]] static std::string subtree_path(const TileId& root);
 
 private:
     friend Outcome<TileForest>

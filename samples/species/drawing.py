@@ -21,7 +21,7 @@ class Card:
     def pixel(self, place):
         return ((place[0] * self.high + self.wide / 2) * FINE, (1 - place[1]) * self.high * FINE)
 
-    def area(self, places, colour):
+    def fill_polygon(self, places, colour):
         self.pen.polygon([self.pixel(place) for place in places], fill=opaque(colour))
 
     def line(self, places, width, colour):
@@ -67,10 +67,10 @@ def leaf(card, place, direction, length, outline, colour, vein, veins=6, vein_an
         card.line([place, base], 0.03 * length, vein)
     right = [along(base, direction, t * length, w * length) for t, w in outline]
     left = [along(base, direction, t * length, -w * length) for t, w in outline]
-    card.area(right + left[::-1], colour)
+    card.fill_polygon(right + left[::-1], colour)
     # The right half lies a little in the shade, so that the leaf looks folded along its midrib; a dark
     # edge sets it off from the leaves below.
-    card.area(right + [along(base, direction, length), base], shaded(colour, 0.9))
+    card.fill_polygon(right + [along(base, direction, length), base], shaded(colour, 0.9))
     card.line(right + left[::-1] + right[:1], 0.016 * length, shaded(colour, 0.66))
     card.line([base, along(base, direction, length * 0.97)], 0.022 * length, vein)
     for i in range(veins):
@@ -82,6 +82,56 @@ def leaf(card, place, direction, length, outline, colour, vein, veins=6, vein_an
             card.line([start, along(start, direction + side * vein_angle, run)], 0.009 * length, vein)
 
 
+def toothed(outline, teeth, depth):
+    """An outline of a leaf, [(part of the length, half width / length), ...], with teeth that point to the tip."""
+    places = [outline[0]]
+    for i in range(teeth):
+        for part, out in ((0.2, -depth), (0.85, depth)):
+            t = (i + part) / teeth
+            places.append((t + 0.3 * max(out, 0), float(np.interp(t, *zip(*outline))) + out * math.sin(math.pi * t)))
+    return [(t, max(w, 0.003)) for t, w in places] + [(1, 0)]
+
+
+def flower(card, place, radius, turn, outline, colours, stamens, squash=1.0, slant=0.0, random=None):
+    """A flower of five petals seen from the front, or aslant: narrower by `squash` along the direction `slant`.
+    `colours`: of a petal at its base, in its middle and at its end, and of the heart; `stamens`: their number,
+    length / radius, and the colours of filament and anther."""
+    def at(direction, distance, aside=0.0):
+        x, y = along((0, 0), direction, distance * radius, aside * radius)
+        s, c = math.sin(math.radians(slant)), math.cos(math.radians(slant))
+        ahead, across = (x * s + y * c) * squash, x * c - y * s
+        return (place[0] + ahead * s + across * c, place[1] + ahead * c - across * s)
+
+    base, middle, end, heart = colours
+    for k in (0, 2, 4, 1, 3):
+        direction = turn + 72 * k + (random.uniform(-4, 4) if random else 0)
+        tone = random.uniform(0.93, 1) if random else 1
+        edge = [at(direction, t, w) for t, w in outline] + [at(direction, t, -w) for t, w in outline[::-1]]
+        card.fill_polygon(edge, shaded(end, tone))
+        steps = 14  # bands of colour from the base to the end
+        for side, light in ((1, 0.965), (-1, 1.0)):
+            for i in range(steps):
+                low, high = i / steps, (i + 1) / steps
+                mean = (low + high) / 2
+                pair = (base, middle) if mean < 0.45 else (middle, end)
+                part = mean / 0.45 if mean < 0.45 else (mean - 0.45) / 0.55
+                colour = [(a + (b - a) * part) * tone * light for a, b in zip(*pair)]
+                wide = [float(np.interp(t, *zip(*outline))) * side for t in (low, high)]
+                card.fill_polygon([at(direction, low), at(direction, low, wide[0]), at(direction, high, wide[1]),
+                           at(direction, high)], colour)
+        for bend in (-0.28, -0.14, 0, 0.14, 0.28):
+            card.line([at(direction, 0.15, bend * 0.3), at(direction, 0.85, bend)], 0.008 * radius,
+                      shaded(end, 0.96 * tone))
+        card.line(edge, 0.018 * radius, shaded(end, 0.86 * tone))
+    card.fill_polygon([at(24 * i, 0.13) for i in range(15)], heart)
+    count, reach, filament, anther = stamens
+    for i in range(count):
+        direction = turn + 360 * i / count + (random.uniform(-6, 6) if random else 0)
+        length = reach * (random.uniform(0.55, 1) if random else 1)
+        card.line([at(direction, 0.07), at(direction, length)], 0.02 * radius, filament)
+        card.fill_polygon([at(direction + 9 * math.sin(0.9 * j), length + 0.05 * math.cos(0.9 * j)) for j in range(7)], anther)
+
+
 def field(size, sx, sy, seed):
     """Random numbers with mean 0 and deviation 1 over a square that repeats, smooth over sx and sy pixels."""
     white = np.random.default_rng(seed).standard_normal((size, size))
@@ -91,8 +141,8 @@ def field(size, sx, sy, seed):
     return (smooth - smooth.mean()) / smooth.std()
 
 
-def scales(size, count, tall, seed):
-    """Plates of bark: for each pixel the distance to the edge of its plate, 0 to 1, and a random number of it.
+def bark_plates(size, count, tall, seed):
+    """Plates of bark: for each pixel the distance to the edge of its plate, 0 to 1, and a random number of that plate.
     `tall` is the height of a plate divided by its width."""
     random = np.random.default_rng(seed)
     points = random.random((count, 2)) * size

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Reads a tileset of `lsc tiles`: every glTF by the Khronos validator and by glTF-Transform, and the
-// tilesets by the rules of 3D Tiles 1.1 (OGC 22-025r4).
+// Reads a tileset of `lsc tiles`, explicit or implicit: every glTF by the Khronos validator and by
+// glTF-Transform, and the tilesets by the rules of 3D Tiles 1.1 (OGC 22-025r4).
 // Usage: read_tiles.mjs NODE_MODULES FOLDER TREES
 import fs from 'node:fs';
 import { createRequire } from 'node:module';
@@ -30,8 +30,85 @@ const transformed = (m, p) => [0, 1, 2].map(i => m[i] * p[0] + m[4 + i] * p[1] +
 const identity = [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1];
 const corners = box => Array.from({ length: 8 }, (_, i) => [0, 1, 2].map(axis =>
     box[axis] + [1, 2, 4].reduce((sum, bit, k) => sum + (i & bit ? 1 : -1) * box[3 + 3 * k + axis], 0)));
-const contains = (box, p, slack) => [0, 1, 2].every(axis =>
-    Math.abs(p[axis] - box[axis]) <= box[3 + 4 * axis] + slack);
+const contains = (box, p, slack) => [3, 6, 9].every(first => {
+    const axis = box.slice(first, first + 3);
+    const length = Math.hypot(...axis);
+    return Math.abs(axis.reduce((sum, x, i) => sum + x * (p[i] - box[i]), 0)) <= (length + slack) * length;
+});
+
+/// The tile of an implicit tileset with all tiles below it as an explicit tile, from its subtree files.
+const expandImplicit = root => {
+    const { subtreeLevels, availableLevels, subtrees } = root.implicitTiling;
+    const named = (template, level, x, y) =>
+        template.replace('{level}', level).replace('{x}', x).replace('{y}', y);
+    const readSubtree = (level, x, y) => {
+        const name = named(subtrees.uri, level, x, y);
+        const bytes = fs.readFileSync(path.join(folder, name));
+        const jsonSize = Number(bytes.readBigUInt64LE(8));
+        const dataSize = Number(bytes.readBigUInt64LE(16));
+        check(bytes.toString('latin1', 0, 4) === 'subt' && bytes.readUInt32LE(4) === 1, `${name}: no subtree`);
+        check(jsonSize % 8 === 0 && dataSize % 8 === 0 && bytes.length === 24 + jsonSize + dataSize, `${name}: sizes`);
+        const json = JSON.parse(bytes.toString('utf8', 24, 24 + jsonSize));
+        const view = number => {
+            const { byteOffset, byteLength } = json.bufferViews[number];
+            check(byteOffset % 8 === 0 && byteOffset + byteLength <= dataSize, `${name}: a view beyond its buffer`);
+            return bytes.subarray(24 + jsonSize + byteOffset, 24 + jsonSize + byteOffset + byteLength);
+        };
+        const bitsOf = (availability, count) => {
+            const stream = availability.bitstream === undefined ? null : view(availability.bitstream);
+            check(stream === null || stream.length === Math.ceil(count / 8), `${name}: a stream of another length`);
+            const bits = Array.from({ length: count }, (_, i) =>
+                stream === null ? availability.constant === 1 : (stream[i >> 3] >> (i & 7) & 1) === 1);
+            const available = bits.filter(Boolean).length;
+            check(stream === null || available === availability.availableCount, `${name}: a wrong count`);
+            return bits;
+        };
+        const count = (4 ** subtreeLevels - 1) / 3;
+        const tileBits = bitsOf(json.tileAvailability, count);
+        const contentBits = bitsOf(json.contentAvailability[0], count);
+        const childBits = bitsOf(json.childSubtreeAvailability, 4 ** subtreeLevels);
+        const table = json.propertyTables[json.tileMetadata];
+        check(table.count === tileBits.filter(Boolean).length, `${name}: a table of another size`);
+        const boxes = view(table.properties.boundingBox.values);
+        const errors = view(table.properties.geometricError.values);
+        const rows = tileBits.map((bit, i) => tileBits.slice(0, i).filter(Boolean).length);
+        const tileAt = (depth, place) => { // `place`: on the Z-order curve of its depth
+            const morton = bit => Array.from({ length: depth }, (_, i) => (place >> (2 * i + bit) & 1) << i)
+                .reduce((sum, x) => sum + x, 0);
+            const [column, row] = [x * 2 ** depth + morton(0), y * 2 ** depth + morton(1)];
+            if (depth === subtreeLevels) {
+                return childBits[place] ? [readSubtree(level + depth, column, row)] : [];
+            }
+            const index = (4 ** depth - 1) / 3 + place;
+            if (!tileBits[index]) {
+                check(!contentBits[index], `${name}: content without a tile`);
+                return [];
+            }
+            check(level + depth < availableLevels, `${name}: a tile below the last level`);
+            const entry = rows[index];
+            const tile = {
+                boundingVolume: { box: Array.from({ length: 12 }, (_, i) => boxes.readFloatLE(48 * entry + 4 * i)) },
+                geometricError: errors.readDoubleLE(8 * entry),
+                refine: root.refine,
+                children: [0, 1, 2, 3].flatMap(i => tileAt(depth + 1, 4 * place + i)),
+            };
+            if (contentBits[index]) {
+                tile.content = { uri: named(root.content.uri, level + depth, column, row) };
+            }
+            return [tile];
+        };
+        return tileAt(0, 0)[0];
+    };
+    // Clients that ignore metadata cut the box of the root into quarters and halve its error.
+    const implied = (tile, depth) => {
+        const error = root.geometricError / 2 ** depth + 1e-6;
+        check(tile.content === undefined || tile.geometricError <= error, `depth ${depth}: implied error too small`);
+        tile.children.forEach(child => implied(child, depth + 1));
+    };
+    const expanded = readSubtree(0, 0, 0);
+    implied(expanded, 0);
+    return { ...expanded, transform: root.transform };
+};
 
 /// Every tile with its frame, depth and content.
 const tiles = [];
@@ -65,7 +142,7 @@ const visit = (file, tile, matrix, parent, depth) => {
     if (uri !== '') {
         tiles.push({ uri, box, frame, depth });
     } else { // a client must go on to its children, which show something
-        check(tile.geometricError >= top.geometricError, `${name}: without content, but its error is small`);
+        check(tile.geometricError >= groundSide, `${name}: without content, but its error is small`);
         check(tile.children?.length > 0, `${name}: neither content nor children`);
     }
     for (const child of tile.children ?? []) {
@@ -73,8 +150,9 @@ const visit = (file, tile, matrix, parent, depth) => {
     }
 };
 const top = read('tileset.json');
+const groundSide = top.root.implicitTiling ? 2 * top.root.boundingVolume.box[3] : top.geometricError;
 check(top.asset.version === '1.1' && top.geometricError > 0, 'tileset.json: no version or error');
-visit('tileset.json', top.root, identity, null, 0);
+visit('tileset.json', top.root.implicitTiling ? expandImplicit(top.root) : top.root, identity, null, 0);
 
 await MeshoptDecoder.ready;
 const io = new NodeIO().registerExtensions(ALL_EXTENSIONS).registerDependencies({ 'meshopt.decoder': MeshoptDecoder });
@@ -104,9 +182,12 @@ for (const tile of tiles) {
     const places = new Map(); // by row of the table
     for (const node of document.getRoot().listNodes()) {
         const batch = node.getExtension('EXT_mesh_gpu_instancing');
+        const matrix = node.getWorldMatrix();
+        if (node.getMesh() === null) {
+            continue; // the node with the place of the tile
+        }
         if (batch === null) {
             const positions = node.getMesh().listPrimitives()[0].getAttribute('POSITION');
-            const matrix = node.getWorldMatrix();
             for (let i = 0; i < positions.getCount(); ++i) {
                 const [x, y, z] = transformed(matrix, positions.getElement(i, []));
                 check(contains(tile.box, [x, -z, y], 0.01), `${tile.uri}: ground beyond the box`);
@@ -116,7 +197,7 @@ for (const tile of tiles) {
         const translations = batch.getAttribute('TRANSLATION');
         const ids = batch.getAttribute('_FEATURE_ID_0');
         for (let i = 0; i < translations.getCount(); ++i) {
-            const [x, y, z] = translations.getElement(i, []);
+            const [x, y, z] = transformed(matrix, translations.getElement(i, []));
             places.set(ids.getElement(i, [])[0], [x, -z, y]);
         }
     }

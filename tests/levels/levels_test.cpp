@@ -7,6 +7,7 @@
 #include "runtime/meshing/texture.h"
 #include "runtime/pipeline/plant.h"
 #include "tests/support/plants.h"
+#include "tests/support/sample_plants.h"
 
 #include <catch2/catch.hpp>
 #include <glm/common.hpp>
@@ -16,8 +17,6 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
-#include <fstream>
-#include <iterator>
 #include <limits>
 #include <map>
 #include <set>
@@ -44,32 +43,6 @@ constexpr double kMaxFactor = 3.0;
 constexpr double kMaxLastFactor = 3.3;
 constexpr double kManyTriangles = 150.0;     // kMaxFactor applies to levels with more triangles
 constexpr double kMaxImpostorDistance = 5.0; // pixels
-
-Project sample_project() {
-    Project project;
-    project.threads = 1;
-    project.host.read_file = [](const std::string& path, const ReadLimit&) -> Result<std::string> {
-        std::ifstream file(path, std::ios::binary);
-        if (!file) {
-            return Error{"no such file or directory"};
-        }
-        return std::string(std::istreambuf_iterator<char>(file), {});
-    };
-    project.host.read_referenced_file = project.host.read_file;
-    project.host.file_exists = [](const std::string& path) { return std::ifstream(path).good(); };
-    return project;
-}
-
-Plant grown(const std::string& name) {
-    const Project project = sample_project();
-    PlantOptions options;
-    options.file = std::string(LSYS_SOURCE_DIR) + "/samples/" + name + "/" + name + ".lsys";
-    Outcome<Grammar> grammar = load_grammar(options.file, {}, project);
-    REQUIRE(grammar);
-    Outcome<Plant> plant = grow_plant(options, grammar.value(), project);
-    REQUIRE(plant);
-    return std::move(plant.value());
-}
 
 /// A silhouette in samples, and its colour.
 struct Picture {
@@ -140,8 +113,8 @@ Picture draw(const Drawing& drawing, const Bounds& frame, int samples, float tur
     const Mesh& mesh = drawing.mesh;
     const glm::vec3 middle = 0.5F * (frame.low + frame.high);
     const glm::vec3 half = frame.high - middle;
-    const float across = std::hypot(half.x, half.z);
-    const float reach = std::max(across, std::cos(tilt) * half.y + std::sin(tilt) * across);
+    const float radius = std::hypot(half.x, half.z); // horizontal
+    const float reach = std::max(radius, std::cos(tilt) * half.y + std::sin(tilt) * radius);
     const float largest = std::max({half.x, half.y, half.z});
     const float scale = 0.5F * static_cast<float>(samples) / largest;
     const int size = static_cast<int>(std::ceil(2.0F * scale * reach)) + 1;
@@ -362,7 +335,7 @@ struct LevelResult {
 };
 
 std::vector<LevelResult> measure_levels(const std::string& name) {
-    const Plant plant = grown(name);
+    const Plant plant = test::sample_plant(name);
     const DetailLevels levels = planned(plant, {.threads = 1});
     const Mesh finest = level_mesh(plant, levels, 0);
     const Bounds frame = bounds_of(finest);
@@ -410,7 +383,7 @@ TEST_CASE("levels of samples have fewer triangles and look alike at their distan
 
 TEST_CASE("each level has a third to a half of the triangles of the previous level", "[levels]") {
     const std::string name = GENERATE(from_range(kSamplesOfLevels));
-    const Plant plant = grown(name);
+    const Plant plant = test::sample_plant(name);
     const DetailLevels levels = planned(plant, {});
     REQUIRE(levels.levels.size() >= 6);
     for (std::size_t k = 1; k < levels.levels.size(); ++k) {
@@ -425,7 +398,7 @@ TEST_CASE("each level has a third to a half of the triangles of the previous lev
 
 TEST_CASE("levels without impostors have fewer triangles too", "[levels]") {
     const std::string name = GENERATE("abop-lychnis", "carey-type-0", "abop-2-8a");
-    const Plant plant = grown(name);
+    const Plant plant = test::sample_plant(name);
     DetailLevels levels;
     REQUIRE(plan_detail_levels(plant.skeleton, plant.user_meshes, {.threads = 1}, {}, levels) ==
             std::nullopt);
@@ -444,7 +417,7 @@ TEST_CASE("levels without impostors have fewer triangles too", "[levels]") {
 }
 
 TEST_CASE("levels that are fitted later equal levels fitted at once", "[levels]") {
-    const Plant plant = grown("carey-type-1");
+    const Plant plant = test::sample_plant("carey-type-1");
     const MeshOptions options{.threads = 1};
     const DetailLevels all = planned(plant, options);
     constexpr DetailChain kLater{.pictures = true, .first_fitted = kNoDetailLevel};
@@ -477,7 +450,7 @@ TEST_CASE("levels that are fitted later equal levels fitted at once", "[levels]"
 }
 
 TEST_CASE("a short chain goes from the finest level to the coarsest", "[levels]") {
-    const Plant plant = grown("carey-type-0");
+    const Plant plant = test::sample_plant("carey-type-0");
     const DetailLevels all = planned(plant, {});
     for (std::uint32_t count = 1; count <= all.levels.size() + 1; ++count) {
         DetailLevels few;
@@ -509,7 +482,7 @@ TEST_CASE("a short chain goes from the finest level to the coarsest", "[levels]"
 }
 
 TEST_CASE("cards have the requested number of triangles", "[levels]") {
-    const Plant plant = grown("abop-lychnis");
+    const Plant plant = test::sample_plant("abop-lychnis");
     Mesh finest;
     REQUIRE(make_mesh(plant.skeleton, plant.user_meshes, {.threads = 1}, finest) == std::nullopt);
     for (const std::uint64_t triangles : {2U, 6U, 24U, 38U, 40U, 100U, 184U}) {
@@ -556,7 +529,7 @@ TEST_CASE("table of levels", "[.][table]") {
 }
 
 TEST_CASE("a finer level keeps all paths of a coarser level", "[levels]") {
-    const Plant plant = grown("carey-3-2-2");
+    const Plant plant = test::sample_plant("carey-3-2-2");
     const DetailLevels levels = planned(plant, {.threads = 1});
     const ThinningOrder order = thinning_order(plant.skeleton);
     // A path comes after its parent in the order.
@@ -613,7 +586,7 @@ TEST_CASE("the kept leaves have the area of all leaves", "[levels]") {
 }
 
 TEST_CASE("levels do not depend on threads", "[levels]") {
-    const Plant plant = grown("carey-3-2-2");
+    const Plant plant = test::sample_plant("carey-3-2-2");
     const DetailLevels one = planned(plant, {.threads = 1});
     const DetailLevels four = planned(plant, {.threads = 4});
     REQUIRE(one.levels.size() == four.levels.size());

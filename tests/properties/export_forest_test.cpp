@@ -569,9 +569,9 @@ TEST_CASE(
     Wood bushes;
     bushes.add_species(kLeafyBush, 8);
     bushes.add_trees(2000);
-    const std::uint64_t different = count_different_trees(bushes.forest, 1);
-    CHECK(different > 1900);
-    CHECK(different == count_different_trees(bushes.forest, 4));
+    const std::uint64_t different_count = count_different_trees(bushes.forest, 1);
+    CHECK(different_count > 1900);
+    CHECK(different_count == count_different_trees(bushes.forest, 4));
 }
 
 TEST_CASE("statistics of a forest add up") {

@@ -111,7 +111,7 @@ private:
     }
 
     // Runs lsc; checks the exit status and standard output.
-    bool gives(const std::vector<std::string>& arguments, int status, const std::string& out) {
+    bool lsc_prints(const std::vector<std::string>& arguments, int status, const std::string& out) {
         const Run run = run_lsc(arguments);
         if (run.status == status && run.out == out) {
             return true;
@@ -137,10 +137,10 @@ private:
     bool derives_alike() {
         const std::string last = lines_of(expected_).back() + "\n";
         const std::string count = std::to_string(derivation_.words.back().size()) + "\n";
-        return gives(command("dump", {"--all", "--threads", "1"}), 0, expected_) &&
-               gives(command("dump", {"--all", "--threads", "2"}), 0, expected_) &&
-               gives(command("dump", {}), 0, last) &&
-               gives(command("dump", {"--count"}), 0, count) && compiles_alike() &&
+        return lsc_prints(command("dump", {"--all", "--threads", "1"}), 0, expected_) &&
+               lsc_prints(command("dump", {"--all", "--threads", "2"}), 0, expected_) &&
+               lsc_prints(command("dump", {}), 0, last) &&
+               lsc_prints(command("dump", {"--count"}), 0, count) && compiles_alike() &&
                continues_alike() && origins_alike() && printed_word_parses();
     }
 
@@ -154,13 +154,13 @@ private:
         const std::string body = last.substr(last.find('\n') + 1);
         const std::uint32_t half = derivation_.generations / 2;
         const std::string state = (folder / "half.state").string(); // written by continues_alike()
-        return gives(command("dump", {"--all", "--origins", "--threads", "1"}), 0, all) &&
-               gives(command("dump", {"--all", "--origins", "--threads", "2"}), 0, all) &&
-               gives(command("dump", {"--origins"}), 0, body) &&
-               (!can_stream() || gives(command("dump", {"--origins", "--stream"}), 0, body)) &&
-               gives(compiled_dump({"--all", "--origins"}), 0, all) &&
-               gives(command("dump", {"--all", "--origins", "--from", state}), 0,
-                     all_origins(test_case_, derivation_, folder, half, half));
+        return lsc_prints(command("dump", {"--all", "--origins", "--threads", "1"}), 0, all) &&
+               lsc_prints(command("dump", {"--all", "--origins", "--threads", "2"}), 0, all) &&
+               lsc_prints(command("dump", {"--origins"}), 0, body) &&
+               (!can_stream() || lsc_prints(command("dump", {"--origins", "--stream"}), 0, body)) &&
+               lsc_prints(compiled_dump({"--all", "--origins"}), 0, all) &&
+               lsc_prints(command("dump", {"--all", "--origins", "--from", state}), 0,
+                          all_origins(test_case_, derivation_, folder, half, half));
     }
 
     [[nodiscard]] bool can_stream() const {
@@ -218,7 +218,7 @@ private:
         std::vector<std::string> compile = {"compile", file_, "-o", module_file};
         const std::vector<std::string> options = options_of(definitions_only);
         compile.insert(compile.end(), options.begin(), options.end());
-        return gives(compile, 0, "") && gives(compiled_dump({"--all"}), 0, expected_);
+        return lsc_prints(compile, 0, "") && lsc_prints(compiled_dump({"--all"}), 0, expected_);
     }
 
     // Checks a derivation in two runs: half of the generations, a saved state, then the others.
@@ -230,7 +230,8 @@ private:
         std::vector<std::string> first =
             command("dump", {"--steps", std::to_string(half), "--save-state", state});
         std::vector<std::string> second = command("dump", {"--from", state});
-        return gives(first, 0, lines[half] + "\n") && gives(second, 0, lines.back() + "\n");
+        return lsc_prints(first, 0, lines[half] + "\n") &&
+               lsc_prints(second, 0, lines.back() + "\n");
     }
 
     // "What is printed parses again as the axiom of the same file."
@@ -252,7 +253,7 @@ private:
         const std::string text = print_word(word, test_case_.grammar.files[0].letters);
         const std::string path = folder_.write(again.grammar, 0);
         std::ofstream(path, std::ios::app | std::ios::binary) << "\n#w :" << text << ";\n";
-        return gives(with_file(options_of(again.request), path), 0, text + "\n");
+        return lsc_prints(with_file(options_of(again.request), path), 0, text + "\n");
     }
 
     static std::vector<std::string> with_file(std::vector<std::string> options,

@@ -39,7 +39,8 @@ struct Environment {
 // distribution whose arguments are outside their bounds.
 struct BadRange {};
 
-// Whether an expression is a range or a distribution: one draw besides those of its parts.
+// Whether an expression itself draws a random number, in addition to those of its operands: it is a
+// range or a distribution.
 bool draws(const Expr& expr);
 
 // The value of `expr`. Precondition: every name in it has a meaning.

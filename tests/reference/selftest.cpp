@@ -367,7 +367,7 @@ TEST_CASE("in sequential rewriting a rule has draws of its own") {
     add_production(grammar, production("a", {{"A", {}}}, {module("X", {unit, range(unit, unit)})}));
     add_production(grammar, production("b", {{"B", {}}}, {module("Y", {unit})}));
     Grammar plain = grammar;
-    // The bounds of the middle range are drawn first, so they must be in order.
+    // An upper bound is drawn before its range; 1 + {0, 1} keeps it above the lower bound.
     plain.files[0].statements[2].production.successor[0].arguments[1] =
         range(number(0), binary("+", number(1), unit));
     const Word word = derive_for(plain, 1, 9).words[1];

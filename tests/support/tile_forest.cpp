@@ -9,25 +9,28 @@
 
 namespace lsys::tests {
 
-TileForest make_small_tile_forest() {
+namespace {
+
+/// Places trees of one small grammar by a scene or by overrides of one.
+TileForest make_forest(const std::string& file, SceneOverrides overrides, TileOptions options) {
     Project project;
     project.threads = 1;
-    const auto read = [](const std::string&, const ReadLimit&) -> Result<std::string> {
+    const auto read = [](const std::string& path, const ReadLimit&) -> Result<std::string> {
+        if (path.ends_with(".toml")) {
+            return std::string(
+                "[terrain]\nsize = [280, 70]\n[[species]]\ngrammar = \"tree.lsys\"\n");
+        }
         return std::string("#n = 2; #set angle 25; #w : !(0.2) F(2) X;"
                            "#p : X : * : !(0.08) F({0.5, 0.8}) [ + X ] /(120) [ & X ];");
     };
     project.host.read_file = read;
     project.host.read_referenced_file = read;
     project.host.file_exists = [](const std::string&) { return true; };
-    SceneOverrides overrides;
     overrides.rho = 0.0F;
     overrides.heroes = 2;
     overrides.method = PlacementMethod::Jittered;
     overrides.spacing = 4.0;
-    overrides.size = 70.0F;
-    Outcome<LoadedScene> scene = load_scene({"tree.lsys"}, overrides, project);
-    TileOptions options;
-    options.triangles = 10'000;
+    Outcome<LoadedScene> scene = load_scene({file}, overrides, project);
     options.error = 0.0F;
     options.generator = "tests";
     if (scene) {
@@ -37,6 +40,21 @@ TileForest make_small_tile_forest() {
         }
     }
     std::abort();
+}
+
+} // namespace
+
+TileForest make_small_tile_forest() {
+    SceneOverrides overrides;
+    overrides.size = 70.0F;
+    TileOptions options;
+    options.triangles = 10'000;
+    return make_forest("tree.lsys", overrides, options);
+}
+
+TileForest make_tile_strip(TileOptions options) {
+    options.triangles = 1'000;
+    return make_forest("strip.toml", {}, options);
 }
 
 } // namespace lsys::tests

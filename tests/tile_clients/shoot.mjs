@@ -89,14 +89,14 @@ network.on('Network.loadingFinished', event => {
         list.push(`${url} ${event.encodedDataLength}`);
     }
 });
-const secondsOfServer = async () => {
+const serverMakeSeconds = async () => {
     if (address === '' || isFolder) {
         return 0;
     }
     const metrics = await (await fetch(new URL('/metrics', address))).text();
     return Number(/^lsc_make_seconds_sum (.*)$/m.exec(metrics)?.[1] ?? 0);
 };
-const busyBefore = await secondsOfServer();
+const busyBefore = await serverMakeSeconds();
 const messages = [];
 tab.on('console', message => message.type() === 'error' && messages.push(message.text()));
 tab.on('pageerror', failure => messages.push(String(failure)));
@@ -112,7 +112,7 @@ try {
 const seconds = (performance.now() - begin) / 1000;
 await tab.screenshot({ path: picture });
 const [failures, tiles] = await tab.evaluate(() => [window.failures ?? [], window.tileCounts ?? {}]);
-const serverSeconds = await secondsOfServer() - busyBefore;
+const serverSeconds = await serverMakeSeconds() - busyBefore;
 if (process.env.LIST) {
     await writeFile(process.env.LIST, list.map(line => `${line}\n`).join(''));
 }

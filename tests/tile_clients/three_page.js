@@ -3,7 +3,7 @@
 import * as THREE from 'three';
 import { MeshoptDecoder } from 'three/examples/jsm/libs/meshopt_decoder.module.js';
 import { TilesRenderer, WGS84_ELLIPSOID } from '3d-tiles-renderer';
-import { GLTFExtensionsPlugin } from '3d-tiles-renderer/plugins';
+import { GLTFExtensionsPlugin, ImplicitTilingPlugin } from '3d-tiles-renderer/plugins';
 import { readView } from './scene_frame.js';
 
 const view = readView();
@@ -25,6 +25,7 @@ if (view.tileset === '') {
 } else {
     const tiles = new TilesRenderer(view.tileset);
     tiles.registerPlugin(new GLTFExtensionsPlugin({ meshoptDecoder: MeshoptDecoder }));
+    tiles.registerPlugin(new ImplicitTilingPlugin());
     tiles.errorTarget = view.error;
     tiles.setCamera(camera);
     tiles.setResolutionFromRenderer(camera, renderer);

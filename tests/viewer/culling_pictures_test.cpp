@@ -187,8 +187,8 @@ TEST_CASE("painted and removed trees are drawn alike with compute shaders") {
     const Picture undone = gpu.draw();
     check_alike(before, undone);
     // A forest that is shown again has the changes of its records.
-    cpu.renderer->show_trees();
-    gpu.renderer->show_trees();
+    cpu.renderer->update_trees();
+    gpu.renderer->update_trees();
     static_cast<void>(cpu.renderer->bake_impostors(1e9));
     static_cast<void>(gpu.renderer->bake_impostors(1e9));
     check_alike(cpu.draw(), gpu.draw());

@@ -40,8 +40,8 @@ constexpr Texel kNothing{220, 10, 10, 0};
 constexpr const char* kStick = "#n = 1;\n#w : F(0.01);\n";
 
 /// A scene of one tree on level ground from (0, 0) to (40, 40), with other files beside it.
-struct Surfaces {
-    explicit Surfaces(const std::string& terrain, const std::string& grammar = kStick) {
+struct SurfaceScene {
+    explicit SurfaceScene(const std::string& terrain, const std::string& grammar = kStick) {
         write_text(folder / "tree.lsys", grammar);
         write_text(folder / "ground.png", encode_png(halves(kRed, kBlue)));
         // Normals: the left half faces -X, the right half +X.
@@ -124,7 +124,7 @@ constexpr const char* kAbove = "eye 12,30,12.01 target 12,0,12 fov 15.2";
 } // namespace
 
 TEST_CASE("the ground shows its picture in tiles from its origin") {
-    const Surfaces files(kPictured);
+    const SurfaceScene files(kPictured);
     const Picture picture = files.picture(kAbove);
     // The picture shows the tile from x = 8 to 16, red up to 12, blue beyond, and the beginnings of
     // the next tiles.
@@ -140,7 +140,7 @@ TEST_CASE("the ground shows its picture in tiles from its origin") {
         CHECK(is_blue(texel(small, 24, 32)));
         CHECK(is_red(texel(small, 40, 32)));
         CHECK(is_blue(texel(small, 56, 32)));
-        const Surfaces plain("");
+        const SurfaceScene plain("");
         CHECK(is_red(texel(plain.picture(kAbove, {"--ground-picture", files.folder / "ground.png",
                                                   "--ground-tile", "8"}),
                            12, 32)));
@@ -148,7 +148,7 @@ TEST_CASE("the ground shows its picture in tiles from its origin") {
 }
 
 TEST_CASE("far away the ground has the mean colour of its picture") {
-    const Surfaces files("colour = \"ground.png\"\ntile = 0.25");
+    const SurfaceScene files("colour = \"ground.png\"\ntile = 0.25");
     const Picture picture = files.picture("eye 10,40,10.01 target 10,0,10 fov 4");
     // Each pixel is the mean of red and blue.
     std::array<int, 3> darkest{255, 255, 255};
@@ -171,14 +171,14 @@ TEST_CASE("far away the ground has the mean colour of its picture") {
 
 TEST_CASE("the normal map of the ground changes its shading") {
     // The sun is in direction +X.
-    const Surfaces bumpy("colour = \"ground.png\"\nnormals = \"slopes.png\"\ntile = 8");
+    const SurfaceScene bumpy("colour = \"ground.png\"\nnormals = \"slopes.png\"\ntile = 8");
     write_text(bumpy.folder / "ground.png", encode_png(halves(kRed, kRed)));
     const Picture picture = bumpy.picture(kAbove);
     CHECK(brightness(texel(picture, 48, 32)) > brightness(texel(picture, 16, 32)) + 30);
 }
 
 TEST_CASE("the relief of a mesh of a forest changes its shading") {
-    const Surfaces files("", "#n = 1;\n#object L \"card.obj\";\n#w : L(1);\n");
+    const SurfaceScene files("", "#n = 1;\n#object L \"card.obj\";\n#w : L(1);\n");
     write_text(files.folder / "card.obj",
                "mtllib card.mtl\nusemtl card\nv -1 0 0\nv 1 0 0\nv 1 2 0\nv -1 2 0\n"
                "vt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\nf 1/1 2/2 3/3 4/4\n");
@@ -194,9 +194,9 @@ TEST_CASE("the relief of a mesh of a forest changes its shading") {
 }
 
 TEST_CASE("a picture of the ground needs no draw call, and no picture changes nothing") {
-    const Surfaces plain("");
-    const Surfaces pictured(kPictured);
-    const auto draws_of = [](const Surfaces& files) {
+    const SurfaceScene plain("");
+    const SurfaceScene pictured(kPictured);
+    const auto draws_of = [](const SurfaceScene& files) {
         const std::string stats = files.folder / "stats.json";
         static_cast<void>(files.view(kAbove, {"--stats", stats}, "64x64"));
         return nlohmann::json::parse(read_text(stats))["draws"].get<int>();
@@ -205,7 +205,7 @@ TEST_CASE("a picture of the ground needs no draw call, and no picture changes no
 }
 
 TEST_CASE("a picture of the ground that cannot be shown is an error at its place") {
-    const Surfaces files(kPictured);
+    const SurfaceScene files(kPictured);
     const auto messages = [&] {
         const LscRun view = run_lsview({files.folder / "wood.toml", "--screenshot", "-"});
         CHECK(view.status == 2);
@@ -229,7 +229,7 @@ TEST_CASE("a picture of the ground that cannot be shown is an error at its place
 }
 
 TEST_CASE("exported files of a forest have the pictures of its ground") {
-    const Surfaces files("colour = \"ground.png\"\nnormals = \"slopes.png\"\ntile = 8");
+    const SurfaceScene files("colour = \"ground.png\"\nnormals = \"slopes.png\"\ntile = 8");
     const std::string colour = read_text(files.folder / "ground.png");
     const std::string normals = read_text(files.folder / "slopes.png");
     SECTION("GLB") {
@@ -285,7 +285,7 @@ TEST_CASE("meshes and polygons of a forest show their pictures, with holes") {
         "#n = 1;\n#object { \"holes.png\";\n#set angle 90;\n"
         "#w : { -f(1)+ . f(2) . +f(2)+ . f(2) . };\n");
     CAPTURE(grammar);
-    const Surfaces files("", grammar);
+    const SurfaceScene files("", grammar);
     write_text(files.folder / "card.obj",
                "mtllib card.mtl\nusemtl card\nv -1 0 0\nv 1 0 0\nv 1 2 0\nv -1 2 0\n"
                "vt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\nf 1/1 2/2 3/3 4/4\n");
@@ -320,7 +320,7 @@ TEST_CASE("meshes and polygons of a forest show their pictures, with holes") {
 }
 
 TEST_CASE("impostors show pictures of meshes") {
-    const Surfaces files("", "#n = 1;\n#object L \"red.png\";\n#w : L(2);\n");
+    const SurfaceScene files("", "#n = 1;\n#object L \"red.png\";\n#w : L(2);\n");
     write_text(files.folder / "red.png", encode_png(halves(kRed, kRed)));
     // No triangles of branches: all trees are impostors.
     const Picture picture =
@@ -348,7 +348,7 @@ TEST_CASE("a relief of a mesh file is read as heights or as normals") {
 }
 
 TEST_CASE("a mesh file names a relief and an opacity beside its picture") {
-    const Surfaces files("", "#n = 1;\n#object L \"card.obj\";\n#w : L(1);\n");
+    const SurfaceScene files("", "#n = 1;\n#object L \"card.obj\";\n#w : L(1);\n");
     write_text(files.folder / "card.obj",
                "mtllib card.mtl\nusemtl card\nv -1 0 0\nv 1 0 0\nv 1 2 0\nv -1 2 0\n"
                "vt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\nf 1/1 2/2 3/3 4/4\n");

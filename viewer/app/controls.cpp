@@ -212,14 +212,29 @@ void Controls::fly(const WindowInput& input, float seconds, float height, Camera
 
 bool Controls::press_common(const KeyPress& press, View& view, PanelState& panels) {
     if (press.control) {
-        panels.quits = panels.quits || press.key == Key::Q;
-        return press.key == Key::Q;
+        switch (press.key) {
+        case Key::Q:
+            panels.quits = true;
+            return true;
+        case Key::Z:
+            press.shift ? view.redo() : view.undo();
+            return true;
+        case Key::Y:
+            view.redo();
+            return true;
+        default:
+            return false;
+        }
     }
     switch (press.key) {
     case Key::Tab:
         panels.flies = !panels.flies;
         return true;
     case Key::Escape:
+        if (view.making()) {
+            view.cancel_making();
+            return true;
+        }
         panels.help = false;
         panels.flies = false;
         view.forget_picked();
@@ -236,6 +251,15 @@ bool Controls::press_common(const KeyPress& press, View& view, PanelState& panel
     switch (press.key) {
     case Key::F:
         view.frame_all();
+        return true;
+    case Key::One:
+        view.show_from(StandardView::Front);
+        return true;
+    case Key::Two:
+        view.show_from(StandardView::Side);
+        return true;
+    case Key::Three:
+        view.show_from(StandardView::Top);
         return true;
     case Key::C:
         ImGui::SetClipboardText(to_text(view.camera()).c_str());
@@ -263,19 +287,10 @@ void Controls::press(const KeyPress& press, ForestView& view, PanelState& panels
     }
     ForestViewSettings& settings = view.settings;
     if (press.control) {
-        switch (press.key) {
-        case Key::Z:
-            press.shift ? view.redo() : view.undo();
-            return;
-        case Key::Y:
-            view.redo();
-            return;
-        case Key::S:
+        if (press.key == Key::S) {
             view.save();
-            return;
-        default:
-            return;
         }
+        return;
     }
     const auto take = [&settings](PaintTool tool) {
         settings.tool = settings.tool == tool ? PaintTool::None : tool;

@@ -26,13 +26,14 @@ struct KeyHelp {
     const char* keys;
     const char* what;
 };
-inline constexpr std::array<KeyHelp, 27> kPlantKeys = {{
+inline constexpr std::array<KeyHelp, 29> kPlantKeys = {{
     {"Left drag", "Orbit"},
     {"Click", "Describe the module and the production that wrote it"},
     {"T", "Trace of the module: why written, next step, back to the axiom"},
     {"Right drag", "Pan"},
     {"Wheel", "Zoom; speed while flying"},
     {"F", "Frame all"},
+    {"1, 2, 3", "View from the front, the side, the top"},
     {"Tab", "Fly: look with the mouse, move with W A S D Q E, Shift: faster"},
     {"C", "Copy the camera as text"},
     {"W", "Wireframe"},
@@ -46,23 +47,25 @@ inline constexpr std::array<KeyHelp, 27> kPlantKeys = {{
     {"PageDown", "Previous generation"},
     {"N", "Next seed"},
     {"R", "Reload files"},
+    {"Ctrl+Z, Ctrl+Y", "Undo, redo a change of settings"},
     {"Ctrl+S", "Write constants, settings and seed to the file"},
     {"P", "Save a picture (PNG) in the current folder"},
     {"H", "Panels"},
     {"A", "Statistics"},
     {"F1", "Keys"},
-    {"Esc", "Close the keys, stop flying"},
+    {"Esc", "Cancel what is being made; close the keys, stop flying"},
     {"Ctrl+Q", "Quit"},
     {"Drop a file", "Open it"},
 }};
 
-inline constexpr std::array<KeyHelp, 28> kForestKeys = {{
+inline constexpr std::array<KeyHelp, 29> kForestKeys = {{
     {"Left drag", "Orbit; with a tool: paint, Shift: erase"},
     {"Click", "Without a tool: describe the branch and its production"},
     {"Right drag", "Pan; with a tool: orbit"},
     {"Middle drag", "Pan"},
     {"Wheel", "Zoom; speed while flying"},
     {"F", "Frame all"},
+    {"1, 2, 3", "View from the front, the side, the top"},
     {"Tab", "Fly: look with the mouse, move with W A S D Q E, Shift: faster"},
     {"C", "Copy the camera as text"},
     {"B", "Brush"},
@@ -70,7 +73,7 @@ inline constexpr std::array<KeyHelp, 28> kForestKeys = {{
     {"X", "Eraser"},
     {"PageUp", "Larger brush; without a tool: next year"},
     {"PageDown", "Smaller brush; without a tool: previous year"},
-    {"Ctrl+Z", "Undo"},
+    {"Ctrl+Z", "Undo a stroke or a change of settings"},
     {"Ctrl+Y", "Redo"},
     {"Ctrl+S", "Save painted trees in the scene file"},
     {"Space", "Play or pause the years"},
@@ -82,7 +85,7 @@ inline constexpr std::array<KeyHelp, 28> kForestKeys = {{
     {"P", "Save a picture (PNG) in the current folder"},
     {"H, A", "Panels, statistics"},
     {"F1", "Keys"},
-    {"Esc", "Put the tool away, close the keys, stop flying"},
+    {"Esc", "Cancel what is being made; put the tool away, close the keys, stop flying"},
     {"Ctrl+Q", "Quit"},
     {"Drop a file", "Open it: a scene or a grammar"},
 }};

@@ -4,6 +4,7 @@
 #include "runtime/pipeline/instancing_choice.h"
 #include "runtime/pipeline/step.h"
 #include "runtime/pipeline/stopwatch.h"
+#include "viewer/app/daylight.h"
 #include "viewer/app/square_source.h"
 
 #include <fmt/format.h>
@@ -26,6 +27,7 @@ Outcome<void> make_model(const ViewOptions& options,
                          const Project& project,
                          ForestDocument& document) {
     Step step(project);
+    project.begin(LongStep::Mesh);
     MeshOptions mesh = options.mesh;
     mesh.threads = project.threads;
     mesh.max_bytes = project.limits.max_bytes;
@@ -294,14 +296,16 @@ double default_visibility(const ForestDocument& document) {
     return std::max(kMin, kDiagonals * std::hypot(region.width, region.depth) / kMetresPerKm);
 }
 
-Light forest_light(const ForestDocument& document, std::optional<double> visibility) {
+Light forest_light(const ForestDocument& document,
+                   std::optional<double> visibility,
+                   const SceneLight& changes) {
     // Koschmieder 1924: at the limit of visibility 2 % of the contrast is left.
     constexpr double kContrastLoss = 3.912; // -ln 0.02
     Light light;
     light.extinction = static_cast<float>(
         kContrastLoss / (kMetresPerKm * visibility.value_or(default_visibility(document))));
     light.exposure = 0.68F;
-    return light;
+    return daylight_of(replaced(document.scene.light, changes), light);
 }
 
 } // namespace lsys::view

@@ -59,7 +59,10 @@ make_unpainted_forest(const ViewOptions& options,
 /// Default visibility in a forest, km: in proportion to its size, so that far trees keep their
 /// contrast in forests of any size; kStreamedVisibility in a streamed forest.
 [[nodiscard]] double default_visibility(const ForestDocument& document);
-/// Light of a forest. `visibility`: km, above 0; empty: default_visibility().
-[[nodiscard]] Light forest_light(const ForestDocument& document, std::optional<double> visibility);
+/// Light of a forest. `visibility`: km, above 0; empty: default_visibility(). `changes`: in place of
+/// the scene's light.
+[[nodiscard]] Light forest_light(const ForestDocument& document,
+                                 std::optional<double> visibility,
+                                 const SceneLight& changes);
 
 } // namespace lsys::view

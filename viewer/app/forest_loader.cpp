@@ -10,7 +10,9 @@
 
 namespace lsys::view {
 
-ForestOutcome make_forest(const ForestRequest& request, const std::atomic<bool>& cancelled) {
+ForestOutcome make_forest(const ForestRequest& request,
+                          const std::atomic<bool>& cancelled,
+                          MakingProgress& progress) {
     ForestOutcome outcome;
     outcome.request = request;
     outcome.files = request.options.files;
@@ -19,10 +21,11 @@ ForestOutcome make_forest(const ForestRequest& request, const std::atomic<bool>&
     if (known != nullptr) {
         outcome.files = known->files;
     }
-    const Project project{record_files(make_file_host(&cancelled), outcome.files),
-                          request.options.run.limits,
-                          request.options.run.threads,
-                          {}};
+    Project project{record_files(make_file_host(&cancelled), outcome.files),
+                    request.options.run.limits,
+                    request.options.run.threads,
+                    {}};
+    progress.follow(project.host);
     const Stopwatch making;
     const auto work = [&] {
         auto unpainted = make_unpainted_forest(request.options, request.edits, known, project);

@@ -4,6 +4,7 @@
 
 #include "viewer/app/forest_document.h"
 #include "viewer/app/latest_request_worker.h"
+#include "viewer/app/making_progress.h"
 
 #include <functional>
 #include <memory>
@@ -30,7 +31,8 @@ struct ForestOutcome {
 };
 
 [[nodiscard]] ForestOutcome make_forest(const ForestRequest& request,
-                                        const std::atomic<bool>& cancelled);
+                                        const std::atomic<bool>& cancelled,
+                                        MakingProgress& progress);
 
 using ForestLoader = LatestRequestWorker<ForestRequest, ForestOutcome>;
 

@@ -358,10 +358,17 @@ void draw_look(ForestView& view) {
     ImGui::Checkbox("Wind", &settings.windy);
     draw_wind(settings.wind);
     if (view.document() != nullptr) {
+        if (const std::optional<float> season = view.document()->scene.species.front().season) {
+            draw_edit("Season", *season, settings.edits.season, [](float& value) {
+                return ImGui::SliderFloat("##value", &value, 0.0F, 1.0F, "%.2f",
+                                          ImGuiSliderFlags_AlwaysClamp);
+            });
+        }
+        draw_sun(view.document()->scene.light, settings.light);
         edit_length("Visibility", default_visibility(*view.document()), settings.visibility, 0.01,
                     1e6, "%.3g km");
     }
-    constexpr std::uint64_t kMin = 0;
+    constexpr std::uint64_t kMin = 50'000; // with fewer, impostors of near trees would show
     constexpr std::uint64_t kMax = 20'000'000;
     ImGui::SliderScalar("Max triangles", ImGuiDataType_U64, &settings.max_triangles, &kMin, &kMax,
                         nullptr, ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_AlwaysClamp);

@@ -215,7 +215,7 @@ ExitStatus take_forest_pictures(const ViewOptions& options,
         });
     };
     Frame frame = frame_of(options, camera);
-    frame.light = forest_light(document, options.visibility);
+    frame.light = forest_light(document, options.visibility, options.light);
     const ExitStatus status =
         take_series(options, frame, renderer, console, prepare, after, series);
     return status != ExitStatus::Ok || options.stats.empty()

@@ -37,6 +37,7 @@ ForestViewSettings first_forest_settings(const ViewOptions& options) {
     settings.wind = options.wind.value_or(Wind{{5.0F, 0.0F, 0.0F}, 0.5F});
     settings.max_triangles = options.max_triangles;
     settings.visibility = options.visibility;
+    settings.light = options.light;
     return settings;
 }
 
@@ -68,7 +69,12 @@ ForestView::ForestView(const ViewOptions& options,
                        Renderer& renderer,
                        std::function<void()> wake)
     : View(options, console, renderer, std::move(wake)), settings(first_forest_settings(options)),
-      painting_(renderer), plays_next_(options.grow), loader_(make_forest, wake_),
+      painting_(renderer), plays_next_(options.grow), history_(settings),
+      loader_(
+          [this](const ForestRequest& request, const std::atomic<bool>& cancelled) {
+              return make_forest(request, cancelled, progress_);
+          },
+          wake_),
       watch_(FileWatch::Options{},
              [this](const std::vector<std::string>& files, SteadyClock::time_point changed_at) {
                  files_changed(files, changed_at);
@@ -142,8 +148,9 @@ bool ForestView::update() {
     has_news = take_picked() || has_news;
     show_colours();
     if (!has_all_impostors_ && document_ != nullptr) {
+        const bool had_stand_ins = renderer_->has_stand_ins();
         has_all_impostors_ = renderer_->bake_impostors(kBakeTime);
-        changed_ = changed_ || has_all_impostors_;
+        changed_ = changed_ || has_all_impostors_ || renderer_->has_stand_ins() != had_stand_ins;
     }
     grow();
     if (document_ != nullptr) {
@@ -222,6 +229,8 @@ void ForestView::swap(ForestOutcome outcome) {
         return;
     }
     document_ = document;
+    shown_options_ = outcome.request.options;
+    shown_edits_ = outcome.request.edits;
     if (document_->squares != nullptr) {
         streamer_ = std::make_unique<ForestStreamer>(
             *document_, options_.stream_bytes, streaming_threads(options_.run.threads), wake_);
@@ -232,6 +241,9 @@ void ForestView::swap(ForestOutcome outcome) {
     const bool is_other = before == nullptr || before->files.front() != document->files.front();
     if (is_other) {
         painting_.clear();
+        steps_.clear();
+        undone_.clear();
+        history_ = EditHistory<ForestEdits>(settings);
     }
     has_all_impostors_ = false;
     if (std::exchange(frame_next_, false)) {
@@ -309,7 +321,7 @@ bool ForestView::draw(std::uint32_t width, std::uint32_t height) {
         frame.time = seconds_since(start_);
     }
     if (document_ != nullptr) {
-        frame.light = forest_light(*document_, settings.visibility);
+        frame.light = forest_light(*document_, settings.visibility, settings.light);
     }
     const bool moves = settings.windy || settings.plays || grown_ || used_tool_ ||
                        (frame_ && !(frame_->camera == frame.camera));
@@ -375,7 +387,7 @@ void ForestView::take_moment() {
     document_->grown.forest.trees = std::move(film_moment->trees);
     grown_ = film_moment->moment;
     ++stats_.moments;
-    renderer_->show_trees();
+    renderer_->update_trees();
     static_cast<void>(painting_.set_document(document_));
     has_all_impostors_ = false;
     changed_ = true;
@@ -477,6 +489,7 @@ void ForestView::open(const std::string& file) {
     use_other_file(options_, file);
     settings.edits = {};
     settings.visibility.reset();
+    settings.light = {};
     settings.plays = false;
     grown_.reset();
     frame_next_ = true;
@@ -495,6 +508,14 @@ void ForestView::reload() {
 void ForestView::frame_all() {
     settings.camera = streamer_ != nullptr ? first_view(*document_, aspect_)
                                            : framing(settings.camera, renderer_->bounds(), aspect_);
+}
+
+void ForestView::show_from(StandardView view) {
+    if (streamer_ == nullptr) {
+        View::show_from(view);
+    } else {
+        settings.camera = seen_from(view, settings.camera); // the forest is larger than any view
+    }
 }
 
 std::optional<glm::dvec3> ForestView::ground_at(const glm::vec2& place) {
@@ -559,28 +580,52 @@ std::string ForestView::painted_text(const char* what) const {
 void ForestView::end_stroke() {
     begins_stroke_ = false;
     if (std::exchange(has_stroke_, false)) {
+        add_step(StepKind::Painting);
         set_note(painted_text(""));
     }
 }
 
-void ForestView::undo() {
-    if (!painting_.can_undo()) {
-        set_note("nothing to undo");
-        return;
+void ForestView::add_step(StepKind kind) {
+    steps_.push_back(kind);
+    undone_.clear();
+}
+
+void ForestView::record_edits() {
+    if (!settings.plays && history_.record(settings)) {
+        add_step(StepKind::Settings);
     }
-    painting_.undo();
+}
+
+bool ForestView::move_step(std::vector<StepKind>& from, std::vector<StepKind>& to, bool redoes) {
+    if (from.empty()) {
+        return false;
+    }
+    const StepKind kind = from.back();
+    from.pop_back();
+    to.push_back(kind);
+    if (kind == StepKind::Settings) {
+        settings.plays = false;
+        static_cast<ForestEdits&>(settings) = redoes ? history_.redo() : history_.undo();
+        return true;
+    }
+    redoes ? painting_.redo() : painting_.undo();
     changed_ = true;
-    set_note(painted_text("undo: "));
+    set_note(painted_text(redoes ? "redo: " : "undo: "));
+    return true;
+}
+
+void ForestView::undo() {
+    record_edits();
+    if (!move_step(steps_, undone_, false)) {
+        set_note("Nothing to undo");
+    }
 }
 
 void ForestView::redo() {
-    if (!painting_.can_redo()) {
-        set_note("nothing to redo");
-        return;
+    record_edits();
+    if (!move_step(undone_, steps_, true)) {
+        set_note("Nothing to redo");
     }
-    painting_.redo();
-    changed_ = true;
-    set_note(painted_text("redo: "));
 }
 
 void ForestView::save() {
@@ -610,6 +655,28 @@ void ForestView::save() {
                          is_doubtful ? "; but erased trees are saved by number, and the placement "
                                        "in the file may give these numbers to other trees"
                                      : ""));
+}
+
+std::optional<MakingState> ForestView::making() const {
+    const std::optional<SteadyClock::duration> time = loader_.running_time();
+    return time && *time >= kProgressDelay ? std::optional(progress_.state()) : std::nullopt;
+}
+
+void ForestView::cancel_making() {
+    loader_.cancel();
+    if (document_ == nullptr) {
+        set_note("Cancelled: no forest is shown");
+        return;
+    }
+    if (document_->files.front() != options_.file) {
+        options_ = shown_options_;
+        files_ = document_->files;
+        frame_next_ = false;
+        watch_files();
+    }
+    settings.edits = shown_edits_;
+    requested_ = settings.edits;
+    set_note("Cancelled: the last forest is shown");
 }
 
 bool ForestView::is_busy() const {

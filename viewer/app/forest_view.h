@@ -3,6 +3,7 @@
 // grammars and their includes; forests are made on another thread and swapped between two frames.
 #pragma once
 
+#include "viewer/app/edit_history.h"
 #include "viewer/app/file_watch.h"
 #include "viewer/app/forest_film.h"
 #include "viewer/app/forest_loader.h"
@@ -24,11 +25,10 @@ namespace lsys::view {
 
 inline constexpr float kMaxBrush = 500.0F; // m, radius
 
-/// Settings of the user.
-struct ForestViewSettings {
+/// Settings of the user that undo() takes back.
+struct ForestEdits {
     SceneOverrides edits; // applied after those of the command line; a change makes a new forest
 
-    Camera camera;
     bool shadows = true;
     bool antialiasing = true;
     bool wireframe = false;
@@ -36,8 +36,15 @@ struct ForestViewSettings {
     bool windy = false; // wind is on
     Wind wind;
     std::optional<double> visibility; // km; empty: default_visibility()
+    SceneLight light;                 // in place of the scene's
     std::uint64_t max_triangles = 1'500'000;
 
+    friend bool operator==(const ForestEdits&, const ForestEdits&) = default;
+};
+
+/// Settings of the user.
+struct ForestViewSettings : ForestEdits {
+    Camera camera;
     bool plays = false;
     float years_per_second = 5.0F;
 
@@ -86,8 +93,14 @@ public:
     bool draw(std::uint32_t width, std::uint32_t height) override;
     void picture_shown(double draw_seconds) override;
     [[nodiscard]] bool is_busy() const override;
+    [[nodiscard]] std::optional<MakingState> making() const override;
+    void cancel_making() override;
+    void record_edits() override;
+    void undo() override;
+    void redo() override;
     void reload() override;
     void frame_all() override;
+    void show_from(StandardView view) override;
     [[nodiscard]] const std::string& file() const override { return options_.file; }
     [[nodiscard]] Camera& camera() override { return settings.camera; }
     [[nodiscard]] bool is_unsaved() const override { return painting_.is_unsaved(); }
@@ -110,8 +123,6 @@ public:
     void apply_tool(const glm::vec2& place, bool begins, bool erases);
     /// Ends a stroke and reports its changes.
     void end_stroke();
-    void undo();
-    void redo();
     /// Saves painted trees in the file of the scene shown and reports the result. If a scene with
     /// errors was opened later, its file is not written.
     void save();
@@ -135,6 +146,12 @@ protected:
     [[nodiscard]] PickRequest request_for(const Picked& picked) const override;
 
 private:
+    /// What a step of undo() changed.
+    enum class StepKind : std::uint8_t { Settings, Painting };
+
+    void add_step(StepKind kind);
+    /// Takes back a step, or repeats one: moves the last step of `from` to `to`.
+    bool move_step(std::vector<StepKind>& from, std::vector<StepKind>& to, bool redoes);
     void take_outcome(ForestOutcome outcome);
     void swap(ForestOutcome outcome);
     void show_outline();
@@ -167,6 +184,9 @@ private:
     BranchColours shown_colours_ = BranchColours::Natural;
     std::vector<LegendEntry> legend_;
     std::optional<SceneOverrides> requested_;
+    EditHistory<ForestEdits> history_;
+    std::vector<StepKind> steps_;  // oldest first
+    std::vector<StepKind> undone_; // first undone first
     std::uint32_t default_years_ = 0;
     std::uint32_t unedited_years_ = 0;   // years of the forest if the user does not edit them
     bool is_other_placement_ = false;    // edits or options change the placement of the scene file
@@ -188,7 +208,10 @@ private:
     ForestViewStats stats_;
 
     std::mutex saved_mutex_;
-    std::string saved_text_; // text last written by this view
+    std::string saved_text_;     // text last written by this view
+    ViewOptions shown_options_;  // with which document_ was made
+    SceneOverrides shown_edits_; // likewise
+    MakingProgress progress_;
     ForestLoader loader_;
     FileWatch watch_; // last member: it calls the loader
 };

@@ -17,7 +17,7 @@ namespace lsys::view {
 using SteadyClock = std::chrono::steady_clock;
 
 /// `Request` has the fields `changed_at`, the time of the change that caused it, and `is_repeat`,
-/// whether it is a repetition because files changed.
+/// whether it repeats the last request because files changed.
 template <typename Request, typename Outcome>
 class LatestRequestWorker {
 public:
@@ -57,6 +57,19 @@ public:
             enqueue(std::move(request));
         }
     }
+    /// Cancels the running request and drops a pending one: no outcome follows, unless it is made
+    /// already. repeat() then repeats the last request that was not cancelled, if any.
+    void cancel() {
+        const std::lock_guard lock(mutex_);
+        if (finished_) {
+            last_ = finished_;
+        }
+        // The changed files are still to be read.
+        owes_repeat_ = owes_repeat_ || (pending_ && pending_->is_repeat) ||
+                       (is_running_ && is_running_repeat_);
+        pending_.reset();
+        cancelled_ = is_running_;
+    }
     /// Takes the last outcome. Cancels the running request if it has run long and a newer one is
     /// pending, so that a dragged slider shows intermediate results.
     [[nodiscard]] std::optional<Outcome> take() {
@@ -64,7 +77,14 @@ public:
         if (pending_ && is_running_ && SteadyClock::now() - began_ > kCancelDelay) {
             cancelled_ = true;
         }
+        owes_repeat_ = owes_repeat_ && !(outcome_ && is_running_repeat_);
         return std::exchange(outcome_, std::nullopt);
+    }
+    /// How long the running request has run; empty: none runs, or it is cancelled.
+    [[nodiscard]] std::optional<SteadyClock::duration> running_time() const {
+        const std::lock_guard lock(mutex_);
+        return is_running_ && !cancelled_ ? std::optional(SteadyClock::now() - began_)
+                                          : std::nullopt;
     }
     /// Whether a request is pending or running, or an outcome is not taken yet.
     [[nodiscard]] bool is_busy() const {
@@ -75,7 +95,8 @@ public:
 private:
     void enqueue(Request request) {
         // `is_repeat` stays set until an outcome that was made with it is taken.
-        request.is_repeat = request.is_repeat || (pending_ && pending_->is_repeat) ||
+        request.is_repeat = request.is_repeat || owes_repeat_ ||
+                            (pending_ && pending_->is_repeat) ||
                             (is_running_repeat_ && (is_running_ || outcome_));
         last_ = request;
         pending_ = std::move(request);
@@ -105,6 +126,7 @@ private:
                     continue;
                 }
                 outcome_ = std::move(outcome);
+                finished_ = std::move(request);
                 is_running_ = false;
             }
             done_();
@@ -117,9 +139,11 @@ private:
     std::condition_variable changed_;
     std::optional<Request> pending_;
     std::optional<Request> last_;
+    std::optional<Request> finished_; // the last one that was not cancelled
     std::optional<Outcome> outcome_;
     bool is_running_ = false;
     bool is_running_repeat_ = false; // Request::is_repeat of the running or last request
+    bool owes_repeat_ = false;       // a cancelled request had Request::is_repeat
     bool stops_ = false;
     SteadyClock::time_point began_;
     std::atomic<bool> cancelled_{false};

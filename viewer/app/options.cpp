@@ -96,6 +96,18 @@ void add_picture(CLI::App& app, ViewOptions& options) {
         "diagonal of the ground, at least 10; 100 in a streamed forest)")
         ->type_name("KM")
         ->group("Picture");
+    add_parsed(
+        app, "--sun", options.light.sun, parse_sun,
+        "Place of the sun in degrees: AZIMUTH clockwise from north (-Z), ELEVATION above the "
+        "horizon; or the day of the year, the hour of solar time and the latitude")
+        ->type_name("AZIMUTH,ELEVATION|DAY,HOUR,LATITUDE")
+        ->group("Picture");
+    add_parsed(
+        app, "--turbidity", options.light.turbidity,
+        [](const std::string& text) { return parse_number(text, 2.0F, 10.0F); },
+        "Haze of the sky: 2 very clear, 6 hazy (default 3)")
+        ->type_name("T")
+        ->group("Picture");
     constexpr float kMaxTime = 86'400.0F;
     add_parsed(
         app, "--time", options.time,
@@ -287,8 +299,14 @@ ParsedOptions parse_options(std::span<const std::string> arguments) {
         return *mistake;
     }
     options.file = options.files.front();
+    const std::optional<float> season = std::exchange(options.overrides.season, std::nullopt);
     options.is_forest =
         options.files.size() > 1 || is_scene(options.file) || options.overrides != SceneOverrides{};
+    if (options.is_forest) {
+        options.overrides.season = season;
+    } else if (season) {
+        options.grammar.definitions.push_back({"season", *season}); // of a plant
+    }
     if (options.is_forest && options.gravity) {
         return UsageError{"--gravity bends a plant, not a forest", "leave it out"};
     }
@@ -377,6 +395,7 @@ void use_other_file(ViewOptions& options, const std::string& file) {
     options.camera.clear();
     options.fly_to.clear();
     options.visibility.reset();
+    options.light = {};
 }
 
 } // namespace lsys::view

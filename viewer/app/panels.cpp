@@ -340,10 +340,48 @@ void draw_hint(const View& view, const PanelState& panels, const Area& area) {
     ImGui::End();
 }
 
+void draw_standard_views(View& view) {
+    const auto button = [&view](const char* name, StandardView standard) {
+        if (ImGui::Button(name)) {
+            view.show_from(standard);
+        }
+        ImGui::SameLine();
+    };
+    button("Front (1)", StandardView::Front);
+    button("Side (2)", StandardView::Side);
+    button("Top (3)", StandardView::Top);
+    ImGui::NewLine();
+}
+
+/// Draws what is being made, with a button that cancels it.
+void draw_making(View& view, const Area& area) {
+    const std::optional<MakingState> making = view.making();
+    if (!making) {
+        return;
+    }
+    ImGui::SetNextWindowPos({0.5F * (area.low.x + area.high.x), 48.0F}, ImGuiCond_Always,
+                            {0.5F, 0.0F});
+    ImGui::SetNextWindowBgAlpha(0.85F);
+    if (ImGui::Begin("Making", nullptr, kOverlay | ImGuiWindowFlags_AlwaysAutoResize)) {
+        line(making->text);
+        if (making->fraction) {
+            ImGui::ProgressBar(*making->fraction, {kPanelWidth, 0.0F});
+        }
+        if (ImGui::Button("Cancel (Esc)")) {
+            view.cancel_making();
+        }
+    }
+    ImGui::End();
+}
+
 } // namespace
 
 float panel_width(float scale) {
     return kPanelWidth * scale;
+}
+
+bool is_control_held() {
+    return ImGui::IsAnyItemActive();
 }
 
 void draw_panels(ViewSwitcher& switcher, PanelState& panels, float scale) {
@@ -371,6 +409,7 @@ void draw_panels(ViewSwitcher& switcher, PanelState& panels, float scale) {
             if (ImGui::Button("Frame all")) {
                 switcher.current().frame_all();
             }
+            draw_standard_views(switcher.current());
             if (switcher.plant() != nullptr && !switcher.last_scene().empty() &&
                 ImGui::Button("Back to forest")) {
                 wanted = switcher.last_scene();
@@ -385,6 +424,7 @@ void draw_panels(ViewSwitcher& switcher, PanelState& panels, float scale) {
     draw_hint(switcher.current(), panels, area);
     draw_picked(switcher.current(), area);
     draw_trace(switcher.current(), area, bottom);
+    draw_making(switcher.current(), area);
     if (panels.help) {
         draw_help(switcher.forest() != nullptr ? std::span<const KeyHelp>(kForestKeys)
                                                : std::span<const KeyHelp>(kPlantKeys),

@@ -10,6 +10,9 @@ namespace lsys::view {
 /// Width of the panel on the left, pixels; the picture is beside it.
 [[nodiscard]] float panel_width(float scale);
 
+/// Whether a control of the panels is held or edited.
+[[nodiscard]] bool is_control_held();
+
 /// Call between Window::begin_panels() and Window::present(). `scale`: of text.
 void draw_panels(ViewSwitcher& switcher, PanelState& panels, float scale);
 

@@ -4,6 +4,7 @@
 #include "grammar/base/hash.h"
 #include "runtime/meshing/texture.h"
 #include "runtime/program/files.h"
+#include "viewer/app/daylight.h"
 
 #include <fmt/format.h>
 
@@ -76,6 +77,7 @@ Frame frame_of(const ViewOptions& options, const Camera& camera) {
     frame.wind = options.wind.value_or(Wind{});
     frame.samples = options.samples;
     frame.max_triangles = options.max_triangles;
+    frame.light = daylight_of(options.light, frame.light);
     return frame;
 }
 

@@ -13,15 +13,17 @@ namespace lsys::view {
 
 namespace {
 
-LoadOutcome make(const LoadRequest& request, const std::atomic<bool>& cancelled) {
+LoadOutcome
+make(const LoadRequest& request, const std::atomic<bool>& cancelled, MakingProgress& progress) {
     LoadOutcome outcome;
     outcome.options = request.options;
     outcome.changed_at = request.changed_at;
     outcome.files = {request.options.file};
-    const Project project{record_files(make_file_host(&cancelled), outcome.files),
-                          request.options.run.limits,
-                          request.options.run.threads,
-                          {}};
+    Project project{record_files(make_file_host(&cancelled), outcome.files),
+                    request.options.run.limits,
+                    request.options.run.threads,
+                    {}};
+    progress.follow(project.host);
     const Stopwatch making;
     const auto work = [&] {
         auto made = make_plant_document(request.options, project);
@@ -40,6 +42,11 @@ LoadOutcome make(const LoadRequest& request, const std::atomic<bool>& cancelled)
 
 } // namespace
 
-PlantLoader::PlantLoader(std::function<void()> done) : worker_(make, std::move(done)) {}
+PlantLoader::PlantLoader(std::function<void()> done)
+    : worker_(
+          [this](const LoadRequest& request, const std::atomic<bool>& cancelled) {
+              return make(request, cancelled, progress_);
+          },
+          std::move(done)) {}
 
 } // namespace lsys::view

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "viewer/app/latest_request_worker.h"
+#include "viewer/app/making_progress.h"
 #include "viewer/app/options.h"
 #include "viewer/app/plant_document.h"
 
@@ -41,9 +42,15 @@ public:
     void repeat(SteadyClock::time_point changed_at) { worker_.repeat(changed_at); }
     [[nodiscard]] std::optional<LoadOutcome> take() { return worker_.take(); }
     [[nodiscard]] bool is_busy() const { return worker_.is_busy(); }
+    void cancel() { worker_.cancel(); }
+    [[nodiscard]] std::optional<SteadyClock::duration> running_time() const {
+        return worker_.running_time();
+    }
+    [[nodiscard]] const MakingProgress& progress() const { return progress_; }
 
 private:
-    LatestRequestWorker<LoadRequest, LoadOutcome> worker_;
+    MakingProgress progress_;
+    LatestRequestWorker<LoadRequest, LoadOutcome> worker_; // last member: it uses progress_
 };
 
 } // namespace lsys::view

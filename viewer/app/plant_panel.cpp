@@ -2,6 +2,7 @@
 #include "viewer/app/plant_panel.h"
 
 #include "grammar/base/counted_text.h"
+#include "runtime/pipeline/constant_text.h"
 #include "runtime/pipeline/setting_controls.h"
 #include "viewer/app/widgets.h"
 
@@ -89,7 +90,8 @@ std::vector<Definition>::iterator find_definition(PlantViewSettings& settings,
                         [&name](const Definition& one) { return one.name == name; });
 }
 
-void draw_constant(PlantViewSettings& settings, const Constant& constant, const std::string& name) {
+void draw_constant(PlantViewSettings& settings, const Constant& constant, const Grammar& grammar) {
+    const std::string name(grammar.names.text(constant.name));
     const auto set = find_definition(settings, name);
     const bool is_set = set != settings.definitions.end();
     float value = is_set ? set->value : constant.value;
@@ -117,6 +119,7 @@ void draw_constant(PlantViewSettings& settings, const Constant& constant, const 
         ImGui::SameLine();
     }
     line(name);
+    draw_tooltip(describe_constant(constant, grammar));
     if (changed && std::isfinite(value)) {
         if (is_set) {
             set->value = value;
@@ -140,8 +143,7 @@ void draw_constants(PlantView& view) {
     for (const bool params : {true, false}) {
         for (const Constant& constant : program.constants) {
             if (constant.is_param == params) {
-                draw_constant(view.settings, constant,
-                              std::string(document->grammar.names.text(constant.name)));
+                draw_constant(view.settings, constant, document->grammar);
             }
         }
     }
@@ -208,6 +210,8 @@ void draw_setting(PlantViewSettings& settings, const SettingControl& control) {
         ImGui::SameLine();
     }
     line(key);
+    draw_tooltip(
+        fmt::format("#set {}{}{}", key, control.accepts.empty() ? "" : ": ", control.accepts));
     ImGui::PopID();
     if (is_reset) {
         settings.set_values.erase(set);
@@ -230,8 +234,50 @@ void draw_settings(PlantView& view) {
 }
 
 void draw_writing(PlantView& view) {
-    if (view.has_changed_values() && ImGui::Button("Write to file")) {
-        view.write_values();
+    if (ImGui::Button("Undo")) {
+        view.undo();
+    }
+    ImGui::SameLine();
+    if (ImGui::Button("Redo")) {
+        view.redo();
+    }
+    if (view.has_changed_values()) {
+        ImGui::SameLine();
+        if (ImGui::Button("Write to file")) {
+            view.write_values();
+        }
+    }
+}
+
+void draw_export(PlantView& view) {
+    if (!ImGui::CollapsingHeader("Export")) {
+        return;
+    }
+    ExportSettings& output = view.settings.output;
+    edit_text("File", output.file);
+    draw_tooltip("The extension chooses the format: .glb, .gltf, .obj, .usda, .usdz, .ply, .stl, "
+                 ".off, .svg");
+    if (ImGui::BeginCombo("For", output.preset.empty() ? "any program" : output.preset.c_str())) {
+        if (ImGui::Selectable("any program", output.preset.empty())) {
+            output.preset.clear();
+        }
+        for (const std::string& preset : export_presets()) {
+            if (ImGui::Selectable(preset.c_str(), preset == output.preset)) {
+                output.preset = preset;
+            }
+        }
+        ImGui::EndCombo();
+    }
+    auto lods = static_cast<int>(output.lods);
+    if (ImGui::SliderInt("Levels", &lods, 0, 12)) {
+        output.lods = static_cast<std::uint32_t>(lods);
+    }
+    draw_tooltip(
+        "Levels of detail in the file; 0: only the plant shown, or what the preset writes");
+    std::error_code ignored;
+    const bool exists = std::filesystem::exists(output.file, ignored);
+    if (ImGui::Button(exists ? "Replace the file" : "Export")) {
+        view.export_shown();
     }
 }
 
@@ -252,6 +298,7 @@ void draw_look(PlantViewSettings& settings) {
     ImGui::Checkbox("Ground", &settings.ground);
     ImGui::SameLine();
     ImGui::Checkbox("Antialiasing", &settings.antialiasing);
+    draw_sun({}, settings.light);
     draw_camera(settings.camera);
 }
 
@@ -327,6 +374,7 @@ void draw_plant_panel(PlantView& view) {
     draw_mesh(view.settings,
               view.document() == nullptr ? 0.0F : view.document()->plant.skeleton.leaf_droop);
     draw_bending(view.settings);
+    draw_export(view);
     ImGui::PopItemWidth();
 }
 

@@ -4,27 +4,34 @@
 #include "runtime/pipeline/stopwatch.h"
 #include "runtime/program/files.h"
 #include "runtime/program/host.h"
+#include "viewer/app/daylight.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <utility>
 
 namespace lsys::view {
 
 namespace {
 
-/// Whether both settings make the same plant.
-bool makes_same_plant(const PlantViewSettings& a, const PlantViewSettings& b) {
-    return a.file == b.file && a.generations == b.generations && a.seed == b.seed &&
-           a.mesh == b.mesh && a.definitions == b.definitions && a.set_values == b.set_values;
+/// Whether both edits of one file make the same plant.
+bool makes_same_plant(const PlantEdits& a, const PlantEdits& b) {
+    return a.generations == b.generations && a.seed == b.seed && a.mesh == b.mesh &&
+           a.definitions == b.definitions && a.set_values == b.set_values;
 }
 
 bool is_same(const Bending& a, const Bending& b) {
     return a.stiffness == b.stiffness && a.forces.gravity == b.forces.gravity &&
            a.forces.wind == b.forces.wind && a.forces.damping == b.forces.damping &&
            a.forces.load == b.forces.load;
+}
+
+/// A file in the current folder, named like the grammar.
+std::string default_output(const std::string& file) {
+    return std::filesystem::path(file).stem().string() + ".glb";
 }
 
 PlantViewSettings first_plant_settings(const ViewOptions& options) {
@@ -40,23 +47,31 @@ PlantViewSettings first_plant_settings(const ViewOptions& options) {
     settings.shadows = options.shadows;
     settings.ground = options.ground;
     settings.antialiasing = options.samples > 1;
+    settings.light = options.light;
     settings.simulates = options.gravity || options.wind;
     if (settings.simulates) {
         settings.bending.forces.gravity = options.gravity.value_or(0.0F);
     }
     settings.bending.forces.wind = options.wind.value_or(Wind{});
     settings.bending.forces.threads = options.run.threads;
+    settings.output.file = default_output(options.file);
     return settings;
 }
 
 } // namespace
+
+bool operator==(const PlantEdits& a, const PlantEdits& b) {
+    return makes_same_plant(a, b) && a.style == b.style && a.lines == b.lines &&
+           a.shadows == b.shadows && a.ground == b.ground && a.antialiasing == b.antialiasing &&
+           a.light == b.light && a.simulates == b.simulates && is_same(a.bending, b.bending);
+}
 
 PlantView::PlantView(const ViewOptions& options,
                      const Console& console,
                      Renderer& renderer,
                      std::function<void()> wake)
     : View(options, console, renderer, std::move(wake)), settings(first_plant_settings(options)),
-      plays_next_(options.grow), loader_(wake_),
+      history_(settings), plays_next_(options.grow), loader_(wake_),
       watch_(FileWatch::Options{},
              [this](const std::vector<std::string>& files, SteadyClock::time_point changed_at) {
                  const auto shaders =
@@ -114,10 +129,17 @@ bool PlantView::update() {
         requested_.reset(); // moments of growth do not bend, so request the plant itself
     }
     has_news = check_standing() || has_news;
+    if (exporter_ != nullptr) {
+        if (const std::optional<ExportOutcome> outcome = exporter_->take()) {
+            set_note(outcome->text);
+            has_news = true;
+        }
+    }
     if (shown_lines_ != settings.lines) {
         show_lines();
     }
-    if (!requested_ || !makes_same_plant(*requested_, settings)) {
+    if (!requested_ || requested_->file != settings.file ||
+        !makes_same_plant(*requested_, settings)) {
         requested_ = settings;
         loader_.request(options_with_settings(), SteadyClock::now());
     }
@@ -158,6 +180,7 @@ void PlantView::drop_unknown_definitions() {
     if (std::erase_if(settings.definitions, is_unknown) != 0 && requested_) {
         requested_->definitions = settings.definitions; // same plant
     }
+    std::erase_if(history_.current().definitions, is_unknown);
 }
 
 void PlantView::swap(LoadOutcome outcome) {
@@ -186,6 +209,8 @@ void PlantView::swap(LoadOutcome outcome) {
     if (std::exchange(is_new_file_, false)) {
         settings.bending.forces.damping = document_->grammar.bytecode.settings.damping;
     }
+    history_.current().bending.forces.load = settings.bending.forces.load;
+    history_.current().bending.forces.damping = settings.bending.forces.damping;
     stats_.upload_seconds = seconds_since(start);
     stats_.make_seconds = outcome.seconds;
     stats_.swap_seconds = seconds_since(outcome.changed_at);
@@ -301,6 +326,32 @@ void PlantView::grow() {
         // The growth thread makes this generation, so the loader must not make it.
         requested_->generations = generation;
     }
+}
+
+void PlantView::record_edits() {
+    if (!settings.plays) {
+        history_.record(settings);
+    }
+}
+
+void PlantView::undo() {
+    record_edits();
+    if (!history_.can_undo()) {
+        set_note("Nothing to undo");
+        return;
+    }
+    settings.plays = false;
+    static_cast<PlantEdits&>(settings) = history_.undo();
+}
+
+void PlantView::redo() {
+    record_edits();
+    if (!history_.can_redo()) {
+        set_note("Nothing to redo");
+        return;
+    }
+    settings.plays = false;
+    static_cast<PlantEdits&>(settings) = history_.redo();
 }
 
 void PlantView::play_or_pause() {
@@ -488,6 +539,7 @@ bool PlantView::draw(std::uint32_t width, std::uint32_t height) {
     frame.ground = settings.ground;
     frame.samples = settings.antialiasing ? 4 : 1;
     frame.style = settings.style;
+    frame.light = daylight_of(settings.light, Light{});
     if (shows_growth_) {
         frame.ground_disc = film_ground_;
     }
@@ -515,6 +567,7 @@ void PlantView::picture_shown(double draw_seconds) {
 void PlantView::open(const std::string& file) {
     use_other_file(options_, file);
     settings.file = file;
+    settings.output.file = default_output(file);
     settings.definitions.clear();
     settings.set_values.clear();
     settings.generations.reset();
@@ -526,6 +579,7 @@ void PlantView::open(const std::string& file) {
     is_new_file_ = true;
     files_ = {file};
     requested_.reset();
+    history_ = EditHistory<PlantEdits>(settings);
     watch_files();
 }
 
@@ -540,8 +594,65 @@ void PlantView::frame_all() {
     settings.camera = framing(settings.camera, renderer_->bounds(), aspect_);
 }
 
+void PlantView::export_shown() {
+    if (document_ == nullptr || shows_growth_) {
+        set_note(document_ == nullptr
+                     ? "No plant to export yet"
+                     : "Stop the growth at a whole generation to export the plant");
+        return;
+    }
+    if (exporter_ == nullptr) {
+        exporter_ = std::make_unique<PlantExporter>(export_plant, wake_);
+    }
+    exported_file_ = settings.output.file;
+    exporter_->request(
+        {document_, shown_outcome_.options, settings.output, SteadyClock::now(), false});
+}
+
+std::optional<MakingState> PlantView::making() const {
+    if (exporter_ != nullptr) {
+        const std::optional<SteadyClock::duration> time = exporter_->running_time();
+        if (time && *time >= kProgressDelay) {
+            return MakingState{"Writing " + exported_file_, std::nullopt};
+        }
+    }
+    const std::optional<SteadyClock::duration> time = loader_.running_time();
+    return time && *time >= kProgressDelay ? std::optional(loader_.progress().state())
+                                           : std::nullopt;
+}
+
+void PlantView::cancel_making() {
+    if (exporter_ != nullptr && exporter_->running_time()) {
+        exporter_->cancel();
+        set_note("Cancelled: no file is written");
+        return;
+    }
+    loader_.cancel();
+    if (document_ == nullptr) {
+        set_note("Cancelled: no plant is shown");
+        return;
+    }
+    const ViewOptions& shown = shown_outcome_.options;
+    if (settings.file != shown.file) {
+        use_other_file(options_, shown.file);
+        settings.file = shown.file;
+        files_ = shown_outcome_.files;
+        frame_next_ = false;
+        is_new_file_ = false;
+        watch_files();
+    }
+    settings.definitions = shown.grammar.optional_definitions;
+    settings.set_values = shown.grammar.settings;
+    settings.generations = shown.grammar.generations;
+    settings.seed = shown.seed;
+    settings.mesh = shown.mesh;
+    requested_ = settings;
+    set_note("Cancelled: the last plant is shown");
+}
+
 bool PlantView::is_busy() const {
     return loader_.is_busy() || settings.plays || motion_ != nullptr || is_picking() ||
+           (exporter_ != nullptr && exporter_->is_busy()) ||
            (checked_bending_ && standing_checker_->is_busy());
 }
 

@@ -4,7 +4,9 @@
 #pragma once
 
 #include "runtime/pipeline/value_edits.h"
+#include "viewer/app/edit_history.h"
 #include "viewer/app/file_watch.h"
+#include "viewer/app/plant_export.h"
 #include "viewer/app/plant_film.h"
 #include "viewer/app/plant_loader.h"
 #include "viewer/app/plant_motion.h"
@@ -20,10 +22,9 @@
 
 namespace lsys::view {
 
-/// Settings of the user.
-struct PlantViewSettings {
+/// Settings of the user that undo() takes back.
+struct PlantEdits {
     // Sources: a change makes a new plant.
-    std::string file;
     std::vector<Definition> definitions; // replace constants of the grammar
     std::vector<SettingText> set_values; // replace `#set` statements of the grammar
     std::optional<std::uint32_t> generations;
@@ -31,18 +32,27 @@ struct PlantViewSettings {
     MeshOptions mesh;
 
     // Appearance.
-    Camera camera;
     PlantStyle style = PlantStyle::Surface;
     LineKind lines = LineKind::None;
     bool shadows = true;
     bool ground = true;
     bool antialiasing = true;
+    SceneLight light; // in place of daylight at a fixed time
 
     bool simulates = false; // gravity and wind move the plant
     Bending bending;
 
+    friend bool operator==(const PlantEdits& a, const PlantEdits& b);
+};
+
+/// Settings of the user.
+struct PlantViewSettings : PlantEdits {
+    std::string file;
+    Camera camera;
     bool plays = false;
     float generations_per_second = 2.0F;
+
+    ExportSettings output;
 };
 
 /// Statistics of the plant shown.
@@ -73,6 +83,11 @@ public:
     bool draw(std::uint32_t width, std::uint32_t height) override;
     void picture_shown(double draw_seconds) override;
     [[nodiscard]] bool is_busy() const override;
+    [[nodiscard]] std::optional<MakingState> making() const override;
+    void cancel_making() override;
+    void record_edits() override;
+    void undo() override;
+    void redo() override;
     void reload() override;
     void frame_all() override;
     [[nodiscard]] const std::string& file() const override { return settings.file; }
@@ -89,6 +104,9 @@ public:
     /// has changed on disk since it was read, values in included files, and values whose plant is
     /// not shown.
     void write_values();
+    /// Writes the plant shown, at rest, to settings.output.file on another thread, and reports the
+    /// result in a note. Refuses moments between generations.
+    void export_shown();
 
     /// Last plant without errors; null: none yet.
     [[nodiscard]] const PlantDocument* document() const { return document_.get(); }
@@ -126,6 +144,7 @@ private:
     PlantViewStats stats_;
 
     std::optional<PlantViewSettings> requested_; // last request
+    EditHistory<PlantEdits> history_;
     LineKind shown_lines_ = LineKind::None;
     SteadyClock::time_point last_growth_;
     double growth_position_ = 0.0; // generations
@@ -142,6 +161,8 @@ private:
     std::optional<Bending> checked_bending_;
     bool warns_of_fall_ = false;
     std::unique_ptr<StandingChecker> standing_checker_; // made by the first simulation
+    std::unique_ptr<PlantExporter> exporter_;           // made by the first export
+    std::string exported_file_;                         // of the last request
     PlantLoader loader_;
     FileWatch watch_; // last member: it calls the loader
 };

@@ -116,7 +116,7 @@ std::shared_ptr<const StreamedTrees> SquareSource::describe(const ForestModel& m
             crown_sums[s] += densities_here[s] * crowns[s];
         }
     }
-    streamed->crown_parts.resize(model.forms.size());
+    streamed->crown_weights.resize(model.forms.size());
     for (std::size_t s = 0; s < crowns.size(); ++s) {
         const std::uint32_t first = model.first_form[s];
         const std::size_t end =
@@ -126,7 +126,8 @@ std::shared_ptr<const StreamedTrees> SquareSource::describe(const ForestModel& m
             trees += counts[form];
         }
         for (std::size_t form = first; form < end; ++form) {
-            streamed->crown_parts[form] = static_cast<float>(crown_sums[s] * counts[form] / trees);
+            streamed->crown_weights[form] =
+                static_cast<float>(crown_sums[s] * counts[form] / trees);
         }
     }
     streamed->cover = [this, crowns = std::move(crowns)](double x, double z) {

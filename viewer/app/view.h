@@ -6,6 +6,7 @@
 #include "grammar/base/outcome.h"
 #include "runtime/pipeline/stopwatch.h"
 #include "runtime/program/console.h"
+#include "viewer/app/making_progress.h"
 #include "viewer/app/options.h"
 #include "viewer/app/picking.h"
 #include "viewer/app/styled_text.h"
@@ -25,6 +26,9 @@ namespace lsys::view {
 constexpr double kMillisecondsPerSecond = 1e3;
 /// Time that a note stays on the screen.
 constexpr std::chrono::seconds kNoteTime{10};
+
+/// Time after which the window shows what is being made.
+constexpr std::chrono::milliseconds kProgressDelay{300};
 
 /// A message in the overlay.
 struct ShownMessage {
@@ -53,10 +57,23 @@ public:
     virtual void picture_shown(double draw_seconds) = 0;
     /// Whether work or motion goes on, so that update() is due soon.
     [[nodiscard]] virtual bool is_busy() const = 0;
+    /// What a thread is making for the picture; empty: nothing, or only for kProgressDelay so far.
+    [[nodiscard]] virtual std::optional<MakingState> making() const = 0;
+    /// Stops what making() returns. The last plant or forest stays, with the settings that made it.
+    virtual void cancel_making() = 0;
+    /// Makes changed settings a step of undo(). Call between two frames while no control is held.
+    virtual void record_edits() = 0;
+    virtual void undo() = 0;
+    virtual void redo() = 0;
     /// Reads all files again.
     virtual void reload() = 0;
     /// Moves the camera to show everything.
     virtual void frame_all() = 0;
+    /// Moves the camera to a standard view of everything.
+    virtual void show_from(StandardView view) {
+        camera() = seen_from(view, camera());
+        frame_all();
+    }
     [[nodiscard]] virtual const std::string& file() const = 0;
     [[nodiscard]] virtual Camera& camera() = 0;
     /// Whether there are unsaved changes.

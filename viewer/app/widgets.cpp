@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "viewer/app/widgets.h"
 
+#include "viewer/app/daylight.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -14,6 +16,20 @@ namespace lsys::view {
 
 void line(const std::string& text) {
     ImGui::TextUnformatted(text.data(), text.data() + text.size());
+}
+
+void draw_tooltip(const std::string& text) {
+    if (ImGui::IsItemHovered()) {
+        ImGui::SetTooltip("%s", text.c_str());
+    }
+}
+
+void edit_text(const char* label, std::string& text) {
+    std::array<char, 1024> bytes{};
+    std::snprintf(bytes.data(), bytes.size(), "%s", text.c_str());
+    if (ImGui::InputText(label, bytes.data(), bytes.size())) {
+        text = bytes.data();
+    }
 }
 
 std::string grouped(std::uint64_t number) {
@@ -41,6 +57,37 @@ void draw_wind(Wind& wind) {
                          speed * std::sin(direction / kDegrees)};
     }
     ImGui::SliderFloat("Gusts", &wind.gust, 0.0F, 2.0F, "%.2f");
+}
+
+void draw_sun(const SceneLight& own, SceneLight& light) {
+    const SceneLight shown = replaced(own, light);
+    SunPlace sun = shown.sun.value_or(sun_of(Light{}));
+    double turbidity = shown.turbidity.value_or(kDefaultTurbidity);
+    constexpr double kZero = 0.0;
+    constexpr double kTurn = 360.0;
+    constexpr double kLowest = -6.0; // civil dusk
+    constexpr double kHighest = 90.0;
+    constexpr double kClear = 2.0;
+    constexpr double kHazy = 10.0;
+    bool moved = ImGui::SliderScalar("Sun azimuth", ImGuiDataType_Double, &sun.azimuth, &kZero,
+                                     &kTurn, "%.0f deg", ImGuiSliderFlags_AlwaysClamp);
+    draw_tooltip("Clockwise from north, which is -Z");
+    moved |= ImGui::SliderScalar("Sun elevation", ImGuiDataType_Double, &sun.elevation, &kLowest,
+                                 &kHighest, "%.0f deg", ImGuiSliderFlags_AlwaysClamp);
+    draw_tooltip("Above the horizon");
+    if (moved) {
+        light.sun = sun;
+    }
+    if (ImGui::SliderScalar("Turbidity", ImGuiDataType_Double, &turbidity, &kClear, &kHazy, "%.1f",
+                            ImGuiSliderFlags_AlwaysClamp)) {
+        light.turbidity = turbidity;
+    }
+    draw_tooltip("Haze of the sky: 2 very clear, 6 hazy");
+    if (light.sun || light.turbidity) {
+        if (ImGui::SmallButton("Reset light")) {
+            light = {};
+        }
+    }
 }
 
 void draw_camera(Camera& camera) {

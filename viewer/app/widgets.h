@@ -3,6 +3,7 @@
 #pragma once
 
 #include "runtime/physics/physics.h"
+#include "runtime/scene/scene.h"
 #include "viewer/scene/camera.h"
 
 #include <cstdint>
@@ -14,9 +15,15 @@ inline constexpr float kLabelWidth = 110.0F;
 
 /// Draws a line of text.
 void line(const std::string& text);
+/// Shows text beside the mouse while it is over the last widget.
+void draw_tooltip(const std::string& text);
+/// Edits a text of at most 1,023 bytes.
+void edit_text(const char* label, std::string& text);
 /// Digits in groups: 1,234,567.
 [[nodiscard]] std::string grouped(std::uint64_t number);
 void draw_wind(Wind& wind);
+/// Draws the sun and the turbidity. `own`: light of the scene, which `light` replaces.
+void draw_sun(const SceneLight& own, SceneLight& light);
 /// Draws the camera as an editable line of text with a button that copies it.
 void draw_camera(Camera& camera);
 

@@ -24,6 +24,8 @@ using Clock = std::chrono::steady_clock;
 // Time to wait for input, s.
 constexpr double kIdle = 0.5; // also the max delay of Ctrl-C
 constexpr double kBusy = 0.02;
+// Time between two pictures of a progress bar.
+constexpr std::chrono::milliseconds kProgressInterval{100};
 // Max time step of a flying camera, s, so that a slow picture does not make it jump.
 constexpr double kMaxFlightStep = 0.1;
 /// Count of pictures that ImGui needs to settle after input.
@@ -59,16 +61,20 @@ public:
         if (input.close_requested) {
             window_.stay_open();
         }
+        if (!is_control_held()) {
+            switcher_.current().record_edits();
+        }
         const bool has_news = switcher_.current().update();
-        const bool has_old_note = switcher_.current().drop_old_note(now);
-        if (has_old_note) {
+        const bool dropped_note = switcher_.current().drop_old_note(now);
+        if (dropped_note) {
             // The warning has left the screen, so the next Ctrl+Q must warn again.
             panels_.asked_to_quit = false;
             switcher_.reset_warning();
         }
-        if (input.any || has_news || has_old_note) {
+        if (input.any || has_news || dropped_note) {
             pictures_left_ = kPicturesAfterInput;
         }
+        update_progress(now);
         draw();
         if (switcher_.current().file() != file) { // panels open files too
             window_.set_title(title_of(switcher_.current().file()));
@@ -87,6 +93,17 @@ private:
             area.width -= area.x;
         }
         return area;
+    }
+
+    /// Draws while something is being made, and once more when it is done.
+    void update_progress(Clock::time_point now) {
+        const bool is_making = switcher_.current().making().has_value();
+        if (is_making != shows_progress_ ||
+            (is_making && now - last_progress_ >= kProgressInterval)) {
+            pictures_left_ = std::max(pictures_left_, 1);
+            last_progress_ = now;
+        }
+        shows_progress_ = is_making;
     }
 
     void draw() {
@@ -115,6 +132,8 @@ private:
     Controls controls_;
     PanelState panels_;
     Clock::time_point last_ = Clock::now();
+    Clock::time_point last_progress_ = last_;
+    bool shows_progress_ = false;
     int pictures_left_ = kPicturesAfterInput;
 };
 

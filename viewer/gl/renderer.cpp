@@ -119,12 +119,13 @@ public:
         return {};
     }
     void set_culling(Culling culling) override { culling_ = culling; }
-    void show_trees() override {
+    void update_trees() override {
         if (is_forest_) {
-            forest_.show_trees();
+            forest_.update_trees();
             shadow_.invalidate();
         }
     }
+    bool has_stand_ins() const override { return forest_.has_stand_ins(); }
     bool bake_impostors(double seconds) override {
         if (!is_forest_) {
             return true;

@@ -182,9 +182,12 @@ public:
     /// what set_culling() wants.
     [[nodiscard]] virtual Result<void> show_forest(ForestModel model) = 0;
     /// Updates the trees of the forest shown after a change; its other parts must be unchanged.
-    virtual void show_trees() = 0;
+    virtual void update_trees() = 0;
     /// Bakes missing impostors for about `seconds`. Returns whether all are done.
     [[nodiscard]] virtual bool bake_impostors(double seconds) = 0;
+    /// Whether all trees of the forest have impostors, possibly those of other trees until their
+    /// own are baked.
+    [[nodiscard]] virtual bool has_stand_ins() const = 0;
     /// Adds or removes a tree of the forest: ForestLod::change_tree().
     virtual void change_tree(std::uint32_t index, const Tree& tree, bool alive) = 0;
     /// Adds and removes squares of a streamed forest; show_forest() begins with none.

@@ -29,13 +29,16 @@ constexpr std::array<NamedKey, 8> kNamedKeys = {{{GLFW_KEY_ESCAPE, Key::Escape},
                                                  {GLFW_KEY_F1, Key::F1},
                                                  {GLFW_KEY_SPACE, Key::Space}}};
 
-/// The key of a GLFW key code. Letters follow the keyboard layout.
+/// The key of a GLFW key code. Letters follow the keyboard layout, digits are the keys above them.
 Key key_of(int code, int scan_code) {
     const auto* const named =
         std::find_if(kNamedKeys.begin(), kNamedKeys.end(),
                      [code](const NamedKey& one) { return one.code == code; });
     if (named != kNamedKeys.end()) {
         return named->key;
+    }
+    if (code >= GLFW_KEY_1 && code <= GLFW_KEY_3) {
+        return static_cast<Key>(code);
     }
     const char* const name = glfwGetKeyName(code, scan_code);
     if (name != nullptr && name[1] == '\0' && name[0] >= 'a' && name[0] <= 'z') {

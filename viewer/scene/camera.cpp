@@ -179,6 +179,18 @@ Camera orbited(const Camera& camera, float around, float upwards) {
     return result;
 }
 
+Camera seen_from(StandardView view, const Camera& camera) {
+    ViewAngles angles; // of the front
+    if (view == StandardView::Side) {
+        angles.azimuth = -0.5F * std::numbers::pi_v<float>;
+    } else if (view == StandardView::Top) {
+        angles.elevation = -kSteepest;
+    }
+    Camera result = camera;
+    result.eye = camera.target - glm::distance(camera.eye, camera.target) * unit_of(angles);
+    return result;
+}
+
 Camera zoomed(const Camera& camera, float factor) {
     Camera result = camera;
     const float distance = glm::distance(camera.eye, camera.target);

@@ -10,6 +10,7 @@
 #include <glm/mat4x4.hpp>
 #include <glm/vec3.hpp>
 
+#include <cstdint>
 #include <string>
 #include <string_view>
 
@@ -63,6 +64,14 @@ inline constexpr double kOriginStep = 4096.0;
 
 /// framing() of a box; from the front if the box is flat in Z.
 [[nodiscard]] Camera first_view(const Camera& camera, const Bounds& bounds, float aspect);
+
+enum class StandardView : std::uint8_t {
+    Front, // from +Z
+    Side,  // from +X
+    Top,   // from +Y, with +X to the right
+};
+/// Keeps target and distance, and moves the eye to a standard view.
+[[nodiscard]] Camera seen_from(StandardView view, const Camera& camera);
 
 /// Unit vectors along the view and to the right.
 [[nodiscard]] glm::vec3 forward_of(const Camera& camera);

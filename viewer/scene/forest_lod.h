@@ -304,7 +304,7 @@ private:
     /// Sorts visible branches into runs.
     void list_runs();
     [[nodiscard]] float sway_of(const LodTree& tree) const; // m
-    /// Bounding box of its impostor as seen from `eye`.
+    /// Bounding box of the impostor of `tree` as seen from `eye`.
     [[nodiscard]] Bounds impostor_box(const LodTree& tree, const glm::vec3& eye) const;
     [[nodiscard]] bool is_occluded(const Bounds& box, float sway) const;
     /// Grows a sphere around a part of a tree by the wind.

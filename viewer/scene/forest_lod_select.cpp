@@ -193,10 +193,10 @@ void ForestLod::visit_cell(std::uint32_t index,
         const float scale = frustum.pixels / std::max(distance, kNearest); // pixels per metre
         // The picture of a cluster is as wide as its cell: low trees far apart would cover few of
         // its texels.
-        constexpr float kTallestPart = 1.0F / 6.0F;
+        constexpr float kMinHeightPerCellSize = 1.0F / 6.0F;
         const float pixels =
             scale * std::max({cell.tallest, 2.0F * cluster_height_error(cell, frustum.eye),
-                              kTallestPart * static_cast<float>(cell_size_)});
+                              kMinHeightPerCellSize * static_cast<float>(cell_size_)});
         weight = pixels < options.cluster_pixels
                      ? 0.0F
                      : finer_weight(pixels, options.cluster_pixels, options.blend);

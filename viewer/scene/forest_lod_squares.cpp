@@ -11,8 +11,8 @@ namespace lsys::view {
 
 namespace {
 
-/// Trees by which trees_ grows when no free range is long enough.
-constexpr std::size_t kGrownTrees = std::size_t{1} << 16U;
+/// Min number of elements added to trees_ when no free range is long enough.
+constexpr std::size_t kMinAddedTrees = std::size_t{1} << 16U;
 
 void add_box(const glm::vec3& low, const glm::vec3& high, Bounds& box) {
     box.add(low);
@@ -45,7 +45,7 @@ std::uint32_t ForestLod::allocate_trees(std::uint32_t count) {
         const auto first = static_cast<std::uint32_t>(trees_.size());
         LodTree removed;
         removed.impostor = LodTree::kRemoved;
-        trees_.resize(trees_.size() + std::max<std::size_t>(count, kGrownTrees), removed);
+        trees_.resize(trees_.size() + std::max<std::size_t>(count, kMinAddedTrees), removed);
         release_trees(first, static_cast<std::uint32_t>(trees_.size()) - first);
         found = std::prev(free_trees_.end());
     }

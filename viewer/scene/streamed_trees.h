@@ -45,9 +45,9 @@ struct SquareLayout {
 
 struct StreamedTrees {
     SquareLayout layout;
-    std::vector<float> mean_scales; // by form; 0: no trees seen
-    std::vector<float> crown_parts; // by form: its part of the crowns seen from above
-    float tallest = 0.0F;           // m, of a sample of the trees
+    std::vector<float> mean_scales;   // by form; 0: no trees seen
+    std::vector<float> crown_weights; // by form: crown area seen from above; only ratios matter
+    float tallest = 0.0F;             // m, of a sample of the trees
     GroundCover cover;
     float view_distance = 0.0F; // m, range of the drawn ground
 };

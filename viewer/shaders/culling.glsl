@@ -33,8 +33,8 @@ layout(std430, binding = 5) buffer State {
     uint waiting;          // near trees without room for their branches
     uint occluded;         // trees occluded by the ground
     uint clustered;        // trees drawn only in clusters
-    uint cell_blended;     // trees drawn both alone and in a cluster
-    uint near_blended;     // trees drawn both as branches and as an impostor
+    uint cluster_blended;     // trees drawn both alone and in a cluster
+    uint branch_blended;     // trees drawn both as branches and as an impostor
     uint drawn_branches;
     uint detail;           // bits of the factor of heights
     uint level_counts[4];  // near trees with branches in view, by level

@@ -67,7 +67,7 @@ uvec2 code_of(uint index) {
         atomicAdd(state.clustered, count);
         return uvec2(kCluster, floatBitsToUint(weight));
     }
-    atomicAdd(state.cell_blended, count);
+    atomicAdd(state.cluster_blended, count);
     return uvec2(kCluster | kTrees, floatBitsToUint(weight));
 }
 

@@ -42,6 +42,6 @@ void main() {
         set_draw(0u, whole, 0u);
         set_draw(1u, blended, culling.key.z - blended);
         state.waiting = waiting;
-        state.near_blended = blended - far_blended;
+        state.branch_blended = blended - far_blended;
     }
 }

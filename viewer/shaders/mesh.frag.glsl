@@ -31,8 +31,10 @@ void main() {
         normal = -normal;
         geometric = -geometric;
     }
-    float lit = sunlight(world_position, geometric, 1.0);
     float translucency = float(kind.w) / 256.0;
+    // Light that passes through a surface arrives on its other side.
+    bool is_lit_from_behind = translucency > 0.0 && dot(geometric, frame.to_sun.xyz) < 0.0;
+    float lit = sunlight(world_position, is_lit_from_behind ? -geometric : geometric, 1.0);
     colour = tone_mapped(
         fogged(shade(albedo, normal, world_position, lit, translucency), world_position));
 }

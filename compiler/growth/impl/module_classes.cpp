@@ -261,11 +261,11 @@ ModuleClasses::Matches ModuleClasses::match(SymbolId symbol,
     enum class Holds : std::uint8_t { No, Maybe, Yes };
     const auto holds = [&](std::uint32_t p) {
         const BytecodeProduction& production = bytecode_->productions[p];
-        const bool context = production.has_left || production.has_right;
-        const KnownValue value = condition(p, context ? parameters : point);
+        const bool has_context = production.has_left || production.has_right;
+        const KnownValue value = condition(p, has_context ? parameters : point);
         return !value.known          ? Holds::Maybe
                : value.value == 0.0F ? Holds::No
-               : context             ? Holds::Maybe
+               : has_context         ? Holds::Maybe
                                      : Holds::Yes;
     };
     Matches matches;

@@ -436,7 +436,7 @@ private:
 
 std::optional<Branches>
 find_branches(const Program& program, const Names& names, Diagnostics& diagnostics) {
-    LSYS_CHECK(program.complete);
+    LSYS_CHECK(program.is_valid);
     return BranchFinder(program, names, diagnostics).run();
 }
 

@@ -121,7 +121,7 @@ void check_branch_depth(const CheckInput& input, Diagnostics& diagnostics) {
     const Production* closing = nullptr;
     for (const Production& production : program.productions) {
         if (production.predecessor.items.size() != 1) {
-            return; // the analysis does not bound matches of several modules
+            return; // no bound on the depth if a predecessor has several modules
         }
         const std::int64_t sum = balance(program, production.successor);
         opening = sum > 0 && opening == nullptr ? &production : opening;

@@ -89,7 +89,7 @@ public:
     bool in_arguments = false;
     bool in_label = false; // in the label `Lsystem: 1`
 
-    /// The place of the next `length` bytes.
+    /// Consumes the next `length` bytes; returns their span.
     SourceSpan take(std::uint32_t length) {
         at_ += length;
         return text.origin(at_ - length, at_);

@@ -3,7 +3,8 @@
 //
 // Conditions of .lsys draw no random numbers. A random number in a cpfg condition therefore becomes
 // a parameter of an intermediate module, which is decomposed at once: `A(x) --> random1(x, {0,
-// 1})`, `random1(x, u) : u < 0.5 --> ...`.
+// 1})`, `random1(x, u) : u < 0.5 --> ...`. All productions of such a predecessor
+// are a group, which shares the module.
 #pragma once
 
 #include "grammar/dialects/cpfg/curves.h"

@@ -11,7 +11,7 @@ namespace {
 /// `;` begins a comment everywhere.
 constexpr LineFormat kFormat{" \t\r\x1A", ';', true};
 
-/// Bytes of a piece between entries: a word, a brace, or a remark after a `(`.
+/// Length of the next piece of text between entries: a word, a brace, or a remark after a `(`.
 std::size_t word_length(std::string_view ahead) {
     const std::string_view stops(" \t\r\x1A(\n;{\0", 9);
     return length_up_to(ahead, ahead[0] == '(' ? stops.substr(5) : stops);

@@ -44,7 +44,7 @@ bool is_setting(std::string_view line) {
 
 /// A rule has a symbol, perhaps with contexts, parameters and a condition, then a `=`; a line with
 /// an arrow is not a rule.
-LineKind kind_of_rule(std::string_view line, std::size_t equals) {
+LineKind rule_kind(std::string_view line, std::size_t equals) {
     std::string_view head = trimmed(line.substr(0, equals));
     head = trimmed(head.substr(0, head.find(':')));
     const bool has_context = head.find_first_of("<>") != std::string_view::npos;
@@ -67,7 +67,7 @@ LineKind kind_of(std::string_view line) {
     }
     line = without_label(line);
     if (const std::size_t equals = line.find('='); equals != std::string_view::npos) {
-        return kind_of_rule(line, equals);
+        return rule_kind(line, equals);
     }
     // A premise has a letter, and no blanks, colons, braces or back quotes as in other formats.
     constexpr std::string_view kLetters = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz";

@@ -48,7 +48,7 @@ enum class StatementShape : std::uint8_t {
     Definition,  // `#define` and `#param`: a name, a value, bounds
     Setting,     // `#set`: a name, values
     Material,    // `#material`: an index, keys with values
-    Declaration, // `#object`, `#module`, and `#include` of a name
+    Declaration, // `#object`, `#module`, `#include NAME OBJECT`
     Other,
 };
 

@@ -110,7 +110,7 @@ private:
     /// Diagnostics of a part of a statement.
     struct PartDiagnostics {
         std::uint32_t part_begin = 0xFFFFFFFF;
-        std::size_t next = 0; // the first that has not been checked
+        std::size_t next = 0; // index of the first unchecked diagnostic
         bool has_doubtful_error = false;
     };
 

@@ -232,7 +232,8 @@ std::optional<Keyword> report_unknown_statement(ParseSession& session, std::stri
 Token unknown_statement(ParseSession& session, std::string_view word, char next) {
     ScanState& scan = session.scan;
     if (colons_of_statement(session) >= 2 || lacks_first_colon(session)) {
-        return begin_parts(session, word, next); // a production; missing_opening() reports
+        return begin_parts(session, word,
+                           next); // the missing or mistyped `:` is reported where it is scanned
     }
     if (is_setting(word) && session.scanned.text[scan.begin] == '#') {
         return setting_without_set(session, word);

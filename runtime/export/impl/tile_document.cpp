@@ -9,6 +9,7 @@
 
 #include <fmt/compile.h>
 #include <fmt/format.h>
+#include <glm/matrix.hpp>
 
 #include <algorithm>
 #include <array>
@@ -124,6 +125,7 @@ public:
             put_groups();
             put_table();
         }
+        put_matrix();
         return joined();
     }
 
@@ -356,6 +358,32 @@ private:
         use(GltfList::Used, "EXT_structural_metadata");
     }
 
+    /// Puts all nodes below one that has the matrix of the document, if it has one.
+    void put_matrix() {
+        if (document_.matrix_ == glm::dmat4(1.0)) {
+            return;
+        }
+        // Clients turn +Y of the file to +Z of the tile: (x, y, z) becomes (x, -z, y).
+        const glm::dmat4 turn(glm::dvec4(1.0, 0.0, 0.0, 0.0), glm::dvec4(0.0, 0.0, 1.0, 0.0),
+                              glm::dvec4(0.0, -1.0, 0.0, 0.0), glm::dvec4(0.0, 0.0, 0.0, 1.0));
+        const glm::dmat4 matrix = glm::transpose(turn) * document_.matrix_ * turn;
+        GltfJson numbers = GltfJson::array();
+        for (int column = 0; column < 4; ++column) {
+            for (int row = 0; row < 4; ++row) {
+                // Rounded to a micrometre and to 12 decimals, as in tilesets.
+                const double steps = column == 3 ? 1e6 : 1e12;
+                numbers.push_back(std::floor(matrix[column][row] * steps + 0.5) / steps + 0.0);
+            }
+        }
+        GltfJson children = GltfJson::array();
+        for (std::size_t i = 0; i < count_of(GltfList::Nodes); ++i) {
+            children.push_back(i);
+        }
+        const GltfJson node{{"name", "tile"}, {"matrix", numbers}, {"children", children}};
+        first_root_ = count_of(GltfList::Nodes);
+        next(GltfList::Nodes) += node.dump();
+    }
+
     void put_buffers(std::string& text) const {
         text += ",\"buffers\":[";
         for (const Buffer& buffer : buffers_) {
@@ -389,8 +417,8 @@ private:
         constexpr std::size_t kRest = 4096; // enough for names of lists and for buffers
         bytes.reserve(size + kRest);
         bytes += parts_.begin;
-        for (std::size_t i = 0; i < count_of(GltfList::Nodes); ++i) {
-            put(bytes, FMT_COMPILE("{}{}"), i == 0 ? "" : ",", i);
+        for (std::size_t i = first_root_; i < count_of(GltfList::Nodes); ++i) {
+            put(bytes, FMT_COMPILE("{}{}"), i == first_root_ ? "" : ",", i);
         }
         bytes += "]}]";
         for (const GltfList list : order_) {
@@ -414,6 +442,7 @@ private:
     std::vector<GltfList> order_; // of the first items of lists
     std::vector<std::string> used_;
     std::vector<std::string> required_;
+    std::size_t first_root_ = 0;      // root nodes of the scene are this one and those after it
     std::vector<std::size_t> meshes_; // by group
     std::string data_;                // the buffer of the GLB
 };

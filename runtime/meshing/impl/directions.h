@@ -19,9 +19,10 @@ struct Direction {
 
 namespace detail {
 
-/// cos and sin of 2 pi turns / parts, for at most an eighth of a turn, by their series.
-constexpr Direction direction_in_octant(std::uint32_t turns, std::uint32_t parts) {
-    const double angle = 6.283185307179586476925 * turns / parts;
+/// Cosine and sine of the angle 2 pi * index / parts, by Taylor series. Precondition: the angle is
+/// at most pi / 4.
+constexpr Direction direction_in_octant(std::uint32_t index, std::uint32_t parts) {
+    const double angle = 6.283185307179586476925 * index / parts;
     double cosine = 1.0;
     double sine = angle;
     double term = 1.0;

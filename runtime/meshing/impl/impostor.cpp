@@ -28,6 +28,7 @@ constexpr int kMinSamples = 256;        // samples of a side of a picture
 constexpr int kMaxSamples = 512;
 constexpr int kSamplesPerTexel = 8; // along each side, within kMinSamples and kMaxSamples
 constexpr int kOpaqueByte = 128;
+constexpr float kTurned = 0.6F; // factor of the sideways part of normals of upright cards
 constexpr float kHalfRoot3 = 0.8660254F;
 constexpr float kEmptyDepth = -std::numeric_limits<float>::infinity(); // depth of empty samples
 
@@ -55,6 +56,26 @@ int samples_of(int tile) {
 /// Width in texels of the margin around the plant in a picture.
 int margin_of(int tile) {
     return std::max(tile / 64, 1);
+}
+
+/// The normal of a card at a point with this normal of the plant, both with Z towards the eye.
+glm::vec3 normal_on_card(glm::vec3 normal, bool is_upright) {
+    if (normal.z < 0.0F) {
+        normal = -normal;
+    }
+    if (is_upright) {
+        // An eye sees cards of three directions. These spread their normals about the vertical
+        // nearly as much as a plant does by itself, so each card has a part of that spread only.
+        const glm::vec2 level(kTurned * normal.x, normal.z);
+        const float before = std::sqrt(normal.x * normal.x + normal.z * normal.z);
+        const float after = glm::length(level);
+        if (after > 0.0F) {
+            normal.x = level.x * before / after;
+            normal.z = level.y * before / after;
+        }
+    }
+    const float length = glm::length(normal);
+    return length > 0.0F ? normal / length : glm::vec3(0.0F, 0.0F, 1.0F);
 }
 
 /// Fills unknown texels with the values of the nearest known ones.
@@ -290,47 +311,46 @@ void ImpostorBaker::render_slab(const Mesh& mesh, int slab, Canvas& canvas, View
     view.colours.resize(texels());
     view.normals.resize(texels());
     view.depths.resize(texels());
+    std::vector<std::size_t> covered; // samples of a texel
     for (std::size_t texel = 0; texel < texels(); ++texel) {
-        float count = 0.0F;
+        covered.clear();
         for (std::size_t sample = 0; sample < samples * samples; ++sample) {
             const std::size_t x = texel % columns * samples + sample % samples;
             const std::size_t y = texel / columns * samples + sample / samples;
-            const std::size_t pixel = y * width + x;
-            if (buffer.depths[pixel] == kEmptyDepth) {
-                continue;
+            if (buffer.depths[y * width + x] != kEmptyDepth) {
+                covered.push_back(y * width + x);
+                view.depths[texel] += buffer.depths[y * width + x];
             }
-            const Fragment& fragment = canvas.fragments[pixel];
-            const std::array<std::uint32_t, 3> corners = corners_of(fragment.first_index);
-            const glm::vec3 w(fragment.u, fragment.v, 1.0F - fragment.u - fragment.v);
-            const Material& material = mesh.materials[mesh.parts[fragment.part].material];
-            const LinearTexture& texture = canvas.textures.of(material);
-            glm::vec3 colour(material.colour);
-            if (mesh.colours.size() == mesh.positions.size() && material.picture == nullptr) {
-                colour = w.x * plain_colour(mesh.looks.get(), mesh.colours[corners[0]]) +
-                         w.y * plain_colour(mesh.looks.get(), mesh.colours[corners[1]]) +
-                         w.z * plain_colour(mesh.looks.get(), mesh.colours[corners[2]]);
-            }
-            if (!texture.texels.empty()) {
-                colour *= glm::vec3(texture.at(coordinates(corners, w)));
-            }
-            const glm::vec3 normal = w.x * mesh.normals[corners[0]] +
-                                     w.y * mesh.normals[corners[1]] +
-                                     w.z * mesh.normals[corners[2]];
-            const glm::vec3 own(glm::dot(normal, view.right), glm::dot(normal, view.up),
-                                glm::dot(normal, view.towards));
-            count += 1.0F;
-            view.colours[texel] += colour;
-            view.normals[texel] += own.z < 0.0F ? -own : own;
-            view.depths[texel] += buffer.depths[pixel];
         }
+        if (covered.empty()) {
+            continue;
+        }
+        const auto count = static_cast<float>(covered.size());
         view.coverage[texel] = count / static_cast<float>(samples * samples);
-        if (count > 0.0F) {
-            view.colours[texel] /= count;
-            view.depths[texel] /= count;
+        view.depths[texel] /= count;
+        const Fragment& fragment =
+            canvas
+                .fragments[covered[lowbias32(static_cast<std::uint32_t>(texel)) % covered.size()]];
+        const std::array<std::uint32_t, 3> corners = corners_of(fragment.first_index);
+        const glm::vec3 w(fragment.u, fragment.v, 1.0F - fragment.u - fragment.v);
+        const Material& material = mesh.materials[mesh.parts[fragment.part].material];
+        const LinearTexture& texture = canvas.textures.of(material);
+        glm::vec3 colour(material.colour);
+        if (mesh.colours.size() == mesh.positions.size() && material.picture == nullptr) {
+            colour = w.x * plain_colour(mesh.looks.get(), mesh.colours[corners[0]]) +
+                     w.y * plain_colour(mesh.looks.get(), mesh.colours[corners[1]]) +
+                     w.z * plain_colour(mesh.looks.get(), mesh.colours[corners[2]]);
         }
-        const float length = glm::length(view.normals[texel]);
+        if (!texture.texels.empty()) {
+            colour *= glm::vec3(texture.at(coordinates(corners, w)));
+        }
+        view.colours[texel] = colour;
+        const glm::vec3 normal = w.x * mesh.normals[corners[0]] + w.y * mesh.normals[corners[1]] +
+                                 w.z * mesh.normals[corners[2]];
         view.normals[texel] =
-            length > 0.0F ? view.normals[texel] / length : glm::vec3(0.0F, 0.0F, 1.0F);
+            normal_on_card({glm::dot(normal, view.right), glm::dot(normal, view.up),
+                            glm::dot(normal, view.towards)},
+                           view.towards.y == 0.0F);
     }
 }
 

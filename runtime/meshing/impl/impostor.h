@@ -3,8 +3,10 @@
 // three upright directions, 60 degrees apart, and one from above. Each direction has one card, or
 // three cards that each show a slab, a third of the depth of the plant. A card is a strip of
 // trapezoids around its opaque texels. All cards share one atlas. The colour picture has the
-// opacity. The normal map has the normals in the frame of the card, and as alpha the depth: 1 at
-// the back to 255 at the front of the part of the plant that the card shows, with the card halfway
+// opacity. A texel has the colour and the normal of one sample of the plant, chosen by a hash: a
+// mean normal would point to the eye wherever a texel shows many leaves, and be lit like none of
+// them. The normal map has the normals in the frame of the card, and as alpha the depth: 1 at the
+// back to 255 at the front of the part of the plant that the card shows, with the card halfway
 // between.
 #pragma once
 

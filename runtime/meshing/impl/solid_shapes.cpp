@@ -44,7 +44,7 @@ double distance_from(const SolidShape& triangle, const glm::dvec3& point) {
     return outside ? std::sqrt(nearest + above * above) : std::abs(above);
 }
 
-/// A unit vector across a unit vector.
+/// A unit vector perpendicular to `axis`, which has unit length.
 glm::dvec3 across(const glm::dvec3& axis) {
     const glm::dvec3 other = std::abs(axis.x) < 0.5 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0);
     return glm::normalize(glm::cross(axis, other));

@@ -57,7 +57,7 @@ public:
     void decide(const CellRange& cells);
     /// Whether a candidate is accepted. Candidates are numbered from the first cell on, row by row.
     [[nodiscard]] bool is_accepted(std::uint32_t candidate) const {
-        return accepted_in_[candidate] != kUndecided;
+        return acceptance_rounds_[candidate] != kUndecided;
     }
     [[nodiscard]] glm::vec2 place(std::uint32_t candidate) const { return places_[candidate]; }
 
@@ -89,8 +89,8 @@ private:
     std::vector<std::uint8_t> quarters_; // quarter of the cell; bit 0: upper half in x; bit 1: in z
     std::vector<std::uint32_t> order_;   // candidates by rank, then by number
     std::vector<std::uint32_t> previous_order_;
-    std::vector<std::uint8_t> accepted_in_; // the round in which a candidate is accepted
-    std::vector<std::uint8_t> rejected_in_; // the round in which it is rejected
+    std::vector<std::uint8_t> acceptance_rounds_; // of candidates; kUndecided: not accepted
+    std::vector<std::uint8_t> rejection_rounds_;  // of candidates; kUndecided: not rejected
     /// Accepted candidates by quarter of a cell, in rows, with kNeighbourQuarters more on each
     /// side. The diagonal of a quarter is shorter than the spacing, so at most one candidate is
     /// accepted in a quarter.
@@ -158,8 +158,8 @@ std::uint8_t PoissonBlock::round_without_rivals(std::uint32_t candidate) const {
         for (std::uint32_t other = begin; other < end; ++other) {
             const bool lower = ranks_[other] < ranks_[candidate] ||
                                (ranks_[other] == ranks_[candidate] && other < candidate);
-            if (lower && rejected_in_[other] > last && are_rivals(candidate, other)) {
-                last = rejected_in_[other]; // kUndecided is the max
+            if (lower && rejection_rounds_[other] > last && are_rivals(candidate, other)) {
+                last = rejection_rounds_[other]; // kUndecided is the max
             }
         }
     }
@@ -170,7 +170,7 @@ void PoissonBlock::decide_one(std::uint32_t candidate) {
     const std::size_t quarter = quarter_of(candidate);
     const auto x = static_cast<double>(places_[candidate].x);
     const auto z = static_cast<double>(places_[candidate].y);
-    std::uint32_t rejected = kUndecided;
+    std::uint32_t rejection_round = kUndecided;
     const auto row_size = static_cast<std::size_t>(quarters_per_row_);
     const Accepted* row =
         accepted_at_.data() + quarter - kNeighbourQuarters * row_size - kNeighbourQuarters;
@@ -178,18 +178,18 @@ void PoissonBlock::decide_one(std::uint32_t candidate) {
         for (std::int64_t j = 0; j <= 2 * kNeighbourQuarters; ++j) {
             const double dx = static_cast<double>(row[j].x) - x;
             const double dz = static_cast<double>(row[j].z) - z;
-            rejected = std::min(rejected,
-                                dx * dx + dz * dz < squared_spacing_ ? row[j].round : kUndecided);
+            rejection_round = std::min(
+                rejection_round, dx * dx + dz * dz < squared_spacing_ ? row[j].round : kUndecided);
         }
     }
-    rejected_in_[candidate] = static_cast<std::uint8_t>(rejected);
-    if (rejected != kUndecided) {
+    rejection_rounds_[candidate] = static_cast<std::uint8_t>(rejection_round);
+    if (rejection_round != kUndecided) {
         return;
     }
-    const std::uint8_t accepted = round_without_rivals(candidate);
-    accepted_in_[candidate] = accepted;
-    if (accepted != kUndecided) {
-        accepted_at_[quarter] = {places_[candidate].x, places_[candidate].y, accepted};
+    const std::uint8_t acceptance_round = round_without_rivals(candidate);
+    acceptance_rounds_[candidate] = acceptance_round;
+    if (acceptance_round != kUndecided) {
+        accepted_at_[quarter] = {places_[candidate].x, places_[candidate].y, acceptance_round};
     }
 }
 
@@ -202,8 +202,8 @@ void PoissonBlock::decide(const CellRange& cells) {
     order_.resize(count);
     previous_order_.resize(count);
     quarters_.resize(count);
-    accepted_in_.assign(count, kUndecided);
-    rejected_in_.assign(count, kUndecided);
+    acceptance_rounds_.assign(count, kUndecided);
+    rejection_rounds_.assign(count, kUndecided);
     quarters_per_row_ = 2 * (cells.columns + kNeighbourQuarters);
     accepted_at_.assign(
         static_cast<std::size_t>(quarters_per_row_ * 2 * (cells.rows + kNeighbourQuarters)),

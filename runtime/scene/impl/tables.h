@@ -5,6 +5,7 @@
 
 #include "grammar/base/diagnostic.h"
 #include "runtime/scene/impl/document.h"
+#include "runtime/scene/impl/table_reader.h"
 #include "runtime/scene/scene.h"
 
 namespace lsys {
@@ -15,6 +16,11 @@ void read_terrain_table(const SceneValue* table, Scene& scene, Diagnostics& diag
 void read_placement_table(const SceneValue* table, Scene& scene, Diagnostics& diagnostics);
 /// Reads the list of species of the file `root`. Precondition: the placement has been read.
 void read_species_list(const SceneValue& root, Scene& scene, Diagnostics& diagnostics);
+
+/// Reads `[light]`.
+void read_light_table(const SceneValue* table, Scene& scene, Diagnostics& diagnostics);
+/// Range of `turbidity`.
+inline constexpr NumberRange kTurbidity{2.0, 10.0, false, {}};
 
 /// Reads `[painted]`. Precondition: the species have been read.
 void read_painting_table(const SceneValue* table, Scene& scene, Diagnostics& diagnostics);

@@ -32,7 +32,7 @@ import * as THREE from 'three';
 import { MapControls } from 'three/examples/jsm/controls/MapControls.js';
 import { MeshoptDecoder } from 'three/examples/jsm/libs/meshopt_decoder.module.js';
 import { TilesRenderer } from '3d-tiles-renderer';
-import { GLTFExtensionsPlugin } from '3d-tiles-renderer/plugins';
+import { GLTFExtensionsPlugin, ImplicitTilingPlugin } from '3d-tiles-renderer/plugins';
 
 const renderer = new THREE.WebGLRenderer({ antialias: true, logarithmicDepthBuffer: true });
 renderer.setPixelRatio(devicePixelRatio);
@@ -50,6 +50,7 @@ controls.maxPolarAngle = 0.49 * Math.PI;
 
 const tiles = new TilesRenderer('tileset.json');
 tiles.registerPlugin(new GLTFExtensionsPlugin({ meshoptDecoder: MeshoptDecoder }));
+tiles.registerPlugin(new ImplicitTilingPlugin());
 tiles.lruCache.minBytesSize = 1.5e9;
 tiles.lruCache.maxBytesSize = 2e9;
 tiles.setCamera(camera);
@@ -62,7 +63,12 @@ tiles.addEventListener('load-tileset', () => {
     return;
   }
   isPlaced = true;
-  // The middle of the forest at the origin, with +Z up there.
+  // The middle of the forest at the origin, with +Z up there. The box of an implicit tileset has +Z down.
+  const middle = new THREE.Vector3().setFromMatrixPosition(matrix);
+  const up = middle.length() > 6e6 ? middle : new THREE.Vector3(0, 0, 1);
+  if (new THREE.Vector3().setFromMatrixColumn(matrix, 2).dot(up) < 0) {
+    matrix.multiply(new THREE.Matrix4().makeRotationX(Math.PI));
+  }
   tiles.group.matrix.copy(matrix).invert().decompose(tiles.group.position, tiles.group.quaternion, tiles.group.scale);
   tiles.group.updateMatrixWorld(true);
   const size = box.getSize(new THREE.Vector3());

@@ -10,29 +10,34 @@
 
 namespace lsys {
 
-namespace {
-
 using Json = nlohmann::ordered_json;
 
-/// `value` rounded to a micrometre, for short numbers.
-double rounded(double value) {
+double rounded_for_tileset(double value) {
     constexpr double kSteps = 1e6;
     return std::floor(value * kSteps + 0.5) / kSteps + 0.0; // without a negative zero
 }
 
-/// The matrix in column-major order. Axes are rounded to 12 decimals, which moves a point by less
-/// than 1e-12 of the diameter of the Earth.
-Json json_of(const glm::dmat4& matrix) {
+Json json_of_matrix(const glm::dmat4& matrix) {
     Json numbers = Json::array();
     for (int column = 0; column < 4; ++column) {
         for (int row = 0; row < 4; ++row) {
             constexpr double kSteps = 1e12;
             const double value = matrix[column][row];
-            numbers.push_back(column == 3 ? rounded(value)
+            numbers.push_back(column == 3 ? rounded_for_tileset(value)
                                           : std::floor(value * kSteps + 0.5) / kSteps + 0.0);
         }
     }
     return numbers;
+}
+
+glm::dmat4 frame_in_root(const TileBoxes& boxes, const TileId& tile) {
+    return inverse_of_frame(boxes.frame_of({})) * boxes.frame_of(tile);
+}
+
+namespace {
+
+double rounded(double value) {
+    return rounded_for_tileset(value);
 }
 
 Json json_of(const TileBox& box) {
@@ -61,7 +66,7 @@ public:
         Json node;
         if (root_.level == 0) {
             node = node_of(root_);
-            node["transform"] = json_of(plan_.boxes.frame_of(root_));
+            node["transform"] = json_of_matrix(plan_.boxes.frame_of(root_));
         } else {
             node = bounds_of(root_);
             node["refine"] = "REPLACE";
@@ -108,7 +113,7 @@ private:
                 continue;
             }
             Json child = node_of(below);
-            child["transform"] = json_of(to_tile * plan_.boxes.frame_of(below));
+            child["transform"] = json_of_matrix(to_tile * plan_.boxes.frame_of(below));
             children.push_back(std::move(child));
         }
         return children;

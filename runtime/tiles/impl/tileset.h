@@ -5,6 +5,9 @@
 #include "runtime/tiles/impl/tile_boxes.h"
 #include "runtime/tiles/tiles.h"
 
+#include <glm/mat4x4.hpp>
+#include <nlohmann/json.hpp>
+
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -24,6 +27,14 @@ struct TilesetPlan {
     const TileGrid& grid;
     const TileBoxes& boxes;
 };
+
+/// `value` rounded to a micrometre, for short numbers.
+[[nodiscard]] double rounded_for_tileset(double value);
+/// The matrix in column-major order. Axes are rounded to 12 decimals, which moves a point by less
+/// than 1e-12 of the diameter of the Earth.
+[[nodiscard]] nlohmann::ordered_json json_of_matrix(const glm::dmat4& matrix);
+/// From the frame of a tile to that of the root of the quadtree.
+[[nodiscard]] glm::dmat4 frame_in_root(const TileBoxes& boxes, const TileId& tile);
 
 /// Implements TileForest::tileset().
 [[nodiscard]] std::string make_tileset(const TilesetPlan& plan, const TileId& root);

@@ -50,7 +50,7 @@ void Turtle::State::half_turn_snapped() {
     turn_left(is_mirrored ? degrees : -degrees);
 }
 
-/// Exchanges left and right by half a roll, also for the second heading.
+/// Exchanges left and right by a roll of 180 degrees, also for the second heading.
 void Turtle::State::mirror() {
     roll(now.pose, {0.0, 1.0});
     now.second_heading = -now.second_heading;

@@ -50,7 +50,7 @@ def colour_at(x, y):
     return tuple(min(255, round(shade * c)) for c in (grey + warm, grey + 0.4 * warm, grey - warm))
 
 
-def normals(x, y):
+def normal_at(x, y):
     def slope(dx, dy):
         ahead = HEIGHTS[(y + dy) % SIZE][(x + dx) % SIZE][0]
         behind = HEIGHTS[(y - dy) % SIZE][(x - dx) % SIZE][0]
@@ -92,5 +92,5 @@ def write(name, size, texel):
 
 HEIGHTS = [[stone_at(x, y) for x in range(SIZE)] for y in range(SIZE)]
 write("stones.png", SIZE, colour_at)
-write("stones-normals.png", SIZE, normals)
+write("stones-normals.png", SIZE, normal_at)
 write("blade.png", 64, blade)

@@ -34,7 +34,7 @@ for name, torn in (("leaf.png", True), ("young.png", False)):
             edge = [(side * half(min(y + (top - y) * k / steps + rise * half(y) / 0.155, 1)),
                      y + (top - y) * k / steps + rise * half(y) / 0.155) for k in range(steps + 1)]
             edge = [(x, v - gap * (k / steps)) for k, (x, v) in enumerate(edge)]
-            card.area([(0, y)] + edge + [(0, top)], (208 * tone, 222 * tone, 184 * tone))
+            card.fill_polygon([(0, y)] + edge + [(0, top)], (208 * tone, 222 * tone, 184 * tone))
             y = top
         for i in range(64):
             t = i / 64

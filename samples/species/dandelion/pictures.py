@@ -21,7 +21,7 @@ for side in (-1, 1):
         places += [(side * 0.022, y), (side * reach * 0.75, y + 0.0), (side * reach, y - 0.035), (side * reach * 0.72, y + 0.045),
                    (side * reach * 0.45, y + 0.062), (side * 0.026, y + 0.085)]
     places += [(side * 0.1, 0.86), (side * 0.145, 0.845), (side * 0.11, 0.93), (side * 0.05, 0.985), (0, 1)]
-    card.area(places, green if side < 0 else tuple(0.93 * part for part in green))
+    card.fill_polygon(places, green if side < 0 else tuple(0.93 * part for part in green))
 card.line([(0, 0), (0, 0.95)], 0.018, vein)
 for y in (0.34, 0.47, 0.61, 0.76):
     for side in (-1, 1):

@@ -8,7 +8,7 @@ import random
 import sys
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), ".."))
-from drawing import Card, along, blend, field, save_bark, scales
+from drawing import Card, along, blend, field, save_bark, bark_plates
 
 os.chdir(os.path.dirname(os.path.abspath(__file__)))
 draw = random.Random(91)
@@ -41,7 +41,7 @@ for name, needles in (("spray.png", True), ("twig.png", False)):
     tufted(card, (0, 0), 0, 0.92, 4, needles)
     card.save(name, levels=16)
 
-edge, number = scales(512, 120, 2.4, 92)
+edge, number = bark_plates(512, 120, 2.4, 92)
 height = edge**0.7 * (0.7 + 0.3 * number)
 plates = blend((138, 112, 96), (112, 86, 72), number) * (1 + 0.09 * field(512, 1.5, 3, 93))[..., None]
 part = (edge**0.6)[..., None]

@@ -14,7 +14,8 @@ from drawing import Card, leaf
 os.chdir(os.path.dirname(os.path.abspath(__file__)))
 draw = random.Random(3)
 
-# Half of a pinnule: an oblong with a blunt end and small teeth, broad at its base.
+# Half widths of a pinnule, (part of its length, half width / length): an oblong with a blunt end, broad at its base.
+# toothed() adds the teeth.
 SHAPE = [(0, 0.19), (0.15, 0.19), (0.3, 0.155), (0.5, 0.155), (0.7, 0.15), (0.85, 0.13), (0.95, 0.08), (1, 0.03)]
 
 

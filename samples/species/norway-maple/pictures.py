@@ -27,8 +27,8 @@ def palmate(card, place, direction, length, colour, vein):
     card.line([place, base], 0.03 * length, (188, 130, 104))
     right = [along(base, direction, y * length, x * length) for x, y in HALF]
     left = [along(base, direction, y * length, -x * length) for x, y in HALF]
-    card.area(right + left[::-1], colour)
-    card.area(right, shaded(colour, 0.92))
+    card.fill_polygon(right + left[::-1], colour)
+    card.fill_polygon(right, shaded(colour, 0.92))
     card.line(right + left[::-1], 0.014 * length, shaded(colour, 0.66))
     for x, y in ((0, 0.95), (0.52, 0.3), (-0.52, 0.3), (0.36, -0.04), (-0.36, -0.04)):
         card.line([base, along(base, direction, y * length, x * length)], 0.016 * length, vein)

@@ -7,7 +7,7 @@ import random
 import sys
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), ".."))
-from drawing import Card, along, blend, field, save_bark, scales
+from drawing import Card, along, blend, field, save_bark, bark_plates
 
 os.chdir(os.path.dirname(os.path.abspath(__file__)))
 draw = random.Random(7)
@@ -51,7 +51,7 @@ for i in range(12):
 shoot(card, (0, 0.05), 0, 0.9, green)
 card.save("spray.png", levels=24)
 
-edge, number = scales(512, 260, 1.5, 3)
+edge, number = bark_plates(512, 260, 1.5, 3)
 fine = field(512, 1.2, 2.5, 5)
 height = edge**0.6 * (0.75 + 0.25 * number)
 plates = blend((150, 112, 88), (118, 92, 78), number) * (1 + 0.07 * fine)[..., None]

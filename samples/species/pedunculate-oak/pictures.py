@@ -20,7 +20,7 @@ draw = random.Random(5)
 ENVELOPE = [(0, 0.06), (0.1, 0.14), (0.3, 0.22), (0.55, 0.32), (0.72, 0.33), (0.88, 0.24), (1, 0.02)]
 
 
-def lobed():
+def lobed_outline():
     outline = [(0, 0.0), (0.01, 0.07), (0.05, 0.08)]
     for i in range(4, 61):
         t = i / 60
@@ -48,7 +48,7 @@ def leafy(card, place, direction, length, bend, leaves):
                 continue
             tone = draw.uniform(0.74, 1.0)
             hue = draw.uniform(-10, 10)
-            leaf(card, place, heading + angle + draw.uniform(-12, 12), draw.uniform(0.125, 0.155), lobed(),
+            leaf(card, place, heading + angle + draw.uniform(-12, 12), draw.uniform(0.125, 0.155), lobed_outline(),
                  ((218 + hue) * tone, 224 * tone, (190 - hue) * tone), (240 * tone, 242 * tone, 206 * tone),
                  veins=5, vein_angle=48, stalk=0.03)
 

@@ -10,7 +10,7 @@ import sys
 import numpy as np
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), ".."))
-from drawing import Card, along, blend, field, save_bark, scales
+from drawing import Card, along, blend, field, save_bark, bark_plates
 
 os.chdir(os.path.dirname(os.path.abspath(__file__)))
 draw = random.Random(61)
@@ -43,7 +43,7 @@ for start, direction, length, bend in ((0.06, -58, 0.38, 30), (0.1, 56, 0.4, -30
 shoot(card, (0, 0), 0, 0.84, 4)
 card.save("spray.png", levels=16)
 
-edge, number = scales(512, 90, 2.6, 62)
+edge, number = bark_plates(512, 90, 2.6, 62)
 fine = field(512, 1.5, 3, 63)
 height = edge**0.7 * (0.7 + 0.3 * number)
 plates = blend((126, 100, 84), (100, 84, 76), number) * (1 + 0.09 * fine)[..., None]

@@ -36,8 +36,8 @@ def heart():
 card = Card(448, 512)
 right = heart()
 green, vein = (206, 214, 188), (240, 244, 216)
-card.area(right + [(-x, y) for x, y in right[::-1]], green)
-card.area(right + [(0, 0)], tuple(0.92 * part for part in green))
+card.fill_polygon(right + [(-x, y) for x, y in right[::-1]], green)
+card.fill_polygon(right + [(0, 0)], tuple(0.92 * part for part in green))
 inside = card.image.copy()
 
 
@@ -71,10 +71,10 @@ card.save("leaf.png", levels=24)
 card = Card(144, 512)
 shape = [(0, 0.03), (0.06, 0.05), (0.2, 0.1), (0.4, 0.125), (0.6, 0.12), (0.78, 0.092), (0.9, 0.055), (0.97, 0.022), (1, 0)]
 outline = [(w, t) for t, w in shape]
-card.area(outline + [(-x, y) for x, y in outline[::-1]], (255, 206, 30))
+card.fill_polygon(outline + [(-x, y) for x, y in outline[::-1]], (255, 206, 30))
 for i in range(9):
     part = (i - 4) / 4.6
     line = [(w * part, t) for t, w in shape[:-2]]
     card.line(line, 0.006, (238, 172, 12) if i % 2 == 0 else (255, 222, 70))
-card.area([(0.035, 0), (0.05, 0.07), (0, 0.2), (-0.05, 0.07), (-0.035, 0)], (232, 150, 10))
+card.fill_polygon([(0.035, 0), (0.05, 0.07), (0, 0.2), (-0.05, 0.07), (-0.035, 0)], (232, 150, 10))
 card.save("ray.png")

@@ -17,7 +17,7 @@ draw = random.Random(17)
 LANCE = [(0, 0), (0.08, 0.045), (0.25, 0.075), (0.45, 0.078), (0.65, 0.058), (0.85, 0.024), (1, 0)]
 
 
-def hanging(card, place, direction, length, leaves):
+def draw_twig(card, place, direction, length, leaves):
     """A thin yellow twig with narrow leaves by turns to either side, which hang."""
     steps = round(length / 0.036)
     heading = direction
@@ -38,7 +38,7 @@ def hanging(card, place, direction, length, leaves):
 for name, leaves in (("spray.png", True), ("twig.png", False)):
     card = Card(224, 512)
     for start, length in ((0.0, 0.88), (-0.09, 0.62), (0.1, 0.74)):
-        hanging(card, (0, 0.02 + abs(start)), 200 * start, length, leaves)
+        draw_twig(card, (0, 0.02 + abs(start)), 200 * start, length, leaves)
     card.save(name, levels=24)
 
 size = 512

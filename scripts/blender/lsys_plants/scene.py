@@ -13,7 +13,7 @@ from .materials import Materials
 
 #: Kinds of data that an import makes, in the order in which they are removed.
 KINDS = ("collections", "objects", "meshes", "armatures", "node_groups", "materials", "images", "actions")
-#: If a forest has more squares of ground than this, all squares share one cloud of points.
+#: Max number of point clouds of a forest, one for each cell; a forest with more cells gets a single one.
 MAX_CLOUDS = 200
 
 

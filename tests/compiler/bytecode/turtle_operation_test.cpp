@@ -20,11 +20,11 @@ TEST_CASE("every operation of the turtle has a unique name and states its parame
 }
 
 TEST_CASE("only the rotations by an angle count as turns") {
-    std::string turning;
+    std::string turn_names;
     for (const TurtleOperation operation : enumerators_of<TurtleOperation>()) {
-        turning += turns(operation) ? std::string(name_of(operation)) + ' ' : "";
+        turn_names += turns(operation) ? std::string(name_of(operation)) + ' ' : "";
     }
-    CHECK(turning == "yaw-right yaw-left pitch-down pitch-up roll-right roll-left ");
+    CHECK(turn_names == "yaw-right yaw-left pitch-down pitch-up roll-right roll-left ");
     CHECK(draws(TurtleOperation::PolygonEnd));
     CHECK_FALSE(draws(TurtleOperation::Move));
 }

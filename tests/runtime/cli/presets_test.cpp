@@ -65,7 +65,7 @@ TEST_CASE("each preset gives the same file as its options one by one") {
             const bool is_export = command == PresetCommand::Export;
             for (const ExportFormat format : export_formats()) {
                 const FormatTraits& traits = traits_of(format);
-                if (!suits(preset, command, traits)) {
+                if (!is_suitable(preset, command, traits)) {
                     continue;
                 }
                 CAPTURE(preset.name, traits.name, is_export);

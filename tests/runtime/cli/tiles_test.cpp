@@ -127,6 +127,39 @@ TEST_CASE("tiles are resumed by --resume: the files that are missing, and no oth
     CHECK(resumed == whole);
 }
 
+TEST_CASE("implicit tiling has subtree files instead of tilesets, and the same contents") {
+    const ScratchFolder folder;
+    REQUIRE(write_tiles(folder, "explicit").status == 0);
+    REQUIRE(write_tiles(folder, "implicit", {"--implicit", "--threads", "1"}).status == 0);
+    REQUIRE(write_tiles(folder, "again", {"--implicit", "--threads", "3"}).status == 0);
+    const auto by_json = files_of(folder.path() / "explicit");
+    const auto files = files_of(folder.path() / "implicit");
+    CHECK(files == files_of(folder.path() / "again"));
+    CHECK(files.contains("0/0/0.subtree"));
+    CHECK(files.at("tileset.json").find("\"implicitTiling\"") != std::string::npos);
+    std::size_t contents = 0;
+    for (const auto& [path, bytes] : by_json) {
+        const bool is_tileset = path.ends_with(".json");
+        CHECK((is_tileset && path != "tileset.json") != files.contains(path));
+        contents += path.ends_with(".glb") ? 1U : 0U;
+        if (path.starts_with("models/") || path == "0/0/0.glb") { // the root is in its own place
+            CHECK(files.at(path) == bytes);
+        }
+    }
+    CHECK(contents > 50);
+    for (const auto& [path, bytes] : files) {
+        CHECK((by_json.contains(path) || path.ends_with(".subtree")));
+    }
+    // A stopped run is continued by the same command, and parts are shared out as without it.
+    fs::remove(folder.path() / "again/0/0/0.subtree");
+    fs::remove(folder.path() / "again/tileset.json");
+    REQUIRE(write_tiles(folder, "again", {"--implicit", "--resume"}).status == 0);
+    REQUIRE(write_tiles(folder, "parts", {"--implicit", "--part", "1/2"}).status == 0);
+    REQUIRE(write_tiles(folder, "parts", {"--implicit", "--part", "2/2"}).status == 0);
+    CHECK(files == files_of(folder.path() / "again"));
+    CHECK(files == files_of(folder.path() / "parts"));
+}
+
 TEST_CASE("trees that cannot be placed tile by tile are not served") {
     const ScratchFolder folder;
     write_text(folder / "tree.lsys", kTree);

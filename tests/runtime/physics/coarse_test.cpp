@@ -145,7 +145,8 @@ TEST_CASE("the runs of a curve have the masses, contacts and energy of the joint
             REQUIRE((bodies[b].contact_count > 0 || bodies[b].contact.spring > 0.0));
         }
         CHECK(stage_mass == Approx(mass));
-        // The moment of the root: that of the run, and the load of the others at its end.
+        // First moment of mass of the root: its own mass at its centre, and the mass of all other
+        // runs at its end.
         const Body& root = bodies.front();
         const glm::dvec3 moment =
             root.mass * root.centre + (stage_mass - root.mass) * bodies[1].offset;

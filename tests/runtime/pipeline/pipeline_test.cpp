@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The pipeline as a library: files are read from memory, results are values.
 #include "runtime/forest/tree_heights.h"
+#include "runtime/pipeline/constant_text.h"
 #include "runtime/pipeline/forest.h"
 #include "runtime/pipeline/plant.h"
 #include "runtime/turtle/plant_size.h"
@@ -266,4 +267,45 @@ TEST_CASE("a plant gets the height of its grammar or of its options") {
         REQUIRE(plant);
         CHECK(height_of(plant.value().skeleton) == Approx(height));
     }
+}
+
+TEST_CASE("a constant is described by the comment after it, its value and its range") {
+    const Project project =
+        project_of({{"plant.lsys", "#n = 1;\n"
+                                   "#param lean 0.5 {0, 2};   //  lean, 0: straight  \r\n"
+                                   "#define a 3; #define b 4; // two statements\n"
+                                   "#define c 1e-3;\n"
+                                   "#define r {0, 1}; //\n"
+                                   "#w : F(lean + a + b + c + r);\n"}});
+    const Outcome<Grammar> grammar = load_grammar("plant.lsys", {}, project);
+    REQUIRE(grammar);
+    const auto text = [&](std::string_view name) {
+        for (const Constant& constant : grammar.value().program->constants) {
+            if (grammar.value().names.text(constant.name) == name) {
+                return describe_constant(constant, grammar.value());
+            }
+        }
+        return std::string("?");
+    };
+    CHECK(text("lean") == "lean, 0: straight\n0.5 in the file; from 0 to 2");
+    CHECK(text("a") == "3 in the file");
+    CHECK(text("b") == "two statements\n4 in the file");
+    CHECK(text("c") == "0.001 in the file");
+    CHECK(text("r") == "random in each run");
+}
+
+TEST_CASE("a season sets the constant of grammars that have one") {
+    const char* const kSeasonal = "#n = 1; #param season 0.5 {0, 1}; #w : F(1 + season);";
+    const auto height_of = [](const std::string& grammar, const std::string& species,
+                              const SceneOverrides& overrides) {
+        const Outcome<GrownForest> grown = forest_of(grammar, species, overrides);
+        REQUIRE(grown);
+        return heights_of(grown.value()).begin()->second;
+    };
+    SceneOverrides autumn;
+    autumn.season = 0.75F;
+    CHECK(height_of(kSeasonal, "", {}) == Approx(1.5));
+    CHECK(height_of(kSeasonal, "", autumn) == Approx(1.75));
+    CHECK(height_of(kSeasonal, "define = { season = 0.25 }\n", autumn) == Approx(1.25));
+    CHECK(height_of("#n = 1; #w : F(1);", "", autumn) == Approx(1.0));
 }

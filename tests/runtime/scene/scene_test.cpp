@@ -244,6 +244,54 @@ TEST_CASE("the ground has a picture with a relief and a size") {
               .messages.find("3:8-9: `tile`") == 0);
 }
 
+TEST_CASE("the sun has a place or a time") {
+    const auto light_of = [](const std::string& keys) {
+        return scene_of(with_species("[light]\n" + keys)).light;
+    };
+    CHECK(light_of("") == lsys::SceneLight{});
+    const lsys::SceneLight placed = light_of("sun = [225, -3.5]\nturbidity = 6");
+    CHECK(placed.sun == lsys::SunPlace{225.0, -3.5});
+    CHECK(placed.turbidity == 6.0);
+    CHECK(light_of("day = 172\nhour = 18.5\nlatitude = 52").sun == lsys::sun_at(172.0, 18.5, 52.0));
+    const auto messages_of = [](const std::string& keys) {
+        return parsed(with_species("[light]\n" + keys)).messages;
+    };
+    CHECK(messages_of("sun = [0, 91]").find("the elevation of the sun must be from -90 to 90") !=
+          std::string::npos);
+    CHECK(messages_of("sun = 45").find("2:7-9: `sun`") == 0);
+    CHECK(messages_of("hour = 12\nlatitude = 0").find("the time of the light has no `day`") !=
+          std::string::npos);
+    CHECK(messages_of("sun = [0, 1]\nhour = 12").find("3:1-5: ") == 0);
+    CHECK(messages_of("day = 1\nhour = 25\nlatitude = 0").find("3:8-10: `hour`") == 0);
+    CHECK(messages_of("turbidity = 1").find("2:13-14: `turbidity`") == 0);
+    CHECK(parsed(with_species("[terrain]\nhour = 12")).messages.find("[light]") !=
+          std::string::npos);
+}
+
+TEST_CASE("a season is that of every species") {
+    CHECK_FALSE(scene_of(with_species("")).species[0].season);
+    CHECK(scene_of(with_species("season = 0.25")).species[0].season == 0.25F);
+    CHECK(parsed(with_species("season = 1.5")).messages.find("1:10-13: `season`") == 0);
+}
+
+TEST_CASE("the sun of equinox, solstice and both hemispheres") {
+    const auto is_near = [](const lsys::SunPlace& sun, double azimuth, double elevation) {
+        return std::abs(sun.azimuth - azimuth) < 0.5 && std::abs(sun.elevation - elevation) < 0.5;
+    };
+    CHECK(is_near(lsys::sun_at(81.0, 12.0, 52.0), 180.0, 38.0));   // equinox, noon
+    CHECK(is_near(lsys::sun_at(81.0, 6.0, 52.0), 90.0, 0.0));      // it rises in the east
+    CHECK(is_near(lsys::sun_at(81.0, 18.0, -20.0), 270.0, 0.0));   // and sets in the west
+    CHECK(is_near(lsys::sun_at(172.0, 12.0, 52.0), 180.0, 61.45)); // June solstice
+    CHECK(is_near(lsys::sun_at(355.0, 12.0, 52.0), 180.0, 14.55)); // December solstice
+    CHECK(is_near(lsys::sun_at(355.0, 12.0, -34.0), 0.0, 79.45));  // in the north, in the south
+    CHECK(lsys::sun_at(172.0, 0.0, 70.0).elevation > 3.0);         // midnight sun
+    // Published values for 40 degrees north on 21 June (ASHRAE Handbook, Fundamentals).
+    CHECK(is_near(lsys::sun_at(172.0, 16.0, 40.0), 180.0 + 90.7, 37.4));
+    CHECK(is_near(lsys::sun_at(172.0, 15.0, 40.0), 180.0 + 80.2, 48.8));
+    CHECK(is_near(lsys::sun_at(172.0, 10.0, 40.0), 180.0 - 65.8, 59.8));
+    CHECK(is_near(lsys::sun_at(172.0, 12.0, 40.0), 180.0, 73.5));
+}
+
 TEST_CASE("every method has its keys and refuses others") {
     const std::vector<std::pair<std::string, std::vector<std::string>>> methods{
         {"uniform", {"count = 2"}},
@@ -344,9 +392,10 @@ TEST_CASE("a key of very many parts is an error and does not exhaust the stack")
     const std::string fine = "# " + dots + "\n[[species]]\ngrammar = \"" + dots + "\\\"" + dots +
                              "\"\nsystem = '" + dots + "'\nshare = 1 # " + dots + "\n";
     CHECK(parsed(fine).scene.has_value());
-    const std::string in_lines = "[[species]]\ngrammar = \"\"\"\n" + dots + "\"\n\\\"\"\"" + dots +
-                                 "\"\"\"\"\"\nsystem = '''\n''" + dots + "\\''''\nshare = 1\n";
-    CHECK(parsed(in_lines).messages.find("more than") == std::string::npos);
+    const std::string multiline_strings = "[[species]]\ngrammar = \"\"\"\n" + dots +
+                                          "\"\n\\\"\"\"" + dots + "\"\"\"\"\"\nsystem = '''\n''" +
+                                          dots + "\\''''\nshare = 1\n";
+    CHECK(parsed(multiline_strings).messages.find("more than") == std::string::npos);
     const std::string longest = repeated("a.", 15) + "a = ";
     CHECK(parsed(repeated(longest + "{ ", 250) + "a = 1" + repeated(" }", 250))
               .messages.find("[unknown-scene-key]") != std::string::npos);

@@ -55,6 +55,18 @@ std::string unpacked(const std::string& packed) {
     return text;
 }
 
+TEST_CASE("subtree files of implicit tiling are served") {
+    TileOptions options;
+    options.implicit = true;
+    const TileForest implicit = tests::make_tile_strip(options);
+    TileService service(implicit, kCache);
+    CHECK(body_of(service.respond(get("/0/0/0.subtree"))) == implicit.subtree({}));
+    CHECK(body_of(service.respond(get("/tileset.json"))) == implicit.tileset({}));
+    CHECK(service.respond(get("/1/0/0.subtree")).status == 404); // within the first subtree
+    CHECK(service.respond(get("/2/0/0.json")).status == 404);
+    CHECK(TileService(forest(), kCache).respond(get("/0/0/0.subtree")).status == 404);
+}
+
 TEST_CASE("the paths of tiles are numbers in one form only") {
     TileId tile;
     CHECK(parse_tile_path("3/5/2.glb", ".glb", tile));

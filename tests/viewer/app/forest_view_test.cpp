@@ -703,3 +703,75 @@ TEST_CASE("replacing the forest a hundred times leaks no objects of the renderer
     CHECK(viewed.renderer->live_objects() == objects);
     CHECK(viewed.renderer->errors().empty());
 }
+
+TEST_CASE("strokes and settings are undone in the order in which they were made") {
+    const WoodFolder files(wood(50));
+    ViewedForest viewed(forest_options(files.scene));
+    REQUIRE(viewed.until_swaps(1));
+    ForestView& forest = viewed.forest();
+    forest.settings.tool = PaintTool::OneTree;
+    viewed.look_at(5.0F, 30.0F);
+    viewed.press();
+    forest.settings.wireframe = true;
+    forest.record_edits();
+    viewed.look_at(15.0F, 30.0F);
+    viewed.press();
+    CHECK(forest.painting().tree_count() == 52);
+    forest.undo();
+    CHECK(forest.painting().tree_count() == 51);
+    CHECK(forest.settings.wireframe);
+    forest.undo();
+    CHECK_FALSE(forest.settings.wireframe);
+    CHECK(forest.painting().tree_count() == 51);
+    forest.undo();
+    CHECK(forest.painting().tree_count() == 50);
+    forest.undo();
+    CHECK(forest.note() == "Nothing to undo");
+    forest.redo();
+    forest.redo();
+    CHECK(forest.painting().tree_count() == 51);
+    CHECK(forest.settings.wireframe);
+    forest.settings.shadows = false;
+    forest.redo();
+    CHECK(forest.note() == "Nothing to redo");
+    CHECK(forest.painting().tree_count() == 51);
+}
+
+TEST_CASE("a forest that takes long is reported and cancelled") {
+    const WoodFolder files(wood(50));
+    ViewedForest viewed(forest_options(files.scene));
+    REQUIRE(viewed.until_swaps(1));
+    ForestView& forest = viewed.forest();
+    forest.settings.edits.heroes = 100'000;
+    REQUIRE(viewed.until([&] { return forest.making().has_value(); }));
+    CHECK(forest.making()->text == "Growing heroes");
+    forest.cancel_making();
+    CHECK(forest.note() == "Cancelled: the last forest is shown");
+    CHECK_FALSE(forest.settings.edits.heroes);
+    REQUIRE(viewed.until([&] { return !forest.making() && forest.stats().swaps == 1; }));
+    CHECK(forest.painting().tree_count() == 50);
+}
+
+TEST_CASE("all trees are drawn long before each has an impostor of its own") {
+    const WoodFolder files(wood(500));
+    ViewedForest viewed(forest_options(files.scene));
+    REQUIRE(viewed.until(
+        [&] { return viewed.renderer->has_stand_ins() && viewed.forest().stats().swaps == 1; }));
+    CHECK_FALSE(viewed.forest().has_all_impostors());
+    viewed.forest().settings.max_triangles = 0; // impostors only
+    viewed.step();
+    const std::vector<std::uint8_t> early = viewed.picture();
+    REQUIRE(viewed.until([&] { return viewed.forest().has_all_impostors(); }));
+    viewed.step();
+    const std::vector<std::uint8_t> late = viewed.picture();
+    // Without impostors, only ground and sky would be drawn.
+    const auto dark = [](const std::vector<std::uint8_t>& picture) {
+        std::size_t count = 0;
+        for (std::size_t i = 0; i < picture.size(); i += 4) {
+            count += picture[i] + picture[i + 1] + picture[i + 2] < 200 ? 1U : 0U;
+        }
+        return static_cast<double>(count);
+    };
+    CHECK(dark(late) > 0.0);
+    CHECK(dark(early) == Approx(dark(late)).epsilon(0.2));
+}

@@ -66,6 +66,26 @@ TEST_CASE("opening another file drops the options about the files of the command
     CHECK_FALSE(options.is_forest);
 }
 
+TEST_CASE("the sun has a place or a time, and a season is for plants and forests") {
+    CHECK(parsed<ViewOptions>({"tree.lsys", "--sun", "225,-3.5"}).light.sun ==
+          SunPlace{225.0, -3.5});
+    CHECK(parsed<ViewOptions>({"wood.toml", "--sun", "172,18.5,52", "--turbidity", "6"}).light ==
+          SceneLight{sun_at(172.0, 18.5, 52.0), 6.0});
+    for (const char* const wrong :
+         {"225", "0,91", "400,10", "0,12,52", "172,25,52", "1,2,3,4", "a,b", "0,", "nan,1"}) {
+        CAPTURE(wrong);
+        CHECK(parsed<UsageError>({"tree.lsys", "--sun", wrong}).message.find("--sun") !=
+              std::string::npos);
+    }
+    const ViewOptions plant = parsed<ViewOptions>({"tree.lsys", "--season", "0.5"});
+    CHECK_FALSE(plant.is_forest);
+    REQUIRE(plant.grammar.definitions.size() == 1);
+    CHECK(plant.grammar.definitions[0].name == "season");
+    const ViewOptions forest = parsed<ViewOptions>({"wood.toml", "--season", "0.5"});
+    CHECK(forest.overrides.season == 0.5F);
+    CHECK(forest.grammar.definitions.empty());
+}
+
 TEST_CASE("the option --air is for forests") {
     CHECK(parsed<ViewOptions>({"wood.toml", "--air", "2.5"}).visibility == 2.5F);
     CHECK(parsed<ViewOptions>({"tree.lsys", "--count", "9", "--air", "2.5"}).visibility == 2.5F);

@@ -527,3 +527,135 @@ TEST_CASE("changed shaders are compiled, and shaders with mistakes do not change
     CHECK(viewed.picture() != before);
     CHECK(viewed.view.stats().swaps == 1);
 }
+
+TEST_CASE("changed settings are undone and redone") {
+    ViewedPlant viewed(plant_options(sample("teach-param")));
+    REQUIRE(viewed.until_swaps(1));
+    PlantView& view = viewed.view;
+    view.record_edits();
+    view.undo();
+    CHECK(view.note() == "Nothing to undo"); // loading is no step
+    // A drag passes several values before the control is released.
+    view.settings.generations = 3;
+    view.settings.generations = 2;
+    view.record_edits();
+    view.settings.shadows = false;
+    view.record_edits();
+    const Camera camera = view.settings.camera = orbited(view.settings.camera, 0.5F, 0.0F);
+    view.record_edits();
+    view.undo();
+    CHECK(view.settings.shadows);
+    CHECK(view.generations() == 2);
+    view.undo();
+    CHECK(view.generations() == view.default_generations());
+    CHECK(view.settings.camera == camera);
+    view.undo();
+    CHECK(view.note() == "Nothing to undo");
+    view.redo();
+    view.redo();
+    CHECK(view.generations() == 2);
+    CHECK_FALSE(view.settings.shadows);
+    view.redo();
+    CHECK(view.note() == "Nothing to redo");
+    REQUIRE(viewed.until([&] { return view.document()->plant.generations == 2; }));
+    // A new step ends what can be redone.
+    view.undo();
+    view.settings.ground = false;
+    view.redo();
+    CHECK(view.settings.shadows);
+    CHECK(view.note() == "Nothing to redo");
+}
+
+TEST_CASE("a plant that takes long is reported, and cancelled together with its settings") {
+    const ScratchFolder scratch;
+    const std::string file = scratch / "doubling.lsys";
+    write_text(file, "#n = 3;\n#w : A(0);\n#p : A(x) : x >= 0 : A(x) F A(x);\n");
+    ViewOptions options = plant_options(file);
+    options.run.limits.max_bytes = std::uint64_t{1} << 40;
+    options.run.limits.max_modules = std::uint64_t{1} << 42;
+    ViewedPlant viewed(options);
+    REQUIRE(viewed.until_swaps(1));
+    PlantView& view = viewed.view;
+    CHECK_FALSE(view.making());
+    view.settings.generations = 40;
+    REQUIRE(viewed.until([&] {
+        const std::optional<MakingState> making = view.making();
+        return making && making->text.starts_with("Deriving generation ") &&
+               making->text.find(" of 40: ") != std::string::npos;
+    }));
+    REQUIRE(view.making()->fraction);
+    CHECK(*view.making()->fraction < 0.5F);
+    Controls controls;
+    PanelState panels;
+    WindowInput input;
+    input.presses = {{Key::Escape}};
+    controls.apply(input, 0.01, 600.0F, view, panels);
+    CHECK_FALSE(view.making());
+    CHECK(view.note() == "Cancelled: the last plant is shown");
+    CHECK(view.generations() == 3);
+    REQUIRE(viewed.until([&] { return !view.is_busy(); }));
+    CHECK(view.stats().swaps == 1);
+    CHECK(view.document()->plant.generations == 3);
+    view.reload();
+    REQUIRE(viewed.until_swaps(2));
+    CHECK(view.document()->plant.generations == 3);
+
+    // A changed file whose plant was cancelled is read with the next change.
+    write_text(file, "#n = 40;\n#w : A(0);\n#p : A(x) : x >= 0 : A(x) F F A(x);\n");
+    REQUIRE(viewed.until([&] { return view.making().has_value(); }));
+    view.cancel_making();
+    view.settings.generations = 2;
+    REQUIRE(viewed.until_swaps(3));
+    CHECK(view.document()->plant.modules == 10);
+
+    // So is a plant of another file, which leaves the first one open.
+    const std::string other = scratch / "other.lsys";
+    write_text(other, "#n = 40;\n#w : A(0);\n#p : A(x) : x >= 0 : A(x) F A(x);\n");
+    view.open(other);
+    REQUIRE(viewed.until([&] { return view.making().has_value(); }));
+    view.cancel_making();
+    CHECK(view.file() == file);
+    CHECK(view.generations() == 2);
+    REQUIRE(viewed.until([&] { return !view.is_busy(); }));
+    CHECK(view.stats().swaps == 3);
+}
+
+TEST_CASE("the plant shown is exported with its values, or the reason is reported") {
+    const ScratchFolder scratch;
+    ViewedPlant viewed(plant_options(sample("teach-param")));
+    REQUIRE(viewed.until_swaps(1));
+    PlantView& view = viewed.view;
+    CHECK(view.settings.output.file == "teach-param.glb");
+    view.settings.generations = 2;
+    view.settings.seed = 5;
+    view.settings.mesh.sides = 4;
+    REQUIRE(viewed.until_swaps(2));
+    view.settings.output.file = scratch / "shown.obj";
+    view.export_shown();
+    REQUIRE(viewed.until([&] { return view.note().starts_with("Wrote "); }));
+    CHECK(view.note().ends_with("shown.obj"));
+    CHECK(std::filesystem::exists(scratch / "shown.mtl"));
+    const LscRun run = run_lsc({"export", sample("teach-param"), "-n", "2", "--seed", "5",
+                                "--sides", "4", "-o", scratch / "same.obj", "-q"},
+                               "");
+    REQUIRE(run.status == 0);
+    const auto vertices = [](const std::string& file) {
+        const std::string text = read_text(file);
+        return text.substr(text.find("\nv "), text.rfind("\nv ") - text.find("\nv "));
+    };
+    CHECK(vertices(scratch / "shown.obj") == vertices(scratch / "same.obj"));
+
+    view.settings.output = {scratch / "plant.glb", "web", 0};
+    view.export_shown();
+    REQUIRE(viewed.until([&] { return view.note().find("plant.glb") != std::string::npos; }));
+    CHECK(read_text(scratch / "plant.glb").find("EXT_meshopt_compression") != std::string::npos);
+
+    view.settings.output = {scratch / "plant.doc", "", 0};
+    view.export_shown();
+    REQUIRE(viewed.until([&] { return view.note().find("plant.doc") != std::string::npos; }));
+    CHECK(view.note().find("no extension of a known format") != std::string::npos);
+    view.settings.output = {scratch / "plant.stl", "web", 0};
+    view.export_shown();
+    REQUIRE(viewed.until([&] { return view.note().find("web") != std::string::npos; }));
+    CHECK_FALSE(std::filesystem::exists(scratch / "plant.stl"));
+}

@@ -134,7 +134,7 @@ void compare(CulledWood& both, const Camera& camera, const LodOptions& options, 
     CHECK(device.state.triangle_count() == cpu.triangles);
     CHECK(device.state.level_counts == cpu.trees_of_level);
     CHECK(device.state.drawn_branches == cpu.branches.size());
-    CHECK(std::uint64_t{device.state.cell_blended} + device.state.near_blended == cpu.blended);
+    CHECK(std::uint64_t{device.state.cluster_blended} + device.state.branch_blended == cpu.blended);
     const auto gap = [](std::uint64_t a, std::uint64_t b) { return a < b ? b - a : a - b; };
     CHECK(gap(device.state.occluded, cpu.occluded) <= 16 * allowed);
     CHECK(gap(device.state.clustered, cpu.clustered_trees) <= 16 * allowed);

@@ -122,3 +122,19 @@ TEST_CASE("depth is 1 at the near plane and falls with the distance") {
     CHECK(clip(camera, 1.0F, {0.0F, 0.0F, 0.0F}).z > clip(camera, 1.0F, {0.0F, 0.0F, -1.0F}).z);
     CHECK(clip(camera, 1.0F, {0.0F, 0.0F, -1e6F}).z > 0.0F);
 }
+
+TEST_CASE("standard views look along the axes and keep target and distance") {
+    Camera camera;
+    camera.target = {1.0F, 2.0F, 3.0F};
+    const float distance = glm::distance(camera.eye, camera.target);
+    const Camera front = seen_from(StandardView::Front, camera);
+    CHECK(near(front.eye, camera.target + glm::vec3(0.0F, 0.0F, distance)));
+    CHECK(near(right_of(front), {1.0F, 0.0F, 0.0F}));
+    const Camera side = seen_from(StandardView::Side, camera);
+    CHECK(near(side.eye, camera.target + glm::vec3(distance, 0.0F, 0.0F)));
+    CHECK(near(right_of(side), {0.0F, 0.0F, -1.0F}));
+    const Camera top = seen_from(StandardView::Top, camera);
+    CHECK(top.target == camera.target);
+    CHECK(forward_of(top).y < -0.99F);
+    CHECK(near(right_of(top), {1.0F, 0.0F, 0.0F}));
+}

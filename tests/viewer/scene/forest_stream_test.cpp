@@ -62,7 +62,7 @@ StreamedWood make_streamed_wood(double shift) {
     auto streamed = std::make_shared<StreamedTrees>();
     streamed->layout = {{shift, shift, 256.0, 256.0}, 64.0, 4};
     streamed->mean_scales = {1.0F};
-    streamed->crown_parts = {1.0F};
+    streamed->crown_weights = {1.0F};
     streamed->tallest = 20.0F;
     made.wood->model.streamed = streamed;
     std::map<SquareId, std::vector<Tree>> by_square;

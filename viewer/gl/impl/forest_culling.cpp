@@ -152,7 +152,7 @@ ForestCulling::ForestCulling(Device& device)
     : device_(&device), blocks_(device, kPartBytes, MappedBuffer::Access::Write),
       states_(device, kPartBytes, MappedBuffer::Access::Read), timer_(device), rays_(device),
       tables_(device), identities_(device), cells_(device), state_(device), codes_(device),
-      sums_(device), visible_cells_(device), entries_(device), cluster_entries_(device),
+      sums_(device), visible_cells_(device), tree_entries_(device), cluster_entries_(device),
       candidates_(device), near_(device), nodes_(device),
       branches_(device), sorted_{Buffer(device), Buffer(device)}, digits_(device), keys_(device),
       command_keys_(device), commands_(device), changes_(device),
@@ -229,7 +229,7 @@ void ForestCulling::grow_lists(std::uint32_t trees) {
     identities_.grow(tree_capacity_ * kIdentityBytes);
     codes_.allocate(elements * 2 * sizeof(std::uint32_t));
     sums_.allocate((elements / kBlock + 1) * 4 * sizeof(std::uint32_t));
-    entries_.allocate(tree_capacity_ * sizeof(ImpostorEntry));
+    tree_entries_.allocate(tree_capacity_ * sizeof(ImpostorEntry));
     candidates_.allocate(std::size_t{max_candidates_} * 2 * sizeof(std::uint32_t));
     near_.allocate(max_candidates_ * kNearBytes);
 }
@@ -346,7 +346,7 @@ void ForestCulling::begin(const ForestLod& lod, const ForestBuffers& buffers, Bl
          {kCodes, codes_.name()},
          {kSums, sums_.name()},
          {kVisibleCells, visible_cells_.name()},
-         {kEntries, entries_.name()},
+         {kEntries, tree_entries_.name()},
          {kCandidates, candidates_.name()},
          {kNear, near_.name()},
          {kNodes, nodes_.name()},
@@ -390,7 +390,7 @@ void ForestCulling::list_trees(std::uint32_t cells) {
     if (cells != 0) {
         run(programs_.list_cells, cells, kBlock);
     }
-    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, kEntries, entries_.name());
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, kEntries, tree_entries_.name());
     run(programs_.mark_trees, ByTree);
     set_parameter(programs_.sum, 1);
     run(programs_.sum, 1, 1);
@@ -516,7 +516,7 @@ CulledLists ForestCulling::read_lists() const {
         whole.insert(whole.end(), blended.rbegin(), blended.rend());
         return whole;
     };
-    lists.trees = read_entries(entries_, 0);
+    lists.trees = read_entries(tree_entries_, 0);
     lists.clusters = read_entries(cluster_entries_, 8);
     lists.pool.resize(lists.state.pool_used);
     read(branches_, 0, lists.pool);
@@ -531,7 +531,7 @@ CulledLists ForestCulling::read_lists() const {
 std::uint64_t ForestCulling::byte_count() const {
     std::uint64_t bytes = 0;
     for (const Buffer* buffer :
-         {&tables_, &identities_, &cells_, &codes_, &sums_, &visible_cells_, &entries_,
+         {&tables_, &identities_, &cells_, &codes_, &sums_, &visible_cells_, &tree_entries_,
           &cluster_entries_, &candidates_, &near_, &nodes_, &branches_, &sorted_[0], &sorted_[1],
           &digits_, &keys_, &command_keys_, &commands_}) {
         bytes += buffer->capacity();

@@ -48,8 +48,8 @@ struct CullingState {
     std::uint32_t waiting = 0;
     std::uint32_t occluded = 0;
     std::uint32_t clustered = 0;
-    std::uint32_t cell_blended = 0;
-    std::uint32_t near_blended = 0;
+    std::uint32_t cluster_blended = 0; // trees drawn both alone and in a cluster
+    std::uint32_t branch_blended = 0;  // trees drawn both as branches and as an impostor
     std::uint32_t drawn_branches = 0;
     float detail = 1.0F;
     std::array<std::uint32_t, kTreeLevels> level_counts{};
@@ -88,7 +88,8 @@ public:
     /// Records a change of a tree, which the next select() uploads.
     void change_tree(std::uint32_t number);
 
-    /// Parameters of a picture. `ground`: occluder, or null. `heights`: its texture.
+    /// Parameters of a picture. `ground`: occluder, or null. `heights`: height texture of
+    /// the ground.
     struct View {
         Frustum frustum;
         LodOptions options;
@@ -104,7 +105,7 @@ public:
     [[nodiscard]] const DeviceDraws& draws() const { return draws_; }
     /// Buffer of ImpostorEntry of trees or of clusters.
     [[nodiscard]] GLuint entries(bool clusters) const {
-        return clusters ? cluster_entries_.name() : entries_.name();
+        return clusters ? cluster_entries_.name() : tree_entries_.name();
     }
     /// Buffer of draw commands for impostors.
     [[nodiscard]] GLuint impostor_commands() const { return state_.name(); }
@@ -164,7 +165,7 @@ private:
     Buffer codes_;
     Buffer sums_;
     Buffer visible_cells_;
-    Buffer entries_;
+    Buffer tree_entries_;
     Buffer cluster_entries_;
     Buffer candidates_;
     Buffer near_;

@@ -135,7 +135,7 @@ void ForestPass::set_colours(BranchColours by) {
     impostors_.begin(model_, plan_impostors(*lod_), buffers_);
 }
 
-void ForestPass::show_trees() {
+void ForestPass::update_trees() {
     lists_ = nullptr;
     lod_ = std::make_unique<ForestLod>(model_);
     ImpostorPlan plan = plan_impostors(*lod_);
@@ -174,7 +174,7 @@ bool ForestPass::bake_impostors(double seconds, MaterialTextures& textures) {
         }
     }
     if (impostors_.is_done() && model_.streamed != nullptr) {
-        terrain_.set_canopy(impostors_.mean_colour_from_above(model_.streamed->crown_parts));
+        terrain_.set_canopy(impostors_.mean_colour_from_above(model_.streamed->crown_weights));
     }
     bake_seconds_ += seconds_since(start);
     return impostors_.is_done();
@@ -250,8 +250,9 @@ Bounds ForestPass::shadow_bounds(const Frame& frame) {
     const glm::vec3 along = forward_of(camera);
     const glm::vec2 flat(along.x, along.z);
     const float length = glm::length(flat);
-    const float down = along.y < -0.05F ? above / -along.y * length : 2.0F * half;
-    const float reach = std::min((above > 0.5F * half ? 1.5F : 0.75F) * half, std::max(down, 0.0F));
+    const float ground_distance = along.y < -0.05F ? above / -along.y * length : 2.0F * half;
+    const float reach =
+        std::min((above > 0.5F * half ? 1.5F : 0.75F) * half, std::max(ground_distance, 0.0F));
     const glm::vec2 wanted = glm::vec2(camera.eye.x, camera.eye.z) +
                              (length > 1e-4F ? flat / length * reach : glm::vec2(0.0F));
     const float step = 0.25F * half;
@@ -433,8 +434,8 @@ void ForestPass::draw(MaterialTextures& textures, ForestFrameStats& stats) {
     }
     buffers_.bind_storage();
     for (const bool blends : {false, true}) {
-        glBindTextureUnit(kBarkTexture, textures.base(MaterialKind::Bark));
-        glBindTextureUnit(kLeafTexture, textures.base(MaterialKind::Leaf));
+        glBindTextureUnit(kBarkTexture, textures.base_colour(MaterialKind::Bark));
+        glBindTextureUnit(kLeafTexture, textures.base_colour(MaterialKind::Leaf));
         glBindTextureUnit(kNormalMapTexture, textures.bark_normals());
         draw_branches(blends ? programs().blending_branches : programs().branches, blends,
                       stats.branches);
@@ -487,8 +488,8 @@ void ForestPass::collect_device_stats(ForestFrameStats& stats) {
         return;
     }
     stats.trees_of_level = state->level_counts;
-    stats.far_trees = state->impostor_count(false) - state->near_blended;
-    stats.blended_trees = std::uint64_t{state->cell_blended} + state->near_blended;
+    stats.far_trees = state->impostor_count(false) - state->branch_blended;
+    stats.blended_trees = std::uint64_t{state->cluster_blended} + state->branch_blended;
     stats.occluded_trees = state->occluded;
     stats.clustered_trees = state->clustered;
     stats.clusters = state->impostor_count(true);
@@ -533,7 +534,7 @@ void ForestPass::draw_picked(MaterialTextures& textures) {
     }
     buffers_.bind_storage();
     for (const bool blends : {false, true}) {
-        glBindTextureUnit(kLeafTexture, textures.base(MaterialKind::Leaf));
+        glBindTextureUnit(kLeafTexture, textures.base_colour(MaterialKind::Leaf));
         use(blends ? picks.blending_branch : picks.branch, PickedKind::Branch);
         for (const BranchClass kind :
              {BranchClass::OneSided, BranchClass::TwoSided, BranchClass::Plain}) {

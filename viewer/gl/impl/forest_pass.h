@@ -44,9 +44,10 @@ public:
     [[nodiscard]] bool is_culled_on_device() const { return is_culled_on_device_; }
     /// Updates the trees of the forest after a change. Clusters are drawn once their new impostors
     /// are baked.
-    void show_trees();
+    void update_trees();
     /// Bakes missing impostors for about `seconds`. Returns whether all are done.
     [[nodiscard]] bool bake_impostors(double seconds, MaterialTextures& textures);
+    [[nodiscard]] bool has_stand_ins() const { return impostors_.is_filled(); }
     /// Colours the branches of this forest and of all later ones.
     void set_colours(BranchColours by);
     /// Adds or removes a tree: ForestLod::change_tree().

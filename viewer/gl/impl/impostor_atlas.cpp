@@ -114,6 +114,48 @@ void ImpostorAtlas::find_missing() {
             pending_.push_back(layer);
         }
     }
+    // The first layer of each form without a picture comes first.
+    const auto waits = [this](std::uint32_t layer) {
+        for (std::uint32_t other = 0; other < layers_; ++other) {
+            const bool is_earlier = other < layer && keys_[other] != target_keys_[other];
+            if ((filled_[other] != 0 || is_earlier) && are_alike(layer, other)) {
+                return true;
+            }
+        }
+        return false;
+    };
+    std::stable_partition(pending_.begin(), pending_.end(), waits);
+}
+
+bool ImpostorAtlas::are_alike(std::uint32_t a, std::uint32_t b) const {
+    const ImpostorLayer& first = plan_.layers[a];
+    const ImpostorLayer& second = plan_.layers[b];
+    return first.form == second.form && (first.trees.size() == 1) == (second.trees.size() == 1);
+}
+
+bool ImpostorAtlas::is_filled() const {
+    return std::all_of(filled_.begin(), filled_.end(), [](std::uint8_t each) { return each != 0; });
+}
+
+void ImpostorAtlas::stand_in(std::uint32_t layer) {
+    for (std::uint32_t other = 0; other < layers_; ++other) {
+        if (filled_[other] != 0 || !are_alike(layer, other)) {
+            continue;
+        }
+        filled_[other] = 1;
+        boxes_[other] = boxes_[layer];
+        box_buffer_.write(std::span<const LayerBoxes>(&boxes_[other], 1),
+                          other * sizeof(LayerBoxes));
+        for (const TextureObject* texture : {&albedos_, &normals_}) {
+            for (GLint level = 0; level < kLevels; ++level) {
+                glCopyImageSubData(texture->name(), GL_TEXTURE_2D_ARRAY, level, 0, 0,
+                                   static_cast<GLint>(layer), texture->name(), GL_TEXTURE_2D_ARRAY,
+                                   level, 0, 0, static_cast<GLint>(other),
+                                   static_cast<GLsizei>(kWidth >> level),
+                                   static_cast<GLsizei>(kHeight >> level), 1);
+            }
+        }
+    }
 }
 
 void ImpostorAtlas::draw_elevation(const Cylinder& form,
@@ -147,8 +189,8 @@ void ImpostorAtlas::draw_elevation(const Cylinder& form,
         glViewport(static_cast<GLint>(y * kTile * kSupersampling), 0,
                    static_cast<GLsizei>(kTile * kSupersampling),
                    static_cast<GLsizei>(kTile * kSupersampling));
-        glBindTextureUnit(1, textures.base(MaterialKind::Bark));
-        glBindTextureUnit(2, textures.base(MaterialKind::Leaf));
+        glBindTextureUnit(1, textures.base_colour(MaterialKind::Bark));
+        glBindTextureUnit(2, textures.base_colour(MaterialKind::Leaf));
         for (const ProgramObject* program : {&solid_, &cut_out_}) {
             glUseProgram(program->name());
             glUniform4f(kCentre, middle.x, middle.y, middle.z, deep);
@@ -233,6 +275,7 @@ void ImpostorAtlas::make_layers(const std::vector<std::uint64_t>& keys) {
     const std::vector<std::uint64_t> keys_before = std::exchange(keys_, {});
     const std::vector<LayerBoxes> boxes_before = std::exchange(boxes_, {});
     keys_.assign(count, 0);
+    filled_.assign(count, 0);
     boxes_.resize(count);
     layers_ = count;
     texture_bytes_ = 0;
@@ -255,6 +298,7 @@ void ImpostorAtlas::make_layers(const std::vector<std::uint64_t>& keys) {
                 continue;
             }
             keys_[layer] = keys[layer];
+            filled_[layer] = 1;
             boxes_[layer] = boxes_before[static_cast<std::size_t>(same - keys_before.begin())];
             for (GLint level = 0; level < kLevels; ++level) {
                 glCopyImageSubData(before[i].name(), GL_TEXTURE_2D_ARRAY, level, 0, 0,
@@ -368,6 +412,8 @@ void ImpostorAtlas::step(const ForestModel& model,
     bake.elevation = 0;
     upload_layer(layer, std::move(bake.all));
     keys_[layer] = target_keys_[layer];
+    filled_[layer] = 1;
+    stand_in(layer);
     pending_.pop_back();
     if (pending_.empty()) {
         bake_.reset();

@@ -32,9 +32,11 @@ public:
     /// Recompiles the shaders; impostors stay until they are baked again.
     [[nodiscard]] Result<void> reload(const ShaderSource& shaders);
     /// Starts a new plan. Unchanged layers are kept and not baked again; new layers are empty until
-    /// they are baked.
+    /// they or others of their form are baked. The first missing layer of each form is baked first.
     void begin(const ForestModel& model, ImpostorPlan plan, const ForestBuffers& buffers);
     [[nodiscard]] bool is_done() const { return pending_.empty(); }
+    /// Whether each layer has a picture: its own, or until then another one of its form.
+    [[nodiscard]] bool is_filled() const;
     /// Bakes one elevation of one missing layer. Changes bound programs, textures, framebuffer.
     void step(const ForestModel& model, ForestBuffers& buffers, MaterialTextures& textures);
 
@@ -74,6 +76,10 @@ private:
                         Buffer& frame) const;
     void upload_layer(std::uint32_t layer, ImpostorTexels picture);
     void find_boxes(std::uint32_t layer, std::span<const std::uint8_t> albedos);
+    /// Copies a baked layer to the empty layers of its form.
+    void stand_in(std::uint32_t layer);
+    /// Whether two layers show trees of one form, or clusters of one form.
+    [[nodiscard]] bool are_alike(std::uint32_t a, std::uint32_t b) const;
 
     Device* device_;
     ProgramObject solid_;
@@ -85,6 +91,7 @@ private:
     ImpostorPlan plan_;
     std::vector<std::uint64_t> keys_;        // hash of the contents of each layer; 0: empty
     std::vector<std::uint64_t> target_keys_; // hash of the wanted contents
+    std::vector<std::uint8_t> filled_;       // by layer: whether it has a picture
     std::vector<std::uint32_t> pending_;     // layers to bake, the next one last
     std::optional<BakeState> bake_;
     std::uint32_t layers_ = 0;

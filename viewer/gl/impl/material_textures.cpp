@@ -106,7 +106,7 @@ int translucency_step(const Material& material, bool is_thin) {
     return static_cast<int>(std::lround(part * 256.0F));
 }
 
-GLuint MaterialTextures::base(MaterialKind kind) {
+GLuint MaterialTextures::base_colour(MaterialKind kind) {
     TextureObject& object = bases_[static_cast<std::size_t>(kind)];
     if (!object) {
         object =

@@ -17,8 +17,8 @@ class MaterialTextures {
 public:
     explicit MaterialTextures(Device& device) : device_(&device) {}
 
-    /// Texture of a kind of material. Precondition: has_texture(kind).
-    [[nodiscard]] GLuint base(MaterialKind kind);
+    /// Colour texture of a kind of material. Precondition: has_texture(kind).
+    [[nodiscard]] GLuint base_colour(MaterialKind kind);
     [[nodiscard]] GLuint bark_normals();
     /// Texture of a picture file; mip levels keep coverage if it has holes.
     [[nodiscard]] TextureObject make(const Texture& picture) const;

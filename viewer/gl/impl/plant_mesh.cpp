@@ -92,7 +92,7 @@ std::uint64_t PlantMesh::draw(MaterialTextures& textures, Pass pass) const {
                     translucency);
         if (material.textured) {
             glBindTextureUnit(kBaseTexture,
-                              picture ? picture.name() : textures.base(material.kind));
+                              picture ? picture.name() : textures.base_colour(material.kind));
         }
         if (bumpy && shaded) {
             glBindTextureUnit(kNormalTexture,

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: MIT
+#include "runtime/pipeline/constant_text.h"
+
+#include "grammar/base/blanks.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <string_view>
+
+namespace lsys {
+
+namespace {
+
+/// The comment on the line of `place` after at most one `;`; empty: none.
+std::string_view comment_after(std::string_view text, std::size_t place) {
+    const std::string_view rest = text.substr(place, text.find_first_of("\r\n", place) - place);
+    const std::size_t mark = rest.find("//");
+    if (mark == std::string_view::npos) {
+        return {};
+    }
+    const std::string_view before = rest.substr(0, mark);
+    return std::count(before.begin(), before.end(), ';') <= 1
+               ? without_blanks(rest.substr(mark + 2))
+               : std::string_view();
+}
+
+} // namespace
+
+std::string describe_constant(const Constant& constant, const Grammar& grammar) {
+    std::string text;
+    if (constant.span.file != kNoFile) {
+        const SourceFile& file = grammar.sources->file(constant.span.file);
+        text = comment_after(file.text(), constant.span.end);
+    }
+    text += text.empty() ? "" : "\n";
+    text +=
+        constant.is_random ? "random in each run" : fmt::format("{:g} in the file", constant.value);
+    if (constant.is_param) {
+        text += fmt::format("; from {:g} to {:g}", constant.minimum, constant.maximum);
+    }
+    return text;
+}
+
+} // namespace lsys

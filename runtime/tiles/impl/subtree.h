@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: MIT
+// Implicit tiling of 3D Tiles 1.1 (OGC 22-025r4, section 7.9): one tile in tileset.json stands for
+// the whole quadtree, and binary subtree files say which tiles there are. Subtrees have the boxes and
+// errors of their tiles as metadata, because those that a client derives from the root are loose: a
+// quarter of the root's box, and half of the error of the level above.
+#pragma once
+
+#include "runtime/tiles/impl/tileset.h"
+#include "runtime/tiles/tiles.h"
+
+#include <cstdint>
+#include <string>
+
+namespace lsys {
+
+/// Number of levels of each subtree of a quadtree with so many levels: at most five, so that a file
+/// has at most 341 tiles, and as even as possible.
+[[nodiscard]] constexpr std::uint32_t subtree_levels(std::uint32_t levels) {
+    constexpr std::uint32_t kMaxSubtreeLevels = 5;
+    const std::uint32_t subtrees = (levels + kMaxSubtreeLevels - 1) / kMaxSubtreeLevels;
+    return (levels + subtrees - 1) / subtrees;
+}
+
+/// Implements TileForest::tileset() for implicit tiling.
+[[nodiscard]] std::string make_implicit_tileset(const TilesetPlan& plan);
+/// Implements TileForest::subtree().
+[[nodiscard]] std::string make_subtree(const TilesetPlan& plan, const TileId& root);
+
+} // namespace lsys

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: MIT
+#include "tests/support/sample_plants.h"
+
+#include <fstream>
+#include <iterator>
+#include <stdexcept>
+#include <utility>
+
+namespace lsys::test {
+
+namespace {
+
+Project sample_project() {
+    Project project;
+    project.threads = 1;
+    project.host.read_file = [](const std::string& path, const ReadLimit&) -> Result<std::string> {
+        std::ifstream file(path, std::ios::binary);
+        if (!file) {
+            return Error{"no such file or directory"};
+        }
+        return std::string(std::istreambuf_iterator<char>(file), {});
+    };
+    project.host.read_referenced_file = project.host.read_file;
+    project.host.file_exists = [](const std::string& path) { return std::ifstream(path).good(); };
+    return project;
+}
+
+} // namespace
+
+lsys::Plant sample_plant(const std::string& name) {
+    const Project project = sample_project();
+    PlantOptions options;
+    options.file = std::string(LSYS_SOURCE_DIR) + "/samples/" + name + "/" + name + ".lsys";
+    Outcome<Grammar> grammar = load_grammar(options.file, {}, project);
+    if (!grammar) {
+        throw std::runtime_error("a sample does not compile: " + name);
+    }
+    Outcome<lsys::Plant> plant = grow_plant(options, grammar.value(), project);
+    if (!plant) {
+        throw std::runtime_error("a sample does not grow: " + name);
+    }
+    return std::move(plant.value());
+}
+
+} // namespace lsys::test

@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: MIT
+// Plants of samples/, for tests of meshes.
+#pragma once
+
+#include "runtime/pipeline/plant.h"
+
+#include <string>
+
+namespace lsys::test {
+
+/// The plant of samples/NAME/NAME.lsys.
+[[nodiscard]] lsys::Plant sample_plant(const std::string& name);
+
+} // namespace lsys::test

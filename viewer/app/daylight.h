@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: MIT
+// Daylight: the light of a clear day for any place of the sun.
+#pragma once
+
+#include "runtime/scene/scene.h"
+#include "viewer/gl/renderer.h"
+
+#include <glm/vec3.hpp>
+
+namespace lsys::view {
+
+/// The values that `changes` sets, else those of `scene`.
+[[nodiscard]] SceneLight replaced(const SceneLight& scene, const SceneLight& changes);
+
+/// Unit vector to the sun.
+[[nodiscard]] glm::vec3 direction_of(const SunPlace& sun);
+
+/// Place of the sun of a light.
+[[nodiscard]] SunPlace sun_of(const Light& light);
+
+/// `light` with the sun and the turbidity of `scene`; unchanged if it sets neither. The luminance of
+/// sky and horizon changes as in Preetham, Shirley & Smits 1999 (SIGGRAPH, appendix A.2), the colour
+/// of the sun by Rayleigh scattering and haze (appendix A.1); the exposure follows. For the sun of
+/// `light` and kDefaultTurbidity all are those of `light`. Below the horizon the sun gives no light,
+/// and the sky fades to dusk.
+[[nodiscard]] Light daylight_of(const SceneLight& scene, const Light& light);
+inline constexpr double kDefaultTurbidity = 3.0;
+
+} // namespace lsys::view

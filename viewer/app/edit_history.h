@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: MIT
+// EditHistory: earlier and undone values of settings, for undo and redo.
+#pragma once
+
+#include <utility>
+#include <vector>
+
+namespace lsys::view {
+
+template <typename Value>
+class EditHistory {
+public:
+    explicit EditHistory(Value value) : current_(std::move(value)) {}
+
+    /// Makes `value` the current one. A different value is a step; returns whether it was one.
+    bool record(const Value& value) {
+        if (value == current_) {
+            return false;
+        }
+        earlier_.push_back(std::exchange(current_, value));
+        undone_.clear();
+        return true;
+    }
+    /// The current value. Changes to it are no steps.
+    [[nodiscard]] Value& current() { return current_; }
+
+    [[nodiscard]] bool can_undo() const { return !earlier_.empty(); }
+    [[nodiscard]] bool can_redo() const { return !undone_.empty(); }
+    /// Takes back the last step. Precondition: can_undo().
+    const Value& undo() { return move_step(earlier_, undone_); }
+    /// Repeats the step undone last. Precondition: can_redo().
+    const Value& redo() { return move_step(undone_, earlier_); }
+
+private:
+    const Value& move_step(std::vector<Value>& from, std::vector<Value>& to) {
+        to.push_back(std::exchange(current_, std::move(from.back())));
+        from.pop_back();
+        return current_;
+    }
+
+    Value current_;
+    std::vector<Value> earlier_; // oldest first
+    std::vector<Value> undone_;  // first undone first
+};
+
+} // namespace lsys::view

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: MIT
+// MakingProgress: what the thread of a loader is doing, for the window. Thread-safe.
+#pragma once
+
+#include "runtime/pipeline/project.h"
+
+#include <cstdint>
+#include <mutex>
+#include <optional>
+#include <string>
+
+namespace lsys::view {
+
+struct MakingState {
+    std::string text;              // "Deriving generation 9 of 12: 40,000,000 modules"
+    std::optional<float> fraction; // of the derivation, 0 to 1; empty: unknown
+};
+
+class MakingProgress {
+public:
+    /// Makes `host` report to this object, which must outlive all calls with `host`. Forgets earlier
+    /// reports.
+    void follow(Host& host);
+    [[nodiscard]] MakingState state() const;
+
+private:
+    void begin(LongStep step);
+    void derive(const DerivationProgress& progress);
+
+    mutable std::mutex mutex_;
+    LongStep step_ = LongStep::Read;
+    // Of a derivation.
+    std::uint32_t generation_ = 0; // 0: it has not written a module yet
+    std::uint32_t generations_ = 0;
+    std::uint64_t modules_ = 0;
+    double expected_ = 0.0;        // modules of all generations; 0: unknown
+    double expected_before_ = 0.0; // modules of generations before generation_
+    std::uint32_t summed_ = 0;     // generations in expected_before_
+};
+
+} // namespace lsys::view

@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: MIT
+#include "viewer/app/plant_export.h"
+
+#include "runtime/base/out_of_memory.h"
+#include "runtime/output/file_option_parsers.h"
+#include "runtime/output/plant_files.h"
+#include "runtime/program/host.h"
+
+#include <fmt/format.h>
+
+#include <optional>
+#include <sstream>
+#include <utility>
+
+namespace lsys::view {
+
+namespace {
+
+/// The options of `lsc export` that the settings and the mesh of the plant stand for.
+Result<PlantFileOptions> file_options(const ExportRequest& request) {
+    const MeshOptions& mesh = request.options.mesh;
+    std::vector<NamedOption> options;
+    // A preset leaves out what these two options prevent.
+    if (mesh.method == MeshMethod::Solid) {
+        options.emplace_back("method", "solid");
+    }
+    if (mesh.level != 0) {
+        options.emplace_back("level", fmt::format("{}", mesh.level));
+    }
+    if (request.settings.lods != 0) {
+        options.emplace_back("lods", fmt::format("{}", request.settings.lods));
+    }
+    if (!request.settings.preset.empty()) {
+        options.emplace_back("preset", request.settings.preset);
+    }
+    Result<PlantFileOptions> files = parse_plant_files(request.settings.file, options);
+    if (files) {
+        files.value().mesh = mesh;
+    }
+    return files;
+}
+
+/// Writes the files.
+ExitStatus write(const ExportRequest& request, const OutputContext& context) {
+    const Result<PlantFileOptions> options = file_options(request);
+    if (!options) {
+        return report_error(options.error(), context.console);
+    }
+    const std::optional<ExportFormat> format = format_of_path(request.settings.file);
+    if (!format) {
+        return report_error(
+            Error{fmt::format("`{}` has no extension of a known format, such as .glb, .obj, .usda",
+                              request.settings.file)},
+            context.console);
+    }
+    const std::string conflict = find_conflict(options.value(), *format, context);
+    if (!conflict.empty()) {
+        return report_error(Error{conflict}, context.console);
+    }
+    PlantFileReport report;
+    return write_plant_files(options.value(), *format,
+                             {request.options.file, request.document->grammar},
+                             request.document->plant, context, report);
+}
+
+} // namespace
+
+ExportOutcome export_plant(const ExportRequest& request, const std::atomic<bool>& cancelled) {
+    std::istringstream in;
+    std::ostringstream out;
+    std::ostringstream err;
+    const Console console({in, out, err, false, &cancelled, "lsview"}, request.options.messages);
+    const Project project{make_file_host(&cancelled), request.options.run.limits,
+                          request.options.run.threads, console.options().levels};
+    const OutputContext context{console, project, "lsview " LSC_VERSION, nullptr, nullptr};
+    ExitStatus status = ExitStatus::Limit;
+    const auto work = [&] {
+        status = write(request, context);
+        return true;
+    };
+    if (!catch_out_of_memory(work, [] { return false; })) {
+        console.error("out of memory");
+    }
+    if (status == ExitStatus::Ok) {
+        return {true, "Wrote " + request.settings.file};
+    }
+    return {false, err.str()};
+}
+
+std::vector<std::string> export_presets() {
+    std::vector<std::string> names;
+    for (const Preset& preset : presets()) {
+        if (!preset.plant_formats.empty()) {
+            names.emplace_back(preset.name);
+        }
+    }
+    return names;
+}
+
+} // namespace lsys::view

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: MIT
+// Export of the plant shown, by `lsc export`'s writers, on a thread of its own.
+#pragma once
+
+#include "runtime/meshing/mesh.h"
+#include "viewer/app/latest_request_worker.h"
+#include "viewer/app/options.h"
+#include "viewer/app/plant_document.h"
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace lsys::view {
+
+/// Choices of the user.
+struct ExportSettings {
+    std::string file;       // its extension chooses the format
+    std::string preset;     // of runtime/output/presets.def; empty: none
+    std::uint32_t lods = 0; // levels of detail; 0: one level, or those of the preset
+};
+
+/// Work for another thread.
+struct ExportRequest {
+    std::shared_ptr<const PlantDocument> document;
+    ViewOptions options; // with which the document was made
+    ExportSettings settings;
+    SteadyClock::time_point changed_at;
+    bool is_repeat = false;
+};
+
+struct ExportOutcome {
+    bool succeeded = false;
+    /// "Wrote oak.glb", or the error and its help in lines.
+    std::string text;
+};
+
+/// Writes the plant at rest with the mesh options of the document. All files appear, or none.
+[[nodiscard]] ExportOutcome export_plant(const ExportRequest& request,
+                                         const std::atomic<bool>& cancelled);
+
+using PlantExporter = LatestRequestWorker<ExportRequest, ExportOutcome>;
+
+/// Names of the presets for plants.
+[[nodiscard]] std::vector<std::string> export_presets();
+
+} // namespace lsys::view
