@@ -2,9 +2,11 @@
 // TileDocument: a GLB of a tile, composed of glTF documents: one of the ground, whose buffer goes
 // into the GLB, and one per hero, whose buffer and pictures are parts of other files. Adds the trees as
 // instances (EXT_mesh_gpu_instancing) with a table of their properties (EXT_instance_features,
-// EXT_structural_metadata).
+// EXT_structural_metadata). TileParts has the documents of the heroes as text, formatted once for all
+// tiles.
 #pragma once
 
+#include "runtime/base/large_vector.h"
 #include "runtime/export/export.h"
 #include "runtime/meshing/mesh.h"
 
@@ -15,9 +17,12 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace lsys {
@@ -39,10 +44,21 @@ struct MeshDocument {
     std::uint64_t file_bytes = 0;    // size of the file `uri`
     std::vector<FilePart> pictures;  // by image: PNG; empty: as the document says
 };
+/// The order in which a compressed document has the triangles and vertices of a mesh with one part.
+/// It depends on the triangles alone if all vertices differ, so such meshes share it.
+struct MeshOrder {
+    LargeVector<std::uint32_t> vertices; // numbers in the mesh
+    LargeVector<std::byte> indices;      // compressed
+};
+[[nodiscard]] MeshOrder make_mesh_order(const Mesh& mesh, const ExportInfo& info);
+
 /// The document of a mesh at rest. It refers to the picture files that make_picture_files() makes
 /// for ExportFormat::Gltf and `info`. Precondition: the mesh has triangles, a few million at most;
 /// `info` has a `buffer_name`, and no motion, film, levels or variants. Throws std::bad_alloc.
 [[nodiscard]] MeshDocument make_mesh_document(const Mesh& mesh, const ExportInfo& info);
+/// The same document in a third of the time. Precondition: `order` is that of the mesh.
+[[nodiscard]] MeshDocument
+make_mesh_document(const Mesh& mesh, const ExportInfo& info, const MeshOrder& order);
 /// Stores a picture in the buffer of the document; image `number` then refers to it, not to a file.
 /// Precondition: the buffer is `data`.
 void embed_picture(std::size_t number, const std::string& png, MeshDocument& document);
@@ -64,64 +80,50 @@ struct TileTree {
     std::uint16_t age = 0; // years; 0: full-grown
 };
 
+/// The parts of documents that tiles share: meshes of heroes with their materials and pictures.
+class TileParts {
+public:
+    /// `generator`: the program and its version. `species`: names, for the table of properties.
+    TileParts(const std::string& generator, const std::vector<std::string>& species);
+    TileParts(TileParts&& other) noexcept;
+    TileParts& operator=(TileParts&& other) noexcept;
+    ~TileParts();
+
+    /// Adds a document whose buffer is in a file. Returns its number, counted from 0.
+    std::size_t add(const MeshDocument& hero);
+
+private:
+    friend class TileWriter;
+    struct State;
+    std::unique_ptr<State> state_;
+};
+
 class TileDocument {
 public:
-    /// `generator`: the program and its version.
-    explicit TileDocument(const std::string& generator);
+    /// `parts` must outlive the document.
+    explicit TileDocument(const TileParts& parts) : parts_(parts) {}
 
-    /// Adds a node with the mesh of a document.
-    void add_surface(const MeshDocument& surface);
-    /// Adds `trees` as instances of the mesh of a document.
-    void add_trees(const MeshDocument& hero, const std::vector<TileTree>& trees);
+    /// Sets the surface, a node with the mesh of a document whose buffer is `data`.
+    void set_surface(MeshDocument surface) { surface_ = std::move(surface); }
+    /// Adds `trees`, at least one, as instances of the mesh of a part.
+    void add_trees(std::size_t part, std::vector<TileTree> trees) {
+        groups_.push_back({part, std::move(trees)});
+    }
     /// Moves the whole tile by a matrix that keeps lengths and angles, for coordinates with +Z up. The
     /// matrix is a part of the file, in binary64.
     void move(const glm::dmat4& matrix) { matrix_ = matrix; }
-    /// The file. `species`: names, for the table of properties. Call it once.
-    [[nodiscard]] std::string write(const std::vector<std::string>& species);
+    /// The file. Precondition: it has a surface. Call it once.
+    [[nodiscard]] std::string write();
 
 private:
-    using Json = nlohmann::ordered_json;
-
-    struct Buffer {
-        std::string uri; // empty: the buffer of the GLB
-        std::uint64_t bytes = 0;
-        std::uint64_t decoded_bytes = 0; // size of its fallback; 0: no fallback
-    };
-    /// A mesh with quantised positions, which are low + step * item.
-    struct DrawnMesh {
-        std::size_t number = 0;
-        glm::vec3 low{0.0F};
-        float step = 1.0F;
-    };
+    friend class TileWriter;
     struct Group {
-        DrawnMesh mesh;
+        std::size_t part = 0;
         std::vector<TileTree> trees;
     };
 
-    DrawnMesh add_mesh(const MeshDocument& part);
-    /// The number of the buffer with this file; empty: that of the GLB.
-    std::size_t add_buffer(const std::string& uri, std::uint64_t bytes);
-    /// Makes the images of a document refer to its pictures.
-    void place_pictures(const MeshDocument& part, Json& images);
-    /// Reserves `bytes` bytes of decoded items in the fallback of a buffer; returns their offset.
-    std::uint64_t reserve_decoded(std::size_t buffer, std::uint64_t bytes);
-    /// The number of a view, which is added if the document does not have it.
-    std::size_t add_view_once(Json view);
-    std::size_t add_view(std::string_view bytes);
-    std::size_t add_packed_view(const std::string& items, std::uint32_t stride);
-    void add_node(Json node);
-    std::size_t add_accessor(
-        std::size_t view, std::uint64_t offset, int component, const char* type, std::size_t count);
-    void put_groups();
-    void put_table(const std::vector<std::string>& species);
-    /// Puts all nodes below one that has the matrix.
-    void put_matrix();
-    /// Replaces the buffers of compressed views by their fallbacks.
-    void point_to_fallbacks();
-
-    Json json_;
-    std::string data_; // of the GLB
-    std::vector<Buffer> buffers_;
+    const TileParts& parts_;
+    std::optional<MeshDocument> surface_;
     std::vector<Group> groups_;
     glm::dmat4 matrix_{1.0}; // of the tile, +Z up
 };

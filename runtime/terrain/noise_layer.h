@@ -3,10 +3,23 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <span>
+#include <vector>
 
 namespace lsys {
+
+/// Places along one axis of a grid.
+struct NoiseAxis {
+    /// `places`: in lattice cells, from 0 to NoiseLayer::kPeriod.
+    explicit NoiseAxis(std::span<const float> places);
+
+    std::vector<std::uint32_t> cells; // lattice points below the places
+    std::vector<float> parts;         // distances from them
+    std::vector<float> weights;       // of the lattice points above the places
+};
 
 /// Perlin's improved noise (Perlin 2002) at an integral height. At such heights the two lattice
 /// points below a place do not depend on those above it, so four gradients suffice, not eight.
@@ -20,6 +33,13 @@ public:
 
     /// stb_perlin_noise3(x, height, z, 0, 0, 0) for x and z from 0 to kPeriod, in lattice cells.
     [[nodiscard]] float at(float x, float z) const;
+    /// Adds `amplitude` times the noise, clamped to -1 to 1, at each point of a grid to `sums`, which
+    /// has rows along X. The noise has the bits of at(), faster where several points
+    /// of a row are in one lattice cell.
+    void add_grid(const NoiseAxis& x,
+                  const NoiseAxis& z,
+                  double amplitude,
+                  std::span<double> sums) const;
 
 private:
     /// Horizontal part of the gradient at a lattice point: -1, 0 or 1 along each axis.
@@ -28,6 +48,11 @@ private:
         std::int8_t z = 0;
     };
     using Lattice = std::array<Gradient, std::size_t{kPeriod} * kPeriod>; // in rows along Z
+
+    /// The gradient at a lattice point; numbers from kPeriod on repeat.
+    [[nodiscard]] const Gradient& gradient(std::uint32_t x, std::uint32_t z) const {
+        return (*lattice_)[(x % kPeriod) * kPeriod + z % kPeriod];
+    }
 
     std::shared_ptr<const Lattice> lattice_;
 };

@@ -173,6 +173,42 @@ float Terrain::height(float x, float z) const {
     return static_cast<float>(exact_height(static_cast<double>(x), static_cast<double>(z)));
 }
 
+/// Adds noise_height() of each point of a grid.
+void Terrain::add_noise(std::span<const float> x,
+                        std::span<const float> z,
+                        std::span<double> sums) const {
+    const auto axis = [](std::span<const float> places, double frequency, double shift) {
+        std::vector<float> cells(places.size());
+        std::transform(places.begin(), places.end(), cells.begin(), [&](float place) {
+            return wrapped(static_cast<double>(place) * frequency + shift);
+        });
+        return NoiseAxis(cells);
+    };
+    for (const Octave& octave : octaves_) {
+        octave.noise.add_grid(axis(x, octave.frequency, octave.shift_x),
+                              axis(z, octave.frequency, octave.shift_z), octave.amplitude, sums);
+    }
+}
+
+std::vector<float> Terrain::heights(std::span<const float> x, std::span<const float> z) const {
+    std::vector<float> heights;
+    heights.reserve(x.size() * z.size());
+    if (map_) {
+        for (const float at_z : z) {
+            for (const float at_x : x) {
+                heights.push_back(height(at_x, at_z));
+            }
+        }
+        return heights;
+    }
+    std::vector<double> sums(x.size() * z.size());
+    add_noise(x, z, sums);
+    for (const double sum : sums) {
+        heights.push_back(static_cast<float>(base_ + sum));
+    }
+    return heights;
+}
+
 std::array<double, 2> Terrain::altitudes() const {
     if (map_) {
         const auto [least, most] = std::minmax_element(map_->values.begin(), map_->values.end());

@@ -67,10 +67,13 @@ struct TileForest::State {
     std::vector<Canopy> counted_canopies;    // of other placements, by level without trees
     CanopyAtCorner canopy_at;
 
-    std::vector<std::vector<MeshDocument>> models; // by hero and level of detail
+    std::optional<TileParts> parts;
+    /// Numbers of parts by hero and level of detail; none: the hero draws nothing.
+    std::vector<std::vector<std::optional<std::size_t>>> part_numbers;
     std::vector<TileFile> files;
     std::vector<std::string> species_names;
-    std::string ground_picture; // its path relative to a tile; empty: none
+    std::map<std::uint32_t, MeshOrder> ground_orders; // by number of cells along a side
+    std::string ground_picture;                       // its path relative to a tile; empty: none
     glm::dvec3 ground_colour = kGroundColour;
 
     [[nodiscard]] Outcome<void> place_trees(const Project& project);
@@ -81,6 +84,7 @@ struct TileForest::State {
     void plan_levels();
     [[nodiscard]] Outcome<void> make_models(const Project& project);
     void make_ground_picture();
+    void order_ground();
     void make_canopies();
     [[nodiscard]] MeshDocument ground_of(const TileId& tile, const glm::dmat4& to_tile) const;
     std::uint64_t
@@ -299,8 +303,15 @@ Outcome<void> TileForest::State::make_models(const Project& project) {
         names.push_back(fmt::format("{}{} {}", species.name, stage, i - first));
     }
     ModelFiles made = make_model_files(heroes, names, plan, options.generator);
-    models = std::move(made.models);
     files = std::move(made.files);
+    parts.emplace(options.generator, species_names);
+    for (const std::vector<MeshDocument>& details : made.models) {
+        std::vector<std::optional<std::size_t>>& numbers = part_numbers.emplace_back();
+        for (const MeshDocument& model : details) {
+            numbers.push_back(model.json.is_null() ? std::nullopt
+                                                   : std::optional(parts->add(model)));
+        }
+    }
     return step.done();
 }
 
@@ -323,6 +334,15 @@ void TileForest::State::make_ground_picture() {
     sample.parts.push_back({0, 0, 3});
     files.push_back({kGroundPicture, tile_pictures(sample).front().bytes});
     ground_picture = std::string("../../") + kGroundPicture;
+}
+
+void TileForest::State::order_ground() {
+    for (const std::uint32_t cells : plan.cells) {
+        if (!ground_orders.contains(cells)) {
+            ground_orders[cells] =
+                make_mesh_order(make_level_patch(cells), tile_part_info("", options.generator));
+        }
+    }
 }
 
 void TileForest::State::make_canopies() {
@@ -373,8 +393,9 @@ MeshDocument TileForest::State::ground_of(const TileId& tile, const glm::dmat4& 
     const Mesh mesh = make_tile_ground({*grown.terrain, grown.ground, ground_colour, earth, grid,
                                         has_trees ? no_canopy : canopy_at, tile, to_tile,
                                         plan.cells[tile.level], plan.skirts[tile.level]});
-    MeshDocument document = make_mesh_document(
-        mesh, tile_part_info(has_trees ? "ground" : "forest", options.generator));
+    MeshDocument document =
+        make_mesh_document(mesh, tile_part_info(has_trees ? "ground" : "forest", options.generator),
+                           ground_orders.at(plan.cells[tile.level]));
     if (!has_trees) {
         embed_picture(0, tile_pictures(mesh).front().bytes, document);
     } else if (!ground_picture.empty()) {
@@ -388,6 +409,7 @@ std::uint64_t TileForest::State::add_trees(const TileId& tile,
                                            const glm::dmat4& to_tile,
                                            TileDocument& document) const {
     const std::vector<Tree> trees = source->trees_of(tile);
+    const TileFrame frame(earth, to_tile, grid.region_of(tile));
     std::map<std::size_t, std::vector<TileTree>> groups; // by hero
     for (const Tree& tree : trees) {
         const std::size_t hero = hero_table->hero_of(tree);
@@ -400,10 +422,8 @@ std::uint64_t TileForest::State::add_trees(const TileId& tile,
             pose = pose_of(branch, cache.instances[branch.instance]);
         });
         const glm::dvec3 place(tree.position);
-        const glm::vec3 foot(
-            y_up(glm::dvec3(to_tile * glm::dvec4(earth.place(place.x, place.y, place.z), 1.0))));
-        const glm::vec3 above(y_up(
-            glm::dvec3(to_tile * glm::dvec4(earth.place(place.x, place.y + 1.0, place.z), 1.0))));
+        const glm::vec3 foot(y_up(frame.place(place.x, place.y, place.z)));
+        const glm::vec3 above(y_up(frame.place(place.x, place.y + 1.0, place.z)));
         // A tree follows the vertical at its own place, which differs from that at the middle of
         // the tile.
         const glm::vec3 up = glm::normalize(above - foot);
@@ -414,10 +434,9 @@ std::uint64_t TileForest::State::add_trees(const TileId& tile,
         groups[hero].push_back({tilt * pose.rotation, foot + tilt * pose.translation, pose.scale,
                                 height, tree.number, tree.species, tree.age});
     }
-    for (const auto& [hero, group] : groups) {
-        const MeshDocument& model = models[hero][plan.detail[tile.level][hero]];
-        if (!model.json.is_null()) { // null: the hero draws nothing
-            document.add_trees(model, group);
+    for (auto& [hero, group] : groups) {
+        if (const auto part = part_numbers[hero][plan.detail[tile.level][hero]]) {
+            document.add_trees(*part, std::move(group));
         }
     }
     return trees.size();
@@ -426,15 +445,15 @@ std::uint64_t TileForest::State::add_trees(const TileId& tile,
 TileContent TileForest::content(const TileId& tile) const {
     TileContent content;
     const glm::dmat4 to_tile = inverse_of_frame(state_->boxes->frame_of(tile));
-    TileDocument document(state_->options.generator);
-    document.add_surface(state_->ground_of(tile, to_tile));
+    TileDocument document(*state_->parts);
+    document.set_surface(state_->ground_of(tile, to_tile));
     if (levels()[tile.level].has_trees) {
         content.trees = state_->add_trees(tile, to_tile, document);
     }
     if (state_->options.implicit) {
         document.move(frame_in_root(*state_->boxes, tile));
     }
-    content.bytes = document.write(state_->species_names);
+    content.bytes = document.write();
     return content;
 }
 
@@ -492,6 +511,7 @@ make_tile_forest(LoadedScene loaded, const TileOptions& options, const Project& 
         return step.end();
     }
     made.make_ground_picture();
+    made.order_ground();
     made.make_canopies();
     made.options.tree_file.reset();
     return step.done(TileForest(std::move(state)));

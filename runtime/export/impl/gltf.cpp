@@ -302,7 +302,7 @@ Outcome<Contents> refused(Outcome<void> refusal) {
     return {refusal.stop(), std::move(refusal.messages())};
 }
 
-Outcome<Contents> plan(const ExportJob& job) {
+Outcome<Contents> plan(const ExportJob& job, const MeshOrder* order) {
     const ExportInfo& info = job.info;
     Contents contents;
     // A quick check with the min size of a vertex, before the vertices are visited: the file holds
@@ -331,8 +331,9 @@ Outcome<Contents> plan(const ExportJob& job) {
     if (info.buffer_name.empty()) {
         images = encode_pictures(contents.pictures.list, info.threads);
     }
-    contents.streams =
-        plan_gltf_streams(contents.plant(job), contents.pictures, std::move(images), info);
+    GltfPlant plant = contents.plant(job);
+    plant.order = order;
+    contents.streams = plan_gltf_streams(plant, contents.pictures, std::move(images), info);
     if (info.film == nullptr) {
         contents.collision.shapes = make_collision(job.skeleton, info);
     }
@@ -346,7 +347,7 @@ Outcome<void> write(const ExportJob& job, bool binary, PieceWriter& out) {
     if (job.info.coarser != nullptr) {
         return write_gltf_levels(job, binary, out);
     }
-    Outcome<Contents> planned = plan(job);
+    Outcome<Contents> planned = plan(job, nullptr);
     if (!planned) {
         return {planned.stop(), std::move(planned.messages())};
     }
@@ -368,12 +369,11 @@ Outcome<void> write(const ExportJob& job, bool binary, PieceWriter& out) {
     return put_gltf_file(file, out) ? finish(out) : too_large_for_format(job.info.subject);
 }
 
-} // namespace
-
-MeshDocument make_mesh_document(const Mesh& mesh, const ExportInfo& info) {
+/// `order`: null, or the order of the mesh.
+MeshDocument mesh_document(const Mesh& mesh, const ExportInfo& info, const MeshOrder* order) {
     const Skeleton none;
     const ExportJob job{mesh, none, info};
-    const Outcome<Contents> planned = plan(job);
+    const Outcome<Contents> planned = plan(job, order);
     LSYS_CHECK(planned.ok(), mesh.positions.size());
     const Contents& contents = planned.value();
     MeshDocument document;
@@ -392,6 +392,27 @@ MeshDocument make_mesh_document(const Mesh& mesh, const ExportInfo& info) {
     return document;
 }
 
+} // namespace
+
+MeshDocument make_mesh_document(const Mesh& mesh, const ExportInfo& info) {
+    return mesh_document(mesh, info, nullptr);
+}
+
+MeshDocument make_mesh_document(const Mesh& mesh, const ExportInfo& info, const MeshOrder& order) {
+    return mesh_document(mesh, info, &order);
+}
+
+MeshOrder make_mesh_order(const Mesh& mesh, const ExportInfo& info) {
+    const Skeleton none;
+    Outcome<Contents> planned = plan({mesh, none, info}, nullptr);
+    LSYS_CHECK(planned.ok() && mesh.parts.size() == 1, mesh.parts.size());
+    GltfStreams& streams = planned.value().streams;
+    const auto indices =
+        std::find_if(streams.list.begin(), streams.list.end(),
+                     [](const GltfStream& stream) { return stream.array == GltfArray::Indices; });
+    return {std::move(streams.primitives.vertices), std::move(indices->compressed)};
+}
+
 Outcome<void> write_gltf(const ExportJob& job, PieceWriter& out) {
     return write(job, false, out);
 }
@@ -408,7 +429,7 @@ Outcome<void> write_gltf_buffer(const Mesh& mesh,
         if (triangle_count(mesh) == 0) {
             return nothing_to_draw(info.subject);
         }
-        Outcome<Contents> planned = plan({mesh, skeleton, info});
+        Outcome<Contents> planned = plan({mesh, skeleton, info}, nullptr);
         if (!planned) {
             return {planned.stop(), std::move(planned.messages())};
         }

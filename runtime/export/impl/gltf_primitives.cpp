@@ -3,6 +3,7 @@
 
 #include "runtime/export/impl/formats.h"
 #include "runtime/export/impl/gltf_data.h"
+#include "runtime/export/tile_document.h"
 
 #include <glm/common.hpp>
 
@@ -174,6 +175,19 @@ private:
     bool coloured_ = false;
 };
 
+/// Sets the vertices of the only primitive, whose order is known.
+void take_order(const Mesh& mesh, const MeshOrder& order, GltfPrimitives& primitives) {
+    primitives.vertices = order.vertices;
+    GltfPrimitive& primitive = primitives.list.front();
+    GltfPart& part = primitive.parts.front();
+    part.vertex_count = order.vertices.size();
+    primitive.vertex_count = order.vertices.size();
+    primitive.index_count = mesh.parts[part.part].index_count;
+    for (const std::uint32_t vertex : order.vertices) {
+        primitive.bounds.add(mesh.positions[vertex]);
+    }
+}
+
 } // namespace
 
 Bounds GltfPrimitives::bounds() const {
@@ -268,6 +282,10 @@ GltfPrimitives plan_gltf_primitives(const Mesh& mesh,
                 primitives.list.push_back(std::move(each));
             }
         }
+    }
+    if (compressed && compressed->order != nullptr) {
+        take_order(mesh, *compressed->order, primitives);
+        return primitives;
     }
     primitives.vertices.reserve(mesh.positions.size());
     // Number of the part that used a vertex last.

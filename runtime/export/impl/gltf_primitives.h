@@ -18,6 +18,8 @@
 
 namespace lsys {
 
+struct MeshOrder;
+
 /// Vertices and triangles of a part of a mesh.
 struct GltfPart {
     std::uint32_t part = 0;         // index in Mesh::parts
@@ -66,6 +68,8 @@ inline constexpr std::size_t kMinMergedMaterials = 4;
 struct GltfVertexUse {
     const Pictures& pictures; // of materials
     bool segments = false;    // joints or wind data
+    /// The order of the vertices and triangles of a mesh with one part; null: it is found.
+    const MeshOrder* order = nullptr;
 };
 
 /// Plans a primitive for each part with triangles. At least kMinMergedMaterials parts whose

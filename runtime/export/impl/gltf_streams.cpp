@@ -3,6 +3,7 @@
 
 #include "runtime/base/workers.h"
 #include "runtime/export/impl/formats.h"
+#include "runtime/export/tile_document.h"
 
 #include <glm/common.hpp>
 
@@ -255,6 +256,8 @@ private:
                     write_primitive_stream(plant_, streams_, stream, write);
                 });
             stream.compressed = compress_items(items, stream.type.stride);
+        } else if (plant_.order != nullptr) {
+            stream.compressed = plant_.order->indices;
         } else if (primitive.parts.size() == 1) {
             stream.compressed =
                 compress_indices(primitive.parts.front().indices, primitive.vertex_count);
@@ -284,7 +287,7 @@ GltfStreams plan_gltf_streams(const GltfPlant& plant,
     std::optional<GltfVertexUse> compressed;
     if (info.compression == ExportCompression::Meshopt) {
         compressed.emplace(
-            GltfVertexUse{pictures, plant.motion != nullptr || plant.wind != nullptr});
+            GltfVertexUse{pictures, plant.motion != nullptr || plant.wind != nullptr, plant.order});
     }
     streams.primitives = plan_gltf_primitives(mesh, compressed, plant.film);
     streams.images = std::move(images);

@@ -5,20 +5,25 @@
 #include "runtime/export/impl/gltf_items.h"
 #include "runtime/export/impl/gltf_join.h"
 #include "runtime/export/impl/gltf_parts.h"
-#include "runtime/export/impl/piece_writer.h"
+#include "runtime/export/impl/tile_parts.h"
 
+#include <fmt/compile.h>
+#include <fmt/format.h>
 #include <glm/matrix.hpp>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstring>
+#include <iterator>
 #include <utility>
 
 namespace lsys {
 
 namespace {
 
+constexpr std::size_t kGlbHeaders = 20; // of the file and of its document
+constexpr std::size_t kDataHeader = 8;
 constexpr std::size_t kAlignment = 8; // of buffer views, required for EXT_structural_metadata
 
 std::uint64_t aligned(std::uint64_t bytes) {
@@ -54,10 +59,40 @@ std::array<std::int16_t, 4> rotation_item(const glm::quat& rotation) {
     return {part(rotation.x), part(rotation.y), part(rotation.z), part(rotation.w)};
 }
 
-void use_required(GltfJson& document, const char* name) {
-    use_extension(document, "extensionsUsed", name);
-    use_extension(document, "extensionsRequired", name);
+/// An array of all instances.
+struct Array {
+    std::size_t view = 0;
+    std::uint32_t stride = 0; // bytes
+    int component = kGltfFloat;
+    std::string_view type;
+    bool normalized = false;
+};
+
+/// Appends the buffer to a document that has room for the headers of a GLB before it.
+std::string with_glb_headers(std::string document, const std::string& data) {
+    const std::uint64_t total = document.size() + kDataHeader + data.size();
+    LSYS_CHECK(total <= kMaxGltfBytes, total);
+    constexpr std::uint32_t kMagic = 0x46546C67;     // "glTF"
+    constexpr std::uint32_t kJsonChunk = 0x4E4F534A; // "JSON"
+    constexpr std::uint32_t kDataChunk = 0x004E4942; // "BIN"
+    const std::array<std::uint32_t, 5> header{
+        kMagic, 2, static_cast<std::uint32_t>(total),
+        static_cast<std::uint32_t>(document.size() - kGlbHeaders), kJsonChunk};
+    static_assert(sizeof header == kGlbHeaders);
+    std::memcpy(document.data(), header.data(), sizeof header);
+    append(document, std::array{static_cast<std::uint32_t>(data.size()), kDataChunk});
+    document += data;
+    return document;
 }
+
+template <typename Format, typename... Values>
+void put(std::string& text, const Format& format, const Values&... values) {
+    fmt::format_to(std::back_inserter(text), format, values...);
+}
+
+constexpr std::array<std::string_view, kGltfLists> kListNames{
+    "bufferViews", "images", "samplers",       "textures",           "materials", "accessors",
+    "meshes",      "nodes",  "extensionsUsed", "extensionsRequired", "extensions"};
 
 } // namespace
 
@@ -70,329 +105,350 @@ void embed_picture(std::size_t number, const std::string& png, MeshDocument& doc
     document.data += png;
 }
 
-TileDocument::TileDocument(const std::string& generator) : buffers_(1) {
-    json_["asset"] = {{"version", "2.0"}, {"generator", generator}};
-    json_["scene"] = 0;
-    json_["scenes"][0]["nodes"] = Json::array();
-}
+/// Writes a TileDocument.
+class TileWriter {
+public:
+    explicit TileWriter(TileDocument& document)
+        : document_(document), parts_(*document.parts_.state_), table_(&parts_.table) {}
 
-std::size_t TileDocument::add_buffer(const std::string& uri, std::uint64_t bytes) {
-    const auto found = std::find_if(buffers_.begin(), buffers_.end(),
-                                    [&](const Buffer& buffer) { return buffer.uri == uri; });
-    if (found == buffers_.end()) {
-        buffers_.push_back({uri, bytes});
-        return buffers_.size() - 1;
-    }
-    return static_cast<std::size_t>(found - buffers_.begin());
-}
-
-void TileDocument::place_pictures(const MeshDocument& part, Json& images) {
-    for (std::size_t i = 0; i < part.pictures.size(); ++i) {
-        const FilePart& picture = part.pictures[i];
-        const std::size_t view =
-            add_view_once({{"buffer", add_buffer(picture.uri, picture.file_bytes)},
-                           {"byteOffset", picture.offset},
-                           {"byteLength", picture.bytes}});
-        images[i] = {{"bufferView", view}, {"mimeType", "image/png"}};
-    }
-}
-
-std::size_t TileDocument::add_view_once(Json view) {
-    Json& views = json_["bufferViews"];
-    const auto found = std::find(views.begin(), views.end(), view);
-    const auto number = static_cast<std::size_t>(found - views.begin());
-    if (found == views.end()) {
-        views.push_back(std::move(view));
-    }
-    return number;
-}
-
-std::uint64_t TileDocument::reserve_decoded(std::size_t buffer, std::uint64_t bytes) {
-    return std::exchange(buffers_[buffer].decoded_bytes,
-                         aligned(buffers_[buffer].decoded_bytes + bytes));
-}
-
-TileDocument::DrawnMesh TileDocument::add_mesh(const MeshDocument& part) {
-    Json from = part.json;
-    const std::size_t buffer = add_buffer(part.uri, part.file_bytes);
-    // Places in a file that tiles share are final; those in the buffer of the GLB are not.
-    std::uint64_t shift = 0;
-    std::uint64_t decoded = 0;
-    if (part.uri.empty()) {
-        data_.resize(aligned(data_.size()), '\0');
-        shift = data_.size();
-        data_ += part.data;
-        decoded = reserve_decoded(buffer, part.decoded_bytes);
-    } else {
-        buffers_[buffer].decoded_bytes = part.decoded_bytes;
-    }
-    GltfNumbers views;
-    // Fallbacks get their numbers in point_to_fallbacks(); until then a compressed view has the
-    // number of its stored buffer.
-    for (Json& view : take_list(from, "bufferViews")) {
-        Json& stored = stored_part(view);
-        if (&stored != &view) {
-            view["buffer"] = buffer;
-            view["byteOffset"] = view.value("byteOffset", std::uint64_t{0}) + decoded;
+    std::string write() {
+        MeshDocument& surface = *document_.surface_;
+        const TilePart ground = make_tile_part(surface, table_);
+        numbers_.assign(table_.item_count(), kNone);
+        place_buffers(ground);
+        data_ = std::move(surface.data);
+        put_surface(surface.json["meshes"][0]["name"], ground);
+        for (const TileDocument::Group& group : document_.groups_) {
+            meshes_.push_back(put_part(part_of(group)));
         }
-        stored["buffer"] = buffer;
-        stored["byteOffset"] = stored.value("byteOffset", std::uint64_t{0}) + shift;
-        views.push_back(add_view_once(std::move(view)));
+        if (!document_.groups_.empty()) {
+            put_groups();
+            put_table();
+        }
+        put_matrix();
+        return joined();
     }
-    const auto move_view = [&views](Json& holder) { renumber(holder, "bufferView", views); };
-    Json pictures = take_list(from, "images");
-    for (Json& image : pictures) {
-        move_view(image);
+
+private:
+    static constexpr std::uint32_t kNone = ~std::uint32_t{0};
+
+    struct List {
+        std::string text;
+        std::size_t count = 0;
+    };
+    struct Buffer {
+        std::size_t number = 0;          // in the table
+        std::uint64_t decoded_bytes = 0; // size of its fallback; 0: no fallback
+        std::size_t fallback = 0;        // its number
+    };
+
+    [[nodiscard]] const TilePart& part_of(const TileDocument::Group& group) const {
+        return parts_.list[group.part];
     }
-    place_pictures(part, pictures);
-    const GltfNumbers images = add_missing(json_, "images", std::move(pictures), [](Json&) {});
-    const GltfNumbers samplers =
-        add_missing(json_, "samplers", take_list(from, "samplers"), [](Json&) {});
-    const GltfNumbers textures =
-        add_missing(json_, "textures", take_list(from, "textures"),
-                    [&](Json& texture) { renumber_texture(texture, images, samplers); });
-    const GltfNumbers materials =
-        add_missing(json_, "materials", take_list(from, "materials"),
-                    [&](Json& material) { renumber_material(material, textures); });
-    const std::size_t first_accessor = count_of(json_, "accessors");
-    for (Json& accessor : take_list(from, "accessors")) {
-        move_view(accessor);
-        json_["accessors"].push_back(std::move(accessor));
-    }
-    DrawnMesh drawn{count_of(json_, "meshes")};
-    Json& mesh = from["meshes"][0];
-    renumber_mesh(mesh, first_accessor, materials);
-    json_["meshes"].push_back(std::move(mesh));
-    for (const Json& node : from["nodes"]) {
-        if (node.contains("mesh") && node.contains("scale")) { // decodes quantised positions
-            const Json& low = node["translation"];
-            drawn.low = {low[0].get<float>(), low[1].get<float>(), low[2].get<float>()};
-            drawn.step = node["scale"][0].get<float>();
+
+    /// Numbers the buffers in the order in which parts use them, then their fallbacks.
+    void place_buffers(const TilePart& ground) {
+        buffer_numbers_.assign(table_.buffer_count(), kNone);
+        place_buffers_of(ground);
+        buffers_.front().decoded_bytes = aligned(ground.decoded_bytes);
+        for (const TileDocument::Group& group : document_.groups_) {
+            place_buffers_of(part_of(group));
+        }
+        // Instances are compressed items in the buffer of the GLB.
+        const bool has_instances = !document_.groups_.empty();
+        std::size_t next = buffers_.size();
+        for (Buffer& buffer : buffers_) {
+            buffer.fallback = next;
+            const bool is_glb = buffer.number == 0;
+            next += buffer.decoded_bytes != 0 || (is_glb && has_instances) ? 1U : 0U;
         }
     }
-    for (const char* const list : {"extensionsUsed", "extensionsRequired"}) {
-        for (const Json& name : take_list(from, list)) {
-            use_extension(json_, list, name.get<std::string>());
-        }
-    }
-    return drawn;
-}
-
-void TileDocument::add_node(Json node) {
-    json_["scenes"][0]["nodes"].push_back(count_of(json_, "nodes"));
-    json_["nodes"].push_back(std::move(node));
-}
-
-void TileDocument::add_surface(const MeshDocument& surface) {
-    const DrawnMesh drawn = add_mesh(surface);
-    add_node({{"name", surface.json["meshes"][0]["name"]},
-              {"mesh", drawn.number},
-              {"translation", {drawn.low.x, drawn.low.y, drawn.low.z}},
-              {"scale", {drawn.step, drawn.step, drawn.step}}});
-}
-
-void TileDocument::add_trees(const MeshDocument& hero, const std::vector<TileTree>& trees) {
-    groups_.push_back({add_mesh(hero), trees});
-}
-
-std::size_t TileDocument::add_view(std::string_view bytes) {
-    data_.resize(aligned(data_.size()), '\0');
-    json_["bufferViews"].push_back(
-        {{"buffer", 0}, {"byteOffset", data_.size()}, {"byteLength", bytes.size()}});
-    data_ += bytes;
-    return json_["bufferViews"].size() - 1;
-}
-
-std::size_t TileDocument::add_packed_view(const std::string& items, std::uint32_t stride) {
-    const GltfBuffer packed = compress_items(std::as_bytes(std::span(items)), stride);
-    const std::size_t view =
-        add_view({reinterpret_cast<const char*>(packed.data()), packed.size()});
-    Json& stored = json_["bufferViews"][view];
-    Json extension = {
-        {"buffer", 0},          {"byteOffset", stored["byteOffset"]}, {"byteLength", packed.size()},
-        {"byteStride", stride}, {"count", items.size() / stride},     {"mode", "ATTRIBUTES"}};
-    stored["byteOffset"] = reserve_decoded(0, items.size());
-    stored["byteLength"] = items.size();
-    stored["extensions"][kMeshopt] = std::move(extension);
-    use_required(json_, kMeshopt);
-    return view;
-}
-
-std::size_t TileDocument::add_accessor(
-    std::size_t view, std::uint64_t offset, int component, const char* type, std::size_t count) {
-    json_["accessors"].push_back({{"bufferView", view},
-                                  {"byteOffset", offset},
-                                  {"componentType", component},
-                                  {"count", count},
-                                  {"type", type}});
-    return json_["accessors"].size() - 1;
-}
-
-void TileDocument::put_groups() {
-    constexpr std::uint32_t kVector = 3 * sizeof(float);
-    constexpr std::uint32_t kRotation = 4 * sizeof(std::int16_t);
-    std::string translations;
-    std::string rotations;
-    std::string scales;
-    std::string ids;
-    std::uint32_t row = 0; // of the table of properties
-    for (const Group& group : groups_) {
-        for (const TileTree& tree : group.trees) {
-            const glm::vec3 at = tree.translation + tree.scale * (tree.rotation * group.mesh.low);
-            append(translations, rounded(at.x));
-            append(translations, rounded(at.y));
-            append(translations, rounded(at.z));
-            append(rotations, rotation_item(tree.rotation));
-            for (int axis = 0; axis < 3; ++axis) {
-                append(scales, shortened(tree.scale * group.mesh.step));
+    void place_buffers_of(const TilePart& part) {
+        for (const std::size_t number : part.buffers) {
+            if (buffer_numbers_[number] == kNone) {
+                buffer_numbers_[number] = static_cast<std::uint32_t>(buffers_.size());
+                buffers_.push_back({number});
             }
-            append(ids, static_cast<float>(row++));
+        }
+        buffers_[buffer_numbers_[part.buffers.front()]].decoded_bytes = part.decoded_bytes;
+    }
+    /// Reserves `bytes` bytes of decoded items in the fallback of the GLB; returns their offset.
+    std::uint64_t reserve_decoded(std::uint64_t bytes) {
+        std::uint64_t& size = buffers_.front().decoded_bytes;
+        return std::exchange(size, aligned(size + bytes));
+    }
+
+    /// Begins an item of a list; returns the text to which it is appended.
+    std::string& next(GltfList list) {
+        List& to = lists_[static_cast<std::size_t>(list)];
+        if (to.count++ == 0) {
+            order_.push_back(list);
+        } else {
+            to.text += ',';
+        }
+        return to.text;
+    }
+    [[nodiscard]] std::size_t count_of(GltfList list) const {
+        return lists_[static_cast<std::size_t>(list)].count;
+    }
+
+    /// Appends the items of a part that the document does not have yet, and its mesh. Returns the
+    /// number of the mesh.
+    std::size_t put_part(const TilePart& part) {
+        const std::size_t first_accessor = count_of(GltfList::Accessors);
+        const auto number_of = [&](const JsonReference& reference) -> std::size_t {
+            switch (reference.kind) {
+            case JsonGapKind::Item:
+                return numbers_[reference.number];
+            case JsonGapKind::Accessor:
+                return first_accessor + reference.number;
+            case JsonGapKind::Buffer:
+                return buffer_numbers_[reference.number];
+            case JsonGapKind::Fallback:
+                break;
+            }
+            return buffers_[buffer_numbers_[reference.number]].fallback;
+        };
+        for (const std::size_t item : part.items) {
+            if (numbers_[item] == kNone) {
+                const GltfList list = table_.item(item).list;
+                numbers_[item] = static_cast<std::uint32_t>(count_of(list));
+                table_.item(item).text.append_to(next(list), number_of);
+            }
+        }
+        for (const JsonTemplate& accessor : part.accessors) {
+            accessor.append_to(next(GltfList::Accessors), number_of);
+        }
+        part.mesh.append_to(next(GltfList::Meshes), number_of);
+        for (const std::string& name : part.used) {
+            use(GltfList::Used, name);
+        }
+        for (const std::string& name : part.required) {
+            use(GltfList::Required, name);
+        }
+        return count_of(GltfList::Meshes) - 1;
+    }
+
+    void use(GltfList list, const std::string& name) {
+        std::vector<std::string>& names = list == GltfList::Used ? used_ : required_;
+        if (std::find(names.begin(), names.end(), name) == names.end()) {
+            names.push_back(name);
+            put(next(list), FMT_COMPILE("\"{}\""), name);
         }
     }
-    const std::size_t translation_view = add_packed_view(translations, kVector);
-    const std::size_t rotation_view = add_packed_view(rotations, kRotation);
-    const std::size_t scale_view = add_packed_view(scales, kVector);
-    const std::size_t id_view = add_packed_view(ids, sizeof(float));
-    std::size_t first = 0;
-    for (const Group& group : groups_) {
-        const std::size_t count = group.trees.size();
-        Json attributes;
-        attributes["TRANSLATION"] =
-            add_accessor(translation_view, kVector * first, kGltfFloat, "VEC3", count);
-        attributes["ROTATION"] =
-            add_accessor(rotation_view, kRotation * first, kGltfShort, "VEC4", count);
-        json_["accessors"].back()["normalized"] = true;
-        attributes["SCALE"] = add_accessor(scale_view, kVector * first, kGltfFloat, "VEC3", count);
-        attributes["_FEATURE_ID_0"] =
-            add_accessor(id_view, sizeof(float) * first, kGltfFloat, "SCALAR", count);
-        Json node{{"mesh", group.mesh.number}};
-        node["extensions"]["EXT_mesh_gpu_instancing"]["attributes"] = std::move(attributes);
-        node["extensions"]["EXT_instance_features"]["featureIds"][0] = {
-            {"featureCount", count}, {"attribute", 0}, {"propertyTable", 0}};
-        add_node(std::move(node));
-        first += count;
+    void use_required(const std::string& name) {
+        use(GltfList::Used, name);
+        use(GltfList::Required, name);
     }
-    use_required(json_, "EXT_mesh_gpu_instancing");
-    use_extension(json_, "extensionsUsed", "EXT_instance_features");
-}
 
-void TileDocument::put_table(const std::vector<std::string>& species) {
-    std::string kinds;
-    std::string heights;
-    std::string ages;
-    std::string numbers;
-    std::size_t count = 0;
-    for (const Group& group : groups_) {
-        for (const TileTree& tree : group.trees) {
-            append(kinds, tree.species);
-            append(heights, tree.height);
-            append(ages, tree.age);
-            append(numbers, tree.number);
-            ++count;
+    void put_surface(const GltfJson& name, const TilePart& ground) {
+        const std::size_t mesh = put_part(ground);
+        const glm::vec3& low = ground.low;
+        const GltfJson node{{"name", name},
+                            {"mesh", mesh},
+                            {"translation", {low.x, low.y, low.z}},
+                            {"scale", {ground.step, ground.step, ground.step}}};
+        next(GltfList::Nodes) += node.dump();
+    }
+
+    /// Appends bytes to the buffer of the GLB, aligned; returns their offset.
+    std::size_t add_data(std::string_view bytes) {
+        data_.resize(aligned(data_.size()), '\0');
+        data_ += bytes;
+        return data_.size() - bytes.size();
+    }
+    std::size_t add_view(std::string_view bytes) {
+        put(next(GltfList::Views),
+            FMT_COMPILE("{{\"buffer\":0,\"byteOffset\":{},\"byteLength\":{}}}"), add_data(bytes),
+            bytes.size());
+        return count_of(GltfList::Views) - 1;
+    }
+    std::size_t add_packed_view(const std::string& items, std::uint32_t stride) {
+        const GltfBuffer packed = compress_items(std::as_bytes(std::span(items)), stride);
+        const std::size_t offset =
+            add_data({reinterpret_cast<const char*>(packed.data()), packed.size()});
+        put(next(GltfList::Views),
+            FMT_COMPILE("{{\"buffer\":{},\"byteOffset\":{},\"byteLength\":{},\"extensions\":{{"
+                        "\"EXT_meshopt_compression\":{{\"buffer\":0,\"byteOffset\":{},"
+                        "\"byteLength\":{},\"byteStride\":{},\"count\":{},"
+                        "\"mode\":\"ATTRIBUTES\"}}}}}}"),
+            buffers_.front().fallback, reserve_decoded(items.size()), items.size(), offset,
+            packed.size(), stride, items.size() / stride);
+        use_required(kMeshopt);
+        return count_of(GltfList::Views) - 1;
+    }
+    std::size_t add_accessor(const Array& array, std::size_t first, std::size_t count) {
+        put(next(GltfList::Accessors),
+            FMT_COMPILE("{{\"bufferView\":{},\"byteOffset\":{},\"componentType\":{},\"count\":{},"
+                        "\"type\":\"{}\"{}}}"),
+            array.view, array.stride * first, array.component, count, array.type,
+            array.normalized ? ",\"normalized\":true" : "");
+        return count_of(GltfList::Accessors) - 1;
+    }
+
+    void put_groups() {
+        constexpr std::uint32_t kVector = 3 * sizeof(float);
+        constexpr std::uint32_t kRotation = 4 * sizeof(std::int16_t);
+        std::string translations;
+        std::string rotations;
+        std::string scales;
+        std::string ids;
+        std::uint32_t row = 0; // of the table of properties
+        for (const TileDocument::Group& group : document_.groups_) {
+            const TilePart& part = part_of(group);
+            for (const TileTree& tree : group.trees) {
+                const glm::vec3 at = tree.translation + tree.scale * (tree.rotation * part.low);
+                append(translations, std::array{rounded(at.x), rounded(at.y), rounded(at.z)});
+                append(rotations, rotation_item(tree.rotation));
+                const float scale = shortened(tree.scale * part.step);
+                append(scales, std::array{scale, scale, scale});
+                append(ids, static_cast<float>(row++));
+            }
         }
-    }
-    Json names = Json::array();
-    for (std::size_t i = 0; i < species.size(); ++i) {
-        names.push_back({{"name", species[i]}, {"value", i}});
-    }
-    Json schema{{"id", "trees"}};
-    schema["enums"]["species"] = {{"valueType", "UINT16"}, {"values", std::move(names)}};
-    schema["classes"]["tree"]["properties"] = {
-        {"species", {{"type", "ENUM"}, {"enumType", "species"}, {"required", true}}},
-        {"height",
-         {{"description", "Height in metres"},
-          {"type", "SCALAR"},
-          {"componentType", "FLOAT32"},
-          {"required", true}}},
-        {"age",
-         {{"description", "Age in years; 0: full-grown"},
-          {"type", "SCALAR"},
-          {"componentType", "UINT16"},
-          {"required", true}}},
-        {"number",
-         {{"description", "Number of the tree in the forest"},
-          {"type", "SCALAR"},
-          {"componentType", "UINT32"},
-          {"required", true}}}};
-    Json table{{"name", "trees"}, {"class", "tree"}, {"count", count}};
-    table["properties"]["species"]["values"] = add_view(kinds);
-    table["properties"]["height"]["values"] = add_view(heights);
-    table["properties"]["age"]["values"] = add_view(ages);
-    table["properties"]["number"]["values"] = add_view(numbers);
-    Json& extension = json_["extensions"]["EXT_structural_metadata"];
-    extension["schema"] = std::move(schema);
-    extension["propertyTables"].push_back(std::move(table));
-    use_extension(json_, "extensionsUsed", "EXT_structural_metadata");
-}
-
-void TileDocument::put_matrix() {
-    if (matrix_ == glm::dmat4(1.0)) {
-        return;
-    }
-    // Clients turn +Y of the file to +Z of the tile: (x, y, z) becomes (x, -z, y).
-    const glm::dmat4 turn(glm::dvec4(1.0, 0.0, 0.0, 0.0), glm::dvec4(0.0, 0.0, 1.0, 0.0),
-                          glm::dvec4(0.0, -1.0, 0.0, 0.0), glm::dvec4(0.0, 0.0, 0.0, 1.0));
-    const glm::dmat4 matrix = glm::transpose(turn) * matrix_ * turn;
-    Json node{{"name", "tile"}};
-    Json numbers = Json::array();
-    for (int column = 0; column < 4; ++column) {
-        for (int row = 0; row < 4; ++row) {
-            // Rounded to a micrometre and to 12 decimals, as in tilesets.
-            const double steps = column == 3 ? 1e6 : 1e12;
-            numbers.push_back(std::floor(matrix[column][row] * steps + 0.5) / steps + 0.0);
+        const Array translation{add_packed_view(translations, kVector), kVector, kGltfFloat,
+                                "VEC3"};
+        const Array rotation{add_packed_view(rotations, kRotation), kRotation, kGltfShort, "VEC4",
+                             true};
+        const Array scale{add_packed_view(scales, kVector), kVector, kGltfFloat, "VEC3"};
+        const Array id{add_packed_view(ids, sizeof(float)), sizeof(float), kGltfFloat, "SCALAR"};
+        std::size_t first = 0;
+        for (std::size_t i = 0; i < meshes_.size(); ++i) {
+            const std::size_t count = document_.groups_[i].trees.size();
+            const std::size_t accessor = add_accessor(translation, first, count);
+            add_accessor(rotation, first, count);
+            add_accessor(scale, first, count);
+            add_accessor(id, first, count);
+            put(next(GltfList::Nodes),
+                FMT_COMPILE("{{\"mesh\":{},\"extensions\":{{\"EXT_mesh_gpu_instancing\":{{"
+                            "\"attributes\":{{\"TRANSLATION\":{},\"ROTATION\":{},\"SCALE\":{},"
+                            "\"_FEATURE_ID_0\":{}}}}},\"EXT_instance_features\":{{\"featureIds\":["
+                            "{{\"featureCount\":{},\"attribute\":0,\"propertyTable\":0}}]}}}}}}"),
+                meshes_[i], accessor, accessor + 1, accessor + 2, accessor + 3, count);
+            first += count;
         }
+        use_required("EXT_mesh_gpu_instancing");
+        use(GltfList::Used, "EXT_instance_features");
     }
-    node["matrix"] = std::move(numbers);
-    node["children"] = std::exchange(json_["scenes"][0]["nodes"], Json::array());
-    add_node(std::move(node));
-}
 
-void TileDocument::point_to_fallbacks() {
-    std::vector<std::size_t> fallbacks; // by buffer
-    std::size_t next = buffers_.size();
-    for (const Buffer& buffer : buffers_) {
-        fallbacks.push_back(next);
-        next += buffer.decoded_bytes != 0 ? 1U : 0U;
-    }
-    for (Json& view : json_["bufferViews"]) {
-        if (&stored_part(view) != &view) {
-            view["buffer"] = fallbacks[view["buffer"].get<std::size_t>()];
+    void put_table() {
+        std::string kinds;
+        std::string heights;
+        std::string ages;
+        std::string numbers;
+        std::size_t count = 0;
+        for (const TileDocument::Group& group : document_.groups_) {
+            for (const TileTree& tree : group.trees) {
+                append(kinds, tree.species);
+                append(heights, tree.height);
+                append(ages, tree.age);
+                append(numbers, tree.number);
+                ++count;
+            }
         }
+        const std::size_t view = add_view(kinds);
+        add_view(heights);
+        add_view(ages);
+        add_view(numbers);
+        put(next(GltfList::Extensions),
+            FMT_COMPILE("\"EXT_structural_metadata\":{{\"schema\":{},\"propertyTables\":[{{"
+                        "\"name\":\"trees\",\"class\":\"tree\",\"count\":{},\"properties\":{{"
+                        "\"species\":{{\"values\":{}}},\"height\":{{\"values\":{}}},"
+                        "\"age\":{{\"values\":{}}},\"number\":{{\"values\":{}}}}}}}]}}"),
+            parts_.schema, count, view, view + 1, view + 2, view + 3);
+        use(GltfList::Used, "EXT_structural_metadata");
     }
-}
 
-std::string TileDocument::write(const std::vector<std::string>& species) {
-    if (!groups_.empty()) {
-        put_groups();
-        put_table(species);
+    /// Puts all nodes below one that has the matrix of the document, if it has one.
+    void put_matrix() {
+        if (document_.matrix_ == glm::dmat4(1.0)) {
+            return;
+        }
+        // Clients turn +Y of the file to +Z of the tile: (x, y, z) becomes (x, -z, y).
+        const glm::dmat4 turn(glm::dvec4(1.0, 0.0, 0.0, 0.0), glm::dvec4(0.0, 0.0, 1.0, 0.0),
+                              glm::dvec4(0.0, -1.0, 0.0, 0.0), glm::dvec4(0.0, 0.0, 0.0, 1.0));
+        const glm::dmat4 matrix = glm::transpose(turn) * document_.matrix_ * turn;
+        GltfJson numbers = GltfJson::array();
+        for (int column = 0; column < 4; ++column) {
+            for (int row = 0; row < 4; ++row) {
+                // Rounded to a micrometre and to 12 decimals, as in tilesets.
+                const double steps = column == 3 ? 1e6 : 1e12;
+                numbers.push_back(std::floor(matrix[column][row] * steps + 0.5) / steps + 0.0);
+            }
+        }
+        GltfJson children = GltfJson::array();
+        for (std::size_t i = 0; i < count_of(GltfList::Nodes); ++i) {
+            children.push_back(i);
+        }
+        const GltfJson node{{"name", "tile"}, {"matrix", numbers}, {"children", children}};
+        first_root_ = count_of(GltfList::Nodes);
+        next(GltfList::Nodes) += node.dump();
     }
-    put_matrix();
-    point_to_fallbacks();
-    data_.resize(aligned(data_.size()), '\0');
-    GltfFile file;
-    file.binary = true;
-    file.data_bytes = data_.size();
-    file.decoded_bytes = buffers_.front().decoded_bytes;
-    for (std::size_t i = 1; i < buffers_.size(); ++i) {
-        file.others.push_back({buffers_[i].uri, buffers_[i].bytes, buffers_[i].decoded_bytes});
+
+    void put_buffers(std::string& text) const {
+        text += ",\"buffers\":[";
+        for (const Buffer& buffer : buffers_) {
+            const TileBuffer& stored = table_.buffer(buffer.number);
+            if (stored.uri.empty()) {
+                put(text, FMT_COMPILE("{{\"byteLength\":{}}}"), data_.size());
+            } else {
+                put(text, FMT_COMPILE(",{{\"byteLength\":{},\"uri\":\"{}\"}}"), stored.bytes,
+                    stored.uri);
+            }
+        }
+        for (const Buffer& buffer : buffers_) {
+            if (buffer.decoded_bytes != 0) {
+                put(text,
+                    FMT_COMPILE(",{{\"byteLength\":{},\"extensions\":{{\"EXT_meshopt_compression\":"
+                                "{{\"fallback\":true}}}}}}"),
+                    buffer.decoded_bytes);
+            }
+        }
+        text += "]}";
     }
-    // Formatted once for both passes of a GLB.
-    std::string members = json_.dump();
-    members = members.substr(1, members.size() - 2);
-    file.put_members = [&members](JsonWriter& json) { json.literal(members); };
-    file.put_data = [this](const GltfSink& sink) {
-        static_cast<void>(sink(std::as_bytes(std::span(data_))));
-    };
-    std::string bytes;
-    const ByteSink append = [&bytes](std::string_view piece) {
-        bytes += piece;
-        return true;
-    };
-    PieceWriter out(append);
-    const bool is_written = put_gltf_file(file, out);
-    LSYS_CHECK(is_written, data_.size());
-    static_cast<void>(out.finish());
-    return bytes;
+
+    /// The GLB: its header, the document and the buffer.
+    std::string joined() {
+        data_.resize(aligned(data_.size()), '\0');
+        std::string bytes(kGlbHeaders, '\0');
+        std::size_t size = data_.size() + parts_.begin.size();
+        for (const List& list : lists_) {
+            size += list.text.size();
+        }
+        constexpr std::size_t kRest = 4096; // enough for names of lists and for buffers
+        bytes.reserve(size + kRest);
+        bytes += parts_.begin;
+        for (std::size_t i = first_root_; i < count_of(GltfList::Nodes); ++i) {
+            put(bytes, FMT_COMPILE("{}{}"), i == first_root_ ? "" : ",", i);
+        }
+        bytes += "]}]";
+        for (const GltfList list : order_) {
+            const bool is_object = list == GltfList::Extensions;
+            put(bytes, FMT_COMPILE(",\"{}\":{}{}{}"), kListNames[static_cast<std::size_t>(list)],
+                is_object ? '{' : '[', lists_[static_cast<std::size_t>(list)].text,
+                is_object ? '}' : ']');
+        }
+        put_buffers(bytes);
+        bytes.resize((bytes.size() + 3) / 4 * 4, ' ');
+        return with_glb_headers(std::move(bytes), data_);
+    }
+
+    TileDocument& document_;
+    const TileParts::State& parts_;
+    PartTable table_; // the items of the surface, besides the shared ones
+    std::vector<Buffer> buffers_;
+    std::vector<std::uint32_t> buffer_numbers_; // by number in the table
+    std::vector<std::uint32_t> numbers_;        // of items in their lists, by number in the table
+    std::array<List, kGltfLists> lists_;
+    std::vector<GltfList> order_; // of the first items of lists
+    std::vector<std::string> used_;
+    std::vector<std::string> required_;
+    std::size_t first_root_ = 0;      // root nodes of the scene are this one and those after it
+    std::vector<std::size_t> meshes_; // by group
+    std::string data_;                // the buffer of the GLB
+};
+
+std::string TileDocument::write() {
+    return TileWriter(*this).write();
 }
 
 } // namespace lsys

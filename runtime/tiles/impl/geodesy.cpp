@@ -6,6 +6,7 @@
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -69,7 +70,11 @@ GeoPlace along_geodesic(const GeoPlace& start, double east, double north, double
                                             (at.cosine * (2.0 * square - 1.0) -
                                              b / 6.0 * cos_2m * (4.0 * at.sine * at.sine - 3.0) *
                                                  (4.0 * square - 3.0)));
-        sigma = distance / (kB * a) + change;
+        const double next = distance / (kB * a) + change;
+        if (next == sigma) {
+            break; // further steps would not change it
+        }
+        sigma = next;
     }
     at = sine_cosine(sigma);
     cos_2m = sine_cosine(2.0 * sigma_1 + sigma).cosine;
@@ -115,6 +120,59 @@ glm::dmat4 GroundFrame::frame(double x, double z) const {
     axes[2] = {cos_lat * cos_lon, cos_lat * sin_lon, sin_lat, 0.0};
     axes[3] = glm::dvec4(earth_fixed(at), 1.0);
     return axes;
+}
+
+TileFrame::TileFrame(const GroundFrame& earth, const glm::dmat4& to_tile, const Region& region)
+    : earth_(earth), to_tile_(to_tile), region_(region),
+      is_interpolated_(earth.is_curved() &&
+                       std::max(region.width, region.depth) <= kMaxInterpolatedSide) {
+    for (std::size_t i = 0; is_interpolated_ && i < nodes_.size(); ++i) {
+        const auto column = static_cast<double>(i % kNodes);
+        const auto row = static_cast<double>(i / kNodes);
+        nodes_[i] = exact_place(region.x + region.width * column / (kNodes - 1),
+                                region.z + region.depth * row / (kNodes - 1));
+    }
+}
+
+glm::dvec3 TileFrame::exact(double x, double y, double z) const {
+    return glm::dvec3(to_tile_ * glm::dvec4(earth_.place(x, y, z), 1.0));
+}
+
+TileFrame::Place TileFrame::exact_place(double x, double z) const {
+    constexpr double kRise = 1024.0; // m; places are linear in the altitude
+    const glm::dvec3 foot = exact(x, 0.0, z);
+    return {foot, (exact(x, kRise, z) - foot) / kRise};
+}
+
+TileFrame::Place TileFrame::at(double x, double z) const {
+    if (!is_interpolated_) {
+        return exact_place(x, z);
+    }
+    // Polynomials of degree 2 that are 1 at one of the nodes 0, 1/2 and 1.
+    const auto weights = [](double t) {
+        return std::array<double, kNodes>{(1.0 - t) * (1.0 - 2.0 * t), 4.0 * t * (1.0 - t),
+                                          t * (2.0 * t - 1.0)};
+    };
+    const std::array<double, kNodes> along_x = weights((x - region_.x) / region_.width);
+    const std::array<double, kNodes> along_z = weights((z - region_.z) / region_.depth);
+    Place place;
+    for (std::size_t row = 0; row < kNodes; ++row) {
+        for (std::size_t column = 0; column < kNodes; ++column) {
+            const double weight = along_x[column] * along_z[row];
+            const Place& node = nodes_[row * kNodes + column];
+            place.foot += weight * node.foot;
+            place.up += weight * node.up;
+        }
+    }
+    return place;
+}
+
+glm::dvec3 TileFrame::place(double x, double y, double z) const {
+    if (!is_interpolated_) {
+        return exact(x, y, z);
+    }
+    const Place place = at(x, z);
+    return place.foot + y * place.up;
 }
 
 glm::dmat4 inverse_of_frame(const glm::dmat4& frame) {

@@ -2,11 +2,14 @@
 // Places of a scene on the Earth: the WGS 84 ellipsoid (NGA.STND.0036), without a map projection.
 #pragma once
 
+#include "runtime/terrain/region.h"
 #include "runtime/tiles/tiles.h"
 
 #include <glm/mat4x4.hpp>
 #include <glm/vec3.hpp>
 
+#include <array>
+#include <cstddef>
 #include <optional>
 
 namespace lsys {
@@ -40,6 +43,35 @@ private:
 
     std::optional<GeoPlace> origin_;
 };
+
+/// Maps the scene around a tile to the frame of the tile. On the Earth a tile of up to
+/// kMaxInterpolatedSide is interpolated from nine points, with an error below 2 mm.
+class TileFrame {
+public:
+    /// `to_tile`: from the coordinates of the tileset. `earth` must outlive the object.
+    TileFrame(const GroundFrame& earth, const glm::dmat4& to_tile, const Region& region);
+
+    struct Place {
+        glm::dvec3 foot{0.0}; // east, north, up in m, of (x, 0, z)
+        glm::dvec3 up{0.0};   // change for each m of altitude
+    };
+    [[nodiscard]] Place at(double x, double z) const;
+    /// The point (x, y, z) of the scene.
+    [[nodiscard]] glm::dvec3 place(double x, double y, double z) const;
+
+private:
+    static constexpr std::size_t kNodes = 3; // along each side
+
+    [[nodiscard]] glm::dvec3 exact(double x, double y, double z) const;
+    [[nodiscard]] Place exact_place(double x, double z) const;
+
+    const GroundFrame& earth_;
+    glm::dmat4 to_tile_;
+    Region region_;
+    bool is_interpolated_ = false;
+    std::array<Place, kNodes * kNodes> nodes_; // rows along X
+};
+inline constexpr double kMaxInterpolatedSide = 20e3; // m
 
 /// The inverse of a frame, whose axes are perpendicular and of length 1.
 [[nodiscard]] glm::dmat4 inverse_of_frame(const glm::dmat4& frame);

@@ -4,47 +4,58 @@
 #include <glm/geometric.hpp>
 
 #include <cstddef>
+#include <optional>
 #include <vector>
 
 namespace lsys {
+
+std::vector<double> patch_places(double first, double length, std::uint32_t cells) {
+    std::vector<double> places;
+    for (std::uint32_t i = 0; i < cells + 3; ++i) {
+        places.push_back(first + length / cells * (i - 1.0));
+    }
+    return places;
+}
 
 Mesh make_patch(const PatchPlan& plan) {
     const std::uint32_t cells = plan.cells;
     const std::uint32_t side = cells + 1;
     Mesh mesh;
-    const auto place = [&](double x, double y, double z) {
-        return y_up(glm::dvec3(plan.to_tile * glm::dvec4(plan.earth.place(x, y, z), 1.0)));
+    const TileFrame frame(plan.earth, plan.to_tile, plan.region);
+    const auto place = [&frame](double x, double y, double z) {
+        return y_up(frame.place(x, y, z));
     };
     const double step_x = plan.region.width / cells;
     const double step_z = plan.region.depth / cells;
-    // Heights of the vertices and of a border of one cell.
-    const std::uint32_t wide = side + 2;
-    std::vector<double> heights;
-    for (std::uint32_t row = 0; row < wide; ++row) {
-        for (std::uint32_t column = 0; column < wide; ++column) {
-            heights.push_back(plan.height(plan.region.x + step_x * (column - 1.0),
-                                          plan.region.z + step_z * (row - 1.0)));
-        }
-    }
+    const std::uint32_t wide = side + 2; // with the border of one cell
+    const std::vector<double>& heights = plan.heights;
+    const std::size_t first_low = std::size_t{side} * side; // lower ends of skirts
+    const std::size_t vertices = first_low + std::size_t{4} * cells;
+    mesh.positions.resize(vertices);
+    mesh.normals.resize(vertices);
+    mesh.texture_coordinates.resize(vertices);
     for (std::uint32_t row = 0; row < side; ++row) {
         for (std::uint32_t column = 0; column < side; ++column) {
             const double x = plan.region.x + step_x * column;
             const double z = plan.region.z + step_z * row;
             const std::size_t at = std::size_t{row + 1} * wide + column + 1;
-            mesh.positions.push_back(glm::vec3(place(x, heights[at], z)));
+            const std::size_t vertex = std::size_t{row} * side + column;
+            mesh.positions[vertex] = glm::vec3(place(x, heights[at], z));
             const glm::dvec3 normal((heights[at - 1] - heights[at + 1]) / (2.0 * step_x), 1.0,
                                     (heights[at - wide] - heights[at + wide]) / (2.0 * step_z));
-            mesh.normals.push_back(glm::vec3(glm::normalize(normal)));
-            mesh.texture_coordinates.push_back(plan.texture(column, row, x, z));
+            mesh.normals[vertex] = glm::vec3(glm::normalize(normal));
+            mesh.texture_coordinates[vertex] = plan.texture(column, row, x, z);
         }
     }
     // Triangles are counter-clockwise seen from above; diagonals alternate, as on the ground of
     // make_terrain_mesh().
     LargeVector<std::uint32_t> indices;
+    indices.resize(std::size_t{6} * cells * cells + std::size_t{24} * cells);
+    std::uint32_t* next_index = indices.data();
     const auto add = [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
-        indices.push_back(a);
-        indices.push_back(b);
-        indices.push_back(c);
+        *next_index++ = a;
+        *next_index++ = b;
+        *next_index++ = c;
     };
     for (std::uint32_t row = 0; row < cells; ++row) {
         for (std::uint32_t column = 0; column < cells; ++column) {
@@ -67,23 +78,36 @@ Mesh make_patch(const PatchPlan& plan) {
         border[2 * cells + i] = cells - i;
         border[3 * cells + i] = i * side;
     }
-    const auto first_low = static_cast<std::uint32_t>(mesh.positions.size());
-    for (const std::uint32_t vertex : border) {
+    for (std::uint32_t i = 0; i < border.size(); ++i) {
+        const std::uint32_t vertex = border[i];
         glm::vec3 low = mesh.positions[vertex];
         low.y -= static_cast<float>(plan.skirt);
-        mesh.positions.push_back(low);
-        mesh.normals.push_back(mesh.normals[vertex]);
-        mesh.texture_coordinates.push_back(mesh.texture_coordinates[vertex]);
+        mesh.positions[first_low + i] = low;
+        mesh.normals[first_low + i] = mesh.normals[vertex];
+        mesh.texture_coordinates[first_low + i] = mesh.texture_coordinates[vertex];
     }
+    const auto low_of = [first_low](std::uint32_t i) {
+        return static_cast<std::uint32_t>(first_low + i);
+    };
     for (std::uint32_t i = 0; i < border.size(); ++i) {
         const auto next = static_cast<std::uint32_t>((i + 1) % border.size());
-        add(border[i], first_low + i, border[next]);
-        add(border[next], first_low + i, first_low + next);
+        add(border[i], low_of(i), border[next]);
+        add(border[next], low_of(i), low_of(next));
     }
     mesh.indices = TriangleList(std::move(indices));
     mesh.materials.push_back(plan.material);
     mesh.parts.push_back({0, 0, mesh.indices.size()});
     return mesh;
+}
+
+Mesh make_level_patch(std::uint32_t cells) {
+    const GroundFrame earth(std::nullopt);
+    const double side = cells;
+    PatchPlan plan{cells, {0.0, 0.0, side, side}, earth, glm::dmat4(1.0), 1.0, Material(), {}, {}};
+    const std::size_t places = patch_places(0.0, side, cells).size();
+    plan.heights.assign(places * places, 0.0);
+    plan.texture = [](std::uint32_t, std::uint32_t, double, double) { return glm::vec2(0.0F); };
+    return make_patch(plan);
 }
 
 } // namespace lsys

@@ -13,6 +13,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <vector>
 
 namespace lsys {
 
@@ -23,14 +24,19 @@ struct PatchPlan {
     glm::dmat4 to_tile; // from the coordinates of the tileset to those of the tile
     double skirt = 0.0; // m, its depth
     Material material;
-    /// Altitude in m at (x, z) of the scene, also one cell beyond the region, for normals.
-    std::function<double(double x, double z)> height;
+    /// Altitudes in m at patch_places() along X and Z, in rows along X.
+    std::vector<double> heights;
     /// Texture coordinates at column and row, 0 to `cells`, whose place in the scene is (x, z).
     std::function<glm::vec2(std::uint32_t column, std::uint32_t row, double x, double z)> texture;
 };
 
-/// The mesh in the frame of the tile, with +Y up.
+/// Places of the vertices of a patch along an axis, and of one cell before and after it, for normals.
+[[nodiscard]] std::vector<double> patch_places(double first, double length, std::uint32_t cells);
+
+/// The mesh in the frame of the tile, with +Y up. Its triangles depend on the number of cells alone.
 [[nodiscard]] Mesh make_patch(const PatchPlan& plan);
+/// A level patch, whose triangles are those of all patches with this number of cells.
+[[nodiscard]] Mesh make_level_patch(std::uint32_t cells);
 
 /// Converts (east, north, up) to (east, up, south), because glTF has +Y up.
 [[nodiscard]] inline glm::dvec3 y_up(const glm::dvec3& z_up) {

@@ -46,18 +46,16 @@ glm::dmat4 TileBoxes::frame_of(const TileId& tile) const {
 
 TileBox TileBoxes::box_of(const TileId& tile) const {
     const Region region = grid_.region_of(tile);
-    double lowest = std::numeric_limits<double>::infinity();
-    double highest = -lowest;
-    for (std::uint32_t row = 0; row <= kSamples; ++row) {
-        for (std::uint32_t column = 0; column <= kSamples; ++column) {
-            const double x = region.x + region.width * column / kSamples;
-            const double z = region.z + region.depth * row / kSamples;
-            const auto height =
-                static_cast<double>(terrain_.height(static_cast<float>(x), static_cast<float>(z)));
-            lowest = std::min(lowest, height);
-            highest = std::max(highest, height);
-        }
+    std::array<float, kSamples + 1> columns{};
+    std::array<float, kSamples + 1> rows{};
+    for (std::uint32_t i = 0; i <= kSamples; ++i) {
+        columns[i] = static_cast<float>(region.x + region.width * i / kSamples);
+        rows[i] = static_cast<float>(region.z + region.depth * i / kSamples);
     }
+    const std::vector<float> heights = terrain_.heights(columns, rows);
+    const auto [low, high] = std::minmax_element(heights.begin(), heights.end());
+    auto lowest = static_cast<double>(*low);
+    auto highest = static_cast<double>(*high);
     const auto [least, most] = terrain_.altitudes();
     lowest = std::max(lowest - ground_margins_[tile.level], least) - depths_[tile.level];
     highest = std::min(highest + ground_margins_[tile.level], most) + reach_.above;

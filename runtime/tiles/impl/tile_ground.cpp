@@ -18,8 +18,15 @@ namespace {
 constexpr std::uint32_t kSide = kCanopyCells + 1; // points along a side of a canopy
 constexpr std::int64_t kWide = kSide + 2;         // with a border of one cell, for normals
 
-double height_of(const Terrain& terrain, double x, double z) {
-    return static_cast<double>(terrain.height(static_cast<float>(x), static_cast<float>(z)));
+/// Heights of the bare ground at the places of a patch.
+std::vector<double> ground_heights(const Terrain& terrain, const PatchPlan& plan) {
+    const auto places = [&plan](double first, double length) {
+        const std::vector<double> exact = patch_places(first, length, plan.cells);
+        return std::vector<float>(exact.begin(), exact.end());
+    };
+    const std::vector<float> heights = terrain.heights(places(plan.region.x, plan.region.width),
+                                                       places(plan.region.z, plan.region.depth));
+    return {heights.begin(), heights.end()};
 }
 
 /// The ground with its repeated picture, or in one colour.
@@ -34,7 +41,7 @@ Mesh make_bare_ground(const TileGround& ground, PatchPlan& plan) {
     const double depth = is_tiled ? pictures.depth : region.depth;
     const double first_u = std::floor((region.x - pictures.origin_x) / width);
     const double first_v = std::floor((region.z - pictures.origin_z) / depth);
-    plan.height = [&](double x, double z) { return height_of(ground.terrain, x, z); };
+    plan.heights = ground_heights(ground.terrain, plan);
     plan.texture = [&, width, depth, first_u, first_v](std::uint32_t, std::uint32_t, double x,
                                                        double z) {
         return glm::vec2((x - pictures.origin_x) / width - first_u,
@@ -62,9 +69,13 @@ Mesh make_canopy(const TileGround& ground, PatchPlan& plan) {
     Texture colours{kSide, kSide, std::vector<std::uint8_t>(std::size_t{4} * kSide * kSide)};
     plan.material.textured = true;
     plan.material.roughness = 1.0F;
-    plan.height = [&](double x, double z) {
-        return height_of(ground.terrain, x, z) + canopy_at(x, z).height;
-    };
+    plan.heights = ground_heights(ground.terrain, plan);
+    auto height = plan.heights.begin();
+    for (const double z : patch_places(plan.region.z, plan.region.depth, plan.cells)) {
+        for (const double x : patch_places(plan.region.x, plan.region.width, plan.cells)) {
+            *height++ += canopy_at(x, z).height;
+        }
+    }
     plan.texture = [&](std::uint32_t column, std::uint32_t row, double x, double z) {
         const CanopyPoint& crowns = canopy_at(x, z);
         const glm::dvec3 colour = glm::mix(ground.colour, crowns.colour, crowns.cover);

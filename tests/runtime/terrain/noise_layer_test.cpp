@@ -4,9 +4,11 @@
 
 #include <catch2/catch.hpp>
 
+#include <algorithm>
 #include <bit>
 #include <cstdint>
 #include <stb/stb_perlin.h>
+#include <vector>
 
 using namespace lsys;
 
@@ -36,5 +38,27 @@ TEST_CASE("a layer of noise has the bits of stb_perlin") {
                 CHECK(is_same(layer.at(x, z), stb_perlin_noise3(x, height, z, 0, 0, 0)));
             }
         }
+    }
+}
+
+TEST_CASE("a grid of noise has the bits of its points") {
+    const NoiseLayer layer(9.0F);
+    // Many points in one lattice cell, and several cells between two points; at the end of the period.
+    for (const float step : {0.01F, 0.3F, 2.7F}) {
+        std::vector<float> x;
+        std::vector<float> z;
+        for (int i = 0; i < 75; ++i) {
+            x.push_back(256.0F - step * static_cast<float>(i));
+            z.push_back(40.0F + step * static_cast<float>(i));
+        }
+        constexpr double kAmplitude = 3.7;
+        std::vector<double> sums(x.size() * z.size(), 0.25);
+        layer.add_grid(NoiseAxis(x), NoiseAxis(z), kAmplitude, sums);
+        std::size_t different = 0;
+        for (std::size_t i = 0; i < sums.size(); ++i) {
+            const auto noise = static_cast<double>(layer.at(x[i % x.size()], z[i / x.size()]));
+            different += sums[i] == 0.25 + kAmplitude * std::clamp(noise, -1.0, 1.0) ? 0U : 1U;
+        }
+        CHECK(different == 0);
     }
 }

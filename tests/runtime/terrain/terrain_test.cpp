@@ -331,3 +331,34 @@ TEST_CASE("a mesh of the ground is nowhere farther from it than its error") {
     }
     CHECK(Terrain::flat(kGround, 3.0).value().mesh_error(100.0) == 0.0);
 }
+
+TEST_CASE("the heights of a grid are those of its points") {
+    const auto check = [](const Result<Terrain>& terrain) {
+        REQUIRE(terrain);
+        std::vector<float> x;
+        std::vector<float> z;
+        for (int i = 0; i < 67; ++i) {
+            x.push_back(-520.0F + 13.1F * static_cast<float>(i));
+            z.push_back(0.37F * static_cast<float>(i * i));
+        }
+        const std::vector<float> heights = terrain.value().heights(x, z);
+        REQUIRE(heights.size() == x.size() * z.size());
+        std::size_t different = 0;
+        for (std::size_t i = 0; i < heights.size(); ++i) {
+            different +=
+                heights[i] == terrain.value().height(x[i % x.size()], z[i / x.size()]) ? 0U : 1U;
+        }
+        CHECK(different == 0);
+    };
+    check(Terrain::flat(kGround, 12.5));
+    NoiseOptions noise;
+    noise.seed = 4;
+    noise.feature = 90.0;
+    check(Terrain::noise(kGround, noise));
+    for (const HeightFilter filter : {HeightFilter::Bilinear, HeightFilter::Bicubic}) {
+        HeightMapOptions options;
+        options.filter = filter;
+        check(Terrain::height_map(kGround, plane(9, 7), options));
+    }
+    CHECK(Terrain::flat(kGround).value().heights({}, {}).empty());
+}

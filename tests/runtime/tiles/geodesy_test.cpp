@@ -100,5 +100,23 @@ TEST_CASE("without an origin a tileset has the coordinates of the scene") {
     CHECK(glm::dvec3(plain.frame(4.0, 5.0)[3]) == glm::dvec3(4.0, -5.0, 0.0));
 }
 
+TEST_CASE("the interpolated frame of a tile is exact to 2 mm") {
+    for (const double latitude : {-89.9999, 0.0, 47.2}) {
+        const GroundFrame earth(GeoPlace{9.7, latitude, 430.0});
+        for (const double side : {60.0, 2000.0, kMaxInterpolatedSide}) {
+            const Region region{-15e4, 7e4, side, 0.7 * side};
+            const glm::dmat4 to_tile = inverse_of_frame(earth.frame(region.x, region.z));
+            const TileFrame frame(earth, to_tile, region);
+            for (const double part : {0.0, 0.21, 0.5, 0.83, 1.0}) {
+                const double x = region.x + part * region.width;
+                const double z = region.z + (1.0 - part * part) * region.depth;
+                const glm::dvec3 exact(to_tile * glm::dvec4(earth.place(x, 800.0, z), 1.0));
+                CAPTURE(latitude, side, part);
+                CHECK(glm::length(frame.place(x, 800.0, z) - exact) < 2e-3);
+            }
+        }
+    }
+}
+
 } // namespace
 } // namespace lsys
