@@ -56,7 +56,8 @@ struct MeshOrder {
 /// for ExportFormat::Gltf and `info`. Precondition: the mesh has triangles, a few million at most;
 /// `info` has a `buffer_name`, and no motion, film, levels or variants. Throws std::bad_alloc.
 [[nodiscard]] MeshDocument make_mesh_document(const Mesh& mesh, const ExportInfo& info);
-/// The same document in a third of the time. Precondition: `order` is that of the mesh.
+/// Same, in a third of the time, because the order of the mesh is not computed again.
+/// Precondition: `order` is the order of `mesh`.
 [[nodiscard]] MeshDocument
 make_mesh_document(const Mesh& mesh, const ExportInfo& info, const MeshOrder& order);
 /// Stores a picture in the buffer of the document; image `number` then refers to it, not to a file.

@@ -105,8 +105,7 @@ Light daylight_of(const SceneLight& scene, const Light& light) {
     const auto disc = static_cast<float>(std::clamp(sun.elevation + 0.5, 0.0, 1.0));
     changed.sun = disc * light.sun * passes;
     // Haze makes the sky grey. Light at the horizon has passed through about half as much air as
-    // that of the sun, and has its colour by half; it
-    // loses it at dusk.
+    // that of the sun, and has its colour by half; at dusk it loses this colour.
     constexpr double kGrey = 12.0; // turbidity above the default that makes a sky without colour
     const auto grey = static_cast<float>((turbidity - kDefaultTurbidity) / kGrey);
     const glm::vec3 sky = glm::mix(light.sky, glm::vec3(luminance(light.sky)), grey);

@@ -146,7 +146,7 @@ protected:
     [[nodiscard]] PickRequest request_for(const Picked& picked) const override;
 
 private:
-    /// What a step of undo() changed.
+    /// One step of undo() changes either settings or painted strokes.
     enum class StepKind : std::uint8_t { Settings, Painting };
 
     void add_step(StepKind kind);

@@ -29,7 +29,7 @@ private:
 
     mutable std::mutex mutex_;
     LongStep step_ = LongStep::Read;
-    // Of a derivation.
+    // The following three belong to LongStep::Derive.
     std::uint32_t generation_ = 0; // 0: it has not written a module yet
     std::uint32_t generations_ = 0;
     std::uint64_t modules_ = 0;

@@ -57,7 +57,8 @@ public:
     virtual void picture_shown(double draw_seconds) = 0;
     /// Whether work or motion goes on, so that update() is due soon.
     [[nodiscard]] virtual bool is_busy() const = 0;
-    /// What a thread is making for the picture; empty: nothing, or only for kProgressDelay so far.
+    /// The work of a thread on the next picture. Empty without such work, and in its first
+    /// kProgressDelay.
     [[nodiscard]] virtual std::optional<MakingState> making() const = 0;
     /// Stops what making() returns. The last plant or forest stays, with the settings that made it.
     virtual void cancel_making() = 0;

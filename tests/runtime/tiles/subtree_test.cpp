@@ -230,7 +230,7 @@ TEST_CASE("implicit tiling has the tiles of the explicit tilesets") {
         }
         CHECK(glm::distance(other.middle, tile.middle) < 0.01);
     }
-    // What a client derives from the root, if it ignores metadata, is large enough.
+    // A client that ignores the metadata halves the error of the root per level: none is too small.
     const Json top = Json::parse(forest.tileset({}))["root"];
     CHECK(matrix_of(top["transform"]) == matrix_of(root["transform"]));
     double implied = top["geometricError"].get<double>();
