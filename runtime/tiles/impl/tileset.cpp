@@ -36,26 +36,22 @@ glm::dmat4 frame_in_root(const TileBoxes& boxes, const TileId& tile) {
 
 namespace {
 
-double rounded(double value) {
-    return rounded_for_tileset(value);
-}
-
 Json json_of(const TileBox& box) {
     const glm::dvec3 middle = 0.5 * (box.low + box.high);
     // One millimetre larger, because numbers of tiles and tilesets are rounded.
     const glm::dvec3 half = 0.5 * (box.high - box.low) + glm::dvec3(1e-3);
-    return {rounded(middle.x),
-            rounded(middle.y),
-            rounded(middle.z),
-            rounded(half.x),
+    return {rounded_for_tileset(middle.x),
+            rounded_for_tileset(middle.y),
+            rounded_for_tileset(middle.z),
+            rounded_for_tileset(half.x),
             0.0,
             0.0,
             0.0,
-            rounded(half.y),
+            rounded_for_tileset(half.y),
             0.0,
             0.0,
             0.0,
-            rounded(half.z)};
+            rounded_for_tileset(half.z)};
 }
 
 class TilesetWriter {
@@ -75,8 +71,8 @@ public:
         Json tileset;
         tileset["asset"] = {{"version", "1.1"}, {"extras", {{"generator", plan_.generator}}}};
         // The error if the tileset is not shown; for the root tileset the side of the ground.
-        tileset["geometricError"] =
-            rounded(root_.level == 0 ? plan_.grid.square().width : plan_.levels[root_.level].error);
+        tileset["geometricError"] = rounded_for_tileset(
+            root_.level == 0 ? plan_.grid.square().width : plan_.levels[root_.level].error);
         tileset["root"] = std::move(node);
         return tileset.dump() + "\n";
     }
@@ -122,7 +118,7 @@ private:
     [[nodiscard]] Json bounds_of(const TileId& tile) const {
         Json node;
         node["boundingVolume"]["box"] = json_of(plan_.boxes.box_of(tile));
-        node["geometricError"] = rounded(plan_.levels[tile.level].error);
+        node["geometricError"] = rounded_for_tileset(plan_.levels[tile.level].error);
         return node;
     }
     /// Tilesets other than the root are two folders deeper.
