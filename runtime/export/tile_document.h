@@ -27,6 +27,12 @@
 
 namespace lsys {
 
+/// `value` rounded to a micrometre, for short numbers.
+[[nodiscard]] double rounded_for_tileset(double value);
+/// The matrix in column-major order, for tiles and tilesets. Axes are rounded to 12 decimals, which
+/// moves a point by less than 1e-12 of the diameter of the Earth.
+[[nodiscard]] nlohmann::ordered_json json_of_matrix(const glm::dmat4& matrix);
+
 /// Bytes of a file that tiles share.
 struct FilePart {
     std::string uri;              // percent-encoded, relative to the tile

@@ -129,6 +129,19 @@ void put_images(JsonWriter& json,
     json.end();
 }
 
+std::optional<GlbHeaders> glb_headers(std::uint64_t json_bytes, std::uint64_t data_bytes) {
+    const std::uint64_t total = sizeof(GlbHeader) + sizeof(GlbDataHeader) + json_bytes + data_bytes;
+    if (total > kMaxGltfBytes) {
+        return std::nullopt;
+    }
+    constexpr std::uint32_t kMagic = 0x46546C67;     // "glTF"
+    constexpr std::uint32_t kJsonChunk = 0x4E4F534A; // "JSON"
+    constexpr std::uint32_t kDataChunk = 0x004E4942; // "BIN"
+    return GlbHeaders{{kMagic, 2, static_cast<std::uint32_t>(total),
+                       static_cast<std::uint32_t>(json_bytes), kJsonChunk},
+                      {static_cast<std::uint32_t>(data_bytes), kDataChunk}};
+}
+
 bool put_gltf_file(const GltfFile& file, PieceWriter& out) {
     const auto put_document = [&file](PieceWriter& to) {
         JsonWriter json(to);
@@ -179,22 +192,14 @@ bool put_gltf_file(const GltfFile& file, PieceWriter& out) {
     static_cast<void>(counter.finish());
     const std::uint64_t padding = (4 - json_bytes % 4) % 4;
     json_bytes += padding;
-    constexpr std::uint64_t kHeaders = 12 + 8 + 8;
-    const std::uint64_t total = kHeaders + json_bytes + file.data_bytes;
-    if (total > kMaxGltfBytes) {
+    const std::optional<GlbHeaders> headers = glb_headers(json_bytes, file.data_bytes);
+    if (!headers) {
         return false;
     }
-    constexpr std::uint32_t kMagic = 0x46546C67;     // "glTF"
-    constexpr std::uint32_t kJsonChunk = 0x4E4F534A; // "JSON"
-    constexpr std::uint32_t kDataChunk = 0x004E4942; // "BIN"
-    const std::array<std::uint32_t, 5> header{kMagic, 2, static_cast<std::uint32_t>(total),
-                                              static_cast<std::uint32_t>(json_bytes), kJsonChunk};
-    out.put_array(std::span<const std::uint32_t>(header));
+    out.put_array(std::span<const std::uint32_t>(headers->file));
     put_document(out);
     out.put(std::string_view("   ").substr(0, padding));
-    const std::array<std::uint32_t, 2> data_header{static_cast<std::uint32_t>(file.data_bytes),
-                                                   kDataChunk};
-    out.put_array(std::span<const std::uint32_t>(data_header));
+    out.put_array(std::span<const std::uint32_t>(headers->data));
     file.put_data([&out](std::span<const std::byte> bytes) {
         out.put_bytes(bytes);
         return !out.stopped();

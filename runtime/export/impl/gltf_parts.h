@@ -9,6 +9,7 @@
 #include "runtime/export/impl/piece_writer.h"
 #include "runtime/meshing/mesh.h"
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -86,6 +87,17 @@ struct GltfFile {
     std::vector<GltfOtherBuffer> others =
         {}; // buffers 1, 2, ...; their fallbacks are last, in order
 };
+/// Header of a GLB and header of its document, which is its first chunk.
+using GlbHeader = std::array<std::uint32_t, 5>;
+/// Header of the buffer of a GLB, which is its second chunk.
+using GlbDataHeader = std::array<std::uint32_t, 2>;
+struct GlbHeaders {
+    GlbHeader file;
+    GlbDataHeader data;
+};
+/// Headers of a GLB; both sizes are multiples of 4. Empty if the file would be too large.
+[[nodiscard]] std::optional<GlbHeaders> glb_headers(std::uint64_t json_bytes,
+                                                    std::uint64_t data_bytes);
 /// Returns false, without writing anything, if a GLB would be too large.
 [[nodiscard]] bool put_gltf_file(const GltfFile& file, PieceWriter& out);
 

@@ -22,8 +22,6 @@ namespace lsys {
 
 namespace {
 
-constexpr std::size_t kGlbHeaders = 20; // of the file and of its document
-constexpr std::size_t kDataHeader = 8;
 constexpr std::size_t kAlignment = 8; // of buffer views, required for EXT_structural_metadata
 
 std::uint64_t aligned(std::uint64_t bytes) {
@@ -68,19 +66,13 @@ struct Array {
     bool normalized = false;
 };
 
-/// Appends the buffer to a document that has room for the headers of a GLB before it.
+/// Appends the buffer to a document that has room for a GlbHeader before it.
 std::string with_glb_headers(std::string document, const std::string& data) {
-    const std::uint64_t total = document.size() + kDataHeader + data.size();
-    LSYS_CHECK(total <= kMaxGltfBytes, total);
-    constexpr std::uint32_t kMagic = 0x46546C67;     // "glTF"
-    constexpr std::uint32_t kJsonChunk = 0x4E4F534A; // "JSON"
-    constexpr std::uint32_t kDataChunk = 0x004E4942; // "BIN"
-    const std::array<std::uint32_t, 5> header{
-        kMagic, 2, static_cast<std::uint32_t>(total),
-        static_cast<std::uint32_t>(document.size() - kGlbHeaders), kJsonChunk};
-    static_assert(sizeof header == kGlbHeaders);
-    std::memcpy(document.data(), header.data(), sizeof header);
-    append(document, std::array{static_cast<std::uint32_t>(data.size()), kDataChunk});
+    const std::optional<GlbHeaders> headers =
+        glb_headers(document.size() - sizeof(GlbHeader), data.size());
+    LSYS_CHECK(headers, document.size(), data.size());
+    std::memcpy(document.data(), headers->file.data(), sizeof headers->file);
+    append(document, headers->data);
     document += data;
     return document;
 }
@@ -95,6 +87,24 @@ constexpr std::array<std::string_view, kGltfLists> kListNames{
     "meshes",      "nodes",  "extensionsUsed", "extensionsRequired", "extensions"};
 
 } // namespace
+
+double rounded_for_tileset(double value) {
+    constexpr double kSteps = 1e6;
+    return std::floor(value * kSteps + 0.5) / kSteps + 0.0; // without a negative zero
+}
+
+nlohmann::ordered_json json_of_matrix(const glm::dmat4& matrix) {
+    nlohmann::ordered_json numbers = nlohmann::ordered_json::array();
+    for (int column = 0; column < 4; ++column) {
+        for (int row = 0; row < 4; ++row) {
+            constexpr double kSteps = 1e12;
+            const double value = matrix[column][row];
+            numbers.push_back(column == 3 ? rounded_for_tileset(value)
+                                          : std::floor(value * kSteps + 0.5) / kSteps + 0.0);
+        }
+    }
+    return numbers;
+}
 
 void embed_picture(std::size_t number, const std::string& png, MeshDocument& document) {
     GltfJson& views = document.json["bufferViews"];
@@ -367,19 +377,12 @@ private:
         const glm::dmat4 turn(glm::dvec4(1.0, 0.0, 0.0, 0.0), glm::dvec4(0.0, 0.0, 1.0, 0.0),
                               glm::dvec4(0.0, -1.0, 0.0, 0.0), glm::dvec4(0.0, 0.0, 0.0, 1.0));
         const glm::dmat4 matrix = glm::transpose(turn) * document_.matrix_ * turn;
-        GltfJson numbers = GltfJson::array();
-        for (int column = 0; column < 4; ++column) {
-            for (int row = 0; row < 4; ++row) {
-                // Rounded to a micrometre and to 12 decimals, as in tilesets.
-                const double steps = column == 3 ? 1e6 : 1e12;
-                numbers.push_back(std::floor(matrix[column][row] * steps + 0.5) / steps + 0.0);
-            }
-        }
         GltfJson children = GltfJson::array();
         for (std::size_t i = 0; i < count_of(GltfList::Nodes); ++i) {
             children.push_back(i);
         }
-        const GltfJson node{{"name", "tile"}, {"matrix", numbers}, {"children", children}};
+        const GltfJson node{
+            {"name", "tile"}, {"matrix", json_of_matrix(matrix)}, {"children", children}};
         first_root_ = count_of(GltfList::Nodes);
         next(GltfList::Nodes) += node.dump();
     }
@@ -409,7 +412,7 @@ private:
     /// The GLB: its header, the document and the buffer.
     std::string joined() {
         data_.resize(aligned(data_.size()), '\0');
-        std::string bytes(kGlbHeaders, '\0');
+        std::string bytes(sizeof(GlbHeader), '\0');
         std::size_t size = data_.size() + parts_.begin.size();
         for (const List& list : lists_) {
             size += list.text.size();

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "runtime/tiles/impl/subtree.h"
 
+#include "runtime/export/tile_document.h"
+
 #include <nlohmann/json.hpp>
 
 #include <algorithm>

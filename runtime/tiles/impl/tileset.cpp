@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "runtime/tiles/impl/tileset.h"
 
+#include "runtime/export/tile_document.h"
 #include "runtime/tiles/impl/geodesy.h"
 
 #include <nlohmann/json.hpp>
@@ -11,24 +12,6 @@
 namespace lsys {
 
 using Json = nlohmann::ordered_json;
-
-double rounded_for_tileset(double value) {
-    constexpr double kSteps = 1e6;
-    return std::floor(value * kSteps + 0.5) / kSteps + 0.0; // without a negative zero
-}
-
-Json json_of_matrix(const glm::dmat4& matrix) {
-    Json numbers = Json::array();
-    for (int column = 0; column < 4; ++column) {
-        for (int row = 0; row < 4; ++row) {
-            constexpr double kSteps = 1e12;
-            const double value = matrix[column][row];
-            numbers.push_back(column == 3 ? rounded_for_tileset(value)
-                                          : std::floor(value * kSteps + 0.5) / kSteps + 0.0);
-        }
-    }
-    return numbers;
-}
 
 glm::dmat4 frame_in_root(const TileBoxes& boxes, const TileId& tile) {
     return inverse_of_frame(boxes.frame_of({})) * boxes.frame_of(tile);

@@ -28,11 +28,6 @@ struct TilesetPlan {
     const TileBoxes& boxes;
 };
 
-/// `value` rounded to a micrometre, for short numbers.
-[[nodiscard]] double rounded_for_tileset(double value);
-/// The matrix in column-major order. Axes are rounded to 12 decimals, which moves a point by less
-/// than 1e-12 of the diameter of the Earth.
-[[nodiscard]] nlohmann::ordered_json json_of_matrix(const glm::dmat4& matrix);
 /// From the frame of a tile to that of the root of the quadtree.
 [[nodiscard]] glm::dmat4 frame_in_root(const TileBoxes& boxes, const TileId& tile);
 
