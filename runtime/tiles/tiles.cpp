@@ -86,9 +86,9 @@ struct TileForest::State {
     void make_ground_picture();
     void order_ground();
     void make_canopies();
-    [[nodiscard]] MeshDocument ground_of(const TileId& tile, const glm::dmat4& to_tile) const;
+    [[nodiscard]] MeshDocument ground_of(const TileId& tile, const TileFrame& frame) const;
     std::uint64_t
-    add_trees(const TileId& tile, const glm::dmat4& to_tile, TileDocument& document) const;
+    add_trees(const TileId& tile, const TileFrame& frame, TileDocument& document) const;
 };
 
 TileForest::TileForest(std::unique_ptr<State> state) : state_(std::move(state)) {}
@@ -387,11 +387,11 @@ void TileForest::State::make_canopies() {
     };
 }
 
-MeshDocument TileForest::State::ground_of(const TileId& tile, const glm::dmat4& to_tile) const {
+MeshDocument TileForest::State::ground_of(const TileId& tile, const TileFrame& frame) const {
     static const CanopyAtCorner no_canopy;
     const bool has_trees = plan.levels[tile.level].has_trees;
-    const Mesh mesh = make_tile_ground({*grown.terrain, grown.ground, ground_colour, earth, grid,
-                                        has_trees ? no_canopy : canopy_at, tile, to_tile,
+    const Mesh mesh = make_tile_ground({*grown.terrain, grown.ground, ground_colour, frame, grid,
+                                        has_trees ? no_canopy : canopy_at, tile,
                                         plan.cells[tile.level], plan.skirts[tile.level]});
     MeshDocument document =
         make_mesh_document(mesh, tile_part_info(has_trees ? "ground" : "forest", options.generator),
@@ -406,10 +406,9 @@ MeshDocument TileForest::State::ground_of(const TileId& tile, const glm::dmat4& 
 
 /// Returns the number of trees in the tile.
 std::uint64_t TileForest::State::add_trees(const TileId& tile,
-                                           const glm::dmat4& to_tile,
+                                           const TileFrame& frame,
                                            TileDocument& document) const {
     const std::vector<Tree> trees = source->trees_of(tile);
-    const TileFrame frame(earth, to_tile, grid.region_of(tile));
     std::map<std::size_t, std::vector<TileTree>> groups; // by hero
     for (const Tree& tree : trees) {
         const std::size_t hero = hero_table->hero_of(tree);
@@ -444,11 +443,12 @@ std::uint64_t TileForest::State::add_trees(const TileId& tile,
 
 TileContent TileForest::content(const TileId& tile) const {
     TileContent content;
-    const glm::dmat4 to_tile = inverse_of_frame(state_->boxes->frame_of(tile));
+    const TileFrame frame(state_->earth, inverse_of_frame(state_->boxes->frame_of(tile)),
+                          state_->grid.region_of(tile));
     TileDocument document(*state_->parts);
-    document.set_surface(state_->ground_of(tile, to_tile));
+    document.set_surface(state_->ground_of(tile, frame));
     if (levels()[tile.level].has_trees) {
-        content.trees = state_->add_trees(tile, to_tile, document);
+        content.trees = state_->add_trees(tile, frame, document);
     }
     if (state_->options.implicit) {
         document.move(frame_in_root(*state_->boxes, tile));

@@ -21,9 +21,8 @@ Mesh make_patch(const PatchPlan& plan) {
     const std::uint32_t cells = plan.cells;
     const std::uint32_t side = cells + 1;
     Mesh mesh;
-    const TileFrame frame(plan.earth, plan.to_tile, plan.region);
-    const auto place = [&frame](double x, double y, double z) {
-        return y_up(frame.place(x, y, z));
+    const auto place = [&plan](double x, double y, double z) {
+        return y_up(plan.frame.place(x, y, z));
     };
     const double step_x = plan.region.width / cells;
     const double step_z = plan.region.depth / cells;
@@ -103,7 +102,9 @@ Mesh make_patch(const PatchPlan& plan) {
 Mesh make_level_patch(std::uint32_t cells) {
     const GroundFrame earth(std::nullopt);
     const double side = cells;
-    PatchPlan plan{cells, {0.0, 0.0, side, side}, earth, glm::dmat4(1.0), 1.0, Material(), {}, {}};
+    const Region region{0.0, 0.0, side, side};
+    const TileFrame frame(earth, glm::dmat4(1.0), region);
+    PatchPlan plan{cells, region, frame, 1.0, Material(), {}, {}};
     const std::size_t places = patch_places(0.0, side, cells).size();
     plan.heights.assign(places * places, 0.0);
     plan.texture = [](std::uint32_t, std::uint32_t, double, double) { return glm::vec2(0.0F); };

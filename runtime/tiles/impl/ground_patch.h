@@ -7,7 +7,6 @@
 #include "runtime/terrain/region.h"
 #include "runtime/tiles/impl/geodesy.h"
 
-#include <glm/mat4x4.hpp>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
@@ -20,8 +19,7 @@ namespace lsys {
 struct PatchPlan {
     std::uint32_t cells = 1; // along each side
     Region region;           // of the scene
-    const GroundFrame& earth;
-    glm::dmat4 to_tile; // from the coordinates of the tileset to those of the tile
+    const TileFrame& frame;
     double skirt = 0.0; // m, its depth
     Material material;
     /// Altitudes in m at patch_places() along X and Z, in rows along X.

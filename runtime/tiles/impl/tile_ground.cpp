@@ -99,10 +99,13 @@ Mesh make_canopy(const TileGround& ground, PatchPlan& plan) {
 Mesh make_tile_ground(const TileGround& ground) {
     Material material;
     material.name = "ground";
-    PatchPlan plan{ground.cells, ground.grid.region_of(ground.tile),
-                   ground.earth, ground.to_tile,
-                   ground.skirt, material,
-                   {},           {}};
+    PatchPlan plan{ground.cells,
+                   ground.grid.region_of(ground.tile),
+                   ground.frame,
+                   ground.skirt,
+                   material,
+                   {},
+                   {}};
     return ground.canopy_at ? make_canopy(ground, plan) : make_bare_ground(ground, plan);
 }
 

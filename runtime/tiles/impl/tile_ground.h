@@ -8,7 +8,6 @@
 #include "runtime/tiles/impl/geodesy.h"
 #include "runtime/tiles/impl/tile_grid.h"
 
-#include <glm/mat4x4.hpp>
 #include <glm/vec3.hpp>
 
 #include <cstdint>
@@ -26,11 +25,10 @@ struct TileGround {
     const Terrain& terrain;
     const GroundPictures& pictures;
     glm::dvec3 colour; // linear, mean of the ground
-    const GroundFrame& earth;
+    const TileFrame& frame;
     const TileGrid& grid;
     const CanopyAtCorner& canopy_at; // empty: the ground alone
     TileId tile;
-    glm::dmat4 to_tile;      // from the coordinates of the tileset to the frame of the tile
     std::uint32_t cells = 1; // along a side; kCanopyCells with a canopy
     double skirt = 0.0;      // m
 };
