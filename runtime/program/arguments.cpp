@@ -6,9 +6,10 @@
 
 #include <fmt/format.h>
 
-#include <array>
 #include <cmath>
+#include <cstddef>
 #include <system_error>
+#include <vector>
 
 namespace lsys {
 
@@ -30,6 +31,24 @@ Parsed<T> parse_all(std::string_view text) {
     return parsed;
 }
 
+/// Parses numbers with commas between them. Empty unless all are finite.
+template <typename T>
+std::vector<T> parse_numbers(std::string_view text) {
+    std::vector<T> numbers;
+    while (true) {
+        const std::size_t comma = text.find(',');
+        const Parsed<T> parsed = parse_all<T>(text.substr(0, comma));
+        if (parsed.error != std::errc() || !std::isfinite(parsed.value)) {
+            return {};
+        }
+        numbers.push_back(parsed.value);
+        if (comma == std::string_view::npos) {
+            return numbers;
+        }
+        text.remove_prefix(comma + 1);
+    }
+}
+
 } // namespace
 
 Result<std::uint64_t> parse_integer(std::string_view text, std::uint64_t low, std::uint64_t high) {
@@ -49,51 +68,25 @@ Result<float> parse_number(std::string_view text, float low, float high) {
 }
 
 Result<Wind> parse_wind(std::string_view text) {
-    std::array<float, 4> values{};
-    std::size_t count = 0;
-    std::string_view rest = text;
-    bool more = true;
-    while (more && count < values.size()) {
-        const std::size_t comma = rest.find(',');
-        const Parsed<float> parsed = parse_all<float>(rest.substr(0, comma));
-        if (parsed.error != std::errc() || !std::isfinite(parsed.value)) {
-            return Error{fmt::format("`{}` is not a wind such as 5,0,0 or 5,0,0,0.5", text)};
-        }
-        values[count++] = parsed.value;
-        more = comma != std::string_view::npos;
-        rest = more ? rest.substr(comma + 1) : std::string_view();
+    const std::vector<float> values = parse_numbers<float>(text);
+    if (values.size() == 3 || (values.size() == 4 && values[3] >= 0.0F)) {
+        return Wind{{values[0], values[1], values[2]}, values.size() == 4 ? values[3] : 0.0F};
     }
-    if (more || count < 3 || values[3] < 0.0F) {
-        return Error{fmt::format("`{}` is not a wind such as 5,0,0 or 5,0,0,0.5", text)};
-    }
-    return Wind{{values[0], values[1], values[2]}, values[3]};
+    return Error{fmt::format("`{}` is not a wind such as 5,0,0 or 5,0,0,0.5", text)};
 }
 
 Result<SunPlace> parse_sun(std::string_view text) {
     const auto is_within = [](double value, double low, double high) {
         return value >= low && value <= high;
     };
-    std::vector<double> values;
-    for (std::string_view rest = text; values.size() < 4;) {
-        const std::size_t comma = rest.find(',');
-        const Parsed<double> parsed = parse_all<double>(rest.substr(0, comma));
-        if (parsed.error != std::errc()) {
-            break;
-        }
-        values.push_back(parsed.value);
-        if (comma != std::string_view::npos) {
-            rest.remove_prefix(comma + 1);
-            continue;
-        }
-        if (values.size() == 2 && is_within(values[0], -360.0, 360.0) &&
-            is_within(values[1], -90.0, 90.0)) {
-            return SunPlace{values[0], values[1]};
-        }
-        if (values.size() == 3 && is_within(values[0], 1.0, 366.0) &&
-            is_within(values[1], 0.0, 24.0) && is_within(values[2], -90.0, 90.0)) {
-            return sun_at(values[0], values[1], values[2]);
-        }
-        break;
+    const std::vector<double> values = parse_numbers<double>(text);
+    if (values.size() == 2 && is_within(values[0], -360.0, 360.0) &&
+        is_within(values[1], -90.0, 90.0)) {
+        return SunPlace{values[0], values[1]};
+    }
+    if (values.size() == 3 && is_within(values[0], 1.0, 366.0) && is_within(values[1], 0.0, 24.0) &&
+        is_within(values[2], -90.0, 90.0)) {
+        return sun_at(values[0], values[1], values[2]);
     }
     return Error{
         fmt::format("`{}` is neither azimuth and elevation in degrees, such as 225,30, nor "
@@ -102,19 +95,11 @@ Result<SunPlace> parse_sun(std::string_view text) {
 }
 
 Result<glm::vec3> parse_place(std::string_view text) {
-    glm::vec3 place(0.0F);
-    std::string_view rest = text;
-    for (int i = 0; i < 3; ++i) {
-        const std::size_t comma = i < 2 ? rest.find(',') : rest.size();
-        const Parsed<float> parsed = parse_all<float>(rest.substr(0, comma));
-        if (comma == std::string_view::npos || parsed.error != std::errc() ||
-            !std::isfinite(parsed.value)) {
-            return Error{fmt::format("`{}` is not a place such as 0,2,50", text)};
-        }
-        place[i] = parsed.value;
-        rest = i < 2 ? rest.substr(comma + 1) : std::string_view();
+    const std::vector<float> values = parse_numbers<float>(text);
+    if (values.size() == 3) {
+        return glm::vec3(values[0], values[1], values[2]);
     }
-    return place;
+    return Error{fmt::format("`{}` is not a place such as 0,2,50", text)};
 }
 
 Result<std::uint64_t> parse_size(std::string_view text) {
