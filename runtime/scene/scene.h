@@ -85,8 +85,11 @@ struct ExplicitInstancing {
 
 /// Light of pictures; empty values: those of the program that draws.
 struct SceneLight {
+    static constexpr double kMinTurbidity = 2.0;
+    static constexpr double kMaxTurbidity = 10.0;
+
     std::optional<SunPlace> sun;
-    /// Haze of the air, 2 to 10: 2 very clear, 3 clear, 6 hazy.
+    /// Haze of the air, kMinTurbidity to kMaxTurbidity: 2 very clear, 3 clear, 6 hazy.
     std::optional<double> turbidity;
 
     friend bool operator==(const SceneLight&, const SceneLight&) = default;

@@ -2,6 +2,8 @@
 // Place of the sun in the sky.
 #pragma once
 
+#include <glm/vec3.hpp>
+
 namespace lsys {
 
 /// Place of the sun, degrees.
@@ -11,6 +13,11 @@ struct SunPlace {
 
     friend bool operator==(const SunPlace&, const SunPlace&) = default;
 };
+
+/// Unit vector to the sun: +X is east, +Y up, -Z north.
+[[nodiscard]] glm::dvec3 direction_to(const SunPlace& sun);
+/// Inverse of direction_to(); azimuth 0 to 360. Precondition: `to_sun` is a unit vector.
+[[nodiscard]] SunPlace sun_in_direction(const glm::dvec3& to_sun);
 
 /// Place of the sun. `day`: of the year, from 1; `hour`: solar time, 0 to 24, so that the sun is
 /// highest at 12; `latitude`: degrees, above 0 in the north. Error below a degree: declination by

@@ -63,18 +63,8 @@ SceneLight replaced(const SceneLight& scene, const SceneLight& changes) {
             changes.turbidity ? changes.turbidity : scene.turbidity};
 }
 
-glm::vec3 direction_of(const SunPlace& sun) {
-    const double azimuth = glm::radians(sun.azimuth);
-    const double elevation = glm::radians(sun.elevation);
-    return {static_cast<float>(std::sin(azimuth) * std::cos(elevation)),
-            static_cast<float>(std::sin(elevation)),
-            static_cast<float>(-std::cos(azimuth) * std::cos(elevation))};
-}
-
 SunPlace sun_of(const Light& light) {
-    const glm::dvec3 to_sun = glm::normalize(glm::dvec3(light.to_sun));
-    const double azimuth = glm::degrees(std::atan2(to_sun.x, -to_sun.z));
-    return {azimuth < 0.0 ? azimuth + 360.0 : azimuth, glm::degrees(std::asin(to_sun.y))};
+    return sun_in_direction(glm::normalize(glm::dvec3(light.to_sun)));
 }
 
 Light daylight_of(const SceneLight& scene, const Light& light) {
@@ -100,7 +90,7 @@ Light daylight_of(const SceneLight& scene, const Light& light) {
     const double below = std::clamp((kLowestSun - sun.elevation) / (kLowestSun + kDusk), 0.0, 1.0);
     const auto fade = static_cast<float>(std::pow(0.01, below));
     Light changed = light;
-    changed.to_sun = direction_of(sun);
+    changed.to_sun = glm::vec3(direction_to(sun));
     // The disc of the sun sets within a degree.
     const auto disc = static_cast<float>(std::clamp(sun.elevation + 0.5, 0.0, 1.0));
     changed.sun = disc * light.sun * passes;

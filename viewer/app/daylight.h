@@ -5,15 +5,10 @@
 #include "runtime/scene/scene.h"
 #include "viewer/gl/renderer.h"
 
-#include <glm/vec3.hpp>
-
 namespace lsys::view {
 
 /// The values that `changes` sets, else those of `scene`.
 [[nodiscard]] SceneLight replaced(const SceneLight& scene, const SceneLight& changes);
-
-/// Unit vector to the sun.
-[[nodiscard]] glm::vec3 direction_of(const SunPlace& sun);
 
 /// Place of the sun of a light.
 [[nodiscard]] SunPlace sun_of(const Light& light);

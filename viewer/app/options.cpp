@@ -104,7 +104,10 @@ void add_picture(CLI::App& app, ViewOptions& options) {
         ->group("Picture");
     add_parsed(
         app, "--turbidity", options.light.turbidity,
-        [](const std::string& text) { return parse_number(text, 2.0F, 10.0F); },
+        [](const std::string& text) {
+            return parse_number(text, static_cast<float>(SceneLight::kMinTurbidity),
+                                static_cast<float>(SceneLight::kMaxTurbidity));
+        },
         "Haze of the sky: 2 very clear, 6 hazy (default 3)")
         ->type_name("T")
         ->group("Picture");

@@ -34,7 +34,8 @@ void read_light_table(const SceneValue* table, Scene& scene, Diagnostics& diagno
     if (day && hour && latitude && !reader.has("sun")) {
         light.sun = sun_at(*day, *hour, *latitude);
     }
-    light.turbidity = reader.number("turbidity", kTurbidity);
+    light.turbidity = reader.number(
+        "turbidity", {SceneLight::kMinTurbidity, SceneLight::kMaxTurbidity, false, {}});
     reader.finish();
 }
 

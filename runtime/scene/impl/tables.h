@@ -19,8 +19,6 @@ void read_species_list(const SceneValue& root, Scene& scene, Diagnostics& diagno
 
 /// Reads `[light]`.
 void read_light_table(const SceneValue* table, Scene& scene, Diagnostics& diagnostics);
-/// Range of `turbidity`.
-inline constexpr NumberRange kTurbidity{2.0, 10.0, false, {}};
 
 /// Reads `[painted]`. Precondition: the species have been read.
 void read_painting_table(const SceneValue* table, Scene& scene, Diagnostics& diagnostics);

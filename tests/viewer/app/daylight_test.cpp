@@ -33,10 +33,10 @@ TEST_CASE("without a sun and for its own sun a light does not change") {
 }
 
 TEST_CASE("azimuths turn from north over east to south") {
-    CHECK(glm::distance(direction_of({0.0, 0.0}), glm::vec3(0.0F, 0.0F, -1.0F)) < 1e-6F);
-    CHECK(glm::distance(direction_of({90.0, 0.0}), glm::vec3(1.0F, 0.0F, 0.0F)) < 1e-6F);
-    CHECK(glm::distance(direction_of({180.0, 30.0}), glm::vec3(0.0F, 0.5F, std::sqrt(0.75F))) <
-          1e-6F);
+    CHECK(glm::distance(direction_to({0.0, 0.0}), glm::dvec3(0.0, 0.0, -1.0)) < 1e-12);
+    CHECK(glm::distance(direction_to({90.0, 0.0}), glm::dvec3(1.0, 0.0, 0.0)) < 1e-12);
+    CHECK(glm::distance(direction_to({180.0, 30.0}), glm::dvec3(0.0, 0.5, std::sqrt(0.75))) <
+          1e-12);
     const SunPlace sun = sun_of(daylight_of({SunPlace{292.0, 17.0}, {}}, Light{}));
     CHECK(sun.azimuth == Approx(292.0));
     CHECK(sun.elevation == Approx(17.0));
