@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "tests/support/sample_plants.h"
 
-#include <fstream>
-#include <iterator>
+#include "runtime/program/host.h"
+
 #include <stdexcept>
 #include <utility>
 
@@ -13,15 +13,7 @@ namespace {
 Project sample_project() {
     Project project;
     project.threads = 1;
-    project.host.read_file = [](const std::string& path, const ReadLimit&) -> Result<std::string> {
-        std::ifstream file(path, std::ios::binary);
-        if (!file) {
-            return Error{"no such file or directory"};
-        }
-        return std::string(std::istreambuf_iterator<char>(file), {});
-    };
-    project.host.read_referenced_file = project.host.read_file;
-    project.host.file_exists = [](const std::string& path) { return std::ifstream(path).good(); };
+    project.host = make_file_host(nullptr);
     return project;
 }
 
