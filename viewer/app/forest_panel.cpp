@@ -358,8 +358,11 @@ void draw_look(ForestView& view) {
     ImGui::Checkbox("Wind", &settings.windy);
     draw_wind(settings.wind);
     if (view.document() != nullptr) {
-        if (const std::optional<float> season = view.document()->scene.species.front().season) {
-            draw_edit("Season", *season, settings.edits.season, [](float& value) {
+        const std::vector<SceneSpecies>& species = view.document()->scene.species;
+        const auto seasonal = std::find_if(species.begin(), species.end(),
+                                           [](const SceneSpecies& each) { return each.season; });
+        if (seasonal != species.end()) {
+            draw_edit("Season", *seasonal->season, settings.edits.season, [](float& value) {
                 return ImGui::SliderFloat("##value", &value, 0.0F, 1.0F, "%.2f",
                                           ImGuiSliderFlags_AlwaysClamp);
             });

@@ -658,8 +658,7 @@ void ForestView::save() {
 }
 
 std::optional<MakingState> ForestView::making() const {
-    const std::optional<SteadyClock::duration> time = loader_.running_time();
-    return time && *time >= kProgressDelay ? std::optional(progress_.state()) : std::nullopt;
+    return loader_.has_run_for(kProgressDelay) ? std::optional(progress_.state()) : std::nullopt;
 }
 
 void ForestView::cancel_making() {

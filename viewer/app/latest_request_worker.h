@@ -86,6 +86,11 @@ public:
         return is_running_ && !cancelled_ ? std::optional(SteadyClock::now() - began_)
                                           : std::nullopt;
     }
+    /// Whether a request has run for `delay` or longer and is not cancelled.
+    [[nodiscard]] bool has_run_for(SteadyClock::duration delay) const {
+        const std::optional<SteadyClock::duration> time = running_time();
+        return time && *time >= delay;
+    }
     /// Whether a request is pending or running, or an outcome is not taken yet.
     [[nodiscard]] bool is_busy() const {
         const std::lock_guard lock(mutex_);

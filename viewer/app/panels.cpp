@@ -232,9 +232,7 @@ void draw_trace_buttons(View& view) {
         if (ImGui::RadioButton(name, view.trace_scope() == scope)) {
             view.trace(scope);
         }
-        if (ImGui::IsItemHovered()) {
-            ImGui::SetTooltip("%s", help);
-        }
+        draw_tooltip(help);
         ImGui::SameLine();
     };
     choice("Why written", TraceScope::Written, "The step that wrote the module");

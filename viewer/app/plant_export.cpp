@@ -65,7 +65,7 @@ ExitStatus write(const ExportRequest& request, const OutputContext& context) {
 
 } // namespace
 
-ExportOutcome export_plant(const ExportRequest& request, const std::atomic<bool>& cancelled) {
+std::string export_plant(const ExportRequest& request, const std::atomic<bool>& cancelled) {
     std::istringstream in;
     std::ostringstream out;
     std::ostringstream err;
@@ -81,10 +81,7 @@ ExportOutcome export_plant(const ExportRequest& request, const std::atomic<bool>
     if (!catch_out_of_memory(work, [] { return false; })) {
         console.error("out of memory");
     }
-    if (status == ExitStatus::Ok) {
-        return {true, "Wrote " + request.settings.file};
-    }
-    return {false, err.str()};
+    return status == ExitStatus::Ok ? "Wrote " + request.settings.file : err.str();
 }
 
 std::vector<std::string> export_presets() {

@@ -32,17 +32,12 @@ struct ExportRequest {
     bool is_repeat = false;
 };
 
-struct ExportOutcome {
-    bool succeeded = false;
-    /// "Wrote oak.glb", or the error and its help in lines.
-    std::string text;
-};
-
 /// Writes the plant at rest with the mesh options of the document. All files appear, or none.
-[[nodiscard]] ExportOutcome export_plant(const ExportRequest& request,
-                                         const std::atomic<bool>& cancelled);
+/// Returns "Wrote oak.glb", or the error and its help in lines.
+[[nodiscard]] std::string export_plant(const ExportRequest& request,
+                                       const std::atomic<bool>& cancelled);
 
-using PlantExporter = LatestRequestWorker<ExportRequest, ExportOutcome>;
+using PlantExporter = LatestRequestWorker<ExportRequest, std::string>;
 
 /// Names of the presets for plants.
 [[nodiscard]] std::vector<std::string> export_presets();

@@ -43,8 +43,8 @@ public:
     [[nodiscard]] std::optional<LoadOutcome> take() { return worker_.take(); }
     [[nodiscard]] bool is_busy() const { return worker_.is_busy(); }
     void cancel() { worker_.cancel(); }
-    [[nodiscard]] std::optional<SteadyClock::duration> running_time() const {
-        return worker_.running_time();
+    [[nodiscard]] bool has_run_for(SteadyClock::duration delay) const {
+        return worker_.has_run_for(delay);
     }
     [[nodiscard]] const MakingProgress& progress() const { return progress_; }
 

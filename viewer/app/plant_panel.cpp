@@ -119,7 +119,9 @@ void draw_constant(PlantViewSettings& settings, const Constant& constant, const 
         ImGui::SameLine();
     }
     line(name);
-    draw_tooltip(describe_constant(constant, grammar));
+    if (ImGui::IsItemHovered()) {
+        set_tooltip(describe_constant(constant, grammar));
+    }
     if (changed && std::isfinite(value)) {
         if (is_set) {
             set->value = value;
@@ -210,8 +212,10 @@ void draw_setting(PlantViewSettings& settings, const SettingControl& control) {
         ImGui::SameLine();
     }
     line(key);
-    draw_tooltip(
-        fmt::format("#set {}{}{}", key, control.accepts.empty() ? "" : ": ", control.accepts));
+    if (ImGui::IsItemHovered()) {
+        set_tooltip(
+            fmt::format("#set {}{}{}", key, control.accepts.empty() ? "" : ": ", control.accepts));
+    }
     ImGui::PopID();
     if (is_reset) {
         settings.set_values.erase(set);

@@ -130,8 +130,8 @@ bool PlantView::update() {
     }
     has_news = check_standing() || has_news;
     if (exporter_ != nullptr) {
-        if (const std::optional<ExportOutcome> outcome = exporter_->take()) {
-            set_note(outcome->text);
+        if (const std::optional<std::string> outcome = exporter_->take()) {
+            set_note(*outcome);
             has_news = true;
         }
     }
@@ -610,15 +610,11 @@ void PlantView::export_shown() {
 }
 
 std::optional<MakingState> PlantView::making() const {
-    if (exporter_ != nullptr) {
-        const std::optional<SteadyClock::duration> time = exporter_->running_time();
-        if (time && *time >= kProgressDelay) {
-            return MakingState{"Writing " + exported_file_, std::nullopt};
-        }
+    if (exporter_ != nullptr && exporter_->has_run_for(kProgressDelay)) {
+        return MakingState{"Writing " + exported_file_, std::nullopt};
     }
-    const std::optional<SteadyClock::duration> time = loader_.running_time();
-    return time && *time >= kProgressDelay ? std::optional(loader_.progress().state())
-                                           : std::nullopt;
+    return loader_.has_run_for(kProgressDelay) ? std::optional(loader_.progress().state())
+                                               : std::nullopt;
 }
 
 void PlantView::cancel_making() {

@@ -18,9 +18,13 @@ void line(const std::string& text) {
     ImGui::TextUnformatted(text.data(), text.data() + text.size());
 }
 
-void draw_tooltip(const std::string& text) {
+void set_tooltip(const std::string& text) {
+    ImGui::SetTooltip("%s", text.c_str());
+}
+
+void draw_tooltip(const char* text) {
     if (ImGui::IsItemHovered()) {
-        ImGui::SetTooltip("%s", text.c_str());
+        ImGui::SetTooltip("%s", text);
     }
 }
 
@@ -67,8 +71,6 @@ void draw_sun(const SceneLight& own, SceneLight& light) {
     constexpr double kTurn = 360.0;
     constexpr double kLowest = -6.0; // civil dusk
     constexpr double kHighest = 90.0;
-    constexpr double kClear = 2.0;
-    constexpr double kHazy = 10.0;
     bool moved = ImGui::SliderScalar("Sun azimuth", ImGuiDataType_Double, &sun.azimuth, &kZero,
                                      &kTurn, "%.0f deg", ImGuiSliderFlags_AlwaysClamp);
     draw_tooltip("Clockwise from north, which is -Z");
@@ -78,7 +80,8 @@ void draw_sun(const SceneLight& own, SceneLight& light) {
     if (moved) {
         light.sun = sun;
     }
-    if (ImGui::SliderScalar("Turbidity", ImGuiDataType_Double, &turbidity, &kClear, &kHazy, "%.1f",
+    if (ImGui::SliderScalar("Turbidity", ImGuiDataType_Double, &turbidity,
+                            &SceneLight::kMinTurbidity, &SceneLight::kMaxTurbidity, "%.1f",
                             ImGuiSliderFlags_AlwaysClamp)) {
         light.turbidity = turbidity;
     }

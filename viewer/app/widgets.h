@@ -15,8 +15,10 @@ inline constexpr float kLabelWidth = 110.0F;
 
 /// Draws a line of text.
 void line(const std::string& text);
+/// Shows text beside the mouse.
+void set_tooltip(const std::string& text);
 /// Shows text beside the mouse while it is over the last widget.
-void draw_tooltip(const std::string& text);
+void draw_tooltip(const char* text);
 /// Edits a text of at most 1,023 bytes.
 void edit_text(const char* label, std::string& text);
 /// Digits in groups: 1,234,567.

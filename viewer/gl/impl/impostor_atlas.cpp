@@ -40,6 +40,19 @@ const Cylinder& cylinder_of(const ImpostorPlan& plan, std::uint32_t layer) {
         ->cylinder;
 }
 
+/// Copies all mip levels of a layer of an array texture of the atlas.
+void copy_layer(const TextureObject& from,
+                std::uint32_t from_layer,
+                const TextureObject& to,
+                std::uint32_t to_layer) {
+    for (GLint level = 0; level < kLevels; ++level) {
+        glCopyImageSubData(from.name(), GL_TEXTURE_2D_ARRAY, level, 0, 0,
+                           static_cast<GLint>(from_layer), to.name(), GL_TEXTURE_2D_ARRAY, level, 0,
+                           0, static_cast<GLint>(to_layer), static_cast<GLsizei>(kWidth >> level),
+                           static_cast<GLsizei>(kHeight >> level), 1);
+    }
+}
+
 /// Hash of the visible contents of a layer; never 0.
 std::uint64_t key_of(const ImpostorLayer& impostor,
                      const Cylinder& cylinder,
@@ -147,13 +160,7 @@ void ImpostorAtlas::stand_in(std::uint32_t layer) {
         box_buffer_.write(std::span<const LayerBoxes>(&boxes_[other], 1),
                           other * sizeof(LayerBoxes));
         for (const TextureObject* texture : {&albedos_, &normals_}) {
-            for (GLint level = 0; level < kLevels; ++level) {
-                glCopyImageSubData(texture->name(), GL_TEXTURE_2D_ARRAY, level, 0, 0,
-                                   static_cast<GLint>(layer), texture->name(), GL_TEXTURE_2D_ARRAY,
-                                   level, 0, 0, static_cast<GLint>(other),
-                                   static_cast<GLsizei>(kWidth >> level),
-                                   static_cast<GLsizei>(kHeight >> level), 1);
-            }
+            copy_layer(*texture, layer, *texture, other);
         }
     }
 }
@@ -299,14 +306,9 @@ void ImpostorAtlas::make_layers(const std::vector<std::uint64_t>& keys) {
             }
             keys_[layer] = keys[layer];
             filled_[layer] = 1;
-            boxes_[layer] = boxes_before[static_cast<std::size_t>(same - keys_before.begin())];
-            for (GLint level = 0; level < kLevels; ++level) {
-                glCopyImageSubData(before[i].name(), GL_TEXTURE_2D_ARRAY, level, 0, 0,
-                                   static_cast<GLint>(same - keys_before.begin()), texture.name(),
-                                   GL_TEXTURE_2D_ARRAY, level, 0, 0, static_cast<GLint>(layer),
-                                   static_cast<GLsizei>(kWidth >> level),
-                                   static_cast<GLsizei>(kHeight >> level), 1);
-            }
+            const auto old_layer = static_cast<std::uint32_t>(same - keys_before.begin());
+            boxes_[layer] = boxes_before[old_layer];
+            copy_layer(before[i], old_layer, texture, layer);
         }
     }
     box_buffer_.fill(std::span<const LayerBoxes>(boxes_));
