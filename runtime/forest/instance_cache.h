@@ -154,6 +154,10 @@ public:
     /// Depends only on cache, key and tree. Returns the number of instances.
     template <typename Visit>
     std::uint32_t expand(const Tree& tree, Visit&& visit);
+    /// Like expand(), but visit() returns whether to visit what continues at the exits of the
+    /// instance. The instances that are visited are the same as in expand().
+    template <typename Visit>
+    void expand_until(const Tree& tree, Visit&& visit);
     /// Calls visit(instance) for the instances of expand(), without transforms, in a third of the
     /// time.
     template <typename Visit>
@@ -164,6 +168,8 @@ public:
     }
 
 private:
+    static constexpr std::uint32_t kHidden = ~std::uint32_t{0}; // order of hidden instances
+
     struct Pending {
         glm::quat rotation;
         glm::vec3 position;
@@ -223,6 +229,33 @@ std::uint32_t TreeExpander::expand(const Tree& tree, Visit&& visit) {
         visit(at);
     }
     return node;
+}
+
+template <typename Visit>
+void TreeExpander::expand_until(const Tree& tree, Visit&& visit) {
+    BranchInstance at = root_of(tree);
+    pending_.clear();
+    *pending_.add(1) = {at.rotation, at.position, 0, 0};
+    std::uint32_t node = 0;
+    while (!pending_.empty()) {
+        const Pending next = pending_.pop();
+        at.rotation = next.rotation;
+        at.position = next.position;
+        at.order = next.order;
+        // Hidden instances take their draws too, since draws are numbered.
+        at.instance = choose(cache_.slots[next.slot], tree.number, node++);
+        const Instance& instance = cache_.instances[at.instance];
+        if (next.order != kHidden && visit(at)) {
+            add_exits(instance, at);
+        } else {
+            Pending* const hidden = pending_.add(instance.exit_count);
+            for (std::uint32_t i = 0; i < instance.exit_count; ++i) {
+                const std::uint32_t exit = instance.first_exit + instance.exit_count - 1 - i;
+                hidden[i].slot = cache_.exits[exit].slot;
+                hidden[i].order = kHidden;
+            }
+        }
+    }
 }
 
 template <typename Visit>

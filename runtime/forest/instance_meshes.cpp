@@ -4,6 +4,8 @@
 #include "grammar/base/contract.h"
 #include "runtime/base/out_of_memory.h"
 #include "runtime/base/workers.h"
+#include "runtime/forest/instance_skeleton.h"
+#include "runtime/forest/tree_bounds.h"
 #include "runtime/meshing/mesh_items.h"
 
 #include <algorithm>
@@ -20,81 +22,11 @@ namespace {
 constexpr std::uint64_t kMaxNumber = std::numeric_limits<std::uint32_t>::max() - 1;
 constexpr std::uint64_t kInstancesPerPiece = 256;
 
-/// Per slot: whether a tree can contain its instances.
-std::vector<bool> find_reached(const InstanceCache& cache) {
-    std::vector<bool> reached(cache.slots.size());
-    std::vector<std::uint32_t> pending;
-    if (!cache.slots.empty()) {
-        reached[0] = true;
-        pending.push_back(0);
-    }
-    while (!pending.empty()) {
-        const InstanceSlot& slot = cache.slots[pending.back()];
-        pending.pop_back();
-        for (std::uint32_t v = 0; v < slot.variant_count; ++v) {
-            const Instance& instance = cache.instances[cache.variants[slot.first_variant + v]];
-            for (std::uint32_t e = 0; e < instance.exit_count; ++e) {
-                const std::uint32_t next = cache.exits[instance.first_exit + e].slot;
-                if (!reached[next]) {
-                    reached[next] = true;
-                    pending.push_back(next);
-                }
-            }
-        }
-    }
-    return reached;
-}
-
-/// Whether an instance draws a segment that begins at its entry, at the tip of the parent segment.
-bool draws_at_entry(const InstanceCache& cache, const Instance& instance) {
-    for (std::uint32_t r = 0; r < instance.range_count; ++r) {
-        const DrawnRange& range = cache.ranges[instance.first_range + r];
-        const std::uint32_t first = cache.ranges[instance.first_range].begin.segments;
-        for (std::uint32_t i = range.begin.segments; i < range.end.segments; ++i) {
-            const Segment& segment = cache.skeleton.segments[i];
-            if (segment.parent < first || segment.parent == kNoSegment) {
-                if (segment.linked) {
-                    return true;
-                }
-            }
-        }
-    }
-    return false;
-}
-
-/// Per slot: whether a segment begins at the entry of its instances. The segment belongs to the
-/// instance itself, or to an instance at an exit that lies at the entry.
-std::vector<bool> find_slots_with_segments(const InstanceCache& cache) {
-    std::vector<bool> begins(cache.slots.size());
-    // Repeats until nothing changes: exits at the entry of their instance form chains, which are
-    // no longer than the depth of brackets.
-    for (bool changed = true; changed;) {
-        changed = false;
-        for (std::size_t s = 0; s < cache.slots.size(); ++s) {
-            const InstanceSlot& slot = cache.slots[s];
-            if (begins[s] || slot.variant_count == 0) {
-                continue;
-            }
-            const Instance& instance = cache.instances[cache.variants[slot.first_variant]];
-            bool found = draws_at_entry(cache, instance);
-            for (std::uint32_t e = 0; e < instance.exit_count && !found; ++e) {
-                const InstanceExit& exit = cache.exits[instance.first_exit + e];
-                found = begins[exit.slot] && exit.position == glm::vec3(0.0F);
-            }
-            begins[s] = found;
-            changed = changed || found;
-        }
-    }
-    return begins;
-}
-
 /// The heroes' skeleton with its forks marked and its items numbered.
 Skeleton numbered_heroes(const InstanceCache& cache) {
     Skeleton skeleton = cache.skeleton;
-    const std::vector<bool> begins = find_slots_with_segments(cache);
-    for (const InstanceFork& fork : cache.forks) {
-        skeleton.segments[fork.segment].forked =
-            skeleton.segments[fork.segment].forked || begins[fork.slot];
+    for (const std::uint32_t segment : forked_segments(cache)) {
+        skeleton.segments[segment].forked = true;
     }
     number_items(skeleton);
     return skeleton;
@@ -234,7 +166,7 @@ list_instances(const InstanceCache& cache, const MeshOptions& options, InstanceM
     }
     const ListWriter lists(cache, mesh);
     mesh.segments = {};
-    const std::vector<bool> reached = find_reached(cache);
+    const std::vector<bool> reached = reached_slots(cache);
     const std::size_t hero_part_count = mesh.parts.size();
     Workers workers(options.threads);
     const auto for_each_reached = [&](const auto& visit) {

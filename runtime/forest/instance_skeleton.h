@@ -1,13 +1,42 @@
 // SPDX-License-Identifier: MIT
-// The skeleton of one instance of a cache, with segments numbered from 0.
+// Skeletons of the instances of a cache.
 #pragma once
 
 #include "runtime/forest/instance_cache.h"
 
+#include <cstdint>
+#include <vector>
+
 namespace lsys {
 
-/// The part of the heroes' skeleton that an instance draws, in the coordinates of the heroes.
-/// Parents outside of the instance become kNoSegment.
+/// The part of the heroes' skeleton that an instance draws, with segments numbered from 0, in the
+/// coordinates of the heroes. Parents outside of the instance become kNoSegment.
 [[nodiscard]] Skeleton skeleton_of(const InstanceCache& cache, const Instance& instance);
+
+/// The segments of the heroes at whose tip a segment of a left out branch begins.
+[[nodiscard]] std::vector<std::uint32_t> forked_segments(const InstanceCache& cache);
+
+/// The instance of a slot that stands in for the others in PartSkeletons::whole(): the first one.
+[[nodiscard]] inline std::uint32_t stand_in(const InstanceCache& cache, const InstanceSlot& slot) {
+    return cache.variants[slot.first_variant];
+}
+
+/// Skeletons of parts of trees, each to be meshed alone, in the coordinates of the heroes of its
+/// first instance: pose_of() places both.
+class PartSkeletons {
+public:
+    /// `cache` must outlive the object.
+    explicit PartSkeletons(const InstanceCache& cache);
+
+    /// An instance without what continues at its exits. Segments that begin in another instance get
+    /// a closed surface.
+    [[nodiscard]] Skeleton alone(std::uint32_t instance) const;
+    /// An instance and the stand-ins of all that continues at its exits.
+    [[nodiscard]] Skeleton whole(std::uint32_t instance) const;
+
+private:
+    const InstanceCache& cache_;
+    std::vector<bool> forked_; // by segment of the heroes
+};
 
 } // namespace lsys

@@ -86,6 +86,81 @@ private:
     std::vector<std::optional<TreeMeasure>> measures_;
 };
 
+/// A point above the entry of every branch of a slot: the least height of the highest points along
+/// `up`, relative to the entry. Looks at exits of `depth` instances one after the other.
+double
+min_rise(const InstanceCache& cache, std::uint32_t slot_number, const glm::dvec3& up, int depth);
+
+/// The height of the highest point of an instance along `up`, relative to its entry, or a lower
+/// bound if it has exits.
+double rise_of(const InstanceCache& cache, std::uint32_t number, const glm::dvec3& up, int depth) {
+    const Instance& instance = cache.instances[number];
+    const glm::dvec3 hero_up = instance.frame * up;
+    Extent extent;
+    add_points(cache, number, hero_up, -glm::dot(hero_up, instance.position), extent);
+    double rise = std::max(0.0, extent.high);
+    for (std::uint32_t e = 0; e < instance.exit_count; ++e) {
+        const InstanceExit& exit = cache.exits[instance.first_exit + e];
+        const double height = glm::dot(up, glm::dvec3(exit.position));
+        const glm::dvec3 exit_up = glm::conjugate(glm::dquat(exit.rotation)) * up;
+        rise = std::max(rise, height + min_rise(cache, exit.slot, exit_up, depth - 1));
+    }
+    return rise;
+}
+
+double
+min_rise(const InstanceCache& cache, std::uint32_t slot_number, const glm::dvec3& up, int depth) {
+    const InstanceSlot& slot = cache.slots[slot_number];
+    if (depth == 0 || slot.variant_count == 0) {
+        return 0.0;
+    }
+    double least = std::numeric_limits<double>::infinity();
+    for (std::uint32_t v = 0; v < slot.variant_count && least > 0.0; ++v) {
+        least = std::min(least, rise_of(cache, cache.variants[slot.first_variant + v], up, depth));
+    }
+    return least;
+}
+
+/// A lower bound of the heights of the trees with this root.
+double min_height(const InstanceCache& cache, const HeightTable& table, std::uint32_t root) {
+    constexpr int kDepth = 3; // further exits raise few trees and take long
+    const Bounds& box = table.boxes[root];
+    if (box.empty) {
+        return 0.0;
+    }
+    const Instance& instance = cache.instances[root];
+    const glm::dvec3 up(0.0, 1.0, 0.0);
+    Extent extent;
+    const glm::dvec3 hero_up = instance.frame * up;
+    add_points(cache, root, hero_up, -glm::dot(hero_up, instance.position), extent);
+    return rise_of(cache, root, up, kDepth) - extent.low;
+}
+
+/// Adds what the heights of trees with exits depend on.
+std::uint64_t
+combine_exits(std::uint64_t state, const InstanceCache& cache, const HeightTable& table) {
+    if (cache.exits.empty()) {
+        return state;
+    }
+    for (const InstanceSlot& slot : cache.slots) {
+        state = combine_numbers(state, slot.first_variant, slot.variant_count);
+    }
+    for (std::size_t i = 0; i < cache.instances.size(); ++i) {
+        const Instance& instance = cache.instances[i];
+        const Bounds& box = table.boxes[i];
+        state = combine_numbers(state, instance.first_exit, instance.exit_count, box.low.x,
+                                box.low.y, box.low.z, box.high.x, box.high.y, box.high.z);
+    }
+    for (const std::uint32_t variant : cache.variants) {
+        state = combine(state, variant);
+    }
+    for (const InstanceExit& exit : cache.exits) {
+        state = combine_numbers(state, exit.slot, exit.position.x, exit.position.y, exit.position.z,
+                                exit.rotation.x, exit.rotation.y, exit.rotation.z, exit.rotation.w);
+    }
+    return state;
+}
+
 std::uint64_t pieces_of(const Forest& forest) {
     return (forest.trees.size() + kTreesPerPiece - 1) / kTreesPerPiece;
 }
@@ -220,10 +295,16 @@ double TreeSizer::max_factor(std::uint16_t species) const {
     if (heights_[species] == 0.0) {
         return 1.0;
     }
+    const InstanceCache& cache = forest_.species[species].stages.back().cache;
+    const HeightTable& table = tables_[species];
     double factor = 1.0; // the factor of trees that draw nothing
-    for (const std::optional<double>& height : tables_[species].whole) {
-        if (height && *height > tables_[species].min_height) {
-            factor = std::max(factor, heights_[species] / *height);
+    const InstanceSlot& whole = cache.slots[0];
+    for (std::uint32_t v = 0; v < whole.variant_count; ++v) {
+        const std::uint32_t root = cache.variants[whole.first_variant + v];
+        const double height =
+            table.whole[root] ? *table.whole[root] : min_height(cache, table, root);
+        if (height > table.min_height) {
+            factor = std::max(factor, heights_[species] / height);
         }
     }
     return factor;
@@ -235,6 +316,9 @@ std::uint64_t TreeSizer::digest() const {
         state = combine_numbers(state, heights_[s], tables_[s].min_height, tables_[s].whole.size());
         for (const std::optional<double>& height : tables_[s].whole) {
             state = combine_numbers(state, height.value_or(-1.0));
+        }
+        if (!tables_[s].whole.empty()) {
+            state = combine_exits(state, forest_.species[s].stages.back().cache, tables_[s]);
         }
     }
     return finish(state);

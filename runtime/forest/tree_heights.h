@@ -67,16 +67,16 @@ public:
 
     /// Returns the first species with a flat tree, or nullopt. May be called from several threads.
     [[nodiscard]] std::optional<std::uint16_t> size(std::span<Tree> trees) const;
-    /// The largest factor that size() multiplies the scale of a tree by. Precondition: the trees of
-    /// the species are whole plants (rho 0).
+    /// An upper bound of the factor that size() multiplies the scale of a tree by: the largest
+    /// factor of whole plants (rho 0).
     [[nodiscard]] double max_factor(std::uint16_t species) const;
-    /// A hash of the heights of the species and of their heroes. Precondition: as max_factor().
+    /// A hash of the heights of the species and of all that the heights of their trees depend on.
     [[nodiscard]] std::uint64_t digest() const;
 
 private:
     std::vector<double> heights_;
     const Forest& forest_;
-    std::vector<HeightTable> tables_; // by species; empty if its height is 0
+    std::vector<HeightTable> tables_; // by species, of its last stage; empty if its height is 0
 };
 
 /// Gives all trees of a forest their heights, like TreeSizer. Returns the first species with a flat

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: MIT
+// TreeBounds: bounds over all trees that can be assembled from a cache, of which there are too many
+// to visit. Used by runtime/tiles/, whose boxes and errors hold for trees that are not made yet.
+#pragma once
+
+#include "runtime/forest/instance_cache.h"
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace lsys {
+
+/// By slot: whether a tree can contain its instances.
+[[nodiscard]] std::vector<bool> reached_slots(const InstanceCache& cache);
+
+/// Upper bounds for the instances of reached slots, m at scale 1; 0 for others.
+struct TreeBounds {
+    /// By instance: distance from its entry to any point of it and of all that may continue at its
+    /// exits.
+    std::vector<double> reach;
+    /// By instance: Hausdorff distance between it with stand-ins at its exits
+    /// (PartSkeletons::whole()) and with any other instances there.
+    std::vector<double> deviation;
+};
+
+/// `own_reach`: by instance, the distance from its entry to the farthest point of its own surface.
+[[nodiscard]] TreeBounds tree_bounds(const InstanceCache& cache, std::span<const double> own_reach);
+
+} // namespace lsys
