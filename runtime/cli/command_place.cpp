@@ -19,7 +19,7 @@ ExitStatus run_command(const PlaceCommand& command, const Console& console) {
     }
     const Project project = make_project(console, command.run);
     LoadedScene loaded;
-    ExitStatus status = load_whole_trees(command, project, console, loaded);
+    ExitStatus status = load_tile_scene(command, project, console, loaded);
     if (status != ExitStatus::Ok) {
         return status;
     }

@@ -12,18 +12,34 @@
 
 namespace lsys::lsc {
 
-ExitStatus load_whole_trees(const WholeTreeScene& command,
-                            const Project& project,
-                            const Console& console,
-                            LoadedScene& loaded) {
-    if (command.overrides.rho) {
-        return report_error(Error{"--rho is the part of branches that are instances; tiles hold "
-                                  "whole trees, of which --heroes sets the variety"},
-                            console);
+namespace {
+
+/// Max branches of a key, unless the scene or the command sets it. A tile has a mesh and a draw call
+/// for each; more branches add little variety.
+constexpr std::uint32_t kTileCacheCap = 3;
+
+} // namespace
+
+ExitStatus load_tile_scene(const SceneCommand& command,
+                           const Project& project,
+                           const Console& console,
+                           LoadedScene& loaded) {
+    SceneOverrides overrides = command.overrides;
+    if (command.instances == TileInstances::Trees) {
+        if (overrides.rho) {
+            return report_error(Error{"--rho is the part of branches that are instances, and with "
+                                      "--instances trees, the default, each tree is a whole hero; "
+                                      "use --instances branches"},
+                                console);
+        }
+        overrides.rho = 0.0F;
     }
-    SceneOverrides whole_trees = command.overrides;
-    whole_trees.rho = 0.0F;
-    const ExitStatus status = console.take(load_scene(command.files, whole_trees, project), loaded);
+    const ExitStatus status = console.take(load_scene(command.files, overrides, project), loaded);
+    for (SceneSpecies& species : loaded.scene.species) {
+        if (command.instances == TileInstances::Branches && !species.explicit_instancing.cap) {
+            species.cache.cap = kTileCacheCap;
+        }
+    }
     return status == ExitStatus::Ok ? console.take(choose_instancing(loaded, project)) : status;
 }
 
@@ -33,7 +49,7 @@ ExitStatus load_tile_forest(const TileScene& command,
                             std::optional<TileForest>& forest) {
     const Project project = make_project(console, command.run);
     LoadedScene loaded;
-    const ExitStatus status = load_whole_trees(command, project, console, loaded);
+    const ExitStatus status = load_tile_scene(command, project, console, loaded);
     if (status != ExitStatus::Ok) {
         return status;
     }

@@ -16,11 +16,11 @@ namespace lsys::lsc {
 /// tile by tile (is_placed_by_tile()).
 enum class TilePlacements : std::uint8_t { All, OnGrids };
 
-/// Loads a scene, without branch instances.
-[[nodiscard]] ExitStatus load_whole_trees(const WholeTreeScene& command,
-                                          const Project& project,
-                                          const Console& console,
-                                          LoadedScene& loaded);
+/// Loads a scene; without branch instances unless the command asks for them.
+[[nodiscard]] ExitStatus load_tile_scene(const SceneCommand& command,
+                                         const Project& project,
+                                         const Console& console,
+                                         LoadedScene& loaded);
 /// Plans the tiles of a scene.
 [[nodiscard]] ExitStatus load_tile_forest(const TileScene& command,
                                           TilePlacements placements,

@@ -102,20 +102,24 @@ struct TilePart {
     std::uint64_t of = 1;     // number of processes
 };
 
-/// A scene without branch instances: each tree is a whole hero.
-struct WholeTreeScene {
+/// `--instances` of tiles: whether each tree is a whole hero, or is assembled from branches.
+enum class TileInstances : std::uint8_t { Trees, Branches };
+
+/// A scene for `lsc place`, `lsc tiles` and `lsc serve`.
+struct SceneCommand {
     MessageOptions messages;
     std::vector<std::string> files; // one scene, or one or more grammars
+    TileInstances instances = TileInstances::Trees;
     SceneOverrides overrides;
     RunOptions run;
 };
 
-struct PlaceCommand : WholeTreeScene {
+struct PlaceCommand : SceneCommand {
     std::string output;
     bool stats = false;
 };
 
-struct TileScene : WholeTreeScene {
+struct TileScene : SceneCommand {
     TileOptions tiles;
     std::string trees; // a file of `lsc place`; empty: the scene is placed
 };

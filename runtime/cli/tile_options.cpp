@@ -110,12 +110,17 @@ void add_tile_options(CLI::App& app, TileScene& command) {
 }
 
 /// Adds the files of the scene, for `place`, `tiles` and `serve`.
-void add_files(CLI::App& app, WholeTreeScene& command) {
+void add_files(CLI::App& app, SceneCommand& command) {
     app.add_option("FILE", command.files, "A scene (.toml), or one grammar per species")
         ->required();
 }
 /// Adds the options of the scene and of its trees, for `place`, `tiles` and `serve`.
-void add_scene(CLI::App& app, WholeTreeScene& command) {
+void add_scene(CLI::App& app, SceneCommand& command) {
+    add_choice<TileInstances>(
+        app, "--instances", command.instances,
+        {{"trees", TileInstances::Trees}, {"branches", TileInstances::Branches}},
+        "trees: each tree is one of the --heroes; branches: trees are assembled from branches of "
+        "heroes, by --rho, so that nearly all differ; far tiles show the heroes (default trees)");
     add_scene_overrides(app, command.overrides, "--size");
     add_tree_height(app, command.overrides.height);
     add_grammar(app, command.overrides.grammar, command.run);
@@ -167,7 +172,8 @@ void add_tiles(CLI::App& app, TilesCommand& command) {
     app.footer("Writes 3D Tiles 1.1: tileset.json, which is written last, tilesets of four levels "
                "each, GLB tiles,\n"
                "and the meshes and pictures that the tiles share. Each tree is one of the --heroes "
-               "of its species.\n"
+               "of its species,\n"
+               "or, with --instances branches, assembled from their branches.\n"
                "Geometric errors are in metres: viewers choose tiles by them.\n"
                "Examples: lsc tiles wood.toml -o wood\n"
                "          lsc tiles wood.toml --origin 9.7,47.2,430 -o wood\n"

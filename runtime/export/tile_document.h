@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // TileDocument: a GLB of a tile, composed of glTF documents: one of the ground, whose buffer goes
-// into the GLB, and one per hero, whose buffer and pictures are parts of other files. Adds the trees as
-// instances (EXT_mesh_gpu_instancing) with a table of their properties (EXT_instance_features,
-// EXT_structural_metadata). TileParts has the documents of the heroes as text, formatted once for all
+// into the GLB, and one per hero, whose buffer and pictures are parts of other files. Adds trees and
+// branches as instances (EXT_mesh_gpu_instancing) with a table of the properties of their trees
+// (EXT_instance_features, EXT_structural_metadata). TileParts has the documents of the heroes as text, formatted once for all
 // tiles.
 #pragma once
 
@@ -76,15 +76,20 @@ void embed_picture(std::size_t number, const std::string& png, MeshDocument& doc
 /// their views have nothing but items of accessors, each those of one.
 void join_buffers(std::span<MeshDocument* const> documents, std::string& file);
 
-/// A tree of a tile, with its transform from the coordinates of its hero.
+/// The properties of a tree of a tile.
 struct TileTree {
-    glm::quat rotation{1.0F, 0.0F, 0.0F, 0.0F};
-    glm::vec3 translation{}; // m, in the frame of the tile with +Y up
-    float scale = 1.0F;
     float height = 0.0F; // m
     std::uint32_t number = 0;
     std::uint16_t species = 0;
     std::uint16_t age = 0; // years; 0: full-grown
+};
+
+/// A tree or branch as an instance of a part: its transform from the coordinates of the part.
+struct TileInstance {
+    glm::quat rotation{1.0F, 0.0F, 0.0F, 0.0F};
+    glm::vec3 translation{}; // m, in the frame of the tile with +Y up
+    float scale = 1.0F;
+    std::uint32_t tree = 0; // index in the trees of the document
 };
 
 /// The parts of documents that tiles share: meshes of heroes with their materials and pictures.
@@ -112,9 +117,11 @@ public:
 
     /// Sets the surface, a node with the mesh of a document whose buffer is `data`.
     void set_surface(MeshDocument surface) { surface_ = std::move(surface); }
-    /// Adds `trees`, at least one, as instances of the mesh of a part.
-    void add_trees(std::size_t part, std::vector<TileTree> trees) {
-        groups_.push_back({part, std::move(trees)});
+    /// Sets the trees of the table of properties. Trees without instances get no row.
+    void set_trees(std::vector<TileTree> trees) { trees_ = std::move(trees); }
+    /// Adds `instances`, at least one, of the mesh of a part. Instances of a tree are consecutive.
+    void add_instances(std::size_t part, std::vector<TileInstance> instances) {
+        groups_.push_back({part, std::move(instances)});
     }
     /// Moves the whole tile by a matrix that keeps lengths and angles, for coordinates with +Z up. The
     /// matrix is a part of the file, in binary64.
@@ -126,11 +133,12 @@ private:
     friend class TileWriter;
     struct Group {
         std::size_t part = 0;
-        std::vector<TileTree> trees;
+        std::vector<TileInstance> instances;
     };
 
     const TileParts& parts_;
     std::optional<MeshDocument> surface_;
+    std::vector<TileTree> trees_;
     std::vector<Group> groups_;
     glm::dmat4 matrix_{1.0}; // of the tile, +Z up
 };

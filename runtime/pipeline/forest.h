@@ -83,7 +83,7 @@ placement_options(const Scene& scene, const Project& project, const GrownForest&
 /// By species: the height in m that TreeSizer gives a tree of scale 1; 0: trees keep their size.
 [[nodiscard]] std::vector<double> unit_heights(const Scene& scene, const GrownForest& grown);
 
-/// A hash of all that the trees of place_forest() depend on, for species with rho 0. `sizer`: of
+/// A hash of all that the trees of place_forest() depend on. `sizer`: of
 /// unit_heights(). Time is linear in the pixels of maps and in painted trees.
 [[nodiscard]] std::uint64_t placement_digest(const Scene& scene,
                                              const Project& project,

@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include "runtime/pipeline/hero_levels.h"
 
-#include "grammar/base/contract.h"
 #include "runtime/base/workers.h"
 #include "runtime/forest/instance_skeleton.h"
+#include "runtime/forest/tree_bounds.h"
 
+#include <glm/geometric.hpp>
+
+#include <algorithm>
 #include <functional>
 #include <optional>
 #include <utility>
@@ -14,7 +17,10 @@ namespace lsys {
 namespace {
 
 /// Planning fits no level: fit_detail_levels() later fits the levels that trees use.
-constexpr DetailChain kChain{.pictures = true, .first_fitted = kNoDetailLevel};
+constexpr DetailChain kPlantChain{.pictures = true, .first_fitted = kNoDetailLevel};
+/// Branches are small in the picture before they have few triangles, and pictures of each would be
+/// large files.
+constexpr DetailChain kBranchChain{.last = 8, .first_fitted = kNoDetailLevel};
 
 using Visit = std::function<std::optional<Stop>(
     Hero& hero, const std::vector<UserMesh>& files, const MeshOptions& alone)>;
@@ -38,39 +44,52 @@ std::optional<Stop> visit_heroes(const GrownForest& grown,
     return stopped == stops.end() ? std::nullopt : *stopped;
 }
 
-} // namespace
+/// A part of the trees of a cache: an instance, see Hero.
+struct Part {
+    std::uint32_t instance = 0;
+    bool is_alone = false;
+};
+using ListParts = std::function<std::vector<Part>(const InstanceCache& cache)>;
 
-Outcome<std::vector<Hero>>
-plan_heroes(const GrownForest& grown, const MeshOptions& options, const Project& project) {
+/// Plans the levels of the listed parts of all species and stages.
+Outcome<std::vector<Hero>> plan_parts(const GrownForest& grown,
+                                      const MeshOptions& options,
+                                      const Project& project,
+                                      const ListParts& list,
+                                      const DetailChain& chain) {
     Step step(project);
     std::vector<Hero> heroes;
     for (std::uint32_t s = 0; s < grown.forest.species.size(); ++s) {
         const ForestSpecies& species = grown.forest.species[s];
         for (std::uint32_t i = 0; i < species.stages.size(); ++i) {
             const InstanceCache& cache = species.stages[i].cache;
-            const InstanceSlot& whole = cache.slots[0];
-            for (std::uint32_t v = 0; v < whole.variant_count; ++v) {
-                const std::uint32_t instance = cache.variants[whole.first_variant + v];
-                LSYS_CHECK(cache.instances[instance].exit_count == 0, instance);
+            const PartSkeletons skeletons(cache);
+            for (const Part& part : list(cache)) {
                 Hero& hero = heroes.emplace_back();
                 hero.species = s;
                 hero.stage = i;
-                hero.instance = instance;
-                hero.skeleton = skeleton_of(cache, cache.instances[instance]);
+                hero.instance = part.instance;
+                hero.is_alone = part.is_alone;
+                hero.skeleton =
+                    part.is_alone ? skeletons.alone(part.instance) : skeletons.whole(part.instance);
             }
         }
     }
     const auto stop = visit_heroes(
         grown, options, project, heroes,
-        [](Hero& hero, const std::vector<UserMesh>& files, const MeshOptions& alone) {
+        [&](Hero& hero, const std::vector<UserMesh>& files, const MeshOptions& alone) {
             std::optional<Stop> failed =
-                plan_detail_levels(hero.skeleton, files, alone, kChain, hero.levels);
+                plan_detail_levels(hero.skeleton, files, alone, chain, hero.levels);
             Mesh finest;
             if (!failed) {
                 failed = make_detail_mesh(hero.skeleton, files, hero.levels, 0, alone, finest);
             }
+            const InstanceCache& cache =
+                grown.forest.species[hero.species].stages[hero.stage].cache;
+            const glm::dvec3& entry = cache.instances[hero.instance].position;
             for (const glm::vec3& position : finest.positions) {
                 hero.bounds.add(position);
+                hero.reach = std::max(hero.reach, glm::distance(glm::dvec3(position), entry));
             }
             hero.in_use.resize(hero.levels.levels.size());
             hero.meshes.resize(hero.levels.levels.size());
@@ -82,24 +101,62 @@ plan_heroes(const GrownForest& grown, const MeshOptions& options, const Project&
     return step.done(std::move(heroes));
 }
 
+} // namespace
+
+Outcome<std::vector<Hero>>
+plan_heroes(const GrownForest& grown, const MeshOptions& options, const Project& project) {
+    const auto list = [](const InstanceCache& cache) {
+        const InstanceSlot& whole = cache.slots[0];
+        std::vector<Part> parts;
+        for (std::uint32_t v = 0; v < whole.variant_count; ++v) {
+            parts.push_back({cache.variants[whole.first_variant + v], false});
+        }
+        return parts;
+    };
+    return plan_parts(grown, options, project, list, kPlantChain);
+}
+
+Outcome<std::vector<Hero>>
+plan_branches(const GrownForest& grown, const MeshOptions& options, const Project& project) {
+    const auto list = [](const InstanceCache& cache) {
+        const std::vector<bool> reached = reached_slots(cache);
+        std::vector<Part> parts;
+        for (std::uint32_t i = 0; i < cache.instances.size(); ++i) {
+            const Instance& instance = cache.instances[i];
+            if (instance.slot != 0 && reached[instance.slot]) {
+                parts.push_back({i, false});
+            }
+            if (instance.exit_count > 0 && reached[instance.slot]) {
+                parts.push_back({i, true});
+            }
+        }
+        return parts;
+    };
+    return plan_parts(grown, options, project, list, kBranchChain);
+}
+
 Outcome<void> mesh_heroes(const GrownForest& grown,
                           const MeshOptions& options,
                           const Project& project,
                           std::vector<Hero>& heroes) {
     Step step(project);
-    const auto stop =
-        visit_heroes(grown, options, project, heroes,
-                     [](Hero& hero, const std::vector<UserMesh>& files, const MeshOptions& alone) {
-                         std::optional<Stop> failed = fit_detail_levels(
-                             hero.skeleton, files, alone, kChain, hero.in_use, hero.levels);
-                         for (std::size_t k = 0; k < hero.meshes.size() && !failed; ++k) {
-                             if (hero.in_use[k]) {
-                                 failed = make_detail_mesh(hero.skeleton, files, hero.levels, k,
-                                                           alone, hero.meshes[k]);
-                             }
-                         }
-                         return failed;
-                     });
+    const auto stop = visit_heroes(
+        grown, options, project, heroes,
+        [&grown](Hero& hero, const std::vector<UserMesh>& files, const MeshOptions& alone) {
+            const InstanceCache& cache =
+                grown.forest.species[hero.species].stages[hero.stage].cache;
+            const bool is_plant = !hero.is_alone && cache.instances[hero.instance].slot == 0;
+            const DetailChain& chain = is_plant ? kPlantChain : kBranchChain;
+            std::optional<Stop> failed =
+                fit_detail_levels(hero.skeleton, files, alone, chain, hero.in_use, hero.levels);
+            for (std::size_t k = 0; k < hero.meshes.size() && !failed; ++k) {
+                if (hero.in_use[k]) {
+                    failed = make_detail_mesh(hero.skeleton, files, hero.levels, k, alone,
+                                              hero.meshes[k]);
+                }
+            }
+            return failed;
+        });
     if (stop) {
         return end_mesh_of_heroes(*stop, step);
     }

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Hero: a whole plant of a forest that was grown with rho 0, with its levels of detail. Forests of
-// whole plants show each tree as one of the heroes of its species and stage. Used by
-// make_forest_lods() and by runtime/tiles/.
+// Hero: a plant of a forest with its levels of detail. With rho 0 each tree is one of the heroes of
+// its species and stage; else a hero is a plant that stands in for all trees with the same root
+// instance, and branches of trees have levels of detail too. Used by make_forest_lods() and by
+// runtime/tiles/.
 #pragma once
 
 #include "grammar/base/outcome.h"
@@ -16,13 +17,17 @@
 
 namespace lsys {
 
+/// A plant, or a branch of one.
 struct Hero {
     std::uint32_t species = 0;
     std::uint32_t stage = 0;
-    std::uint32_t instance = 0; // index of the whole plant in the instances of the stage's cache
-    Skeleton skeleton;
+    std::uint32_t instance = 0; // index in the instances of the stage's cache
+    /// Without what continues at its exits; else stand-ins continue there (PartSkeletons).
+    bool is_alone = false;
+    Skeleton skeleton; // in the coordinates of the cache's heroes
     DetailLevels levels;
     Bounds bounds;            // of level 0
+    double reach = 0.0;       // m, from the entry of the instance to the farthest point of level 0
     std::vector<bool> in_use; // by level: whether some tree uses it
     std::vector<Mesh> meshes; // by level; made only for levels in use
 
@@ -33,10 +38,16 @@ struct Hero {
     }
 };
 
-/// The heroes of all species and stages, with their levels, which end with an impostor. No level is
-/// in use. Precondition: `grown` has been grown with rho 0. Stops like mesh_forest().
+/// The heroes of all species and stages, one for each whole plant of the cache, with their levels,
+/// which end with an impostor. No level is in use. Stops like mesh_forest().
 [[nodiscard]] Outcome<std::vector<Hero>>
 plan_heroes(const GrownForest& grown, const MeshOptions& options, const Project& project);
+
+/// The branches that trees of a forest with exits consist of: each instance below the whole plants,
+/// and each instance with exits without what continues there. Their levels have no impostor.
+/// Otherwise as plan_heroes().
+[[nodiscard]] Outcome<std::vector<Hero>>
+plan_branches(const GrownForest& grown, const MeshOptions& options, const Project& project);
 
 /// Makes the meshes of the levels in use. Stops like mesh_forest().
 [[nodiscard]] Outcome<void> mesh_heroes(const GrownForest& grown,

@@ -4,6 +4,7 @@
 #include "runtime/export/export.h"
 #include "runtime/export/tile_document.h"
 #include "runtime/forest/instance_meshes.h"
+#include "runtime/forest/tree_bounds.h"
 #include "runtime/meshing/texture.h"
 #include "runtime/pipeline/hero_levels.h"
 #include "runtime/placement/density_field.h"
@@ -26,6 +27,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <iterator>
 #include <map>
 #include <new>
 #include <utility>
@@ -47,7 +50,9 @@ struct TileForest::State {
     TileOptions options;
     GroundFrame earth{std::nullopt};
     TileGrid grid{Region()};
-    std::vector<Hero> heroes;
+    std::vector<Hero> heroes;  // plants, then branches
+    bool has_branches = false; // whether trees are more than one hero each
+    std::vector<std::vector<HeightTable>> height_tables; // with branches: by species and stage
     std::optional<HeroTable> hero_table;
     LevelPlan plan;
     std::optional<TileBoxes> boxes;
@@ -81,8 +86,13 @@ struct TileForest::State {
     [[nodiscard]] Outcome<void> measure_placed_trees(const Project& project);
     [[nodiscard]] Outcome<void> sample_trees(const Project& project);
     void note_missing_trees(Messages& messages) const;
+    [[nodiscard]] Outcome<void> plan_all_heroes(const Project& project);
+    [[nodiscard]] std::vector<TreeBounds> bounds_of_stages(std::uint32_t species) const;
     void plan_levels();
     [[nodiscard]] Outcome<void> make_models(const Project& project);
+    [[nodiscard]] bool is_plant(std::size_t hero) const;
+    [[nodiscard]] std::vector<Tree> some_trees() const;
+    [[nodiscard]] double height_of(const Tree& tree) const;
     void make_ground_picture();
     void order_ground();
     void make_canopies();
@@ -252,17 +262,79 @@ void TileForest::State::note_missing_trees(Messages& messages) const {
     }
 }
 
+/// Plans the levels of detail of the plants, and of branches if trees are assembled from them.
+Outcome<void> TileForest::State::plan_all_heroes(const Project& project) {
+    Step step(project);
+    if (!step.take(plan_heroes(grown, options.mesh, project), heroes)) {
+        return step.end();
+    }
+    for (const ForestSpecies& species : grown.forest.species) {
+        for (const ForestStage& stage : species.stages) {
+            has_branches = has_branches || !stage.cache.exits.empty();
+        }
+    }
+    if (has_branches) {
+        std::vector<Hero> branches;
+        if (!step.take(plan_branches(grown, options.mesh, project), branches)) {
+            return step.end();
+        }
+        std::move(branches.begin(), branches.end(), std::back_inserter(heroes));
+        for (const ForestSpecies& species : grown.forest.species) {
+            std::vector<HeightTable>& tables = height_tables.emplace_back();
+            for (const ForestStage& stage : species.stages) {
+                tables.push_back(make_height_table(stage.cache));
+            }
+        }
+    }
+    hero_table.emplace(grown.forest, heroes);
+    return step.done();
+}
+
+/// By stage of a species.
+std::vector<TreeBounds> TileForest::State::bounds_of_stages(std::uint32_t species) const {
+    std::vector<TreeBounds> bounds;
+    for (std::uint32_t i = 0; i < grown.forest.species[species].stages.size(); ++i) {
+        std::vector<double> own_reach;
+        for (const InstanceHeroes& instance : hero_table->instances_of(species, i)) {
+            const std::size_t own = instance.alone == kNoHero ? instance.whole : instance.alone;
+            own_reach.push_back(own == kNoHero ? 0.0 : heroes[own].reach);
+        }
+        bounds.push_back(tree_bounds(grown.forest.species[species].stages[i].cache, own_reach));
+    }
+    return bounds;
+}
+
 void TileForest::State::plan_levels() {
+    std::vector<std::vector<TreeBounds>> bounds; // by species and stage
+    for (std::uint32_t s = 0; s < grown.forest.species.size(); ++s) {
+        bounds.push_back(bounds_of_stages(s));
+    }
     TreeReach reach;
+    std::vector<double> deviations;
     for (const Hero& hero : heroes) {
         const InstanceCache& cache = grown.forest.species[hero.species].stages[hero.stage].cache;
-        BranchInstance whole;
-        whole.instance = hero.instance;
-        const InstancePose pose = pose_of(whole, cache.instances[hero.instance]);
+        const Instance& instance = cache.instances[hero.instance];
+        const TreeBounds& of_stage = bounds[hero.species][hero.stage];
+        const double deviation = of_stage.deviation[hero.instance];
         const double scale = max_scales[hero.species];
-        largest_extent = std::max(largest_extent, scale * static_cast<double>(hero.extent()));
+        deviations.push_back(hero.is_alone ? 0.0 : deviation);
         // Coarser levels of detail are larger by at most their error.
         const double margin = static_cast<double>(hero.levels.levels.back().error);
+        if (instance.exit_count > 0 || instance.slot != 0) {
+            const double all = scale * (of_stage.reach[hero.instance] + margin);
+            if (instance.slot == 0) {
+                largest_extent = std::max(
+                    largest_extent, scale * (static_cast<double>(hero.extent()) + 2.0 * deviation));
+                reach.around = std::max(reach.around, all);
+                reach.above = std::max(reach.above, all);
+                reach.below = std::max(reach.below, all);
+            }
+            continue;
+        }
+        BranchInstance whole;
+        whole.instance = hero.instance;
+        const InstancePose pose = pose_of(whole, instance);
+        largest_extent = std::max(largest_extent, scale * static_cast<double>(hero.extent()));
         for (int corner = 0; corner < 8; ++corner) {
             const glm::vec3 point((corner & 1) != 0 ? hero.bounds.high.x : hero.bounds.low.x,
                                   (corner & 2) != 0 ? hero.bounds.high.y : hero.bounds.low.y,
@@ -274,11 +346,22 @@ void TileForest::State::plan_levels() {
             reach.below = std::max(reach.below, scale * (margin - at.y));
         }
     }
-    plan = plan_tile_levels(
-        {*grown.terrain, grid, heroes, max_scales, density, largest_extent, options});
-    for (const std::vector<std::size_t>& chosen : plan.detail) {
-        for (std::size_t i = 0; i < chosen.size(); ++i) {
-            heroes[i].in_use[chosen[i]] = true;
+    const std::vector<Tree> trees = some_trees();
+    plan = plan_tile_levels({*grown.terrain, grid, grown.forest, heroes, *hero_table,
+                             std::move(deviations), trees, max_scales, density, largest_extent,
+                             options});
+    for (const LevelDetail& level : plan.details) {
+        for (std::size_t i = 0; i < level.detail.size(); ++i) {
+            if (level.detail[i] != kNotShown) {
+                heroes[i].in_use[level.detail[i]] = true;
+            }
+        }
+    }
+    if (plan.first_tree_level > 0) {
+        for (std::size_t i = 0; i < heroes.size(); ++i) {
+            if (is_plant(i)) {
+                heroes[i].in_use[plan.crowns[i]] = true;
+            }
         }
     }
     boxes.emplace(*grown.terrain, earth, grid, reach, plan.skirts);
@@ -293,14 +376,16 @@ Outcome<void> TileForest::State::make_models(const Project& project) {
     std::size_t first = 0; // hero of the same species and stage
     for (std::size_t i = 0; i < heroes.size(); ++i) {
         const Hero& hero = heroes[i];
-        if (hero.species != heroes[first].species || hero.stage != heroes[first].stage) {
+        if (hero.species != heroes[first].species || hero.stage != heroes[first].stage ||
+            is_plant(i) != is_plant(first)) {
             first = i;
         }
         const ForestSpecies& species = grown.forest.species[hero.species];
         const std::string stage = species.stages.size() == 1
                                       ? std::string()
                                       : fmt::format("-n{}", species.stages[hero.stage].generations);
-        names.push_back(fmt::format("{}{} {}", species.name, stage, i - first));
+        names.push_back(
+            fmt::format("{}{}{} {}", species.name, stage, is_plant(i) ? "" : " branch", i - first));
     }
     ModelFiles made = make_model_files(heroes, names, plan, options.generator);
     files = std::move(made.files);
@@ -349,9 +434,9 @@ void TileForest::State::make_canopies() {
     if (plan.first_tree_level == 0) {
         return;
     }
-    std::vector<Crown> crowns;
-    for (std::size_t i = 0; i < heroes.size(); ++i) {
-        crowns.push_back(crown_of(heroes[i].meshes[plan.detail.back()[i]]));
+    std::vector<Crown> crowns; // of the plants, which stand in for their trees
+    for (std::size_t i = 0; i < heroes.size() && is_plant(i); ++i) {
+        crowns.push_back(crown_of(heroes[i].meshes[plan.crowns[i]]));
     }
     if (field != nullptr) {
         std::vector<CrownSums> means(max_scales.size());
@@ -409,17 +494,16 @@ std::uint64_t TileForest::State::add_trees(const TileId& tile,
                                            const TileFrame& frame,
                                            TileDocument& document) const {
     const std::vector<Tree> trees = source->trees_of(tile);
-    std::map<std::size_t, std::vector<TileTree>> groups; // by hero
+    const LevelDetail& level = plan.details[tile.level];
+    std::vector<TileTree> properties;
+    std::map<std::size_t, std::vector<TileInstance>> groups; // by hero
     for (const Tree& tree : trees) {
-        const std::size_t hero = hero_table->hero_of(tree);
+        const auto number = static_cast<std::uint32_t>(properties.size());
+        properties.push_back(
+            {static_cast<float>(height_of(tree)), tree.number, tree.species, tree.age});
         // Placed at the origin first: binary32 is too coarse for places far from it.
         Tree here = tree;
         here.position = glm::vec3(0.0F);
-        const InstanceCache& cache = grown.forest.cache_of(tree);
-        InstancePose pose;
-        TreeExpander(cache, grown.forest.key).expand(here, [&](const BranchInstance& branch) {
-            pose = pose_of(branch, cache.instances[branch.instance]);
-        });
         const glm::dvec3 place(tree.position);
         const glm::vec3 foot(y_up(frame.place(place.x, place.y, place.z)));
         const glm::vec3 above(y_up(frame.place(place.x, place.y + 1.0, place.z)));
@@ -428,17 +512,59 @@ std::uint64_t TileForest::State::add_trees(const TileId& tile,
         const glm::vec3 up = glm::normalize(above - foot);
         const glm::quat tilt =
             glm::normalize(glm::quat(1.0F + up.y, up.z, 0.0F, -up.x)); // from +Y to `up`
-        const float height = static_cast<float>(tree.scale) *
-                             (heroes[hero].bounds.high.y - heroes[hero].bounds.low.y);
-        groups[hero].push_back({tilt * pose.rotation, foot + tilt * pose.translation, pose.scale,
-                                height, tree.number, tree.species, tree.age});
+        const InstanceCache& cache = grown.forest.cache_of(tree);
+        const std::span<const InstanceHeroes> instances = hero_table->instances_of(tree);
+        TreeExpander(cache, grown.forest.key).expand_until(here, [&](const BranchInstance& branch) {
+            const InstanceHeroes& own = instances[branch.instance];
+            const bool is_whole = level.is_whole[own.whole];
+            const InstancePose pose = pose_of(branch, cache.instances[branch.instance]);
+            groups[is_whole ? own.whole : own.alone].push_back(
+                {tilt * pose.rotation, foot + tilt * pose.translation, pose.scale, number});
+            return !is_whole;
+        });
     }
+    document.set_trees(std::move(properties));
     for (auto& [hero, group] : groups) {
-        if (const auto part = part_numbers[hero][plan.detail[tile.level][hero]]) {
-            document.add_trees(*part, std::move(group));
+        if (const auto part = part_numbers[hero][level.detail[hero]]) {
+            document.add_instances(*part, std::move(group));
         }
     }
     return trees.size();
+}
+
+/// Height in m: of a plant with its surface, of a tree with branches of its axes.
+double TileForest::State::height_of(const Tree& tree) const {
+    if (!has_branches) {
+        const Bounds& bounds = heroes[hero_table->hero_of(tree)].bounds;
+        return static_cast<double>(tree.scale * (bounds.high.y - bounds.low.y));
+    }
+    TreeMeasure measure(grown.forest.cache_of(tree),
+                        height_tables[tree.species][grown.forest.stage_of(tree)], grown.forest.key);
+    return static_cast<double>(tree.scale) * measure.height_of(tree.number).value_or(0.0);
+}
+
+/// Whether a hero is a whole plant, not a branch.
+bool TileForest::State::is_plant(std::size_t hero) const {
+    const Hero& each = heroes[hero];
+    const InstanceCache& cache = grown.forest.species[each.species].stages[each.stage].cache;
+    return !each.is_alone && cache.instances[each.instance].slot == 0;
+}
+
+/// Some trees of each species, for means.
+std::vector<Tree> TileForest::State::some_trees() const {
+    constexpr std::size_t kTrees = 64; // of a species, or all
+    std::vector<Tree> trees;
+    for (const std::vector<Tree>& of_species : samples) {
+        trees.insert(trees.end(), of_species.begin(),
+                     of_species.begin() +
+                         static_cast<std::ptrdiff_t>(std::min(kTrees, of_species.size())));
+    }
+    const LargeVector<Tree>& placed = grown.forest.trees;
+    const std::size_t step = std::max<std::size_t>(placed.size() / (4 * kTrees), 1);
+    for (std::size_t i = 0; i < placed.size() && samples.empty(); i += step) {
+        trees.push_back(placed[i]);
+    }
+    return trees;
 }
 
 TileContent TileForest::content(const TileId& tile) const {
@@ -490,10 +616,9 @@ make_tile_forest(LoadedScene loaded, const TileOptions& options, const Project& 
     made.sizer.emplace(unit_heights(made.scene, made.grown), made.grown.forest);
     const bool is_grid = is_placed_by_tile(made.scene);
     if (!step.take(is_grid ? made.sample_trees(project) : made.measure_placed_trees(project)) ||
-        !step.take(plan_heroes(made.grown, options.mesh, project), made.heroes)) {
+        !step.take(made.plan_all_heroes(project))) {
         return step.end();
     }
-    made.hero_table.emplace(made.grown.forest, made.heroes);
     made.plan_levels();
     const bool keeps_trees =
         options.tree_file || (options.keep_trees && made.places <= kMaxKeptTrees);

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 // TileForest: a forest as 3D Tiles 1.1 (OGC 22-025r4), a quadtree over the ground of the scene. Near
-// tiles hold the ground and the trees as instances of whole heroes; coarser tiles hold fewer
-// triangles per tree; tiles with too many trees hold one surface of ground and crowns. Meshes of
+// tiles hold the ground and the trees as instances: of whole heroes with rho 0, else of branches;
+// coarser tiles hold fewer triangles per tree, and heroes that stand in for trees; tiles with too
+// many trees hold one surface of ground and crowns. Meshes of
 // heroes are files that all tiles share. A tile and a tileset depend only on the scene and their
 // place, so they can be made in any order, by any process. Made by make_tile_forest(); used by
 // `lsc tiles`.
@@ -149,8 +150,8 @@ private:
 
 /// Grows the heroes of a scene, plans its tiles, and makes the files that they share. The trees of
 /// a scene with is_placed_by_tile() are placed when their tile is made; the trees of other scenes
-/// are all placed here, or read from TileOptions::tree_file. Precondition: the scene has rho 0.
-/// Stops for the reasons of grow_species(), place_forest(), read_tree_file() and mesh_forest().
+/// are all placed here, or read from TileOptions::tree_file. With rho above 0 trees are assembled
+/// from branches. Stops for the reasons of grow_species(), place_forest(), read_tree_file() and mesh_forest().
 [[nodiscard]] Outcome<TileForest>
 make_tile_forest(LoadedScene loaded, const TileOptions& options, const Project& project);
 
@@ -160,8 +161,7 @@ struct PlacedScene {
     LargeVector<Tree> trees; // in the order of write_tree_file()
 };
 
-/// Places the trees of a scene. Precondition: the scene has rho 0. Stops for the reasons of
-/// grow_species() and place_forest().
+/// Places the trees of a scene. Stops for the reasons of grow_species() and place_forest().
 [[nodiscard]] Outcome<PlacedScene> place_scene(const LoadedScene& loaded, const Project& project);
 
 } // namespace lsys

@@ -296,6 +296,19 @@ private:
         return count_of(GltfList::Accessors) - 1;
     }
 
+    /// Numbers the rows of the table in the order in which instances show their trees.
+    void number_rows() {
+        rows_.assign(document_.trees_.size(), kNone);
+        for (const TileDocument::Group& group : document_.groups_) {
+            for (const TileInstance& each : group.instances) {
+                if (rows_[each.tree] == kNone) {
+                    rows_[each.tree] = static_cast<std::uint32_t>(shown_trees_.size());
+                    shown_trees_.push_back(each.tree);
+                }
+            }
+        }
+    }
+
     void put_groups() {
         constexpr std::uint32_t kVector = 3 * sizeof(float);
         constexpr std::uint32_t kRotation = 4 * sizeof(std::int16_t);
@@ -303,16 +316,16 @@ private:
         std::string rotations;
         std::string scales;
         std::string ids;
-        std::uint32_t row = 0; // of the table of properties
+        number_rows();
         for (const TileDocument::Group& group : document_.groups_) {
             const TilePart& part = part_of(group);
-            for (const TileTree& tree : group.trees) {
-                const glm::vec3 at = tree.translation + tree.scale * (tree.rotation * part.low);
+            for (const TileInstance& each : group.instances) {
+                const glm::vec3 at = each.translation + each.scale * (each.rotation * part.low);
                 append(translations, std::array{rounded(at.x), rounded(at.y), rounded(at.z)});
-                append(rotations, rotation_item(tree.rotation));
-                const float scale = shortened(tree.scale * part.step);
+                append(rotations, rotation_item(each.rotation));
+                const float scale = shortened(each.scale * part.step);
                 append(scales, std::array{scale, scale, scale});
-                append(ids, static_cast<float>(row++));
+                append(ids, static_cast<float>(rows_[each.tree]));
             }
         }
         const Array translation{add_packed_view(translations, kVector), kVector, kGltfFloat,
@@ -323,7 +336,12 @@ private:
         const Array id{add_packed_view(ids, sizeof(float)), sizeof(float), kGltfFloat, "SCALAR"};
         std::size_t first = 0;
         for (std::size_t i = 0; i < meshes_.size(); ++i) {
-            const std::size_t count = document_.groups_[i].trees.size();
+            const std::vector<TileInstance>& instances = document_.groups_[i].instances;
+            const std::size_t count = instances.size();
+            std::size_t trees = 0;
+            for (std::size_t k = 0; k < count; ++k) {
+                trees += k == 0 || instances[k].tree != instances[k - 1].tree ? 1U : 0U;
+            }
             const std::size_t accessor = add_accessor(translation, first, count);
             add_accessor(rotation, first, count);
             add_accessor(scale, first, count);
@@ -333,7 +351,7 @@ private:
                             "\"attributes\":{{\"TRANSLATION\":{},\"ROTATION\":{},\"SCALE\":{},"
                             "\"_FEATURE_ID_0\":{}}}}},\"EXT_instance_features\":{{\"featureIds\":["
                             "{{\"featureCount\":{},\"attribute\":0,\"propertyTable\":0}}]}}}}}}"),
-                meshes_[i], accessor, accessor + 1, accessor + 2, accessor + 3, count);
+                meshes_[i], accessor, accessor + 1, accessor + 2, accessor + 3, trees);
             first += count;
         }
         use_required("EXT_mesh_gpu_instancing");
@@ -345,15 +363,12 @@ private:
         std::string heights;
         std::string ages;
         std::string numbers;
-        std::size_t count = 0;
-        for (const TileDocument::Group& group : document_.groups_) {
-            for (const TileTree& tree : group.trees) {
-                append(kinds, tree.species);
-                append(heights, tree.height);
-                append(ages, tree.age);
-                append(numbers, tree.number);
-                ++count;
-            }
+        for (const std::uint32_t number : shown_trees_) {
+            const TileTree& tree = document_.trees_[number];
+            append(kinds, tree.species);
+            append(heights, tree.height);
+            append(ages, tree.age);
+            append(numbers, tree.number);
         }
         const std::size_t view = add_view(kinds);
         add_view(heights);
@@ -364,7 +379,7 @@ private:
                         "\"name\":\"trees\",\"class\":\"tree\",\"count\":{},\"properties\":{{"
                         "\"species\":{{\"values\":{}}},\"height\":{{\"values\":{}}},"
                         "\"age\":{{\"values\":{}}},\"number\":{{\"values\":{}}}}}}}]}}"),
-            parts_.schema, count, view, view + 1, view + 2, view + 3);
+            parts_.schema, shown_trees_.size(), view, view + 1, view + 2, view + 3);
         use(GltfList::Used, "EXT_structural_metadata");
     }
 
@@ -445,6 +460,8 @@ private:
     std::vector<GltfList> order_; // of the first items of lists
     std::vector<std::string> used_;
     std::vector<std::string> required_;
+    std::vector<std::uint32_t> rows_;        // of the table of properties, by tree
+    std::vector<std::uint32_t> shown_trees_; // by row
     std::size_t first_root_ = 0;      // root nodes of the scene are this one and those after it
     std::vector<std::size_t> meshes_; // by group
     std::string data_;                // the buffer of the GLB

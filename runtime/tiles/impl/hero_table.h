@@ -1,27 +1,40 @@
 // SPDX-License-Identifier: MIT
-// HeroTable: maps each tree of a forest to its hero.
+// HeroTable: maps the trees of a forest, and the instances of which they consist, to heroes.
 #pragma once
 
 #include "runtime/forest/forest.h"
 #include "runtime/pipeline/hero_levels.h"
 
 #include <cstddef>
+#include <cstdint>
 #include <span>
 #include <vector>
 
 namespace lsys {
 
+inline constexpr std::size_t kNoHero = ~std::size_t{0};
+
+/// The heroes that draw an instance. An instance without exits has only `whole`.
+struct InstanceHeroes {
+    std::size_t whole = kNoHero; // with stand-ins at its exits
+    std::size_t alone = kNoHero;
+};
+
 class HeroTable {
 public:
-    /// `heroes`: the result of plan_heroes(). `forest` must outlive the table.
+    /// `heroes`: the results of plan_heroes() and plan_branches(). `forest` must outlive the table.
     HeroTable(const Forest& forest, std::span<const Hero> heroes);
 
-    /// The index of the tree's hero.
+    /// The index of the plant with the root instance of the tree.
     [[nodiscard]] std::size_t hero_of(const Tree& tree) const;
+    /// By instance of the cache of the tree, or of a stage.
+    [[nodiscard]] std::span<const InstanceHeroes> instances_of(const Tree& tree) const;
+    [[nodiscard]] std::span<const InstanceHeroes> instances_of(std::uint32_t species,
+                                                               std::uint32_t stage) const;
 
 private:
     const Forest& forest_;
-    std::vector<std::vector<std::vector<std::size_t>>> heroes_; // by species, stage and instance
+    std::vector<std::vector<std::vector<InstanceHeroes>>> heroes_; // by species, stage, instance
 };
 
 } // namespace lsys

@@ -14,6 +14,10 @@ constexpr double kMinTileTrees = 4.0;
 constexpr double kGroundError = 0.1;        // m, tolerated error of the ground in every tile
 constexpr std::uint32_t kEmptyLevels = 2;   // of a forest with more levels without trees
 constexpr std::uint32_t kGroundCells = 128; // max along a side of a tile with trees
+/// In a level whose tiles have this many times the side of the error, clients that allow 16 pixels in
+/// views of about 1,000 show the tiles at a distance of about one side.
+constexpr double kSidesOfError = 64.0;
+constexpr double kCoarser = 1.5; // factor of the errors of a level that has too much
 
 class Planner {
 public:
@@ -21,8 +25,9 @@ public:
         : needs_(needs), budget_(static_cast<double>(needs.options.triangles)),
           tolerated_(static_cast<double>(needs.options.error)) {
         for (const Hero& hero : needs.heroes) {
-            finest_.push_back(finest_detail(hero));
+            finest_.push_back(detail_within(hero, tolerated_));
         }
+        plan_.crowns = finest_;
     }
 
     LevelPlan plan() {
@@ -30,7 +35,7 @@ public:
         plan_.levels.resize(depth + 1);
         plan_.cells.resize(depth + 1);
         plan_.skirts.resize(depth + 1);
-        plan_.detail.resize(depth + 1);
+        plan_.details.resize(depth + 1);
         ground_errors_.resize(depth + 1);
         std::vector<std::size_t> coarsest;
         for (const Hero& hero : needs_.heroes) {
@@ -55,37 +60,138 @@ public:
     }
 
 private:
+    /// Means of a tree of a level.
+    struct Means {
+        double triangles = 0.0;
+        double heroes = 0.0; // instances of plants and branches
+    };
+
     [[nodiscard]] double error_of(const Hero& hero, std::size_t detail) const {
         return static_cast<double>(hero.levels.levels[detail].error) *
                needs_.max_scales[hero.species];
     }
-    /// The level of detail for the finest tiles: the coarsest one within the tolerated error.
-    [[nodiscard]] std::size_t finest_detail(const Hero& hero) const {
+    /// The coarsest level of detail within an error in m.
+    [[nodiscard]] std::size_t detail_within(const Hero& hero, double error) const {
         std::size_t detail = 0;
-        while (detail + 1 < hero.levels.levels.size() && error_of(hero, detail + 1) <= tolerated_) {
+        while (detail + 1 < hero.levels.levels.size() && error_of(hero, detail + 1) <= error) {
             ++detail;
         }
         return detail;
     }
-    /// Triangles per tree, if all heroes have the same number of trees.
+    [[nodiscard]] double deviation_of(std::size_t hero) const {
+        return needs_.deviations[hero] * needs_.max_scales[needs_.heroes[hero].species];
+    }
+    /// Whether trees are more than one hero each.
+    [[nodiscard]] bool has_branches() const {
+        return std::any_of(needs_.heroes.begin(), needs_.heroes.end(),
+                           [](const Hero& hero) { return hero.is_alone; });
+    }
+    [[nodiscard]] bool is_plant(const Hero& hero) const {
+        const ForestStage& stage = needs_.forest.species[hero.species].stages[hero.stage];
+        return !hero.is_alone && stage.cache.instances[hero.instance].slot == 0;
+    }
+    /// Triangles per tree, if all plants have the same number of trees.
     [[nodiscard]] double mean_triangles(std::span<const std::size_t> detail) const {
         double sum = 0.0;
+        std::size_t plants = 0;
         for (std::size_t i = 0; i < detail.size(); ++i) {
-            sum += static_cast<double>(needs_.heroes[i].levels.levels[detail[i]].triangles);
+            const Hero& hero = needs_.heroes[i];
+            if (is_plant(hero) && detail[i] != kNotShown) {
+                sum += static_cast<double>(hero.levels.levels[detail[i]].triangles);
+                ++plants;
+            }
         }
-        return sum / static_cast<double>(std::max<std::size_t>(detail.size(), 1));
+        return sum / static_cast<double>(std::max<std::size_t>(plants, 1));
+    }
+    /// Means of some trees.
+    [[nodiscard]] Means means_of(const LevelDetail& level) const {
+        Means sum;
+        for (const Tree& tree : needs_.some_trees) {
+            const std::span<const InstanceHeroes> heroes = needs_.hero_table.instances_of(tree);
+            TreeExpander expander(needs_.forest.cache_of(tree), needs_.forest.key);
+            expander.expand_until(tree, [&](const BranchInstance& branch) {
+                const InstanceHeroes& instance = heroes[branch.instance];
+                const bool is_whole = level.is_whole[instance.whole];
+                const std::size_t hero = is_whole ? instance.whole : instance.alone;
+                sum.triangles += static_cast<double>(
+                    needs_.heroes[hero].levels.levels[level.detail[hero]].triangles);
+                sum.heroes += 1.0;
+                return !is_whole;
+            });
+        }
+        const auto trees = static_cast<double>(std::max<std::size_t>(needs_.some_trees.size(), 1));
+        return {sum.triangles / trees, sum.heroes / trees};
+    }
+    /// Shows a hero with its stand-ins if no branch is then off by more than `deviation`, in levels
+    /// of detail within `error`.
+    [[nodiscard]] LevelDetail detail_with_branches(double deviation, double error) const {
+        LevelDetail level;
+        level.detail.assign(needs_.heroes.size(), kNotShown);
+        level.is_whole.resize(needs_.heroes.size());
+        std::vector<std::size_t> pending; // whole heroes
+        std::vector<bool> seen(needs_.heroes.size());
+        const auto see = [&](std::size_t whole) {
+            if (!seen[whole]) {
+                seen[whole] = true;
+                pending.push_back(whole);
+            }
+        };
+        for (std::size_t i = 0; i < needs_.heroes.size(); ++i) {
+            if (is_plant(needs_.heroes[i])) {
+                see(i);
+            }
+        }
+        while (!pending.empty()) {
+            const std::size_t number = pending.back();
+            pending.pop_back();
+            const Hero& hero = needs_.heroes[number];
+            const std::span<const InstanceHeroes> heroes =
+                needs_.hero_table.instances_of(hero.species, hero.stage);
+            const InstanceHeroes& own = heroes[hero.instance];
+            level.is_whole[number] = own.alone == kNoHero || deviation_of(number) <= deviation;
+            const std::size_t shown = level.is_whole[number] ? number : own.alone;
+            level.detail[shown] = detail_within(needs_.heroes[shown], error);
+            if (level.is_whole[number]) {
+                continue;
+            }
+            const InstanceCache& cache =
+                needs_.forest.species[hero.species].stages[hero.stage].cache;
+            const Instance& instance = cache.instances[hero.instance];
+            for (std::uint32_t e = 0; e < instance.exit_count; ++e) {
+                const InstanceSlot& slot = cache.slots[cache.exits[instance.first_exit + e].slot];
+                for (std::uint32_t v = 0; v < slot.variant_count; ++v) {
+                    see(heroes[cache.variants[slot.first_variant + v]].whole);
+                }
+            }
+        }
+        return level;
+    }
+    /// Whether all trees are plants with stand-ins.
+    [[nodiscard]] bool shows_plants(const LevelDetail& level) const {
+        for (std::size_t i = 0; i < needs_.heroes.size(); ++i) {
+            if (is_plant(needs_.heroes[i]) && !level.is_whole[i]) {
+                return false;
+            }
+        }
+        return true;
     }
     [[nodiscard]] double mean_trees(std::uint32_t level) const {
         const double side = needs_.grid.side(level);
         return needs_.density * std::min(side * side, needs_.grid.ground().area());
     }
+    [[nodiscard]] bool is_too_much(const Means& means, double trees) const {
+        return trees * means.triangles > budget_ ||
+               (means.heroes > 1.0 && trees * means.heroes > static_cast<double>(kMaxTileBranches));
+    }
     /// The first level whose trees are within the budget of triangles, and whose ground is exact.
     [[nodiscard]] std::uint32_t depth_of() const {
-        const double triangles = mean_triangles(finest_);
+        Means means{mean_triangles(finest_), 1.0};
+        if (has_branches()) {
+            means = means_of(detail_with_branches(tolerated_, tolerated_));
+        }
         std::uint32_t depth = 0;
         const auto has_too_much = [&] {
-            return mean_trees(depth) * triangles > budget_ &&
-                   mean_trees(depth + 1) >= kMinTileTrees;
+            return is_too_much(means, mean_trees(depth)) && mean_trees(depth + 1) >= kMinTileTrees;
         };
         const auto has_coarse_ground = [&] {
             return needs_.terrain.mesh_error(needs_.grid.side(depth) / kGroundCells) >
@@ -110,22 +216,77 @@ private:
     double plan_trees(std::uint32_t number) {
         TileLevel& level = plan_.levels[number];
         plan_.first_tree_level = number;
-        std::vector<std::size_t>& chosen = plan_.detail[number];
-        chosen = number == plan_.finest() ? finest_ : plan_.detail[number + 1];
-        double error = 0.0;
-        for (std::size_t i = 0; i < chosen.size(); ++i) {
-            const Hero& hero = needs_.heroes[i];
-            const std::vector<DetailLevel>& chain = hero.levels.levels;
-            while (number != plan_.finest() && chosen[i] + 1 < chain.size() &&
-                   static_cast<double>(chain[chosen[i]].triangles) * level.trees > budget_) {
-                ++chosen[i];
-            }
-            error = std::max(error, error_of(hero, chosen[i]));
+        LevelDetail& detail = plan_.details[number];
+        double triangles = 0.0;
+        if (!has_branches() || !plan_branches(number, triangles)) {
+            choose_plants(number);
+            triangles = mean_triangles(detail.detail);
         }
-        level.triangles = static_cast<std::uint64_t>(mean_triangles(chosen));
+        double error = 0.0;
+        for (std::size_t i = 0; i < needs_.heroes.size(); ++i) {
+            if (detail.detail[i] != kNotShown) {
+                error = std::max(
+                    {error, error_of(needs_.heroes[i], detail.detail[i]), deviation_of(i)});
+            }
+        }
+        level.triangles = static_cast<std::uint64_t>(triangles);
         plan_.cells[number] = ground_cells(level.side, std::max(0.5 * error, kGroundError));
         ground_errors_[number] = needs_.terrain.mesh_error(level.side / plan_.cells[number]);
         return std::max(error, ground_errors_[number]);
+    }
+
+    /// Shows each tree as a plant, in a coarser level of detail than the next finer level if there
+    /// are too many triangles.
+    void choose_plants(std::uint32_t number) {
+        const bool is_finest = number == plan_.finest();
+        LevelDetail& level = plan_.details[number];
+        level.detail.assign(needs_.heroes.size(), kNotShown);
+        level.is_whole.assign(needs_.heroes.size(), true);
+        for (std::size_t i = 0; i < needs_.heroes.size(); ++i) {
+            const Hero& hero = needs_.heroes[i];
+            if (!is_plant(hero)) {
+                continue;
+            }
+            const std::vector<DetailLevel>& chain = hero.levels.levels;
+            std::size_t& chosen = level.detail[i];
+            chosen = is_finest ? kNotShown : plan_.details[number + 1].detail[i];
+            chosen = chosen == kNotShown ? finest_[i] : chosen;
+            while (!is_finest && chosen + 1 < chain.size() &&
+                   static_cast<double>(chain[chosen].triangles) * plan_.levels[number].trees >
+                       budget_) {
+                ++chosen;
+            }
+        }
+    }
+
+    /// Shows trees as branches, and branches with stand-ins where the error of the level allows.
+    /// Sets the mean number of triangles of a tree. Returns false if all trees can be plants.
+    bool plan_branches(std::uint32_t number, double& triangles) {
+        const TileLevel& level = plan_.levels[number];
+        const bool is_finest = number == plan_.finest();
+        double deviation =
+            is_finest ? tolerated_ : std::max(tolerated_, level.side / kSidesOfError);
+        double error = is_finest ? tolerated_ : branch_error_;
+        while (true) {
+            LevelDetail& detail = plan_.details[number];
+            detail = detail_with_branches(deviation, error);
+            if (shows_plants(detail)) {
+                return false;
+            }
+            const Means means = means_of(detail);
+            if (is_finest || !is_too_much(means, level.trees)) {
+                triangles = means.triangles;
+                branch_error_ = error;
+                return true;
+            }
+            // Stand-ins reduce the branches, and at last the triangles too.
+            if (level.trees * means.heroes > static_cast<double>(kMaxTileBranches) ||
+                error >= deviation) {
+                deviation *= kCoarser;
+            } else {
+                error = std::max(kCoarser * error, deviation / kSidesOfError);
+            }
+        }
     }
 
     /// Cells along the side of the ground: the least power of two whose error is at most `allowed`, up
@@ -163,6 +324,7 @@ private:
     const LevelNeeds& needs_;
     double budget_;                     // triangles
     double tolerated_;                  // m, of the trees of the nearest tiles
+    double branch_error_ = 0.0;         // m, of branches, of the last planned level
     std::vector<std::size_t> finest_;   // by hero: level of detail of the nearest tiles
     std::vector<double> ground_errors_; // by level
     LevelPlan plan_;

@@ -4,6 +4,7 @@
 
 #include "runtime/pipeline/hero_levels.h"
 #include "runtime/terrain/terrain.h"
+#include "runtime/tiles/impl/hero_table.h"
 #include "runtime/tiles/impl/tile_grid.h"
 #include "runtime/tiles/tiles.h"
 
@@ -14,24 +15,42 @@
 
 namespace lsys {
 
+/// Max number of branches that a tile has on average.
+inline constexpr std::uint64_t kMaxTileBranches = 32'768;
+/// In LevelPlan::detail: no tile of the level shows the hero.
+inline constexpr std::size_t kNotShown = ~std::size_t{0};
+
 /// The input of plan_tile_levels().
 struct LevelNeeds {
     const Terrain& terrain;
     const TileGrid& grid;
-    std::span<const Hero> heroes;
-    std::vector<double> max_scales; // by species, of a tree
-    double density = 0.0;           // mean number of trees per m2
-    double largest_extent = 0.0;    // m, of a tree, at least its height
+    const Forest& forest;         // its trees are not used
+    std::span<const Hero> heroes; // plants, then branches
+    const HeroTable& hero_table;
+    std::vector<double> deviations;   // m, by hero: TreeBounds::deviation, 0 for heroes alone
+    std::span<const Tree> some_trees; // for means
+    std::vector<double> max_scales;   // by species, of a tree
+    double density = 0.0;             // mean number of trees per m2
+    double largest_extent = 0.0;      // m, of a tree, at least its height
     const TileOptions& options;
+};
+
+/// How tiles of a level with trees show the heroes.
+struct LevelDetail {
+    /// By hero: number of its level of detail, or kNotShown.
+    std::vector<std::size_t> detail;
+    /// By hero: whether trees show it with its stand-ins; else they show the instance alone and go on
+    /// at its exits.
+    std::vector<bool> is_whole;
 };
 
 struct LevelPlan {
     std::vector<TileLevel> levels;
-    std::uint32_t first_tree_level = 0;           // the first level with single trees
-    std::vector<std::uint32_t> cells;             // by level: of the surface, along a side
-    std::vector<double> skirts;                   // m, by level: height below the surface
-    std::vector<std::vector<std::size_t>> detail; // by level with trees and by hero: number of the
-                                                  // hero's level of detail
+    std::uint32_t first_tree_level = 0; // the first level with single trees
+    std::vector<std::uint32_t> cells;   // by level: of the surface, along a side
+    std::vector<double> skirts;         // m, by level: height below the surface
+    std::vector<LevelDetail> details;   // by level; empty for levels without trees
+    std::vector<std::size_t> crowns;    // by hero: level of detail of plants in a canopy
 
     [[nodiscard]] std::uint32_t finest() const {
         return static_cast<std::uint32_t>(levels.size()) - 1;

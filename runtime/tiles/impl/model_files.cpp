@@ -32,7 +32,10 @@ public:
             level_ = level;
             part_ = 0;
             for (std::size_t i = 0; i < heroes.size(); ++i) {
-                const std::size_t detail = plan.detail[level][i];
+                const std::size_t detail = plan.details[level].detail[i];
+                if (detail == kNotShown) {
+                    continue;
+                }
                 const Mesh& mesh = heroes[i].meshes[detail];
                 MeshDocument& model = made_.models[i][detail];
                 if (model.json.is_null() && !mesh.positions.empty()) {
