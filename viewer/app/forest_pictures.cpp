@@ -33,6 +33,7 @@ nlohmann::ordered_json pass_stats(const FrameStats& pass) {
     nlohmann::ordered_json stats;
     stats["draws"] = pass.draws;
     stats["triangles"] = pass.triangles;
+    stats["gpu_ms"] = pass.gpu_milliseconds;
     return stats;
 }
 
@@ -205,6 +206,7 @@ ExitStatus take_forest_pictures(const ViewOptions& options,
         cull.gpu.push_back(drawn.cull_gpu_milliseconds);
         shadow.draws += drawn.shadow.draws;
         shadow.triangles += drawn.shadow.triangles;
+        shadow.gpu_milliseconds = drawn.shadow.gpu_milliseconds; // of the last picture that drew it
         ++pictures;
         if (!options.pick) {
             return ExitStatus::Ok;

@@ -89,6 +89,7 @@ struct Frame {
 struct FrameStats {
     std::uint64_t draws = 0;
     std::uint64_t triangles = 0;
+    double gpu_milliseconds = 0.0; // of passes of a forest, like FrameTimes::gpu
 };
 
 /// Device that chooses the trees and branches of a picture of a forest; the pictures are the same.

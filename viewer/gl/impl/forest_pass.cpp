@@ -66,7 +66,8 @@ double seconds_since(Clock::time_point start) {
 
 ForestPass::ForestPass(Device& device)
     : device_(&device), buffers_(device), impostors_(device), terrain_(device),
-      quads_(make_vertex_array(device)), quad_trees_(device) {
+      quads_(make_vertex_array(device)), quad_trees_(device), branches_timer_(device),
+      impostors_timer_(device), terrain_timer_(device), shadow_timer_(device) {
     glVertexArrayAttribIFormat(quads_.name(), 0, 1, GL_UNSIGNED_INT,
                                offsetof(ImpostorEntry, index));
     glVertexArrayAttribFormat(quads_.name(), 1, 2, GL_FLOAT, GL_FALSE,
@@ -397,7 +398,9 @@ void ForestPass::draw_shadows(const glm::mat4& shadow_from_world, ForestFrameSta
         cull_cpu_seconds_ += platform::thread_cpu_seconds() - cpu_start;
         buffers_.bind_storage();
         glDisable(GL_CULL_FACE);
+        shadow_timer_.begin();
         stats.shadow.draws += draw_device_quads(programs().impostor_shadow, false, 0, 1);
+        shadow_timer_.end();
         return;
     }
     std::vector<std::uint32_t> numbers;
@@ -412,7 +415,9 @@ void ForestPass::draw_shadows(const glm::mat4& shadow_from_world, ForestFrameSta
     glDisable(GL_CULL_FACE);
     if (!trees.empty()) {
         quad_trees_.fill(std::span<const ImpostorEntry>(trees));
+        shadow_timer_.begin();
         stats.shadow.draws += draw_quads(programs().impostor_shadow, 0, trees.size());
+        shadow_timer_.end();
         stats.shadow.triangles += 2 * trees.size();
     }
 }
@@ -433,6 +438,7 @@ void ForestPass::draw(MaterialTextures& textures, ForestFrameStats& stats) {
         select_on_device();
     }
     buffers_.bind_storage();
+    branches_timer_.begin();
     for (const bool blends : {false, true}) {
         glBindTextureUnit(kBarkTexture, textures.base_colour(MaterialKind::Bark));
         glBindTextureUnit(kLeafTexture, textures.base_colour(MaterialKind::Leaf));
@@ -440,8 +446,10 @@ void ForestPass::draw(MaterialTextures& textures, ForestFrameStats& stats) {
         draw_branches(blends ? programs().blending_branches : programs().branches, blends,
                       stats.branches);
     }
+    branches_timer_.end();
     device_->end_pass();
     glDisable(GL_CULL_FACE);
+    impostors_timer_.begin();
     if (is_culled_on_device_) {
         draw_device_impostors(false, stats.impostors);
         buffers_.bind_clusters();
@@ -456,7 +464,10 @@ void ForestPass::draw(MaterialTextures& textures, ForestFrameStats& stats) {
         }
         set_stats(*lists_, stats);
     }
+    impostors_timer_.end();
+    terrain_timer_.begin();
     const FrameStats ground = terrain_.draw();
+    terrain_timer_.end();
     stats.terrain.draws += ground.draws;
     stats.terrain.triangles += ground.triangles;
     stats.is_culled_on_device = is_culled_on_device_;
@@ -479,6 +490,10 @@ void ForestPass::set_stats(const DrawLists& lists, ForestFrameStats& stats) cons
 }
 
 void ForestPass::collect_device_stats(ForestFrameStats& stats) {
+    stats.branches.gpu_milliseconds = branches_timer_.milliseconds();
+    stats.impostors.gpu_milliseconds = impostors_timer_.milliseconds();
+    stats.terrain.gpu_milliseconds = terrain_timer_.milliseconds();
+    stats.shadow.gpu_milliseconds = shadow_timer_.milliseconds();
     if (!is_culled_on_device_) {
         return;
     }

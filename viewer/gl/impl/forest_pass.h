@@ -7,6 +7,7 @@
 #include "viewer/gl/impl/forest_buffers.h"
 #include "viewer/gl/impl/forest_culling.h"
 #include "viewer/gl/impl/forest_programs.h"
+#include "viewer/gl/impl/gpu_timer.h"
 #include "viewer/gl/impl/impostor_atlas.h"
 #include "viewer/gl/impl/material_textures.h"
 #include "viewer/gl/impl/terrain_pass.h"
@@ -131,6 +132,10 @@ private:
     bool has_clusters_ = false; // the atlas has cluster impostors
     // The cluster impostors show the previous trees until all are baked again.
     bool has_old_clusters_ = false;
+    GpuTimer branches_timer_;
+    GpuTimer impostors_timer_;
+    GpuTimer terrain_timer_;
+    GpuTimer shadow_timer_;
     std::array<float, 2> caster_altitudes_{}; // of the last shadow_bounds() of a streamed forest
     double bake_seconds_ = 0.0;
     double upload_seconds_ = 0.0;
