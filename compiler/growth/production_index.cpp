@@ -23,7 +23,7 @@ ProductionIndex::ProductionIndex(const Bytecode& bytecode) : bytecode_(&bytecode
         }
     });
     find_relevant();
-    find_age();
+    find_age_dependence();
 }
 
 template <typename Visit>
@@ -114,7 +114,7 @@ void ProductionIndex::find_relevant() {
     }
 }
 
-void ProductionIndex::find_age() {
+void ProductionIndex::find_age_dependence() {
     if (!any_relevant_ || depends_on_age_) {
         return;
     }

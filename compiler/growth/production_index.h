@@ -41,7 +41,7 @@ public:
 
 private:
     void find_relevant();
-    void find_age();
+    void find_age_dependence();
     /// Calls visit(parameter) for each formal of the predecessor that the instructions read.
     /// Returns whether they call step().
     template <typename Visit>

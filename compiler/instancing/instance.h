@@ -22,8 +22,9 @@ inline constexpr std::uint64_t kDefaultFormCount = 4096;
 
 struct InstancedSystem {
     Bytecode bytecode;
-    std::vector<bool> depends_on_vertical; // per id: whether the drawing depends on the vertical
-    std::size_t kind_count = 0;            // number of different valid branches
+    /// By branch id, of which 0 is the axiom: whether the drawing depends on the vertical.
+    std::vector<bool> depends_on_vertical;
+    std::size_t kind_count = 0; // number of different valid branches
 };
 
 /// Compiles the instanced system, in which each valid branch is taken with probability `rho` in

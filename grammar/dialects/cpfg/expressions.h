@@ -108,8 +108,8 @@ private:
     std::map<std::string, ForeignId> increments_; // per global: amount that each step adds
     std::set<std::string> reset_; // globals that each step assigns before reading them
     std::map<std::string, Array> arrays_;
-    std::map<std::size_t, std::string>
-        curve_names_; // per curve: name of its function in .lsys, if read
+    /// Names of functions in .lsys, by index in curves_; only of curves that expressions call.
+    std::map<std::size_t, std::string> curve_names_;
     std::set<std::string> function_names_;
     std::set<std::string> formals_;
     std::set<std::string> changed_globals_; // globals that blocks of a step assign

@@ -523,21 +523,23 @@ bool report_probability_at_end(ParseSession& session) {
     const std::string_view text = session.scanned.text;
     const std::size_t number = std::min(text.find_first_not_of(kWhitespace, scan.end), text.size());
     const std::size_t end = std::min(text.find_first_not_of("0123456789.", number), text.size());
-    const std::size_t behind = std::min(text.find_first_not_of(kWhitespace, end), text.size());
-    const std::size_t third = text.rfind(':', scan.part_begin);
-    const std::size_t second =
-        third == std::string_view::npos || third == 0 ? third : text.rfind(':', third - 1);
-    if (end == number || text.substr(behind, 1) != ";" || second == std::string_view::npos ||
-        second < scan.statement_begin) {
+    const std::size_t after_number =
+        std::min(text.find_first_not_of(kWhitespace, end), text.size());
+    const std::size_t third_colon = text.rfind(':', scan.part_begin);
+    const std::size_t second_colon = third_colon == std::string_view::npos || third_colon == 0
+                                         ? third_colon
+                                         : text.rfind(':', third_colon - 1);
+    if (end == number || text.substr(after_number, 1) != ";" ||
+        second_colon == std::string_view::npos || second_colon < scan.statement_begin) {
         return false;
     }
-    const std::string_view part = text.substr(second + 1, third - second - 1);
+    const std::string_view part = text.substr(second_colon + 1, third_colon - second_colon - 1);
     const std::size_t last = part.find_last_not_of(kWhitespace);
     if (last == std::string_view::npos || part.find_first_of("~=") != std::string_view::npos) {
         return false; // it has a probability, or local values stand here
     }
     const std::string probability(text.substr(number, end - number));
-    const auto condition_end = static_cast<std::uint32_t>(second + 1 + last + 1);
+    const auto condition_end = static_cast<std::uint32_t>(second_colon + 1 + last + 1);
     const std::size_t successor_end =
         scan.begin == 0 ? 0 : text.find_last_not_of(kWhitespace, scan.begin - 1) + 1;
     Diagnostic& diagnostic = session.report(
@@ -835,10 +837,10 @@ void report_missing_parts(ParseSession& session) {
                                      ": let l = x / 2 : F(l) A(l);`");
         return;
     }
-    const std::string_view condition =
+    const std::string_view part =
         session.scanned.text.substr(scan.part_begin, scan.last_end - scan.part_begin);
-    const bool is_condition = condition.find_first_of("<>=!~&|") != std::string_view::npos ||
-                              condition.find_first_not_of(" \t\r\n*") == std::string_view::npos;
+    const bool is_condition = part.find_first_of("<>=!~&|") != std::string_view::npos ||
+                              part.find_first_not_of(" \t\r\n*") == std::string_view::npos;
     if (is_condition) {
         Diagnostic& diagnostic = diagnostics.add(DiagnosticCode::MissingColon, place,
                                                  "the production ends before its successor");
@@ -846,7 +848,7 @@ void report_missing_parts(ParseSession& session) {
         return;
     }
     const std::uint32_t first =
-        scan.part_begin + static_cast<std::uint32_t>(condition.find_first_not_of(kWhitespace));
+        scan.part_begin + static_cast<std::uint32_t>(part.find_first_not_of(kWhitespace));
     Diagnostic& diagnostic =
         diagnostics.add(DiagnosticCode::MissingColon, session.scanned.span(first, scan.last_end),
                         "the production has three parts, not four");

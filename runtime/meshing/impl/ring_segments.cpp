@@ -124,11 +124,11 @@ private:
                 segments_of_[j] = {chain_[drawn_before(before)], chain_[before]};
                 continue;
             }
-            std::size_t behind = j + 1;
-            while (behind < last && places_[behind] == kUnknown) {
-                ++behind;
+            std::size_t next_known = j + 1;
+            while (next_known < last && places_[next_known] == kUnknown) {
+                ++next_known;
             }
-            const std::uint32_t after = behind < last ? places_[behind] : end + 1;
+            const std::uint32_t after = next_known < last ? places_[next_known] : end + 1;
             const std::uint32_t nearest = find_nearest(joints[j].centre, before, after);
             segments_of_[j] = {chain_[nearest], chain_[nearest]};
         }

@@ -159,7 +159,7 @@ struct Turtle::State {
     void add_colour(float number, double sign);
 
     void note(TurtleFaultKind kind) { note_at(kind, position, code); }
-    /// Notes a fault of the module at index `place` of the word, whose code is `module`.
+    /// Notes a fault of the module with code `module` at index `place` of the word.
     void note_at(TurtleFaultKind kind, std::uint64_t place, Code module);
     /// Notes `count` faults at the end of a word, which belong to no module.
     void note_end(TurtleFaultKind kind, std::uint64_t count) {

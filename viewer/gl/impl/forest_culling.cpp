@@ -242,7 +242,7 @@ bool ForestCulling::show(const ForestLod& lod, ForestBuffers& buffers) {
     changed_.clear();
     horizon_eye_.reset();
     tables_.fill(std::span<const std::uint32_t>(std::exchange(tables->words, {})));
-    sizes_ = std::move(*tables);
+    table_layout_ = std::move(*tables);
     std::vector<CellRecord> cells;
     cells.reserve(lod.cells().size());
     for (const ForestCell& cell : lod.cells()) {
@@ -255,7 +255,7 @@ bool ForestCulling::show(const ForestLod& lod, ForestBuffers& buffers) {
     tree_capacity_ = 0;
     grow_lists(lod.tree_count());
     max_branches_ = static_cast<std::uint32_t>(std::min<std::uint64_t>(
-        std::uint64_t{sizes_.max_branches} * tree_capacity_, BranchPool::kMaxBranches));
+        std::uint64_t{table_layout_.max_branches} * tree_capacity_, BranchPool::kMaxBranches));
     nodes_.allocate(std::size_t{max_branches_} * 4 * sizeof(std::uint32_t));
     branches_.allocate(max_branches_ * sizeof(PoolBranch));
     for (Buffer& sorted : sorted_) {
@@ -263,12 +263,12 @@ bool ForestCulling::show(const ForestLod& lod, ForestBuffers& buffers) {
     }
     digits_.allocate((std::size_t{max_branches_} / kSortPart + 1) * (std::size_t{1} << kDigitBits) *
                      sizeof(std::uint32_t));
-    keys_.allocate((std::size_t{sizes_.key_count} + 1) * 2 * sizeof(std::uint32_t));
+    keys_.allocate((std::size_t{table_layout_.key_count} + 1) * 2 * sizeof(std::uint32_t));
     sort_passes_ = 1;
-    while (sort_passes_ < 4 && sizes_.key_count >> (sort_passes_ * kDigitBits) != 0) {
+    while (sort_passes_ < 4 && table_layout_.key_count >> (sort_passes_ * kDigitBits) != 0) {
         ++sort_passes_;
     }
-    const CommandTemplates templates = buffers.command_templates(sizes_.first_keys);
+    const CommandTemplates templates = buffers.command_templates(table_layout_.first_keys);
     command_count_ = static_cast<std::uint32_t>(templates.commands.size());
     commands_.fill(std::span<const DrawCommand>(templates.commands));
     command_keys_.fill(std::span<const std::uint32_t>(templates.keys));
@@ -329,7 +329,7 @@ void ForestCulling::begin(const ForestLod& lod, const ForestBuffers& buffers, Bl
     block.limits[3] = max_candidates_;
     const std::uint64_t key = lod.model().forest->key;
     block.key = {static_cast<std::uint32_t>(key), static_cast<std::uint32_t>(key >> 32U),
-                 tree_capacity_, sizes_.key_count};
+                 tree_capacity_, table_layout_.key_count};
     blocks_.begin();
     std::memcpy(blocks_.data(), &block, sizeof(block));
     glBindBufferRange(GL_UNIFORM_BUFFER, kBlockBinding, blocks_.name(), blocks_.offset(),

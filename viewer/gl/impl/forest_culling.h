@@ -25,14 +25,13 @@
 
 namespace lsys::view {
 
-/// Why a device cannot choose trees with compute shaders; nullopt: it can. Limits of OpenGL:
-/// GL_MAX_SHADER_STORAGE_BUFFER_BINDINGS, GL_MAX_COMPUTE_SHADER_STORAGE_BLOCKS and
-/// GL_MAX_COMPUTE_WORK_GROUP_INVOCATIONS.
+/// Limits of OpenGL that decide whether compute shaders can choose trees.
 struct CullingLimits {
-    std::int32_t storage_bindings = 0;
-    std::int32_t storage_blocks = 0;
-    std::int32_t invocations = 0;
+    std::int32_t storage_bindings = 0; // GL_MAX_SHADER_STORAGE_BUFFER_BINDINGS
+    std::int32_t storage_blocks = 0;   // GL_MAX_COMPUTE_SHADER_STORAGE_BLOCKS
+    std::int32_t invocations = 0;      // GL_MAX_COMPUTE_WORK_GROUP_INVOCATIONS
 };
+/// The first limit that is too low for the compute shaders, as text; nullopt: none is.
 [[nodiscard]] std::optional<std::string> lacking_for_culling(const CullingLimits& limits);
 /// Limits of the current context.
 [[nodiscard]] CullingLimits culling_limits();
@@ -156,7 +155,7 @@ private:
     MappedBuffer blocks_;
     MappedBuffer states_;
     GpuTimer timer_;
-    CullingTables sizes_; // without words
+    CullingTables table_layout_; // `words` is empty: tables_ has them
     Buffer rays_;
     Buffer tables_;
     Buffer identities_;
