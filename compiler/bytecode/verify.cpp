@@ -595,9 +595,9 @@ private:
         }
     }
 
-    /// Whether If, Else and EndIf are in order, skip to each other, and leave one value on each
-    /// side, and whether other instructions are allowed within a choice. `depth`: stack depth after
-    /// the instruction.
+    /// Whether an instruction fits the open choices: If skips to the instruction after its Else,
+    /// Else to the one after its EndIf, each side leaves one value, and Emit and Test are outside
+    /// of choices. `depth`: stack depth after the instruction.
     bool choice(Opcode opcode, std::uint64_t at, std::uint32_t operand, std::uint32_t depth) {
         if (opcode == Opcode::If) {
             choices_.push_back({at + operand + 1, depth, set_slots_.size(), false});

@@ -281,9 +281,9 @@ void draw_cache(ForestView& view) {
     if (document == nullptr || !ImGui::CollapsingHeader("Branch reuse")) {
         return;
     }
-    constexpr std::uint32_t kMaxKept = 64;
+    constexpr std::uint32_t kMaxCacheCap = 64;
     edit_integer("Max per key", document->scene.species.front().cache.cap,
-                 view.settings.edits.cache_cap, 0U, kMaxKept,
+                 view.settings.edits.cache_cap, 0U, kMaxCacheCap,
                  document->scene.species.front().cache.cap == 0 ? "no limit" : "%u");
     for (const CacheStats& each : view.stats().caches) {
         line(fmt::format("{}, {} generations:", each.species, each.generations));

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "light.glsl"
 #include "impostor.glsl"
-layout(std430, binding = 4) readonly buffer Boxes { vec4 boxes[]; }; // opaque box of each tile
+// Bounds of the opaque texels of each tile.
+layout(std430, binding = 4) readonly buffer Boxes { vec4 boxes[]; };
 layout(location = 0) in uint index; // of the tree or cluster
 layout(location = 1) in vec2 range;
 #ifdef BLENDS

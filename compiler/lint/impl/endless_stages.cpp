@@ -53,7 +53,7 @@ public:
     [[nodiscard]] std::uint32_t first_production(SymbolId symbol) const {
         return tried_[static_cast<std::size_t>(symbol)].front();
     }
-    /// Calls visit(symbol) for each endless module that a production of `symbol` may write.
+    /// Calls visit(next) for each endless symbol in a successor of `symbol`.
     template <typename Visit>
     void for_each_next(SymbolId symbol, const Visit& visit) const {
         for (const std::uint32_t p : tried_[static_cast<std::size_t>(symbol)]) {

@@ -110,7 +110,8 @@ private:
             if (code(p).stochastic) {
                 first_stochastic.emplace(group, p);
             }
-            // A stochastic production is tried together with the first production of its group.
+            // A stochastic production may be chosen as soon as the first stochastic production of
+            // its group is tried.
             const std::uint32_t from = code(p).stochastic ? first_stochastic.at(group) : p;
             const auto own = first_unconditional.find(group);
             std::uint32_t earlier =

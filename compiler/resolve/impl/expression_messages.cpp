@@ -396,7 +396,7 @@ void ExpressionResolver::report_unknown_function(const Expression& expression, N
     if (attempted_.defines(text) || files_missing_ || resolution_.options.part) {
         return;
     }
-    // The name in the source may be shorter than `text`, which has no characters beyond ASCII.
+    // The name in the source may be shorter than `text`, where `_00E9` stands for U+00E9.
     const std::string_view source = resolution_.sources.text(expression.span());
     const std::size_t length = std::min(source.find_first_of(" \t\r\n(/"), source.size());
     const SourceSpan name{expression.file, expression.begin,

@@ -61,13 +61,13 @@ std::string HoudiniWriter::probability_of(ForeignId condition) const {
 /// with a condition that probability_of() knows, the second without a condition.
 void HoudiniWriter::find_random_pairs() {
     std::map<std::string, std::vector<const HoudiniRule*>> groups;
-    std::map<std::string_view, std::size_t> rules_of; // by symbol
+    std::map<std::string_view, std::size_t> rule_counts; // by symbol
     for (const HoudiniRule& rule : session_.rules) {
         groups[group_of(rule)].push_back(&rule);
-        ++rules_of[text(rule.predecessor.front().symbol)];
+        ++rule_counts[text(rule.predecessor.front().symbol)];
     }
     for (const auto& [group, rules] : groups) {
-        if (rules.size() != 2 || rules_of[text(rules[0]->predecessor.front().symbol)] != 2 ||
+        if (rules.size() != 2 || rule_counts[text(rules[0]->predecessor.front().symbol)] != 2 ||
             has_probability_[group] || rules[0]->condition == kNoForeign ||
             rules[1]->condition != kNoForeign) {
             continue;
@@ -220,7 +220,7 @@ void HoudiniWriter::write_variant(const HoudiniRule& rule,
     const Word word = lower_word(rule.successor, {HoudiniPlace::Successor, &rule, &zeros_});
     std::set<std::string> taken{"value_b", "value_c", "value_d", "g"};
     taken.insert(rule.formals.begin(), rule.formals.end());
-    for (std::size_t i = 0; i < constants_; ++i) {
+    for (std::size_t i = 0; i < premise_local_count_; ++i) {
         taken.insert(tree_.locals()[i].name);
     }
     name_locals(word, first, std::move(taken));

@@ -142,8 +142,8 @@ void HoudiniWriter::write(std::string_view turtle) {
         taken.insert(rule.formals.begin(), rule.formals.end());
     }
     name_locals(premise, 0, std::move(taken));
-    constants_ = tree_.locals().size();
-    tree_.write_constants(0, constants_, translation_);
+    premise_local_count_ = tree_.locals().size();
+    tree_.write_constants(0, premise_local_count_, translation_);
     translation_.put("\n#w : ", session_.premise_span);
     write_word(premise);
     translation_.put(";\n\n");

@@ -93,7 +93,7 @@ private:
     std::vector<std::string_view> zeros_;   // parameters that the variant of a rule lacks
     std::string warned_;                    // symbols that have been reported
     std::uint32_t fresh_ = 0;               // count of generated parameter names
-    std::size_t constants_ = 0;             // number of local values of the premise
+    std::size_t premise_local_count_ = 0;   // the first of tree_.locals()
 };
 
 } // namespace lsys

@@ -65,7 +65,7 @@ unmatched_branch(std::string_view text, std::uint32_t begin, std::uint32_t at) {
                 open.pop_back();
             }
         } else if (c == ']' && !open.empty()) {
-            open.erase(open.begin()); // assumed to close an outer `[`: the innermost is the suspect
+            open.erase(open.begin()); // closes the outermost `[`, so that the innermost is found
         }
         return true;
     });

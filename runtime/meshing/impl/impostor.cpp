@@ -23,8 +23,8 @@ namespace {
 
 constexpr int kMinTile = 16; // texels of a side of a picture
 constexpr int kMaxTile = 128;
-constexpr float kTexelsPerPixel = 1.3F; // max, where the impostor is first shown on screen
-constexpr int kMinSamples = 256;        // samples of a side of a picture
+constexpr float kMaxTexelsPerPixel = 1.3F; // at the screen size where the impostor is first shown
+constexpr int kMinSamples = 256;           // samples of a side of a picture
 constexpr int kMaxSamples = 512;
 constexpr int kSamplesPerTexel = 8; // along each side, within kMinSamples and kMaxSamples
 constexpr int kOpaqueByte = 128;
@@ -160,7 +160,8 @@ strip_around(int side, const std::vector<std::uint8_t>& marked, std::size_t coun
     }
     std::vector<glm::vec2> corners;
     for (std::size_t k = 0; k <= count; ++k) {
-        // Where several trapezoids show nothing, they are as narrow as possible.
+        // Between two empty trapezoids the corners are one texel apart, centred below the
+        // previous pair.
         const Span before = k > 0 ? Span{corners[2 * k - 2].x, corners[2 * k - 1].x} : Span{};
         const float middle = 0.5F * (before.left + before.right);
         const Span own = ends[k].is_empty() ? Span{middle - 0.5F, middle + 0.5F} : ends[k];
@@ -214,7 +215,7 @@ struct ImpostorBaker::Canvas {
 ImpostorBaker::ImpostorBaker(const Mesh& mesh, float pixels, std::uint64_t triangles)
     : tile_(kMinTile), slabs_(triangles < kMinSlabTriangles ? 1 : 3), columns_(slabs_ == 1 ? 2 : 4),
       triangles_(triangles) {
-    while (tile_ < kMaxTile && static_cast<float>(2 * tile_) <= kTexelsPerPixel * pixels) {
+    while (tile_ < kMaxTile && static_cast<float>(2 * tile_) <= kMaxTexelsPerPixel * pixels) {
         tile_ *= 2;
     }
     Canvas canvas(samples_of(tile_));

@@ -173,15 +173,15 @@ TEST_CASE("a square that is not wanted any more is kept for a camera that turns 
     ShownSquares shown;
     const Camera first = flying_camera(0.0, 0.0);
     REQUIRE(shown.settle(streamer, first));
-    const auto squares_then = shown.squares;
-    const std::uint64_t made = streamer.stats().made;
+    const auto first_squares = shown.squares;
+    const std::uint64_t made_at_first = streamer.stats().made;
     REQUIRE(shown.settle(streamer, flying_camera(600.0, 0.0)));
-    CHECK(shown.squares != squares_then);
-    const std::uint64_t made_then = streamer.stats().made;
-    CHECK(made_then > made);
+    CHECK(shown.squares != first_squares);
+    const std::uint64_t made_in_total = streamer.stats().made;
+    CHECK(made_in_total > made_at_first);
     REQUIRE(shown.settle(streamer, first));
-    CHECK(shown.squares == squares_then);
-    CHECK(streamer.stats().made == made_then);
+    CHECK(shown.squares == first_squares);
+    CHECK(streamer.stats().made == made_in_total);
 }
 
 TEST_CASE("a camera that jumps keeps the budget") {
