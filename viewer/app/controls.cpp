@@ -276,6 +276,12 @@ bool Controls::press_common(const KeyPress& press, View& view, PanelState& panel
     case Key::A:
         panels.statistics = !panels.statistics;
         return true;
+    case Key::M: {
+        std::string messages = view.all_messages();
+        panels.closed_messages =
+            panels.closed_messages == messages ? std::string() : std::move(messages);
+        return true;
+    }
     default:
         return false;
     }

@@ -7,6 +7,7 @@
 
 #include <array>
 #include <optional>
+#include <string>
 
 namespace lsys::view {
 
@@ -17,6 +18,8 @@ struct PanelState {
     bool help = false;
     bool flies = false; // fly mode: the mouse looks around, WASD move
     bool quits = false;
+    /// Messages that the user closed, as View::all_messages(); others are shown.
+    std::string closed_messages;
     // The user was warned of unsaved changes; the next request closes the window.
     bool asked_to_quit = false;
 };
@@ -26,7 +29,7 @@ struct KeyHelp {
     const char* keys;
     const char* what;
 };
-inline constexpr std::array<KeyHelp, 29> kPlantKeys = {{
+inline constexpr std::array<KeyHelp, 30> kPlantKeys = {{
     {"Left drag", "Orbit"},
     {"Click", "Describe the module and the production that wrote it"},
     {"T", "Trace of the module: why written, next step, back to the axiom"},
@@ -52,13 +55,14 @@ inline constexpr std::array<KeyHelp, 29> kPlantKeys = {{
     {"P", "Save a picture (PNG) in the current folder"},
     {"H", "Panels"},
     {"A", "Statistics"},
+    {"M", "Close or show the messages"},
     {"F1", "Keys"},
     {"Esc", "Cancel what is being made; close the keys, stop flying"},
     {"Ctrl+Q", "Quit"},
     {"Drop a file", "Open it"},
 }};
 
-inline constexpr std::array<KeyHelp, 29> kForestKeys = {{
+inline constexpr std::array<KeyHelp, 30> kForestKeys = {{
     {"Left drag", "Orbit; with a tool: paint, Shift: erase"},
     {"Click", "Without a tool: describe the branch and its production"},
     {"Right drag", "Pan; with a tool: orbit"},
@@ -84,6 +88,7 @@ inline constexpr std::array<KeyHelp, 29> kForestKeys = {{
     {"R", "Reload files"},
     {"P", "Save a picture (PNG) in the current folder"},
     {"H, A", "Panels, statistics"},
+    {"M", "Close or show the messages"},
     {"F1", "Keys"},
     {"Esc", "Cancel what is being made; put the tool away, close the keys, stop flying"},
     {"Ctrl+Q", "Quit"},

@@ -121,15 +121,15 @@ void draw_statistics(ViewSwitcher& switcher, const Area& area) {
 const ImVec4 kErrorColour{1.0F, 0.72F, 0.66F, 1.0F};
 const ImVec4 kWarningColour{1.0F, 0.93F, 0.7F, 1.0F};
 
-/// A message; a click shows its source lines.
-void draw_message(const ShownMessage& message, int number, bool is_first) {
+/// A message; a click shows its source lines. `is_open`: whether it shows them at first.
+void draw_message(const ShownMessage& message, int number, bool is_open) {
     ImGui::PushID(number);
     ImGui::PushStyleColor(ImGuiCol_Text,
                           message.severity == Severity::Error ? kErrorColour : kWarningColour);
     if (message.text.empty()) {
         line(message.head);
     } else {
-        ImGui::SetNextItemOpen(is_first, ImGuiCond_Appearing);
+        ImGui::SetNextItemOpen(is_open, ImGuiCond_Appearing);
         if (ImGui::TreeNodeEx("message", ImGuiTreeNodeFlags_SpanFullWidth, "%s",
                               message.head.c_str())) {
             line(message.text);
@@ -140,9 +140,15 @@ void draw_message(const ShownMessage& message, int number, bool is_first) {
     ImGui::PopID();
 }
 
-/// Draws the messages of the grammar or scene, of shaders and of OpenGL. Returns the upper edge of
-/// their panel, or the lower edge of the area.
-float draw_messages(const View& view, const Area& area) {
+/// Draws the messages of the grammar or scene, of shaders and of OpenGL, unless the user closed them.
+/// Returns the upper edge of their panel, or the lower edge of the area.
+float draw_messages(const View& view, PanelState& panels, const Area& area) {
+    if (!panels.closed_messages.empty()) {
+        if (panels.closed_messages == view.all_messages()) {
+            return area.high.y;
+        }
+        panels.closed_messages.clear();
+    }
     std::vector<ShownMessage> errors;
     if (!view.shader_message().empty()) {
         errors.push_back({Severity::Error, "error: " + view.shader_message(), {}});
@@ -163,9 +169,14 @@ float draw_messages(const View& view, const Area& area) {
                                         ImGuiWindowFlags_HorizontalScrollbar |
                                         ImGuiWindowFlags_AlwaysAutoResize;
     if (ImGui::Begin("Messages", nullptr, kFlags)) {
+        if (ImGui::SmallButton("Close (M)")) {
+            panels.closed_messages = view.all_messages();
+        }
         int number = 0;
         for (const ShownMessage& message : view.entries()) {
-            draw_message(message, number, number == 0);
+            // Notes may stay for long, so they begin as one line.
+            const bool is_note = message.severity == Severity::Note;
+            draw_message(message, number, number == 0 && !is_note);
             ++number;
         }
         for (const ShownMessage& message : errors) {
@@ -418,7 +429,7 @@ void draw_panels(ViewSwitcher& switcher, PanelState& panels, float scale) {
     if (panels.statistics) {
         draw_statistics(switcher, area);
     }
-    const float bottom = draw_messages(switcher.current(), area);
+    const float bottom = draw_messages(switcher.current(), panels, area);
     draw_hint(switcher.current(), panels, area);
     draw_picked(switcher.current(), area);
     draw_trace(switcher.current(), area, bottom);

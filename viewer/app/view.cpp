@@ -64,6 +64,14 @@ void View::take_messages(const Messages& messages, bool succeeded) {
     failed_ = !succeeded;
 }
 
+std::string View::all_messages() const {
+    std::string all = text_ + shader_message_;
+    for (const std::string& error : renderer_->errors()) {
+        all += error;
+    }
+    return all;
+}
+
 bool View::reload_shaders() {
     if (!shaders_changed_.exchange(false)) {
         return false;

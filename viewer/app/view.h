@@ -107,6 +107,8 @@ public:
 
     /// Messages of the last request, formatted as `lsc` does.
     [[nodiscard]] const std::string& messages() const { return text_; }
+    /// Messages of the last request, of shaders and of OpenGL.
+    [[nodiscard]] std::string all_messages() const;
     /// Messages of the last request, one by one.
     [[nodiscard]] const std::vector<ShownMessage>& entries() const { return entries_; }
     /// Whether the last request failed.

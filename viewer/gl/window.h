@@ -38,6 +38,7 @@ enum class Key : std::uint8_t {
     H = 'H',
     I = 'I',
     L = 'L',
+    M = 'M',
     N = 'N',
     O = 'O',
     P = 'P',
