@@ -291,9 +291,10 @@ private:
                     const Frustum& frustum,
                     const LodOptions& options,
                     float weight = 1.0F);
-    /// Max error, m, of the height at which a cluster shows trees at the edges of its cell: its
-    /// picture is taken from one of few elevations.
-    [[nodiscard]] float cluster_height_error(const ForestCell& cell, const glm::vec3& eye) const;
+    /// Length in m that must be small on the screen where a cell is drawn as a cluster: the height
+    /// of its trees; twice the max error of the height at which it shows trees at its edges, as its
+    /// picture is taken from one of few elevations; seen from above, about its side.
+    [[nodiscard]] float cluster_size(const ForestCell& cell, const glm::vec3& eye) const;
     /// Lists a cell as a cluster, as its trees, or as both.
     void visit_cell(std::uint32_t index,
                     float distance,

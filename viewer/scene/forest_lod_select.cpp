@@ -154,7 +154,7 @@ Sphere ForestLod::swaying(const Sphere& sphere, const LodTree& tree) const {
 
 Bounds ForestLod::impostor_box(const LodTree& tree, const glm::vec3& eye) const {
     // Impostors have a margin, and those seen from above lean back: shaders/impostor.glsl.
-    constexpr float kLevel = 0.3F; // sine of the max elevation of side views
+    constexpr float kLevel = 0.15F; // sine of the max elevation of side views of all trees
     const Sphere sphere = impostor_sphere(tree);
     const float wide = kImpostorMargin * sphere.radius;
     const bool is_level =
@@ -169,14 +169,23 @@ bool ForestLod::is_occluded(const Bounds& box, float sway) const {
     return ground_ != nullptr && ground_->occludes(box.low - sway, box.high + sway);
 }
 
-float ForestLod::cluster_height_error(const ForestCell& cell, const glm::vec3& eye) const {
+float ForestLod::cluster_size(const ForestCell& cell, const glm::vec3& eye) const {
     // Elevations of the pictures and the limits between them: shaders/impostor.vert.glsl.
     constexpr std::array<float, 3> kSines = {0.0F, 0.573576F, 0.965926F};
     constexpr std::array<float, 2> kLimits = {0.300676F, 0.819127F};
     const float away = std::max(glm::distance(eye, cell.middle), kNearest);
     const float sine = std::clamp((eye.y - cell.middle.y) / away, 0.0F, 1.0F);
     const std::size_t picture = sine < kLimits[0] ? 0 : sine < kLimits[1] ? 1 : 2;
-    return 0.5F * static_cast<float>(cell_size_) * std::abs(sine - kSines[picture]);
+    // Twice the vertical error of trees at the edges, by the elevation of the picture.
+    const float height_error = std::abs(sine - kSines[picture]);
+    // The picture is as wide as the cell: low trees far apart would cover few of its texels.
+    constexpr float kMinHeight = 1.0F / 6.0F;
+    // From above no cell hides the next one, and their pictures would show as a grid.
+    constexpr float kSideView = 0.25F; // sine of the elevation
+    constexpr float kFootprint = 2.5F;
+    const float footprint = kFootprint * (sine - kSideView);
+    const float per_side = std::max({height_error, kMinHeight, footprint});
+    return std::max(cell.tallest, per_side * static_cast<float>(cell_size_));
 }
 
 void ForestLod::visit_cell(std::uint32_t index,
@@ -191,12 +200,7 @@ void ForestLod::visit_cell(std::uint32_t index,
     float weight = 1.0F; // weight of single trees against the cluster
     if (cell.count >= kMinClusterTrees && cell.removed == 0 && options.cluster_pixels > 0.0F) {
         const float scale = frustum.pixels / std::max(distance, kNearest); // pixels per metre
-        // The picture of a cluster is as wide as its cell: low trees far apart would cover few of
-        // its texels.
-        constexpr float kMinHeightPerCellSize = 1.0F / 6.0F;
-        const float pixels =
-            scale * std::max({cell.tallest, 2.0F * cluster_height_error(cell, frustum.eye),
-                              kMinHeightPerCellSize * static_cast<float>(cell_size_)});
+        const float pixels = scale * cluster_size(cell, frustum.eye);
         weight = pixels < options.cluster_pixels
                      ? 0.0F
                      : finer_weight(pixels, options.cluster_pixels, options.blend);

@@ -18,12 +18,13 @@ const uint kTrees = 2u;
 const uint kMinClusterTrees = 8u;
 const uint kHasRemoved = 0x80000000u;
 
-float cluster_height_error(vec3 middle) {
+float cluster_size(float tallest, vec3 middle) {
     vec3 eye = culling.eye_pixels.xyz;
     float away = max(distance(eye, middle), kNearest);
     float sine = clamp((eye.y - middle.y) / away, 0.0, 1.0);
     float shown = sine < 0.300676 ? 0.0 : sine < 0.819127 ? 0.573576 : 0.965926;
-    return 0.5 * culling.clusters.y * abs(sine - shown);
+    float per_side = max(max(abs(sine - shown), 1.0 / 6.0), 2.5 * (sine - 0.25));
+    return max(tallest, per_side * culling.clusters.y);
 }
 
 // Class of a cell, and the weight of its trees against its cluster.
@@ -55,9 +56,7 @@ uvec2 code_of(uint index) {
     if (count >= kMinClusterTrees && count == high_words.w && culling.clusters.x > 0.0) {
         vec3 eye = culling.eye_pixels.xyz;
         float away = max(distance(eye, clamp(eye, low.xyz, high)), kNearest);
-        float shown = max(max(low.w, 2.0 * cluster_height_error(middle)),
-                          (1.0 / 6.0) * culling.clusters.y);
-        float pixels = culling.eye_pixels.w / away * shown;
+        float pixels = culling.eye_pixels.w / away * cluster_size(low.w, middle);
         weight = pixels < culling.clusters.x ? 0.0 : finer_weight(pixels, culling.clusters.x);
     }
     if (weight >= 1.0) {

@@ -68,7 +68,7 @@ uvec2 code_of(uint element) {
         return uvec2(0u);
     }
     // ForestLod::impostor_box()
-    const float kLevel = 0.3;
+    const float kLevel = 0.15;
     const float kMargin = 1.04; // kImpostorMargin
     bool is_level = abs(eye.y - centre.y) < kLevel * distance(eye, centre);
     float wide = kMargin * radius;

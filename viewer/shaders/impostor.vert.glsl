@@ -36,10 +36,14 @@ void main() {
 #else
     vec3 to_eye = normalize(frame.eye_time.xyz - centre);
 #endif
+    is_cluster = int(forms[tree.form].layers.y);
     float upwards = asin(clamp(to_eye.y, 0.0, 1.0));
+#ifndef SHADOW
+    // Trees change elevations at shifted angles, so that the changes form no visible line.
+    upwards += is_cluster != 0 ? 0.0 : kElevationShift * (tree.phase - 0.5);
+#endif
     int elevation = upwards < 0.3054 ? 0 : upwards < 0.9599 ? 1 : 2;
     float turns = (atan(to_eye.x, to_eye.z) - tree.yaw) / 6.2831853;
-    is_cluster = int(forms[tree.form].layers.y);
     // Adjacent clusters change views at shifted angles, so that the changes form no visible line.
     float view_shift = is_cluster != 0 ? 0.8 * (tree.phase - 0.5) : 0.0;
     int view = int(floor(fract(turns) * float(kYaws) + 0.5 + view_shift + float(kYaws))) % kYaws;

@@ -441,3 +441,17 @@ TEST_CASE("a forest without trees has empty draw lists") {
     CHECK(lists.clusters.empty());
     CHECK(lod.bounds().empty);
 }
+
+TEST_CASE(
+    "cells seen from above are drawn as trees at distances where they are clusters from aside") {
+    const auto wood = make_wood(3000, 200.0F);
+    ForestLod lod(wood->model);
+    const glm::vec3 middle(100.0F, 0.0F, 100.0F);
+    const auto clustered = [&](const glm::vec3& from) {
+        const Frustum frustum =
+            make_frustum(looking(middle + 700.0F * glm::normalize(from), middle), 640, 480);
+        return lod.select(frustum, wood_lod()).clustered_trees;
+    };
+    CHECK(clustered({1.0F, 0.1F, 0.3F}) > 500);
+    CHECK(clustered({1.0F, 2.0F, 0.3F}) == 0);
+}
