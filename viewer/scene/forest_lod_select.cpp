@@ -31,7 +31,7 @@ float finer_weight(float pixels, float limit, float blend) {
     return blend > 1.0F ? std::clamp((pixels / limit - 1.0F) / (blend - 1.0F), 0.0F, 1.0F) : 1.0F;
 }
 
-/// Part of the pixels of trees at a distance of the eye, m, that is drawn: 1 up to four fifths of
+/// Fraction of a tree's pixels that are drawn at `distance` from the eye, m: 1 up to four fifths of
 /// `range`, 0 beyond it.
 float presence_at(float distance, float range) {
     constexpr float kFading = 0.2F;
@@ -191,8 +191,8 @@ void ForestLod::visit_cell(std::uint32_t index,
     float weight = 1.0F; // weight of single trees against the cluster
     if (cell.count >= kMinClusterTrees && cell.removed == 0 && options.cluster_pixels > 0.0F) {
         const float scale = frustum.pixels / std::max(distance, kNearest); // pixels per metre
-        // The picture of a cluster is as wide as its cell: low trees far apart would cover few of
-        // its texels.
+        // The picture of a cluster is as wide as its cell. Low trees far apart would cover few of
+        // its texels, so the size of the cell sets a min height.
         constexpr float kMinHeightPerCellSize = 1.0F / 6.0F;
         const float pixels =
             scale * std::max({cell.tallest, 2.0F * cluster_height_error(cell, frustum.eye),
