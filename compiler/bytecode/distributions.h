@@ -12,7 +12,7 @@ namespace lsys {
 inline constexpr float kMaxPoissonMean = 700.0F;
 inline constexpr float kMaxTrials = 10000.0F;
 
-/// Whether the instruction draws from a distribution other than that of a range.
+/// Whether the instruction draws from a distribution. False for a range.
 [[nodiscard]] constexpr bool is_distribution(Opcode opcode) {
     return opcode == Opcode::Normal || opcode == Opcode::Poisson || opcode == Opcode::Binomial;
 }

@@ -150,7 +150,7 @@ public:
     void table_or_none(std::vector<Row>& rows, Function row) {
         table(rows, row);
     }
-    /// Makes at most as many rows as the remaining bytes can hold.
+    /// Fails for more rows than the remaining bytes can hold, before any row is made.
     template <typename Row, typename Function>
     void table(std::vector<Row>& rows, Function row) {
         std::string smallest; // bytes of a row with empty texts, the min size of a row

@@ -40,7 +40,7 @@ struct TurtleInfo {
         SecondHeading = 4,     // moves along Fractint's second heading, which has its own turns
         DependsOnVertical = 8, // draws differently when the branch is turned
         DependsOnPlace = 16,   // draws differently when the branch is moved
-        AddsCorners = 32,      // its start and end are corners of a polygon without `.`
+        AddsCorners = 32,      // a move whose ends are corners of a polygon without `.`
         PreparesDrawing = 64,  // has an effect only together with modules that draw
         OneIsDefault = 128,    // the program L3D treats a parameter of 1 as omitted
         HasNoLength = 256,     // an object that does not move the turtle

@@ -35,7 +35,7 @@ struct GridSample {
 /// A parameter that the conditions depend on.
 struct GridAxis {
     std::uint32_t parameter = 0;
-    bool compared = false;           // a condition compares it with another one
+    bool compared = false;           // a condition compares it with another parameter
     std::vector<GridCell> cells;     // ascending, without gaps
     std::vector<GridSample> samples; // ascending; one per cell, up to three if compared
 };

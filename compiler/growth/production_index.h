@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The productions of each symbol and of each stochastic group, and the relevant parameters: those
-// that a condition reads, and those from which successors compute relevant parameters.
+// The productions of each symbol and of each stochastic group, and the relevant parameters: the
+// parameters that a condition or weight reads, or from which successors compute relevant ones.
 #pragma once
 
 #include "compiler/bytecode/instructions.h"
@@ -36,7 +36,7 @@ public:
     }
     [[nodiscard]] std::uint32_t relevant_count(SymbolId symbol) const;
     [[nodiscard]] bool any_relevant() const { return any_relevant_; }
-    /// Whether a condition or a relevant argument calls step().
+    /// Whether a condition, a weight or a relevant argument calls step().
     [[nodiscard]] bool depends_on_age() const { return depends_on_age_; }
 
 private:

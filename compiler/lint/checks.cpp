@@ -9,7 +9,7 @@ namespace {
 
 struct ListedCheck {
     Check check;
-    bool needs_complete; // true: skip the check for a program with errors
+    bool needs_complete; // true: run the check only if Program::is_valid
 };
 
 // Diagnostics at the same place appear in the order of this list.

@@ -18,7 +18,7 @@ namespace lsys {
 /// The input of a check.
 struct CheckInput {
     const Program& program;
-    /// Null if the program has errors. A production has the same index as in `program`.
+    /// Null if the program was not lowered. A production has the same index as in `program`.
     const Bytecode* bytecode;
     const Names& names;
     const SourceMap& sources;
@@ -33,8 +33,8 @@ struct CheckInput {
 
 using Check = void (*)(const CheckInput& input, Diagnostics& diagnostics);
 
-/// Runs all checks. For an incomplete program (Program::complete) runs only the checks of single
-/// productions, words and statements.
+/// Runs all checks. Without Program::is_valid runs only the checks of single productions, words and
+/// statements.
 void run_checks(const CheckInput& input, Diagnostics& diagnostics);
 
 // Checks of rules of docs/language.md that need the whole program, each in a file of its own. Lints

@@ -3,7 +3,7 @@
 // probabilities are separate, joined names are split. Made by resolve/ from an Ast, changed by
 // instancing/, lowered to Bytecode by lower/. Holds no text but names and no pointer into the Ast.
 //
-// The Program of a grammar with errors (`complete` is false) only serves further checks. It is
+// The Program of a grammar with errors (`is_valid` is false) only serves further checks. It is
 // still well-formed: productions whose head or names could not be resolved are left out, and an
 // expression in error is kPoison.
 #pragma once
@@ -28,7 +28,7 @@ namespace lsys {
 enum class ValueId : std::uint32_t {};
 inline constexpr ValueId kNoValue{0xFFFFFFFFu};
 /// Program::values[0]: the literal NaN, which replaces an expression in error. Checks ignore it. No
-/// literal of a complete program has this id.
+/// literal of a valid program has this id.
 inline constexpr ValueId kPoison{0};
 
 /// A node of an expression: an instruction and its operands. Constants are folded: a node whose
@@ -237,7 +237,7 @@ struct Program {
     std::vector<Production> productions;    // stage Rewrite first, Interpret last
     std::uint32_t rule_count = 0;           // rules: productions with equal predecessors
     std::uint32_t context_group_count = 0;  // groups: productions of a rule with equal contexts
-    std::vector<Axiom> axioms;              // at least one if `complete`
+    std::vector<Axiom> axioms;              // at least one if `is_valid`
 
     ChunkedVector<ProgramModule> modules;
     ChunkedVector<ValueId> arguments;

@@ -72,7 +72,7 @@ public:
     /// between two adjacent texts.
     [[nodiscard]] ModuleList quoted_text(ModuleList list, TextRange quoted);
     /// Gives the last `count` arguments to the last module of `list`; `parentheses` is the span
-    /// from `(` to `)`. Reports a second pair of parentheses, and a pair without a module.
+    /// from `(` to `)`. Reports a second pair of parentheses, and a pair after an empty text.
     [[nodiscard]] ModuleList
     module_arguments(ModuleList list, std::uint32_t count, SourceSpan parentheses);
 
@@ -140,7 +140,7 @@ public:
 private:
     /// State of the last name of the current module list, for parentheses after it.
     enum class LastName : std::uint8_t {
-        None,  // the last character is not a module and has been reported
+        None,  // no name yet, or a character that was reported because it is not a module
         Empty, // an empty text in back quotes
         Bare,
         Called, // with parameters

@@ -337,7 +337,7 @@ void AstBuilder::remove_slashes(std::uint32_t begin) {
 
 /// Records a `//` before a word; the author may have meant a comment.
 void AstBuilder::check_stray_comment(std::uint32_t slashes) {
-    // Per grammar; bounds the memory for files that use `//` to roll the turtle twice.
+    // Maximum per grammar; bounds the memory for files that use `//` to roll the turtle twice.
     constexpr std::size_t kMaxKept = 10'000;
     const std::size_t next = scanned_.text.find_first_not_of(" \t", slashes + 2);
     if (next != std::string_view::npos && is_letter(scanned_.text[next]) &&

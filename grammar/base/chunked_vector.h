@@ -91,7 +91,7 @@ public:
         LSYS_CHECK(index < size_, index, size_);
         return {element(index), std::min({count, size_ - index, kBlock - index % kBlock})};
     }
-    /// The first index for which `holds(element)` is false. Precondition: it is true for the
+    /// The first index for which `holds(element)` is false. Precondition: `holds` is true for the
     /// elements before that index and false for all others.
     template <typename Predicate>
     [[nodiscard]] std::size_t partition_point(const Predicate& holds) const {

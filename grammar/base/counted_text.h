@@ -8,8 +8,8 @@
 
 namespace lsys {
 
-/// A count with its noun. `number` is the count as the caller formats it (`2,000`); `noun` is
-/// regular, and in the plural unless `count` is 1.
+/// A count with its noun. `number` is the count as the caller formats it (`2,000`); `noun` is a
+/// singular with a regular plural, which the text has unless `count` is 1.
 [[nodiscard]] inline std::string
 counted(std::uint64_t count, std::string_view number, std::string_view noun) {
     std::string text(number);

@@ -193,8 +193,8 @@ void Diagnostics::promote_unstored_warnings() {
 
 std::optional<std::string_view> nearest_name(std::string_view wanted,
                                              const std::vector<std::string_view>& candidates) {
-    // A third of the letters of the shorter name may differ. Letter case alone never counts, and in
-    // a name of one or two letters nothing else may differ.
+    // A name that differs only in letter case is always chosen. Otherwise a third of the letters of
+    // the shorter name may differ, and none if it has one or two.
     std::optional<std::string_view> best;
     std::size_t best_distance = std::numeric_limits<std::size_t>::max();
     for (const std::string_view candidate : candidates) {

@@ -131,9 +131,9 @@ public:
             }
         }
     }
-    /// Removes help texts that contain `pattern`, a form that the file cannot use, and all fixes
-    /// except those whose replacements are names of at least two characters without `_`. The
-    /// remaining fixes become offers.
+    /// Removes repairs that propose .lsys text, for a file of a dialect: help texts that contain
+    /// `pattern`, and fixes whose replacements are not names of at least two characters without
+    /// `_`. The remaining fixes become offers.
     void drop_repairs(std::string_view pattern);
     /// Gives each diagnostic the severity that `severity_of` returns for it, or removes it.
     template <typename SeverityOf>

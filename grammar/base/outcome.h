@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Outcome<T>: a value or the reason for its absence, with the messages of the step. Returned by
-// every step of the pipeline, which may end by mistakes of the author, the environment, a limit or
-// the user. Result<T> is for a single failure of the environment without diagnostics.
+// Outcome<T>: a value or the reason for its absence, with messages. Returned by every step of the
+// pipeline: mistakes of the author, the environment, a limit or the user may end a step. Result<T>
+// is for a single failure of the environment without diagnostics.
 #pragma once
 
 #include "grammar/base/contract.h"

@@ -9,8 +9,8 @@
 
 namespace lsys {
 
-/// The path that a text names. A std::filesystem::path made of a std::string is not the same on
-/// Windows, where it reads every byte as a character.
+/// The path that a UTF-8 text names. On Windows, std::filesystem::path(text) would read the bytes
+/// in the code page of the system.
 [[nodiscard]] std::filesystem::path path_of(std::string_view text);
 /// The text of a path, with `/` between the names on every system.
 [[nodiscard]] std::string path_text(const std::filesystem::path& path);

@@ -9,7 +9,7 @@ namespace lsys {
 /// When a production is applied.
 LSYS_COUNTED_ENUM(Stage,
                   Rewrite,   // in a generation
-                  Decompose, // after each generation and to the axiom, until nothing matches
+                  Decompose, // to the axiom and after each generation, until nothing matches
                   Interpret  // when the word is drawn, which does not change it
 );
 /// `#decompose`, `#interpret`; empty for Rewrite.

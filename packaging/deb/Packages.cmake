@@ -70,8 +70,8 @@ if(LSYS_SHARED)
   lsys_deb(library "${library}" libs "L-systems: shared library"
     "liblsys compiles grammars of L-systems, derives words, draws plants, meshes
 them and writes them as files, for programs in C++ and C.")
-  # The control file `shlibs` is not left to CPack, which writes it for all packages or none: no program links to the
-  # Python module.
+  # CPack would write the control file `shlibs` for all packages or for none. Only this package
+  # needs it, because no program links to the Python module.
   file(CONFIGURE OUTPUT deb/shlibs CONTENT "liblsys ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR} \
 ${library} (>= ${PROJECT_VERSION})\n")
   set(CPACK_DEBIAN_LIBRARY_PACKAGE_CONTROL_EXTRA

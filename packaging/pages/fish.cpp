@@ -15,7 +15,7 @@ std::string quoted(const std::string& text) {
     return escaped + '\'';
 }
 
-/// The options of `complete` that offer values. fish offers all files unless told otherwise.
+/// The options of `complete` that offer the values of `option`; may be empty.
 std::string value_options(const std::string& program, const OptionText& option) {
     std::string text;
     if (!option.words.empty()) {

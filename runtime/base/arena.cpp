@@ -15,7 +15,7 @@ namespace {
 
 using platform::kHugePage;
 
-/// Max bytes of an arena on the heap: mapping and unmapping pages costs more than small words do.
+/// Max bytes of an arena on the heap: mapping pages for a small word takes longer than deriving it.
 constexpr std::size_t kMaxHeapArena = std::size_t{16} << 10;
 constexpr std::align_val_t kHeapAlignment{64}; // a cache line
 /// Max bytes of an arena on small pages; larger arenas use huge pages.
@@ -27,7 +27,7 @@ constexpr std::size_t kMinHugePageUse = kHugePage / 3;
 constexpr std::size_t kLargeReservation = std::size_t{256} << 20;
 static_assert(kMaxSmallArena % platform::kPage == 0);
 
-/// Zeroed like mapped memory. Returns null if there is no memory.
+/// Allocates memory that is zero, as mapped memory is. Returns null if there is no memory.
 std::byte* allocate_on_heap(std::size_t bytes) {
     void* const data = ::operator new(bytes, kHeapAlignment, std::nothrow);
     if (data != nullptr) {
@@ -116,7 +116,7 @@ bool Arena::reserve(std::size_t bytes) {
 }
 
 /// Requests huge pages for the bytes in use; for the last page only if a third of it is in use.
-/// Populates the small pages after them, of which those before byte `before` are in use already.
+/// Populates the small pages after the huge pages; pages before byte `before` are already in use.
 void Arena::prepare_pages(std::size_t before) {
     if (capacity_ > kMaxSmallArena) {
         const std::size_t rest = max_reserved_ % kHugePage;

@@ -39,7 +39,7 @@ philox_round(Lanes& lanes, __m256i key0, __m256i key1) {
              _mm256_xor_si256(_mm256_xor_si256(high0, lanes.x3), key1), product0};
 }
 
-/// Runs all rounds on two sets of lanes, so that the multiplications of one overlap the other's.
+/// Runs all rounds on two sets of lanes, so that the multiplications of the two sets overlap.
 [[gnu::target("avx2"), gnu::always_inline]] inline void
 philox_rounds(Lanes& first, Lanes& second, std::uint64_t seed) {
     auto key0 = static_cast<std::uint32_t>(seed);

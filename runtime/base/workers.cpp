@@ -63,7 +63,8 @@ struct Workers::Team {
     Team(const Team&) = delete;
     Team& operator=(const Team&) = delete;
 
-    /// Runs `own` on the calling thread and `new_task` on all helpers; returns when all have left.
+    /// Runs `own` on the calling thread, and `new_task` on each helper that wakes before `own`
+    /// returns. Returns when all helpers have left `new_task`.
     void run(const Task& own, const Task& new_task) {
         {
             const std::lock_guard lock(mutex);

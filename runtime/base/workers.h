@@ -30,9 +30,9 @@ public:
     /// std::length_error; for_each() then throws one of the two when all threads have left their
     /// pieces, and some pieces may not have run.
     void for_each(std::uint64_t pieces, const std::function<void(std::uint64_t)>& piece);
-    /// Calls `caller` on the calling thread and at the same time `helper` on each of the others, of
-    /// which there may be none; returns when all have returned. A helper that has not begun when
-    /// `caller` returns is not called. Both may throw as a piece may.
+    /// Calls `caller` on the calling thread and at the same time `helper` on each other thread of
+    /// the team, if any; returns when all have returned. A helper that has not begun when `caller`
+    /// returns is not called. Both may throw the exceptions that a piece may throw.
     void run(const std::function<void()>& caller, const std::function<void()>& helper);
 
 private:

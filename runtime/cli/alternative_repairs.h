@@ -27,9 +27,9 @@ struct StatementRepair {
 
 inline constexpr std::size_t kMaxComparedStatement = 2000; // bytes
 
-/// Statement texts after alternative repairs: each differs from the broken statement by one
-/// character, parses, and has a syntax tree unlike those of `repaired` and the other alternatives.
-/// Empty for statements of more than kMaxComparedStatement bytes.
+/// Statement texts after alternative repairs: each changes the broken statement at one place,
+/// parses, and has a syntax tree unlike those of `repaired` and the other alternatives. Empty for
+/// statements of more than kMaxComparedStatement bytes.
 [[nodiscard]] std::vector<std::string> alternative_repairs(const StatementRepair& repair);
 
 } // namespace lsys::lsc

@@ -242,8 +242,8 @@ ExitStatus end_import(const Result<void>& result, const FolderImport& import) {
     return written ? import.status : report_error(written.error(), import.console);
 }
 
-/// Imports all systems of the files of a folder; skips files that are not grammars of a known
-/// dialect.
+/// Imports all systems of the files of a folder. Skips .lsys and .lsb files, and files that are not
+/// grammars of a known dialect.
 ExitStatus import_folder(const ImportCommand& command, const Console& console) {
     const Result<std::vector<fs::path>> files = files_of(command.folder);
     if (!files) {

@@ -659,7 +659,7 @@ CommandLine parse_arguments(std::span<const std::string> arguments,
     return parsed;
 }
 
-/// Parses `lsc check FILE...` without options like parse_arguments(); nothing for other arguments.
+/// Parses `lsc check FILE...` as parse_arguments() does; nothing for options and other commands.
 /// Setting up CLI11 takes as long as checking a small grammar, and editors and scripts start such a
 /// run for every file.
 std::optional<CheckCommand> parse_check_of_files(std::span<const std::string> arguments) {
@@ -698,7 +698,7 @@ void visit_commands(
 }
 
 CommandLine parse_command_line(std::span<const std::string> arguments) {
-    // Without CLI11, which takes longer than the rest of this run, mostly to throw an exception.
+    // Avoid CLI11, which takes longer than the rest of this run, mostly to throw an exception.
     if (arguments.size() == 1 && arguments.front() == "--version") {
         return PrintText{"lsc " LSC_VERSION "\n"};
     }

@@ -12,7 +12,7 @@ namespace lsys::lsc {
 namespace {
 
 /// Max number of attempts that apply fixes, each with more statements excluded. One further attempt
-/// applies none.
+/// applies no fixes.
 constexpr int kMaxAttempts = 20;
 
 /// Repeats attempts until all applied fixes are certain, then calls `finish` with the last attempt.

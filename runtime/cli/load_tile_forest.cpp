@@ -14,8 +14,8 @@ namespace lsys::lsc {
 
 namespace {
 
-/// Max branches of a key, unless the scene or the command sets it. A tile has a mesh and a draw call
-/// for each; more branches add little variety.
+/// Max instances per key of the cache, unless the scene or the command sets it. A tile has a mesh
+/// and a draw call for each instance; more instances add little variety.
 constexpr std::uint32_t kTileCacheCap = 3;
 
 } // namespace

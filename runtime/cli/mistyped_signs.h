@@ -22,8 +22,8 @@ struct AddedText {
 /// Other repairs of the text before the addition. Either the nearest character before or after the
 /// place of the addition is replaced by the added sign, or the nearest character before this place
 /// is exchanged with the character before it, if this is the same sign. A replacement is omitted if
-/// the text has other signs of this kind, none of them has blanks on the same sides, and no `:` is
-/// before it.
+/// the text has other signs of this kind, none of them has blanks on the same sides, and the
+/// replacement does not follow a `:`.
 [[nodiscard]] std::vector<std::string> mistyped_texts(std::string_view text, AddedText added);
 
 } // namespace lsys::lsc

@@ -102,7 +102,7 @@ struct TilePart {
     std::uint64_t of = 1;     // number of processes
 };
 
-/// `--instances` of tiles: whether each tree is a whole hero, or is assembled from branches.
+/// Value of `--instances`: each tree is a whole hero, or is assembled from branches of heroes.
 enum class TileInstances : std::uint8_t { Trees, Branches };
 
 /// A scene for `lsc place`, `lsc tiles` and `lsc serve`.

@@ -63,7 +63,7 @@ public:
 
     /// Applies fixes until none is left that may be applied.
     [[nodiscard]] Result<void> run();
-    /// Repaired statements that have errors after the repair.
+    /// Repaired statements with errors after the repair, for FixChoice::Offered with new errors.
     [[nodiscard]] std::set<StatementKey> wrong_statements() const;
     /// Repaired statements with plausible alternatives (repair_attempt_ambiguous.cpp).
     [[nodiscard]] std::set<StatementKey> ambiguous_statements() const;
@@ -100,7 +100,7 @@ private:
     std::map<StatementKey, Errors> original_errors_;
     std::map<DiagnosticCode, std::size_t> original_counts_;
     std::map<StatementKey, std::vector<AppliedFix>> applied_;
-    /// Places repaired with FixChoice::Offered: path, offset and code.
+    /// Path, offset and code of each repair, which FixChoice::Offered does not repeat.
     std::set<std::tuple<std::string, std::uint32_t, DiagnosticCode>> repaired_places_;
 };
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The options of `lsc place`, `lsc tiles` and `lsc serve`, those of `tiles` for lsc-mpi too.
+// The options of `lsc place`, `lsc tiles` and `lsc serve`. lsc-mpi has the options of `lsc tiles`.
 #pragma once
 
 #include "runtime/cli/options.h"

@@ -151,7 +151,7 @@ void TilesetFolder::write_file_at(const std::string& path, const Make& make) {
     ++files_;
 }
 
-/// Makes a folder below that of the tileset.
+/// Makes a folder below the folder of the tileset.
 void TilesetFolder::make_folder(std::string_view path) {
     const std::lock_guard<std::mutex> lock(mutex_);
     if (!folders_.insert(std::string(path)).second) {

@@ -32,7 +32,7 @@ struct TileTotals {
 /// several threads at once.
 using NextFile = std::function<std::optional<std::uint64_t>()>;
 
-/// The files of a part among those with numbers below `end`: every `part.of`-th.
+/// The file numbers of a part below `end`: every `part.of`-th number.
 [[nodiscard]] NextFile files_of_part(const TilePart& part, std::uint64_t end);
 
 /// Returns an error if the output is a file, or a folder that has files without --force, --resume

@@ -53,7 +53,7 @@ struct RuntimeError {
 struct DerivationPass {
     enum class Kind : std::uint8_t { Cut, Rewrite, Decompose, Interpret };
     Kind kind = Kind::Rewrite;
-    std::uint32_t rule = kNone;   // the only rule of the pass; kNone: all of its stage
+    std::uint32_t rule = kNone;   // the only rule of the pass; kNone: all rules of its stage
     std::uint32_t number = 0;     // index among the passes of this kind in the step
     std::uint32_t generation = 0; // key of its random draws; the value of step()
     std::uint64_t first_draw = 0; // number of the first draw of each module
@@ -65,7 +65,7 @@ struct DeriveOptions {
     std::uint32_t generations = 0; // number to derive; the value of steps()
     std::uint64_t seed = 0;
     std::uint32_t threads = 0; // 0: as many as the machine has
-    /// Keep the origin of each module, which takes 8 bytes per module and time to write them.
+    /// Whether to keep the origin of each module: 8 bytes per module, and slower passes.
     bool origins = false;
     Limits limits;
     const std::atomic<bool>* cancelled = nullptr;

@@ -150,9 +150,9 @@ struct StepTracer::State {
         }
     }
 
-    /// With predecessors of several modules, a match may begin before a tracked module and consume
-    /// it. Reads the word from its start, as the pass does; the place of a consumed module becomes
-    /// the place of the match.
+    /// Begins a pass that has predecessors of several modules: a match may begin before a tracked
+    /// module and consume it. Reads the word from its start, as the pass does. The place of a
+    /// consumed module becomes the place of the match.
     void begin_matches(const TracedPass& pass) {
         const std::vector<Place> tracked = std::exchange(places, {});
         trace_of_place.clear();

@@ -146,7 +146,7 @@ struct AxiomTrace {
     float unit = 0.0F;
     std::size_t taken = 0; // index in alternatives
 };
-/// Nothing if there is one axiom.
+/// Explains the choice of the axiom; nothing if there is only one.
 [[nodiscard]] std::optional<AxiomTrace> trace_axiom(const Bytecode& bytecode, std::uint64_t seed);
 
 LSYS_COUNTED_ENUM(Fate,
@@ -192,11 +192,11 @@ struct ModuleTrace {
 struct ProductionNames {
     struct Local {
         std::string name;
-        /// Opcode of a value that is a single leaf, such as a literal: each use has a copy of it,
-        /// so that no code computes it. End: code computes the value.
+        /// Opcode of a value that is a single leaf, such as a literal; the leaf is copied to each
+        /// use. End: code computes the value.
         Opcode leaf = Opcode::End;
-        float literal = 0.0F;    // of Literal
-        std::uint32_t index = 0; // of Formal, Global and Local
+        float literal = 0.0F;    // value of a Literal
+        std::uint32_t index = 0; // index of a Formal, Global or Local
     };
     std::vector<std::string> formals;
     std::vector<Local> locals; // by slot

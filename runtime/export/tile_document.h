@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // TileDocument: a GLB of a tile, composed of glTF documents: one of the ground, whose buffer goes
-// into the GLB, and one per hero, whose buffer and pictures are parts of other files. Adds trees and
-// branches as instances (EXT_mesh_gpu_instancing) with a table of the properties of their trees
-// (EXT_instance_features, EXT_structural_metadata). TileParts has the documents of the heroes as text, formatted once for all
-// tiles.
+// into the GLB, and one per hero, whose buffer and pictures are parts of other files. Adds trees
+// and branches as instances (EXT_mesh_gpu_instancing) with a table of the properties of their trees
+// (EXT_instance_features, EXT_structural_metadata). TileParts has the documents of the heroes as
+// text, formatted once for all tiles.
 #pragma once
 
 #include "runtime/base/large_vector.h"
@@ -48,10 +48,11 @@ struct MeshDocument {
     std::uint64_t decoded_bytes = 0; // size of the fallback; 0: no fallback
     std::string uri;                 // percent-encoded, relative to the tile; empty: none
     std::uint64_t file_bytes = 0;    // size of the file `uri`
-    std::vector<FilePart> pictures;  // by image: PNG; empty: as the document says
+    std::vector<FilePart> pictures;  // by image: PNG files; empty: the document has the images
 };
 /// The order in which a compressed document has the triangles and vertices of a mesh with one part.
-/// It depends on the triangles alone if all vertices differ, so such meshes share it.
+/// If all vertices differ, it depends on the triangles alone, so meshes with equal triangles share
+/// it.
 struct MeshOrder {
     LargeVector<std::uint32_t> vertices; // numbers in the mesh
     LargeVector<std::byte> indices;      // compressed
@@ -62,18 +63,18 @@ struct MeshOrder {
 /// for ExportFormat::Gltf and `info`. Precondition: the mesh has triangles, a few million at most;
 /// `info` has a `buffer_name`, and no motion, film, levels or variants. Throws std::bad_alloc.
 [[nodiscard]] MeshDocument make_mesh_document(const Mesh& mesh, const ExportInfo& info);
-/// Same, in a third of the time, because the order of the mesh is not computed again.
-/// Precondition: `order` is the order of `mesh`.
+/// Like the function above, in a third of the time, because the order of the mesh is not computed
+/// again. Precondition: `order` is the order of `mesh`.
 [[nodiscard]] MeshDocument
 make_mesh_document(const Mesh& mesh, const ExportInfo& info, const MeshOrder& order);
 /// Stores a picture in the buffer of the document; image `number` then refers to it, not to a file.
 /// Precondition: the buffer is `data`.
 void embed_picture(std::size_t number, const std::string& png, MeshDocument& document);
 
-/// Moves the buffers of compressed documents into a file: appends to `file`. Items of one kind, for
-/// example all positions, become one view, which all documents have; but each accessor of texture
-/// coordinates keeps a view of its own. The documents get no `uri` and `file_bytes`. Precondition:
-/// their views have nothing but items of accessors, each those of one.
+/// Moves the buffers of compressed documents to the end of `file`. Items of one kind, for example
+/// all positions, become one view, which the documents share; but each accessor of texture
+/// coordinates keeps a view of its own. The caller sets `uri` and `file_bytes` of the documents.
+/// Precondition: each view holds the items of one accessor and nothing else.
 void join_buffers(std::span<MeshDocument* const> documents, std::string& file);
 
 /// The properties of a tree of a tile.

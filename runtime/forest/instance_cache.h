@@ -154,8 +154,8 @@ public:
     /// Depends only on cache, key and tree. Returns the number of instances.
     template <typename Visit>
     std::uint32_t expand(const Tree& tree, Visit&& visit);
-    /// Like expand(), but visit() returns whether to visit what continues at the exits of the
-    /// instance. The instances that are visited are the same as in expand().
+    /// Like expand(), but visit() returns whether to visit the instances at the exits. The visited
+    /// instances are the same as in expand().
     template <typename Visit>
     void expand_until(const Tree& tree, Visit&& visit);
     /// Calls visit(instance) for the instances of expand(), without transforms, in a third of the
@@ -168,7 +168,7 @@ public:
     }
 
 private:
-    static constexpr std::uint32_t kHidden = ~std::uint32_t{0}; // order of hidden instances
+    static constexpr std::uint32_t kHidden = ~std::uint32_t{0}; // order of instances not visited
 
     struct Pending {
         glm::quat rotation;
@@ -242,7 +242,7 @@ void TreeExpander::expand_until(const Tree& tree, Visit&& visit) {
         at.rotation = next.rotation;
         at.position = next.position;
         at.order = next.order;
-        // Hidden instances take their draws too, since draws are numbered.
+        // Hidden instances take draws too, because the draws of a tree are numbered in sequence.
         at.instance = choose(cache_.slots[next.slot], tree.number, node++);
         const Instance& instance = cache_.instances[at.instance];
         if (next.order != kHidden && visit(at)) {

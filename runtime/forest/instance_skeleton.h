@@ -21,17 +21,17 @@ namespace lsys {
     return cache.variants[slot.first_variant];
 }
 
-/// Skeletons of parts of trees, each to be meshed alone, in the coordinates of the heroes of its
-/// first instance: pose_of() places both.
+/// Skeletons of parts of trees, each to be meshed alone. A part keeps the heroes' coordinates
+/// of its first instance, so pose_of() of this instance places the whole part.
 class PartSkeletons {
 public:
     /// `cache` must outlive the object.
     explicit PartSkeletons(const InstanceCache& cache);
 
-    /// An instance without what continues at its exits. Segments that begin in another instance get
+    /// An instance without the instances at its exits. Segments that begin in another instance get
     /// a closed surface.
     [[nodiscard]] Skeleton alone(std::uint32_t instance) const;
-    /// An instance and the stand-ins of all that continues at its exits.
+    /// An instance with stand-ins at its exits, at their exits, and so on.
     [[nodiscard]] Skeleton whole(std::uint32_t instance) const;
 
 private:

@@ -17,7 +17,7 @@ void visit_slots(const InstanceCache& cache, const Visit& visit) {
     struct Open {
         std::uint32_t slot = 0;
         std::uint32_t variant = 0;
-        std::uint32_t exit = 0; // next one
+        std::uint32_t exit = 0; // the next exit
     };
     std::vector<bool> seen(cache.slots.size());
     std::vector<Open> path;

@@ -16,11 +16,11 @@ namespace lsys {
 
 /// Upper bounds for the instances of reached slots, m at scale 1; 0 for others.
 struct TreeBounds {
-    /// By instance: distance from its entry to any point of it and of all that may continue at its
-    /// exits.
+    /// By instance: distance from its entry to any point of the instance and of all instances that
+    /// may continue it.
     std::vector<double> reach;
-    /// By instance: Hausdorff distance between it with stand-ins at its exits
-    /// (PartSkeletons::whole()) and with any other instances there.
+    /// By instance: Hausdorff distance between the instance with stand-ins at its exits
+    /// (PartSkeletons::whole()) and the instance with any other instances at its exits.
     std::vector<double> deviation;
 };
 

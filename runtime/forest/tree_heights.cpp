@@ -86,8 +86,8 @@ private:
     std::vector<std::optional<TreeMeasure>> measures_;
 };
 
-/// A point above the entry of every branch of a slot: the least height of the highest points along
-/// `up`, relative to the entry. Looks at exits of `depth` instances one after the other.
+/// A height along `up`, relative to the entry, that every branch of a slot reaches: the min of
+/// rise_of() over its instances. Follows exits to a depth of `depth` instances.
 double
 min_rise(const InstanceCache& cache, std::uint32_t slot_number, const glm::dvec3& up, int depth);
 
@@ -136,7 +136,7 @@ double min_height(const InstanceCache& cache, const HeightTable& table, std::uin
     return rise_of(cache, root, up, kDepth) - extent.low;
 }
 
-/// Adds what the heights of trees with exits depend on.
+/// Adds to a hash the data on which the heights of trees with exits depend.
 std::uint64_t
 combine_exits(std::uint64_t state, const InstanceCache& cache, const HeightTable& table) {
     if (cache.exits.empty()) {

@@ -67,8 +67,8 @@ public:
 
     /// Returns the first species with a flat tree, or nullopt. May be called from several threads.
     [[nodiscard]] std::optional<std::uint16_t> size(std::span<Tree> trees) const;
-    /// An upper bound of the factor that size() multiplies the scale of a tree by: the largest
-    /// factor of whole plants (rho 0).
+    /// An upper bound of the factor by which size() multiplies the scale of a tree, computed from
+    /// lower bounds of the heights of trees.
     [[nodiscard]] double max_factor(std::uint16_t species) const;
     /// A hash of the heights of the species and of all that the heights of their trees depend on.
     [[nodiscard]] std::uint64_t digest() const;

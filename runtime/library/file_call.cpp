@@ -34,7 +34,7 @@ Stop stop_of(ExitStatus status) {
 write_files(Call& call,
             const FileReceiver* receive,
             const std::function<ExitStatus(const OutputContext& context)>& write) {
-    std::istringstream in; // a console of a library reads and prints nothing
+    std::istringstream in; // the console uses no stream of the process
     std::ostringstream out;
     ::lsys::Messages messages;
     MessageOptions options;

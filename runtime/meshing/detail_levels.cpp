@@ -280,7 +280,8 @@ private:
         return triangles_of(mesh_);
     }
 
-    /// An estimate, because corners of a polygon that coincide make no triangles.
+    /// Estimated number of triangles of an object or polygon. A polygon with coinciding corners has
+    /// fewer.
     double triangles_of_item(std::uint32_t item, const std::vector<FoliageShape>& shapes) const {
         const std::size_t objects = skeleton_.objects.size();
         return item < objects
@@ -358,8 +359,8 @@ private:
         glm::dvec2 scales(1.0);
         glm::dvec2 step(0.0);
         glm::dvec2 before(0.0);
-        // Inverse of the derivatives of the areas by the scales. The area of wood grows as its
-        // widths, that of foliage as the square of its size.
+        // Inverse Jacobian of the areas by the scales. The first guess: the area of wood is linear
+        // in its scale, the area of foliage quadratic.
         glm::dmat2 inverse(1.0, 0.0, 0.0, 0.5);
         double best = std::numeric_limits<double>::infinity();
         bool third = !is_fixed; // measures a third of the views until the areas are close
@@ -445,8 +446,8 @@ private:
             return;
         }
         const auto wanted = static_cast<double>(planned.triangles);
-        // Equal branches lose a joint at the same error, so the number of triangles jumps and may miss
-        // the wanted one; a few more paths come closer.
+        // Equal branches lose a joint at the same error, so the number of triangles jumps and may
+        // miss the wanted number. A few more paths bring it closer.
         const std::uint64_t max_paths =
             std::min(before.paths, level.paths + std::min(level.paths, kMorePaths));
         double min_difference = std::numeric_limits<double>::infinity();
@@ -664,7 +665,7 @@ private:
             }
             wood = static_cast<double>(wood_triangles(base));
             // `base` and `rounder` have too many triangles, because straight wood loses nearly all
-            // joints at one error. Continue with the smaller one.
+            // joints at one error. Continue with the level of fewer triangles.
             const auto rounder_wood = static_cast<double>(wood_triangles(rounder));
             if (rounder_wood < wood) {
                 base = rounder;

@@ -48,7 +48,7 @@ struct DetailLevel {
     /// Max size on screen for this level, in pixels of the plant's largest extent. At this size the
     /// axes of branches may be off by half a pixel.
     float pixels = kFinestPixels;
-    float error = 0.0F; // m, half a pixel at this size; 0 for the finest level
+    float error = 0.0F; // m, half a pixel at the size `pixels`; 0 for the finest level
 };
 
 inline constexpr std::uint32_t kNoDetailLevel = ~std::uint32_t{0};

@@ -65,7 +65,7 @@ void apply_look(const Looks* looks, ItemColour colour, Material& material) {
     }
     material.roughness = look->roughness;
     if (look->picture != nullptr) {
-        if (material.kind == MaterialKind::Bark) { // the built-in normal map fits its picture only
+        if (material.kind == MaterialKind::Bark) { // bark normals fit only the picture of bark
             material.kind = MaterialKind::Plain;
             material.roughness = look->roughness.value_or(kBarkRoughness);
         }

@@ -78,7 +78,7 @@ std::optional<Stop> build(const Skeleton& skeleton,
         return builder.finish();
     }
     switch (options.method) {
-    case MeshMethod::Default: // resolved
+    case MeshMethod::Default: // replaced by resolved()
     case MeshMethod::Tubes:
         append_tubes(skeleton, options, builder);
         if (options.segments && !builder.stop()) {
@@ -91,7 +91,7 @@ std::optional<Stop> build(const Skeleton& skeleton,
     case MeshMethod::Boxes:
         append_boxes(skeleton, options, builder);
         break;
-    case MeshMethod::Solid: // build_solid()
+    case MeshMethod::Solid: // handled above by build_solid()
         break;
     }
     append_polygons(skeleton, user_meshes, options, builder);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // TriangleList: the compressed indices of a mesh, three per triangle. Regular triangles are stored
 // as bands between rings, and as fans. Plain indices of a tube take as much memory as its positions
-// and normals; bands take some bytes per axis. This saves time, because writing memory is most of
+// and normals; bands take a few bytes per axis. This saves time, because writing memory is most of
 // the cost of a large mesh.
 #pragma once
 
@@ -70,7 +70,7 @@ private:
     struct Patch {
         std::uint32_t end = 0;    // of its indices, counted within the block
         std::uint32_t first = 0;  // first vertex of the ring, or of the lowest ring of bands
-        std::uint32_t second = 0; // of the other ring, the point, or of the last ring of bands
+        std::uint32_t second = 0; // first vertex of the other ring or of the last ring; the point
         Shape shape = Shape::Bands;
         std::uint8_t sides = 0;
         std::uint8_t second_sides = 0;

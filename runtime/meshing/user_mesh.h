@@ -22,13 +22,13 @@ namespace lsys {
 
 /// Pictures of a material in an MTL file; an empty name: no picture.
 struct MaterialPicture {
-    bool has_options = false; // an option other than -bm stands before a name
+    bool has_options = false; // a name has options other than -bm of a normal map
     ObjName file;             // of map_Kd
     ObjName opacity;          // of map_d
     ObjName normal_map;       // of map_Bump, bump or norm
     float bump = 1.0F;        // factor of the heights of map_Bump, by -bm
 };
-/// Pictures of the materials `wanted`, by material name; without materials missing in `mtl`.
+/// Pictures of the materials `wanted`, by material name. Omits materials that `mtl` lacks.
 [[nodiscard]] std::unordered_map<std::string, MaterialPicture>
 pictures_of(std::string_view mtl, std::span<const ObjName> wanted);
 

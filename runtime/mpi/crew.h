@@ -43,7 +43,7 @@ private:
     lsc::TilesetFolder& folder_;
     Workers workers_; // the writing threads, and the calling one
     NumberQueue queue_;
-    std::uint64_t low_; // number of threads
+    std::uint64_t low_; // number of threads; with fewer files left, wants_files() is true
     std::atomic<std::uint32_t> writing_{0};
     bool has_helpers_ = false;
     bool is_closed_ = false;

@@ -37,7 +37,7 @@ public:
     Leader(const lsc::TilesCommand& command, Ranks& ranks, const Console& console)
         : command_(command), ranks_(ranks), console_(console),
           states_(static_cast<std::size_t>(ranks.count())),
-          // Each rank has a line, so that progress of many ranks is printed less often.
+          // Progress has a line for each rank, so it is printed less often for many ranks.
           progress_interval_(std::chrono::seconds(kProgressSeconds + ranks.count())) {
         states_[0].is_done = true; // rank 0 sends no Done to itself
         states_[0].machine = Ranks::machine();

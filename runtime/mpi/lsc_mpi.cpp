@@ -69,7 +69,7 @@ int run(std::span<const std::string> arguments, const Io& io) {
     };
     return catch_out_of_memory(run_line, [&] {
         const int status = report_out_of_memory(io);
-        ranks.abort(status); // the others wait for messages of this rank
+        ranks.abort(status); // other ranks wait for messages of this rank
         return status;
     });
 }

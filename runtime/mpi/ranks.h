@@ -15,7 +15,7 @@ namespace lsys::mpi {
 /// The messages of a job. Rank 0 leads; the others are members.
 enum class MessageKind : std::uint8_t {
     Request, // member to leader: hash of the plan, number of files wanted, files and bytes written
-    Files,   // leader to member: begin and end of their numbers; equal if none are left
+    Files,   // leader to member: begin and end of the numbers of files; equal if none are left
     Failed,  // member to leader: exit status, 1 if the tileset was planned, else 0; error message
     Stop,    // leader to member: another rank has failed
     Done, // member to leader, last message: files, bytes and trees written, threads; machine name
@@ -50,9 +50,9 @@ public:
     leading_arguments(std::span<const std::string> arguments) const;
     /// The `number` that rank 0 passes. All ranks must call it.
     [[nodiscard]] static std::uint64_t leading_number(std::uint64_t number);
-    /// The processors that a rank has for itself: those of its machine on which ranks may run,
-    /// divided by the number of ranks there, and at most those on which it may run. At least 1. All
-    /// ranks must call it.
+    /// Number of processors per rank: the processors of this machine that its ranks may use,
+    /// divided by the number of ranks on it; at most the processors that this rank may use, at
+    /// least 1. All ranks must call it.
     [[nodiscard]] static std::uint32_t processors_per_rank();
 
     /// Ends all processes of the job at once; this one too.

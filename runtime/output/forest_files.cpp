@@ -188,7 +188,7 @@ ExitStatus write_stages(const ForestOutput& run, GrownForest& grown) {
     }
     ForestGrowth growth = std::move(begun.value());
     for (std::uint32_t frame = 0; frame < run.options.frames; ++frame) {
-        // Rounded down to a whole stage, because a file has no trees between two stages.
+        // Round down to a whole stage, because a file has no trees between two stages.
         const GrowthMoment moment{
             moment_of_frame(frame, run.options.frames, growth.last_year()).generation, 0.0};
         const TreeHeight no_height = [](const Tree& /*tree*/) { return 0.0F; };

@@ -189,16 +189,17 @@ ExitStatus find_growth_pivot(PlantRun& run, PlantGrowth& growth) {
     return ExitStatus::Ok;
 }
 
-/// Writes the growth of the plant from its axiom to its last generation, one numbered file per
-/// frame. `grown` becomes the skeleton of the last frame.
+/// Writes the growth of the plant to its last generation, one numbered file per frame. The
+/// first generations have no files if they draw nothing. `grown` becomes the skeleton of the last
+/// frame.
 ExitStatus write_growth(PlantRun& run, PlantGrowth& growth, Skeleton& grown) {
     const PlantFileOptions& given = run.options;
     std::uint32_t first = 0;
     if (const ExitStatus status = find_first_drawn(run, growth, first); status != ExitStatus::Ok) {
         return status;
     }
-    // Growth starts at the last generation that draws nothing. This generation has no file, since
-    // it is empty: the first frame is one step later.
+    // Growth starts one generation before the first that draws. The start has no file, since it is
+    // empty: the first frame is one step later.
     const std::uint32_t start = first == 0 ? 0 : first - 1;
     const std::uint32_t skipped = first == 0 ? 0 : 1;
     if (first > 0) {

@@ -29,7 +29,7 @@ class FrameSteps {
 public:
     FrameSteps(PlantPhysics& physics, float frames_per_second, float gust_period)
         : physics_(physics), before_(physics.options()) {
-        // Subtracted so that a rounding error above a whole number of steps adds no step.
+        // 1e-3 is subtracted so that a rounding error above a whole number of steps adds no step.
         const float steps = 1.0F / (frames_per_second * before_.time_step) - 1e-3F;
         count_ = steps > 1.0F ? std::ceil(std::min(steps, 1e6F)) : 1.0F;
         PhysicsOptions between = before_;

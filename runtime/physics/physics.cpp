@@ -66,10 +66,10 @@ namespace {
 constexpr double kDragCoefficient = 1.1; // approximate value of long cylinders and of plates
 constexpr double kFriction = 0.5;        // approximate value of bark on soil
 constexpr int kTrials = 12;              // max number of shares of a step that are tried
-constexpr int kExactTrials = 2; // kTrials if Forces::exactness > 0; then settle() lowers exactness
-constexpr double kTrialShare = 0.25; // factor from one share to the next
-constexpr double kRounding = 1e-12;  // relative to Energies::potential_magnitude
-constexpr double kRestStep = 1e6;    // s, step of settle(), for which inertia is negligible
+constexpr int kExactTrials = 2;          // replaces kTrials if Forces::exactness > 0
+constexpr double kTrialShare = 0.25;     // factor from one share to the next
+constexpr double kRounding = 1e-12;      // relative to Energies::potential_magnitude
+constexpr double kRestStep = 1e6;        // s, step of settle(), for which inertia is negligible
 // A plant that slides in settle() is at rest when friction with this coefficient, lower than for ice,
 // would stop it: the lost energy and the friction of about the last ten rounds are compared. Each
 // round multiplies the weight of older rounds by kRememberedShare.

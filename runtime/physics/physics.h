@@ -28,7 +28,8 @@ struct Wind {
     friend bool operator==(const Wind&, const Wind&) = default;
 };
 
-/// Values that are not finite count as 0, as do negative values except gravity and velocity.
+/// Except for `time_step`, values that are not finite count as 0; so do negative values, except
+/// gravity and velocity.
 struct PhysicsOptions {
     float gravity = 9.81F; // m/s^2, downwards; 0: none
     Wind wind;
@@ -62,8 +63,8 @@ public:
     /// Moves the plant to its state of rest in steady wind, at standstill; time() does not change.
     /// Returns whether the plant came to rest within `max_rounds`: in the last round no segment
     /// turned by more than `tolerance` radians, or friction on the ground would hold the plant. A
-    /// plant of 2,000 segments or more that falls settles in stages, not counted by `max_rounds`:
-    /// first its main branches or, if it is a long curve, its large pieces.
+    /// plant of 2,000 segments or more that falls first settles its main branches or, if it is a
+    /// long curve, its large pieces; `max_rounds` does not count these stages.
     bool settle(double tolerance, std::uint32_t max_rounds);
     /// Returns the plant to rest, at time 0.
     void reset();

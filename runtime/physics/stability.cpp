@@ -41,7 +41,7 @@ bool is_stable(const Bodies& plant, double gravity, bool own_load, std::vector<S
         sum.add_diagonal(body.spring);
         if (sum.trace() <= 0.0 || !is_positive(sum)) {
             if (sum.trace() == 0.0 && body.spring == 0.0 && body.mass == 0.0) {
-                continue; // no load
+                continue; // neither mass nor load nor spring
             }
             return false;
         }

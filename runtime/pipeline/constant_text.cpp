@@ -13,7 +13,7 @@ namespace lsys {
 
 namespace {
 
-/// The comment on the line of `place` after at most one `;`; empty: none.
+/// The `//` comment that follows `place` on the same line, after at most one `;`. Empty: none.
 std::string_view comment_after(std::string_view text, std::size_t place) {
     const std::string_view rest = text.substr(place, text.find_first_of("\r\n", place) - place);
     const std::size_t mark = rest.find("//");

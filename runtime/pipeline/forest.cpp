@@ -42,9 +42,9 @@ std::string path_in(const std::string& folder, const std::string& path) {
 /// Axioms whose NoVariety note has been given: path of the file and offset of the axiom.
 using NotedAxioms = std::set<std::pair<std::string, std::uint32_t>>;
 
-/// Removes NoVariety notes from `diagnostics`: all if the species has one hero or `is_wanted` is
-/// false, else those at places in `noted`. Adds the places of the notes it keeps to `noted`.
-/// Returns whether `diagnostics` had such notes.
+/// Removes NoVariety notes from `diagnostics`: all notes if the species has one hero or `is_wanted`
+/// is false, else the notes at places in `noted`. Adds the places of the remaining notes to
+/// `noted`. Returns whether `diagnostics` had such notes.
 bool drop_variety_notes(const SceneSpecies& species,
                         bool is_wanted,
                         const std::string& path,
@@ -296,7 +296,7 @@ Outcome<GrownStage> grow_stage(const SceneSpecies& species,
     grown.height_span = grammar.height_span;
     grown.sources = grammar.sources;
     if (settings.pipe.is_set()) {
-        // With a pipe model branches are not shared, so every hero has all its tips.
+        // With a pipe model no branch is replaced by an instance, so every hero has all its tips.
         if (const std::optional<Stop> stop =
                 apply_pipe(settings.pipe, material_of(settings), project.limits.max_bytes,
                            stage.cache.skeleton)) {

@@ -77,13 +77,13 @@ struct PreviousForest {
 [[nodiscard]] Outcome<GrownForest>
 grow_species(const LoadedScene& loaded, const Project& project, const PreviousForest& previous);
 
-/// The options of the placement of `grown`, which must outlive them.
+/// Options for placing the trees of `grown`. `grown` must outlive the options.
 [[nodiscard]] PlacementOptions
 placement_options(const Scene& scene, const Project& project, const GrownForest& grown);
 /// By species: the height in m that TreeSizer gives a tree of scale 1; 0: trees keep their size.
 [[nodiscard]] std::vector<double> unit_heights(const Scene& scene, const GrownForest& grown);
 
-/// A hash of all that the trees of place_forest() depend on. `sizer`: of
+/// Hash of all values that the trees of place_forest() depend on. `sizer`: made from
 /// unit_heights(). Time is linear in the pixels of maps and in painted trees.
 [[nodiscard]] std::uint64_t placement_digest(const Scene& scene,
                                              const Project& project,
@@ -105,8 +105,8 @@ place_forest(const Scene& scene, const Project& project, GrownForest& grown);
 /// Ends `step` with the `stop` of make_instance_meshes() or make_detail_mesh(), and a message.
 [[nodiscard]] Step::Ended end_mesh_of_heroes(Stop stop, Step& step);
 
-/// Texts by instance of a stage's cache: the production that wrote the branch, "from p2 at
-/// tree.lsys:7:14, generation 3", or "from the axiom" for a whole plant. Reads the grammar and
+/// Texts by index of the instance in a stage's cache: "from p2 at tree.lsys:7:14, generation 3" for
+/// the production that wrote the branch, "from the axiom" for a whole plant. Reads the grammar and
 /// derives the heroes again. `folder`: LoadedScene::folder.
 [[nodiscard]] Outcome<std::vector<std::string>> origins_of_branches(const SceneSpecies& species,
                                                                     const std::string& folder,

@@ -25,12 +25,13 @@ struct ForestLods {
     glm::vec3 viewpoint{}; // m, the origin of distances
 };
 
-/// Gives each tree the coarsest level whose DetailLevel::pixels its size on screen does not exceed,
-/// in a view with a vertical field of view of 60 degrees and 1,080 lines from `viewpoint`. The
-/// default viewpoint lies outside the forest: with h the height of the tallest tree, 3.5 h from the
-/// outermost tree and 2 h above the foot of this tree. Levels are made by plan_detail_levels(); the
-/// last level is an impostor. Precondition: `grown` has been grown with rho 0, so that each tree is
-/// a hero, and its trees are placed. Stops like mesh_forest().
+/// Gives each tree the coarsest level that allows its size on screen (DetailLevel::pixels), in a
+/// view from `viewpoint` with a vertical field of view of 60 degrees and 1,080 lines. The default
+/// viewpoint lies outside the forest, beyond the tree that is outermost towards the initial camera
+/// of lsview: with h the height of the tallest tree, 3.5 h from this tree and 2 h above its foot.
+/// Levels are made by plan_detail_levels(); the last level is an impostor. Precondition: `grown`
+/// has been grown with rho 0, so that each tree is a hero, and its trees are placed. Stops like
+/// mesh_forest().
 [[nodiscard]] Outcome<ForestLods> make_forest_lods(const GrownForest& grown,
                                                    const MeshOptions& options,
                                                    std::optional<glm::vec3> viewpoint,

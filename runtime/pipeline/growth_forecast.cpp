@@ -54,7 +54,7 @@ bool closes_too_much(const Bytecode& bytecode, TableRange codes) {
            has_unmatched_close(bytecode, codes, SymbolKind::PolygonClose);
 }
 
-/// Whether no error is possible after the derivation has drawn its constants.
+/// Whether no error is possible once the derivation has computed its random constants.
 bool cannot_fail(const Bytecode& bytecode) {
     const auto is_plain = [](const BytecodeSymbol& symbol) { return symbol.parameter_count == 0; };
     const auto is_safe = [&](const BytecodeProduction& production) {

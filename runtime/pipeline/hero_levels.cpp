@@ -16,10 +16,11 @@ namespace lsys {
 
 namespace {
 
-/// Planning fits no level: fit_detail_levels() later fits the levels that trees use.
+/// Levels are planned without scales and tints: fit_detail_levels() later sets them for the levels
+/// that trees use.
 constexpr DetailChain kPlantChain{.pictures = true, .first_fitted = kNoDetailLevel};
-/// Branches are small in the picture before they have few triangles, and pictures of each would be
-/// large files.
+/// Chain of branches, without impostors: branches are small in the picture before they have few
+/// triangles, and pictures of each branch would be large files.
 constexpr DetailChain kBranchChain{.last = 8, .first_fitted = kNoDetailLevel};
 
 using Visit = std::function<std::optional<Stop>(
@@ -44,10 +45,10 @@ std::optional<Stop> visit_heroes(const GrownForest& grown,
     return stopped == stops.end() ? std::nullopt : *stopped;
 }
 
-/// A part of the trees of a cache: an instance, see Hero.
+/// An instance to make a Hero of.
 struct Part {
     std::uint32_t instance = 0;
-    bool is_alone = false;
+    bool is_alone = false; // Hero::is_alone
 };
 using ListParts = std::function<std::vector<Part>(const InstanceCache& cache)>;
 

@@ -22,7 +22,8 @@ struct Hero {
     std::uint32_t species = 0;
     std::uint32_t stage = 0;
     std::uint32_t instance = 0; // index in the instances of the stage's cache
-    /// Without what continues at its exits; else stand-ins continue there (PartSkeletons).
+    /// Whether the hero ends at the exits of its instance. Else stand-ins continue there
+    /// (PartSkeletons).
     bool is_alone = false;
     Skeleton skeleton; // in the coordinates of the cache's heroes
     DetailLevels levels;
@@ -43,9 +44,9 @@ struct Hero {
 [[nodiscard]] Outcome<std::vector<Hero>>
 plan_heroes(const GrownForest& grown, const MeshOptions& options, const Project& project);
 
-/// The branches that trees of a forest with exits consist of: each instance below the whole plants,
-/// and each instance with exits without what continues there. Their levels have no impostor.
-/// Otherwise as plan_heroes().
+/// Heroes for the branches that trees are assembled from: each instance of a branch, with stand-ins
+/// at its exits, and each instance with exits once more with Hero::is_alone. Omits instances that
+/// no tree can use. Levels have no impostor. Otherwise like plan_heroes().
 [[nodiscard]] Outcome<std::vector<Hero>>
 plan_branches(const GrownForest& grown, const MeshOptions& options, const Project& project);
 

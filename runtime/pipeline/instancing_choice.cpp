@@ -78,7 +78,7 @@ public:
     }
 
     /// Sets `smallest`, `best_in_budget` and `best`. `budget`: max bytes of `best_in_budget`.
-    /// `max_bytes`: max bytes of `smallest`.
+    /// `max_bytes`: a choice of more bytes ends the search for its rho.
     Outcome<void> run(std::uint64_t budget, std::uint64_t max_bytes) {
         Step step(project_);
         const SceneSpecies& species = one_species_.scene.species.front();
@@ -154,8 +154,8 @@ public:
     Choice best;              // the choice with most different trees
 
 private:
-    /// Sets the results of `choice`, and keeps it if it is better than earlier ones. Leaves it
-    /// unset if growing the heroes fails, for example at a limit of the project.
+    /// Grows the heroes of `choice`, sets its results, and keeps it if it is better than earlier
+    /// choices. Results stay unset if the heroes cannot be grown, for example at a limit.
     Outcome<void> try_choice(Choice& choice, std::uint64_t budget) {
         Step step(project_);
         SceneSpecies& species = one_species_.scene.species.front();

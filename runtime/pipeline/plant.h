@@ -71,7 +71,7 @@ grow_plant(const PlantOptions& options, Grammar& grammar, const Project& project
                                        const MeshOptions& options,
                                        const Project& project);
 
-/// Plans the levels of detail of `skeleton` that `chain` requests. `options`: for level 0.
+/// Plans the levels of detail of `skeleton` that `chain` requests. Level 0 has `options`.
 [[nodiscard]] Outcome<DetailLevels> plan_plant_levels(const Plant& plant,
                                                       const Skeleton& skeleton,
                                                       const MeshOptions& options,

@@ -39,7 +39,7 @@ LSYS_COUNTED_ENUM(LongStep,
 /// Limits of reading a file.
 struct ReadLimit {
     std::uint64_t max_bytes = 0;              // max size of a file of this kind
-    std::uint64_t memory = ~std::uint64_t{0}; // free bytes; a larger file is an ErrorKind::Limit
+    std::uint64_t memory = ~std::uint64_t{0}; // free bytes; ErrorKind::Limit for a larger file
 };
 
 /// Services of the program that calls the pipeline. The functions may be called from any thread,

@@ -46,7 +46,7 @@ Result<void> apply_ground(const SceneOverrides& overrides, SceneTerrain& terrain
     return {};
 }
 
-/// The error for stage options that have no effect or contradict others; empty if all fit.
+/// The error for stage options that have no effect or contradict another option; empty: no error.
 std::string stage_conflict(const SceneOverrides& overrides, const Scene& scene) {
     const bool has_stages =
         std::any_of(scene.species.begin(), scene.species.end(),

@@ -30,7 +30,7 @@ struct TraceOptions {
     /// `generation` if that is more.
     std::optional<std::uint32_t> generations;
     std::optional<std::uint64_t> seed; // unset: the value of #set seed
-    // Exactly one of the next three is set.
+    // Exactly one of `position`, `module` and `name` is set.
     std::optional<std::uint64_t> position; // of the module in the word, from 0
     std::string module;                    // `A(3)`: the first such module
     std::string name;                      // all modules of this name
@@ -57,15 +57,15 @@ struct AncestorStep {
     /// The rewritings that lead from the ancestor to the followed module, in order. Empty if every
     /// pass copied the module.
     std::vector<ModuleTrace> steps;
-    bool agrees = true; // as Trace::agrees, for this step
+    bool agrees = true; // like Trace::agrees, for this step
 };
 
 struct TracedPlace {
     std::uint64_t position = 0;
     TracedModule module;
     TraceOrigin origin;
-    /// Scope Next: the traces of the next step, of `module` and of the modules that earlier passes
-    /// of this step wrote for it. ModuleTrace::parent is an index in this list.
+    /// Scope Next: traces of the next step: how it rewrites `module`, and how its later passes
+    /// rewrite the modules that replaced `module`. ModuleTrace::parent is an index in this list.
     std::vector<ModuleTrace> step;
     /// The modules of the next word that replace the module.
     std::vector<TracedModule> next;

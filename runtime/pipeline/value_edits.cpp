@@ -28,8 +28,8 @@ struct TextEdit {
     std::string text;
 };
 
-/// The line end to insert at `offset`: "\r\n" or "\n", as at the next line end of the text, else as
-/// at the first one; "\n" for a text of one line.
+/// The line end to insert at `offset`, "\r\n" or "\n": the next line end of the text, or the first
+/// one if none follows. "\n" for a text of one line.
 std::string_view line_end_at(std::string_view text, std::size_t offset) {
     std::size_t newline = text.find('\n', offset);
     if (newline == std::string_view::npos) {

@@ -26,11 +26,11 @@ struct StatementValues {
 };
 
 /// The `bytes` of the .lsys grammar `path` with `values` in place of the values of its statements.
-/// Adds a line for a setting without a statement: after the last `#set`, or before the first
-/// statement if there is none. Adds a line for generations without `#n` before the first statement.
-/// Line ends and a byte order mark stay unchanged. `load` reads included files, which never
-/// change. Errors: a syntax error; a constant that does not exist or is defined after its use; a
-/// statement that stands in an included file.
+/// Adds a line for a setting without a statement: after the last `#set` and the constants that its
+/// values use, or before the first statement if there are none. Adds a line for generations without
+/// `#n` before the first statement. Line ends and a byte order mark stay unchanged. `load` reads
+/// included files, which never change. Errors: a syntax error; a constant that does not exist or is
+/// defined after its use; a statement that stands in an included file.
 [[nodiscard]] Result<std::string> with_values(const std::string& path,
                                               const std::string& bytes,
                                               const StatementValues& values,

@@ -34,7 +34,7 @@ class TreeMaker; // runtime/placement/impl/tree_maker.h
 class Domination {
 public:
     /// Starts in year 0 with `options.count` plants in their first year, at uniform places. Uses only
-    /// key, region, species, count and threads of `options`. `terrain` must outlive the value.
+    /// key, region, species, count and threads of `options`. `terrain` must outlive the result.
     /// Errors: as place_trees().
     [[nodiscard]] static Result<Domination> begin(const PlacementOptions& options,
                                                   const Terrain& terrain);

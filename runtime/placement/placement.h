@@ -43,8 +43,8 @@ enum class PlacementMethod : std::uint8_t {
 };
 
 /// Upper estimate of the trees of PoissonDisk per square with side `spacing`: random sequential
-/// adsorption of discs whose diameter is the spacing covers 0.547 of the plane (Tanemura 1979), by
-/// 0.547 / (pi / 4) discs per square.
+/// adsorption of discs whose diameter is the spacing covers 0.547 of the plane (Tanemura 1979),
+/// which makes 0.547 / (pi / 4) discs per square.
 inline constexpr double kDiskTrees = 0.70;
 
 /// Whether adjacent regions of the method fit together, without gaps or duplicates.

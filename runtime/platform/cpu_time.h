@@ -4,8 +4,8 @@
 
 namespace lsys::platform {
 
-/// Seconds for which a processor has run the calling thread, without the time in which it waited; 0
-/// if the system does not tell.
+/// Seconds for which a processor has run the calling thread, without the time in which the thread
+/// waited; 0 if unknown.
 [[nodiscard]] double thread_cpu_seconds();
 
 } // namespace lsys::platform

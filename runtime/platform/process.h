@@ -24,10 +24,10 @@ namespace lsys::platform {
 [[nodiscard]] bool error_stream_is_terminal();
 
 /// Handles Ctrl-C, and requests to end the process (SIGTERM, SIGHUP, a closing console). The first
-/// sets end_requested(). A second Ctrl-C ends the process at once, after `clean_up`; so does a
-/// request that has not ended the process within two seconds. Blocked reads return. `clean_up`
-/// runs in a signal handler or another thread. A write beyond the file size limit becomes an error.
-/// Call it at most once per process.
+/// of them sets end_requested(), and blocked reads return. A second Ctrl-C calls `clean_up` and
+/// ends the process at once. Two seconds after any other request the same happens. `clean_up` runs
+/// in a signal handler or another thread. A write beyond the file size limit becomes an error. Call
+/// it at most once per process.
 void handle_end_requests(void (*clean_up)() noexcept);
 [[nodiscard]] const std::atomic<bool>& end_requested();
 /// Exit status of a process that ends because of a request, 128 plus the number of the signal: 130

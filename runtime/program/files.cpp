@@ -157,8 +157,8 @@ Result<std::string> read_bytes(const std::string& path,
                                FileKind kind,
                                const ReadLimit& limit,
                                const std::atomic<bool>* cancelled) {
-    // A FileKind::Regular opens without waiting for the writer of a pipe, which refusal_reason()
-    // then refuses.
+    // For FileKind::Regular a pipe opens without waiting for its writer, and refusal_reason() then
+    // refuses the pipe.
     platform::File file;
     FileFacts facts;
     Reason reason = platform::open_to_read(path, kind == FileKind::Named, file);

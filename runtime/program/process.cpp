@@ -18,7 +18,7 @@ int run_process(int argc,
                 const char* revision,
                 int (*run)(std::span<const std::string> arguments, const Io& io)) {
     if (!platform::prepare_standard_streams()) {
-        std::_Exit(static_cast<int>(ExitStatus::Failure)); // without a stream for a message
+        std::_Exit(static_cast<int>(ExitStatus::Failure)); // no stream is left for a message
     }
     platform::handle_end_requests(remove_temporaries);
     std::ios::sync_with_stdio(false);

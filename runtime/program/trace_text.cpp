@@ -222,8 +222,8 @@ private:
         }
     }
 
-    /// Prints the notes on a production that was tried, the reason why it does not apply first.
-    /// `written`: an additional label, of a module of the successor.
+    /// Prints the notes on a production that was tried, beginning with the reason why it does not
+    /// apply. `written`: an additional label, of a module of the successor.
     void
     explain(const Attempt& attempt, const TracedModule& own, const std::optional<Label>& written) {
         const Production* const source = source_of(attempt.production);

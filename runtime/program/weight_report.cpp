@@ -87,7 +87,7 @@ std::string weight_text(const WeightReport& report) {
                             "at {:.3g} times its weight\n",
                             stability.trunk_length, stability.trunk_width, *stability.trunk_factor);
         if (*stability.trunk_factor <
-            1.0) { // the factor is proportional to the square of the width (Greenhill 1881)
+            1.0) { // trunk_factor is proportional to the square of the width (Greenhill 1881)
             text += fmt::format("it is too thin by {:.3g} m\n",
                                 stability.trunk_width *
                                     (1.0 / std::sqrt(*stability.trunk_factor) - 1.0));

@@ -105,7 +105,7 @@ CallThread::~CallThread() {
 std::unique_ptr<CallThread> CallThread::take() {
     std::unique_ptr<CallThread> thread = std::move(kept_thread());
     if (thread != nullptr && thread->process_ != process_number()) {
-        static_cast<void>(thread.release()); // its thread cannot be joined here
+        static_cast<void>(thread.release()); // a fork cannot join a thread of its parent
     }
     return thread != nullptr ? std::move(thread) : std::make_unique<CallThread>();
 }

@@ -39,7 +39,7 @@ struct CallOptions {
     py::object read_file = py::none(); // callable(path) -> bytes, str or None
 };
 
-/// The options among the keyword arguments. Raises TypeError for others.
+/// The options among the keyword arguments. Raises TypeError for other arguments.
 [[nodiscard]] CallOptions options_of(const py::kwargs& arguments);
 [[nodiscard]] lsys::GrammarOptions grammar_options(const std::map<std::string, float>& defines,
                                                    const py::dict& settings,
@@ -118,8 +118,8 @@ public:
     CallThread(const CallThread&) = delete;
     CallThread& operator=(const CallThread&) = delete;
 
-    /// The thread of earlier calls; a new one if there is none, if a call is in progress (a handler
-    /// of a signal makes another), or if the process is a fork, in which the thread does not exist.
+    /// The kept thread of earlier calls. Makes a new thread if none is kept, if another call is in
+    /// progress (a signal handler may call), or in a fork, where the kept thread does not exist.
     /// Main thread only.
     static std::unique_ptr<CallThread> take();
     /// Keeps an idle thread for later calls. Main thread only.

@@ -43,7 +43,7 @@ enum class TerrainKind : std::uint8_t { Flat, Noise, HeightMap };
 struct SceneTerrain {
     TerrainKind kind = TerrainKind::Flat;
     Region region{0.0, 0.0, 100.0, 100.0};
-    double base = 0.0; // m, altitude of Flat; noise.base of Noise
+    double base = 0.0; // m, altitude of Flat; equal to noise.base for Noise
     NoiseOptions noise;
     SceneFile map;                 // HeightMap
     std::uint32_t map_columns = 0; // size of a map of raw samples; 0: the map is a PNG
@@ -83,7 +83,7 @@ struct ExplicitInstancing {
     bool cap = false;
 };
 
-/// Light of pictures; empty values: those of the program that draws.
+/// Light of pictures. Unset values take the defaults of the program that draws.
 struct SceneLight {
     static constexpr double kMinTurbidity = 2.0;
     static constexpr double kMaxTurbidity = 10.0;

@@ -80,7 +80,7 @@ private:
         std::list<std::string>::iterator use; // in uses_
     };
     enum class FileKind : std::uint8_t { Content, Tileset, Subtree };
-    /// A file that is made on request: a tile, or the tileset or subtree with it as its root.
+    /// A file that is made on request: the content, tileset or subtree of `tile`.
     struct MadeFile {
         TileId tile;
         FileKind kind = FileKind::Content;

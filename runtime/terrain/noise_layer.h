@@ -17,7 +17,7 @@ struct NoiseAxis {
     explicit NoiseAxis(std::span<const float> places);
 
     std::vector<std::uint32_t> cells; // lattice points below the places
-    std::vector<float> parts;         // distances from them
+    std::vector<float> parts;         // distance of each place from its lattice point
     std::vector<float> weights;       // of the lattice points above the places
 };
 
@@ -33,9 +33,9 @@ public:
 
     /// stb_perlin_noise3(x, height, z, 0, 0, 0) for x and z from 0 to kPeriod, in lattice cells.
     [[nodiscard]] float at(float x, float z) const;
-    /// Adds `amplitude` times the noise, clamped to -1 to 1, at each point of a grid to `sums`, which
-    /// has rows along X. The noise has the bits of at(), faster where several points
-    /// of a row are in one lattice cell.
+    /// Adds `amplitude` times the noise, clamped to -1 to 1, at each point of a grid to `sums`,
+    /// which has rows along X. The noise has the same bits as at(), but is computed faster where
+    /// several points of a row are in one lattice cell.
     void add_grid(const NoiseAxis& x,
                   const NoiseAxis& z,
                   double amplitude,

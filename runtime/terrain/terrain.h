@@ -69,7 +69,8 @@ public:
                                              std::span<const float> z) const;
     /// A lower and an upper bound of all heights, in m.
     [[nodiscard]] std::array<double, 2> altitudes() const;
-    /// Unit normal, by finite differences over slope_step(). Its samples stay within a height map.
+    /// Unit normal, by finite differences over slope_step(); one-sided at the border of a height
+    /// map.
     [[nodiscard]] glm::vec3 normal(float x, float z) const;
     /// Rise over run, by the finite differences of normal(): 0 is level, 1 is 45 degrees.
     [[nodiscard]] float slope(float x, float z) const;

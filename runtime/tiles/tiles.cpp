@@ -51,7 +51,7 @@ struct TileForest::State {
     GroundFrame earth{std::nullopt};
     TileGrid grid{Region()};
     std::vector<Hero> heroes;  // plants, then branches
-    bool has_branches = false; // whether trees are more than one hero each
+    bool has_branches = false; // whether trees are assembled from branches
     std::vector<std::vector<HeightTable>> height_tables; // with branches: by species and stage
     std::optional<HeroTable> hero_table;
     LevelPlan plan;
@@ -68,7 +68,7 @@ struct TileForest::State {
     double largest_extent = 0.0; // m, of a tree, at least its height
 
     std::unique_ptr<DensityField> field;     // of a placement on an unbounded grid
-    std::optional<CanopyField> field_canopy; // of such a placement
+    std::optional<CanopyField> field_canopy; // of a placement on an unbounded grid
     std::vector<Canopy> counted_canopies;    // of other placements, by level without trees
     CanopyAtCorner canopy_at;
 
@@ -290,7 +290,7 @@ Outcome<void> TileForest::State::plan_all_heroes(const Project& project) {
     return step.done();
 }
 
-/// By stage of a species.
+/// Bounds of the trees of each stage of a species.
 std::vector<TreeBounds> TileForest::State::bounds_of_stages(std::uint32_t species) const {
     std::vector<TreeBounds> bounds;
     for (std::uint32_t i = 0; i < grown.forest.species[species].stages.size(); ++i) {
@@ -373,7 +373,7 @@ Outcome<void> TileForest::State::make_models(const Project& project) {
         return step.end();
     }
     std::vector<std::string> names;
-    std::size_t first = 0; // hero of the same species and stage
+    std::size_t first = 0; // first plant or first branch of the species and stage
     for (std::size_t i = 0; i < heroes.size(); ++i) {
         const Hero& hero = heroes[i];
         if (hero.species != heroes[first].species || hero.stage != heroes[first].stage ||
@@ -501,14 +501,14 @@ std::uint64_t TileForest::State::add_trees(const TileId& tile,
         const auto number = static_cast<std::uint32_t>(properties.size());
         properties.push_back(
             {static_cast<float>(height_of(tree)), tree.number, tree.species, tree.age});
-        // Placed at the origin first: binary32 is too coarse for places far from it.
+        // Expands the tree at the origin: binary32 is too coarse for places far from the origin.
         Tree here = tree;
         here.position = glm::vec3(0.0F);
         const glm::dvec3 place(tree.position);
         const glm::vec3 foot(y_up(frame.place(place.x, place.y, place.z)));
         const glm::vec3 above(y_up(frame.place(place.x, place.y + 1.0, place.z)));
-        // A tree follows the vertical at its own place, which differs from that at the middle of
-        // the tile.
+        // A tree follows the vertical at its own place, which differs from the vertical at the
+        // middle of the tile.
         const glm::vec3 up = glm::normalize(above - foot);
         const glm::quat tilt =
             glm::normalize(glm::quat(1.0F + up.y, up.z, 0.0F, -up.x)); // from +Y to `up`
@@ -532,7 +532,7 @@ std::uint64_t TileForest::State::add_trees(const TileId& tile,
     return trees.size();
 }
 
-/// Height in m: of a plant with its surface, of a tree with branches of its axes.
+/// Height of a tree in m: of its mesh if trees are whole heroes, else of the axes of its branches.
 double TileForest::State::height_of(const Tree& tree) const {
     if (!has_branches) {
         const Bounds& bounds = heroes[hero_table->hero_of(tree)].bounds;

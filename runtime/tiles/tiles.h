@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: MIT
-// TileForest: a forest as 3D Tiles 1.1 (OGC 22-025r4), a quadtree over the ground of the scene. Near
-// tiles hold the ground and the trees as instances: of whole heroes with rho 0, else of branches;
-// coarser tiles hold fewer triangles per tree, and heroes that stand in for trees; tiles with too
-// many trees hold one surface of ground and crowns. Meshes of
-// heroes are files that all tiles share. A tile and a tileset depend only on the scene and their
-// place, so they can be made in any order, by any process. Made by make_tile_forest(); used by
-// `lsc tiles`.
+// TileForest: a forest as 3D Tiles 1.1 (OGC 22-025r4), a quadtree over the ground of the scene.
+// Near tiles hold the ground and the trees as instances: of whole heroes with rho 0, else of
+// branches. Coarser tiles hold fewer triangles per tree, and heroes that stand in for trees. Tiles
+// with too many trees hold one surface of ground and crowns. Meshes of heroes are in files that all
+// tiles share. A tile and a tileset depend only on the scene and their place, so they can be made
+// in any order, by any process. Made by make_tile_forest(); used by `lsc tiles`.
 #pragma once
 
 #include "grammar/base/outcome.h"
@@ -118,16 +117,16 @@ public:
     /// Makes a tile. Precondition: has_tile(), and its level has content. May be called from several
     /// threads. Throws std::bad_alloc.
     [[nodiscard]] TileContent content(const TileId& tile) const;
-    /// Makes the tileset of the tiles below a tile, with the tile itself only if it is that of level
-    /// 0: a JSON document that lists them and names the tilesets below them. Precondition: has_tile()
-    /// and has_tileset(). May be called from several threads.
+    /// Makes the tileset of the tiles below `root`: a JSON document that lists them and names the
+    /// tilesets below them. The tileset of level 0 also lists `root`. Precondition: has_tile() and
+    /// has_tileset(). May be called from several threads.
     [[nodiscard]] std::string tileset(const TileId& root) const;
-    /// Whether tiles of the level have a tileset. With implicit tiling only that of level 0 has one.
+    /// Whether tiles of the level have a tileset. With implicit tiling only level 0 has one.
     [[nodiscard]] bool has_tileset(std::uint32_t level) const;
-    /// Makes the subtree file of the tiles below a tile, and of the tile itself. Precondition:
-    /// has_tile() and has_subtree(). May be called from several threads.
+    /// Makes the subtree file of `root` and of the tiles below it. Precondition: has_tile() and
+    /// has_subtree(). May be called from several threads.
     [[nodiscard]] std::string subtree(const TileId& root) const;
-    /// Whether tiles of the level have a subtree file, as some have with implicit tiling.
+    /// Whether tiles of the level have a subtree file. False without implicit tiling.
     [[nodiscard]] bool has_subtree(std::uint32_t level) const;
     /// The path of the content of a tile, "3/5/2.glb", and that of its tileset, "4/7/1.json" or
     /// "tileset.json".
@@ -144,14 +143,15 @@ private:
     std::unique_ptr<State> state_;
 };
 
-/// Whether the trees of a scene can be placed tile by tile: its placement is on an unbounded grid, and no
-/// tree is painted or erased.
+/// Whether the trees of a scene can be placed tile by tile: its placement is on an unbounded grid,
+/// and no tree is painted or erased.
 [[nodiscard]] bool is_placed_by_tile(const Scene& scene);
 
 /// Grows the heroes of a scene, plans its tiles, and makes the files that they share. The trees of
 /// a scene with is_placed_by_tile() are placed when their tile is made; the trees of other scenes
 /// are all placed here, or read from TileOptions::tree_file. With rho above 0 trees are assembled
-/// from branches. Stops for the reasons of grow_species(), place_forest(), read_tree_file() and mesh_forest().
+/// from branches. Stops for the reasons of grow_species(), place_forest(), read_tree_file() and
+/// mesh_forest().
 [[nodiscard]] Outcome<TileForest>
 make_tile_forest(LoadedScene loaded, const TileOptions& options, const Project& project);
 

@@ -28,7 +28,7 @@ struct Joint {
 /// The motion of an item, relative to its parent.
 struct Motion {
     Ends<glm::quat> turn;
-    Ends<glm::vec3> offset;            // from the parent's tip, in its frame
+    Ends<glm::vec3> offset;            // from the parent's tip, in the parent's frame
     std::uint32_t parent = kNoSegment; // index in State::segments
     bool eases = false;                // grows from size 0 or shrinks to size 0
 };
@@ -47,7 +47,7 @@ struct MovingObject {
 };
 
 struct MovingPolygon {
-    Motion motion; // of its frame
+    Motion motion; // motion of the polygon's frame
     std::uint32_t first_corner = 0;
 };
 
@@ -94,7 +94,7 @@ struct SkeletonGrowth::State {
     LargeVector<MovingSegment> segments; // segments of `after`, then segments that shrink
     LargeVector<MovingObject> objects;
     LargeVector<MovingPolygon> polygons;
-    LargeVector<Ends<glm::vec3>> corners;          // from the parent's tip, in its frame
+    LargeVector<Ends<glm::vec3>> corners;          // from the parent's tip, in the parent's frame
     LargeVector<std::uint32_t> shrinking_segments; // indexes in `before`
     LargeVector<std::uint32_t> shrinking_objects;
     LargeVector<std::uint32_t> shrinking_polygons;
@@ -242,7 +242,7 @@ struct SkeletonGrowth::State {
         }
     }
 
-    /// The corner of a polygon relative to the parent's tip, in its frame.
+    /// The corner of a polygon relative to the parent's tip, in the parent's frame.
     [[nodiscard]] glm::vec3
     local_corner(const glm::vec3& corner, std::uint32_t parent, std::size_t end) const {
         const Joint from = joint(parent, end);

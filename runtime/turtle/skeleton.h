@@ -45,7 +45,7 @@ struct Segment {
     std::uint32_t parent = kNoSegment; // the segment drawn before it on its path
     ItemColour colour = 0;
     std::uint16_t order = 0;     // number of open brackets around it: 0 is the trunk
-    std::uint8_t sides = 0;      // corners of its cross-section, set by the author
+    std::uint8_t sides = 0;      // corners of its cross-section, if set by the author; else 0
     bool linked : 1 = false;     // begins where its parent ends
     bool forked : 1 = false;     // branches that the skeleton leaves out begin at its tip
     bool cut : 1 = false;        // begins within its parent, with a closed surface of its own

@@ -54,7 +54,7 @@ def box(points):
 
 
 def box_of_file(gltf):
-    """The box of a single plant, with +Z up, by the values of its accessor."""
+    """The box of a single plant in a file, with +Z up, and its number of triangles."""
     (placement,) = gltf.placements()
     _, parts = gltf.primitives(placement.mesh)
     points = []

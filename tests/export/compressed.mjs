@@ -24,8 +24,8 @@ export function primitivesOf(document) {
                 material.getNormalTextureInfo()?.getExtension('KHR_texture_transform');
             found.push({
                 primitive,
-                // Rounded to floats, because lsc quantised by floats; the text in the file has
-                // fewer digits.
+                // Rounded to floats, with which lsc quantised; the numbers in the file have fewer
+                // digits.
                 scale: Math.fround(scale),
                 shift: shift.map(Math.fround),
                 material,

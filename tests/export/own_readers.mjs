@@ -30,7 +30,7 @@ export function readOffPlus(text) {
 
 const token = /\s*(?:(@@@(?:\\@@@|(?!@@@)[^\n])*@@@|@[^@\n]*@)|([A-Za-z_][\w:.]*(?:\[\])?)|(-?(?:\d+\.?\d*|\.\d+)(?:e[-+]?\d+)?)|("(?:[^"\\\n]|\\.)*")|(<[^<>]*>)|([()[\]{}=,:]))/gy;
 
-/// Statements of a prim: `properties` by name, `children` by name.
+/// Parser of USDA. A prim becomes its statements: `properties` by name, `children` by name.
 class Parser {
     constructor(text) {
         this.text = text;

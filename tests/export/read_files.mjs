@@ -142,7 +142,7 @@ async function transformer() {
         .registerDependencies({ 'meshopt.decoder': MeshoptDecoder });
     const expectValid = async (file, bytes, uri) => {
         const report = await validator.validateBytes(new Uint8Array(bytes), {
-            uri, maxIssues: 0, // no limit: the validator stops at one, and later errors are not found
+            uri, maxIssues: 0, // no limit, because the validator misses errors after the limit
             externalResourceFunction: async name =>
                 new Uint8Array(readFileSync(join(folder, decodeURIComponent(name)))),
         });
@@ -152,7 +152,7 @@ async function transformer() {
         expect(file, `errors and warnings of ${uri} ${JSON.stringify(bad.slice(0, 3))}`,
                numErrors + numWarnings, 0);
     };
-    // The document without EXT_meshopt_compression.
+    // Validates the document without EXT_meshopt_compression.
     const expectValidDecoded = async (file, document) => {
         for (const extension of document.getRoot().listExtensionsUsed()) {
             if (extension.extensionName === 'EXT_meshopt_compression') {
@@ -391,7 +391,7 @@ const checks = {
             const step = extentOf(plain) / (meshopt ? 16383 : 65535);
             const gltf = await load(file);
             const other = await load(`${mesh.name}.glb`);
-            // Vertices of the plain file by their places in the grid of the other one.
+            // Vertices of the plain file by their cells in the grid of the compressed file.
             const [skin] = document.getRoot().listSkins();
             const decode = skin.getInverseBindMatrices().getElement(0, []);
             const cellOf = place => place.map(

@@ -99,7 +99,7 @@ const expandImplicit = root => {
         };
         return tileAt(0, 0)[0];
     };
-    // Clients that ignore metadata cut the box of the root into quarters and halve its error.
+    // Clients that ignore metadata quarter the box and halve the error of the root with each level.
     const implied = (tile, depth) => {
         const error = root.geometricError / 2 ** depth + 1e-6;
         check(tile.content === undefined || tile.geometricError <= error, `depth ${depth}: implied error too small`);
@@ -110,7 +110,7 @@ const expandImplicit = root => {
     return { ...expanded, transform: root.transform };
 };
 
-/// Every tile with its frame, depth and content.
+/// Every tile with content: its file, box, frame and depth.
 const tiles = [];
 const visit = (file, tile, matrix, parent, depth) => {
     const frame = multiply(matrix, tile.transform ?? identity);
@@ -141,7 +141,7 @@ const visit = (file, tile, matrix, parent, depth) => {
     check(tile.refine === 'REPLACE', `${name}: no refine`);
     if (uri !== '') {
         tiles.push({ uri, box, frame, depth });
-    } else { // a client must go on to its children, which show something
+    } else { // a client must refine a tile without content
         check(tile.geometricError >= groundSide, `${name}: without content, but its error is small`);
         check(tile.children?.length > 0, `${name}: neither content nor children`);
     }
@@ -179,7 +179,7 @@ for (const tile of tiles) {
     const [json, data] = parseGlb(bytes);
     const document = await io.read(file);
     // The ground and all instances lie within the box, in the frame of the tile with +Z up.
-    const places = new Map(); // by row of the table
+    const places = new Map(); // by _FEATURE_ID_0, the row of the property table
     for (const node of document.getRoot().listNodes()) {
         const batch = node.getExtension('EXT_mesh_gpu_instancing');
         const matrix = node.getWorldMatrix();

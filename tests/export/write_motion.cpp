@@ -51,7 +51,8 @@ const std::array kCases{
 constexpr const char* kFrames = "13";
 constexpr const char* kRate = "10";
 
-/// Axioms that draw something, because a series skips the generations before the first drawing.
+/// Plants that grow. Their axioms draw something, because a series skips the generations before the
+/// first drawing.
 const std::array kGrowths{
     Case{"tree", kTree, {"--grow", "-n", "3"}},
     Case{"boxes", kTree, {"--grow", "-n", "2", "--method", "boxes", "--subdivisions", "1"}},

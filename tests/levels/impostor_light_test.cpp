@@ -23,7 +23,7 @@ namespace lsys {
 
 namespace {
 
-constexpr int kSide = 256; // samples of a side of a picture
+constexpr int kSide = 256; // samples along each side of a picture
 constexpr std::size_t kViews = 6;
 constexpr float kTurn = 1.0471976F; // radians between two views
 constexpr float kTilt = 0.25F;      // radians, elevation of the eye

@@ -36,7 +36,7 @@ constexpr std::array<float, 2> kTilts{0.0F, 0.5F};
 constexpr int kMinSamples = 192;
 constexpr int kMaxSamples = 512;
 constexpr double kMaxColourDifference = 0.02;
-constexpr double kMinFactor = 2.0; // ratio of the triangles of a level to those of the next
+constexpr double kMinFactor = 2.0; // triangles of a level / triangles of the next
 constexpr double kMaxFactor = 3.0;
 // Without an impostor, the last level has few branches of many triangles each, so the ratio may be
 // larger.
@@ -329,7 +329,7 @@ const std::array<const char*, 10> kSamplesOfLevels{
 struct LevelResult {
     std::uint64_t planned = 0; // triangles
     std::uint64_t triangles = 0;
-    double factor = 1.0; // ratio to the triangles of the previous level
+    double factor = 1.0; // triangles of the previous level / own triangles
     float pixels = 0.0F;
     Difference difference; // silhouette in pixels at the distance where the level is shown
 };
@@ -463,8 +463,8 @@ TEST_CASE("a short chain goes from the finest level to the coarsest", "[levels]"
         REQUIRE(few.levels.size() == expected);
         CHECK_FALSE(few.levels.front().impostor);
         CHECK(few.levels.back().impostor == (count > 1));
-        // Each level is one of the whole chain; the numbers of skipped levels differ by at most
-        // one.
+        // A shorter chain has levels of the whole chain, with steps between them that differ by at
+        // most one.
         std::size_t at = 0;
         std::set<std::size_t> steps;
         for (std::size_t k = 1; k < expected; ++k) {
@@ -532,7 +532,7 @@ TEST_CASE("a finer level keeps all paths of a coarser level", "[levels]") {
     const Plant plant = test::sample_plant("carey-3-2-2");
     const DetailLevels levels = planned(plant, {.threads = 1});
     const ThinningOrder order = thinning_order(plant.skeleton);
-    // A path comes after its parent in the order.
+    // In the order, a path comes after the path from which it branches.
     for (std::size_t i = 0; i < plant.skeleton.segments.size(); ++i) {
         const std::uint32_t parent = plant.skeleton.segments[i].parent;
         if (parent < i) {

@@ -132,7 +132,7 @@ TEST_CASE("a plant bends, moves and grows in files") {
     REQUIRE(
         lsys::write_plant(tree(), "a.ply", growing.receiver(), {{"grow", ""}, {"frames", "3"}}));
     CHECK(growing.complete == std::vector<std::string>{"a.0001.ply", "a.0002.ply", "a.0003.ply"});
-    Received print; // grown again, because the preset makes it 150 mm high
+    Received print; // the plant is grown again, because the preset makes it 150 mm high
     REQUIRE(lsys::write_plant(tree(), "a.obj", print.receiver(), {{"preset", "print"}}));
     CHECK(print.files["a.obj"].find("# millimetres, +Z up") != std::string::npos);
 }

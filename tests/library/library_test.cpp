@@ -342,6 +342,6 @@ TEST_CASE("moved-from messages stay usable") {
     lsys::Messages taken = grammar.messages();
     const lsys::Messages moved = std::move(taken);
     CHECK(moved.has_errors());
-    CHECK(taken.has_errors()); // NOLINT(bugprone-use-after-move): they are shared
+    CHECK(taken.has_errors()); // NOLINT(bugprone-use-after-move): both share the data
     CHECK(lsys::Messages().empty());
 }

@@ -125,7 +125,7 @@ class Tiles(unittest.TestCase):
         self.assertEqual((run.returncode, run.stdout, run.stderr), (0, alone, ""))
 
     def end_while_it_writes(self, name, end):
-        """Starts a job, calls `end` when it has written some files, and resumes it."""
+        """Starts a job, ends it by `end` after it has written some files, and resumes the job."""
         size = 1500
         folder = self.folder / name
         reference = self.folder / "large"

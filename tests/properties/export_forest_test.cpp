@@ -338,7 +338,7 @@ TEST_CASE("the instances of a GLB have the triangles of the baked forest") {
         float max_difference; // of bounds, m
         std::uint64_t window; // instances whose transforms are compressed together
     };
-    // Positions differ by at most half a step along each axis: a tree is less than 10 m wide.
+    // Bounds differ by at most half a quantisation step per axis; trees are less than 10 m wide.
     for (const auto& [compression, max_difference, window] :
          {Form{ExportCompression::None, 1e-3F, 1000},
           Form{ExportCompression::Quantize, 2e-3F, 1000},

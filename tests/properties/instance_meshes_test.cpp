@@ -153,7 +153,7 @@ TEST_CASE(
     for (std::uint32_t i = 0; i < planted.cache.instances.size(); ++i) {
         const Instance& instance = planted.cache.instances[i];
         if (instance.slot != 0) {
-            // Without exchanged branches, no tree contains this instance.
+            // With rho 0 no branch is replaced, so no tree contains this instance.
             CHECK(meshes.parts_of(i).empty());
             continue;
         }

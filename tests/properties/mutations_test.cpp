@@ -329,7 +329,7 @@ private:
     std::string kept_;
 };
 
-/// Repairs the mutants `first` to `end` - 1, each of another sample in turn.
+/// Repairs the mutants `first` to `end` - 1. The samples take turns.
 void check_characters(Census& census, std::uint64_t first, std::uint64_t end) {
     const std::vector<RightGrammar> grammars = right_grammars_in({LSYS_SOURCE_DIR "/samples"});
     REQUIRE(!grammars.empty());
@@ -356,9 +356,9 @@ TEST_CASE("a repaired grammar equals the original") {
     INFO(census.table() << census.kept());
     CHECK(census.total().wrong == 0);
     CHECK(census.total().unfinished == 0);
-    // Changes with only one plausible repair are repaired. Where a `;` is missing, the character
-    // before may be a mistyped `;`, for example the last digit of a number. After a digit, the
-    // second `)` may be a mistyped digit.
+    // Most of these mutants have one plausible repair. Others have two: the character before a
+    // missing `;` may be a mistyped `;`, for example the last digit of a number, and the second `)`
+    // after a digit may be a mistyped digit.
     struct Repaired {
         const char* kind;
         std::uint32_t least_tenths;

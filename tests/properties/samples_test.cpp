@@ -87,8 +87,8 @@ TEST_CASE("a dumped word parses as the axiom of the same file and is dumped unch
             continue;
         }
         ++tried;
-        // A sample that includes its neighbours needs a copy of its folder.
         const LscRun again = run_lsc({"dump", "--quiet", "-n", "0", "-"}, *text);
+        // A sample that includes files of its folder needs a copy of the folder.
         if (sample.file.filename() == "teach-include.lsys") {
             const ScratchFolder folder;
             std::filesystem::copy(sample.file.parent_path(), folder.path());

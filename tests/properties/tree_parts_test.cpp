@@ -78,7 +78,7 @@ double farthest(const std::vector<TreeSegment>& from, const std::vector<TreeSegm
     return all;
 }
 
-/// By instance: the distance from its entry to its farthest point.
+/// For each instance, the distance from its entry to its farthest point.
 std::vector<double> own_reach(const InstanceCache& cache) {
     const PartSkeletons skeletons(cache);
     std::vector<double> reach;
@@ -115,7 +115,7 @@ TEST_CASE("a tree expanded to some instances has the choices of the whole tree")
         const auto whole = expanded([](const BranchInstance&) { return true; });
         CHECK(std::equal(whole.begin(), whole.end(), all.begin(), all.end(), same));
         CHECK(expanded([](const BranchInstance&) { return false; }).size() == 1);
-        // Those that remain are in the order of the whole tree, with their places and instances.
+        // The listed branches have the order, places and instances of the whole tree.
         const auto some = expanded([](const BranchInstance& branch) { return branch.order < 2; });
         auto next = all.begin();
         for (const BranchInstance& branch : some) {
@@ -164,7 +164,7 @@ TEST_CASE("no tree goes beyond the bounds of its cache") {
     const TreeBounds bounds = tree_bounds(cache, own_reach(cache));
     const PartSkeletons skeletons(cache);
     double largest =
-        0.0; // distance of a tree from its plant with stand-ins, as a part of the bound
+        0.0; // distance between a tree and its plant with stand-ins / bound of this distance
     for (std::uint32_t number = 0; number < 60; ++number) {
         const std::uint32_t root = branches_of(cache, number).front().instance;
         const auto tree = segments_of(cache, tree_of(number), kKey);
@@ -180,7 +180,7 @@ TEST_CASE("no tree goes beyond the bounds of its cache") {
             largest = std::max(largest, apart / bounds.deviation[root]);
         }
     }
-    CHECK(largest > 0.1); // the bound is of use
+    CHECK(largest > 0.1); // the bound is at most ten times too large
 }
 
 TEST_CASE("no tree is lower than the bound on which its largest scale rests") {

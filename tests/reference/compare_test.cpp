@@ -90,7 +90,8 @@ TEST_CASE("choices at the edge of a weight") {
     }
 }
 
-// Two statements of section 4: a production that matches no module causes no error.
+// Section 4: a production that no module matches causes no error. A successor that is applied and a
+// condition that is tried do.
 TEST_CASE("a value that is never finite is an error only where it is computed") {
     Grammar grammar;
     add_axiom(grammar, letters("A"));

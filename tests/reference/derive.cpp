@@ -335,8 +335,8 @@ private:
                    statement.kind == StatementKind::Param) {
             system_.constants[statement.name] = value_of(statement);
         } else if (statement.kind == StatementKind::Function) {
-            // The body is evaluated with all constants, which is equivalent: no constant is defined
-            // twice.
+            // The body will be evaluated with all constants, also later ones. They change nothing,
+            // because no constant is defined twice.
             system_.functions[statement.name] = {statement.names, statement.expr, {}};
         } else if (statement.kind == StatementKind::Curve) {
             UserFunction& curve = system_.functions[statement.name];

@@ -309,7 +309,7 @@ std::size_t ranges_in(const Expr& expr) {
     return count;
 }
 
-// Takes the numbers of the ranges of an expression that is not evaluated.
+// Draws the random numbers of an expression that is not evaluated: it uses them up too.
 void skip_ranges(const Expr& expr, const Environment& environment) {
     for (std::size_t i = ranges_in(expr); i > 0; --i) {
         environment.draw();
@@ -395,7 +395,7 @@ float evaluate(const Expr& expr, const Environment& environment) {
         skip_ranges(expr.parts[1], environment);
         return evaluate(expr.parts[2], environment);
     }
-    // Every operand is evaluated, also those of && and ||, because a range in it takes its number.
+    // Every operand is evaluated, also those of && and ||, because its ranges draw numbers.
     std::vector<float> operands;
     for (const Expr& part : expr.parts) {
         operands.push_back(evaluate(part, environment));

@@ -15,7 +15,7 @@
 
 namespace lsys::reference {
 
-// A function of the grammar: of an expression, or of a curve through points.
+// A function of the grammar: an expression of its formals, or a curve through points.
 struct UserFunction {
     std::vector<std::string> formals; // empty: a curve
     Expr body;

@@ -39,8 +39,8 @@ struct Plan {
 // letter.
 bool fits(const std::string& name, bool letters);
 
-// `letters_files`, `words_files`: whether the grammar has files of that kind. Some active species
-// fits into every file.
+// `letters_files`, `words_files`: whether the grammar has files of that kind. At least one active
+// species fits into every file.
 Plan make_plan(bool letters_files, bool words_files, Random& random);
 
 } // namespace lsys::reference

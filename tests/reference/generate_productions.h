@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Random productions: bundles of them with one predecessor and one pair of contexts, whose
-// conditions and probabilities together are legal, and the modules of successors and of the axiom.
+// Random productions, and modules of successors and of the axiom. A bundle is a list of productions
+// with one predecessor and one pair of contexts, whose conditions and probabilities are legal
+// together.
 
 #pragma once
 
@@ -29,7 +30,7 @@ public:
     std::vector<ModuleUse> modules(int length, const Scope& scope, bool letters);
     // Probabilities whose sum is nearly 1; with `weights any`, arbitrary weights.
     std::vector<float> shares(int count);
-    // `value` as an expression without these formals.
+    // An expression with the value `value`. `formals` hide constants, so it must not name them.
     Expr probability(float value, const std::vector<std::string>& formals);
 
 private:

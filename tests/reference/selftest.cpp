@@ -318,7 +318,7 @@ TEST_CASE("sequential rewriting makes a pass of every rule") {
     CHECK(text_after(pairs, 1) == "CBA"); // BBA; the first B has a B to the right; no C after a B
     Grammar seen = letter_system("AAAA", {"A<AA=B"});
     add_setting(seen, "rewriting", "cyclic");
-    CHECK(text_after(seen, 1) == "ABA"); // position 1 has an A to its left, and uses up two
+    CHECK(text_after(seen, 1) == "ABA"); // the match at position 1 uses up two modules
     Grammar neighbours = letter_system("A+A", {"AA=B", "A>A=C"});
     add_setting(neighbours, "rewriting", "sequential");
     add_ignored(neighbours, {"+"});

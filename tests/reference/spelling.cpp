@@ -246,7 +246,7 @@ std::vector<JoinedNames::List> JoinedNames::lists_of(const File& file) {
 
 // The number of ways to split `text` into two or more names that occur, joined names included.
 std::size_t JoinedNames::ways(const std::string& text) const {
-    // Count[i]: ways to split the first i characters.
+    // count[i]: ways to split the first i characters.
     std::vector<std::size_t> count(text.size() + 1, 0);
     count[0] = 1;
     for (std::size_t end = 1; end <= text.size(); ++end) {

@@ -40,7 +40,7 @@ void check_alike(const Picture& a, const Picture& b) {
     REQUIRE(a.height == b.height);
     const PictureDifference difference = difference_of(a, b);
     CHECK(difference.mean < 0.05); // the tolerance of stored pictures is 1.0
-    CHECK(difference.far < 0.001); // 0.01
+    CHECK(difference.far < 0.001); // the tolerance of stored pictures is 0.01
 }
 
 /// A renderer of a wood, and its pictures.
@@ -114,7 +114,7 @@ TEST_CASE("compute shaders count what the CPU counts") {
     CHECK(gpu["passes"]["branches"]["triangles"] == cpu["passes"]["branches"]["triangles"]);
     CHECK(gpu["passes"]["impostors"]["triangles"] == cpu["passes"]["impostors"]["triangles"]);
     CHECK(cpu["passes"]["branches"]["triangles"] > 0);
-    // Triangles of a picture without those of the shadow map, which only the device counts.
+    // Triangles without those of the shadow map, whose casters are chosen and counted differently.
     const auto lit = [](const nlohmann::json& stats) {
         return stats["triangles"].get<std::uint64_t>() -
                stats["passes"]["shadow"]["triangles"].get<std::uint64_t>();
@@ -186,7 +186,7 @@ TEST_CASE("painted and removed trees are drawn alike with compute shaders") {
     }
     const Picture undone = gpu.draw();
     check_alike(before, undone);
-    // A forest that is shown again has the changes of its records.
+    // update_trees() rebuilds a forest from its changed trees.
     cpu.renderer->update_trees();
     gpu.renderer->update_trees();
     static_cast<void>(cpu.renderer->bake_impostors(1e9));

@@ -231,7 +231,7 @@ TEST_CASE("the option --pick on a forest prints the branch and its number of ins
             REQUIRE(pick.lines.size() == 4);
             if (slot.id == 0) {
                 CHECK(pick.lines[1] == "from the axiom");
-            } else { // the place of its bracket in production `one` or `two`
+            } else { // the place of the branch's bracket in `one` or `two`
                 const std::regex place("from (one at .*bush.lsys:6:2[15]|two at .*bush.lsys:7:21), "
                                        "generation (\\d+)");
                 REQUIRE(std::regex_match(pick.lines[1], found, place));
@@ -250,7 +250,7 @@ TEST_CASE("the option --pick on a forest prints the branch and its number of ins
     const Outcome<view::Description> described =
         view::describe(branch, {}, document, file, make_project(console, options.run));
     REQUIRE(described);
-    CHECK_FALSE(described.value().module); // nothing to trace, and the window says why
+    CHECK_FALSE(described.value().module); // no module to trace; the hint says why
     CHECK(described.value().hint.find("open its grammar alone") != std::string::npos);
 }
 

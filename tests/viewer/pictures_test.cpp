@@ -265,7 +265,7 @@ TEST_CASE("the edges of cut-out leaves are smooth with several samples") {
     };
     const PictureDifference difference = difference_of(view("1"), view("4"));
     CHECK(difference.far > 0.002);
-    CHECK(difference.mean < 2.0); // as much leaf as before
+    CHECK(difference.mean < 2.0); // the leaf covers about the same area
 }
 
 TEST_CASE("the sky has no bands of equal colour") {

@@ -97,14 +97,14 @@ inline constexpr std::array<KeyHelp, 30> kForestKeys = {{
 
 class Controls {
 public:
-    /// Applies input to the view shown. `seconds`: since the last call. `area`: of the picture in
-    /// the window, pixels from its lower left corner.
+    /// Applies input to the view shown. `seconds`: time since the last call. `area`: place of the
+    /// picture in the window, pixels from the window's lower left corner.
     void apply(const WindowInput& input,
                double seconds,
                const PixelArea& area,
                ViewSwitcher& switcher,
                PanelState& panels);
-    /// Applies input to a plant. `height`: of the picture, pixels.
+    /// Applies input to a plant. `height`: height of the picture, pixels.
     void apply(const WindowInput& input,
                double seconds,
                float height,

@@ -17,9 +17,9 @@ namespace {
 
 constexpr double kPi = std::numbers::pi;
 
-/// Relative luminance of a clear sky, kcd/m^2, at zenith angle `zenith` a quarter turn beside the
-/// sun. `sun`: zenith angle of the sun. Radians. Preetham, Shirley & Smits 1999, appendix A.2, with
-/// the function of Perez, Seals & Michalsky 1993.
+/// Luminance of a clear sky, kcd/m^2, at zenith angle `zenith` and an azimuth of 90 degrees from
+/// the sun. `sun`: zenith angle of the sun. Angles in radians. Preetham, Shirley & Smits 1999,
+/// appendix A.2, with the function of Perez, Seals & Michalsky 1993.
 double sky_luminance(double turbidity, double sun, double zenith) {
     const double t = turbidity;
     const std::array<double, 5> c{0.1787 * t - 1.4630, -0.3554 * t + 0.4275, -0.0227 * t + 5.3251,
@@ -94,8 +94,8 @@ Light daylight_of(const SceneLight& scene, const Light& light) {
     // The disc of the sun sets within a degree.
     const auto disc = static_cast<float>(std::clamp(sun.elevation + 0.5, 0.0, 1.0));
     changed.sun = disc * light.sun * passes;
-    // Haze makes the sky grey. Light at the horizon has passed through about half as much air as
-    // that of the sun, and has its colour by half; at dusk it loses this colour.
+    // Haze makes the sky grey. Light from the horizon has passed through about half as much air as
+    // sunlight, so it has the square root of the sun's tint; at dusk it loses this tint.
     constexpr double kGrey = 12.0; // turbidity above the default that makes a sky without colour
     const auto grey = static_cast<float>((turbidity - kDefaultTurbidity) / kGrey);
     const glm::vec3 sky = glm::mix(light.sky, glm::vec3(luminance(light.sky)), grey);
@@ -109,7 +109,7 @@ Light daylight_of(const SceneLight& scene, const Light& light) {
         return on.sun * up + glm::mix(on.horizon, on.sky, 0.6F);
     };
     changed.ground = light.ground * falls(changed) / falls(light);
-    // The exposure follows the light as an eye does, by half of the change in magnitude.
+    // The exposure follows the light as an eye does: by the square root of the change.
     constexpr float kMaxExposure = 8.0F;
     changed.exposure *=
         std::min(std::sqrt(luminance(falls(light)) / std::max(luminance(falls(changed)), 1e-3F)),

@@ -15,9 +15,9 @@ namespace lsys::view {
 
 /// `light` with the sun and the turbidity of `scene`; unchanged if it sets neither. The luminance of
 /// sky and horizon changes as in Preetham, Shirley & Smits 1999 (SIGGRAPH, appendix A.2), the colour
-/// of the sun by Rayleigh scattering and haze (appendix A.1); the exposure follows. For the sun of
-/// `light` and kDefaultTurbidity all are those of `light`. Below the horizon the sun gives no light,
-/// and the sky fades to dusk.
+/// of the sun by Rayleigh scattering and haze (appendix A.1); the exposure follows. The result
+/// equals `light` for the sun of `light` and kDefaultTurbidity. Below the horizon the sun gives no
+/// light, and the sky fades to dusk.
 [[nodiscard]] Light daylight_of(const SceneLight& scene, const Light& light);
 inline constexpr double kDefaultTurbidity = 3.0;
 

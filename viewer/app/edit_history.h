@@ -12,7 +12,8 @@ class EditHistory {
 public:
     explicit EditHistory(Value value) : current_(std::move(value)) {}
 
-    /// Makes `value` the current one. A different value is a step; returns whether it was one.
+    /// Makes `value` the current value. If it differs from the old one, the change is a step for
+    /// undo(). Returns whether it is a step.
     bool record(const Value& value) {
         if (value == current_) {
             return false;
@@ -21,7 +22,7 @@ public:
         undone_.clear();
         return true;
     }
-    /// The current value. Changes to it are no steps.
+    /// The current value. Changes through the reference are not steps.
     [[nodiscard]] Value& current() { return current_; }
 
     [[nodiscard]] bool can_undo() const { return !earlier_.empty(); }

@@ -23,7 +23,7 @@ constexpr int kMaxDelay = 10; // max delay of a report, as a multiple of Options
 /// Max interval of polls where the system has no events.
 constexpr std::chrono::milliseconds kPollWithoutEvents{100};
 
-/// Absolute paths whose events are changes of `path`: its own and the one of its link target.
+/// Absolute paths whose events are changes of `path`: the path itself and the target of its links.
 std::vector<fs::path> names_of(const std::string& path) {
     std::error_code error;
     std::vector<fs::path> names;

@@ -190,8 +190,8 @@ glm::vec3 edge_of(const Forest& forest, const glm::vec3& middle, const glm::vec2
     return edge;
 }
 
-/// View into a forest from outside its edge, a foot of a tree. `height`: of its trees, m. Distances
-/// are multiples of it, so forests of grass and of trees look alike.
+/// View into a forest from outside. `edge`: foot of a tree at the edge. `height`: height of the
+/// trees, m. Distances are multiples of `height`, so forests of grass and of trees look alike.
 Camera edge_view(const ForestDocument& document, const glm::vec3& edge, float height) {
     constexpr float kOutside = 3.5F;   // distance from the eye to the first tree
     constexpr float kAbove = 2.0F;     // height of the eye above the ground below it

@@ -22,7 +22,8 @@ struct ForestDocument {
     /// thread of the window reads or changes them.
     GrownForest grown;
     ForestModel model; // refers to `grown`
-    /// The trees of a streamed forest, while `grown` has none; else null. Refers to `grown`.
+    /// The trees of a streamed forest; `grown` then has none. Null for other forests. Refers to
+    /// `grown`.
     std::shared_ptr<const SquareSource> squares;
     MeshOptions mesh_options;
     std::vector<std::string> files; // all requested files, readable or not, if recorded
@@ -36,7 +37,7 @@ struct ForestDocument {
 [[nodiscard]] Outcome<std::shared_ptr<ForestDocument>>
 make_forest_document(const ViewOptions& options, const Project& project);
 
-/// Makes the forest that a window shows. `edits` of the window are applied after those of
+/// Makes the forest that a window shows. `edits` of the window are applied after the overrides of
 /// `options`. All placed trees are kept: ForestPainting applies `scene.painting`. Heroes are taken
 /// from `known`, which may be null, where possible.
 [[nodiscard]] Outcome<std::shared_ptr<ForestDocument>>
@@ -59,8 +60,8 @@ make_unpainted_forest(const ViewOptions& options,
 /// Default visibility in a forest, km: in proportion to its size, so that far trees keep their
 /// contrast in forests of any size; kStreamedVisibility in a streamed forest.
 [[nodiscard]] double default_visibility(const ForestDocument& document);
-/// Light of a forest. `visibility`: km, above 0; empty: default_visibility(). `changes`: in place of
-/// the scene's light.
+/// Light of a forest. `visibility`: km, above 0; empty: default_visibility(). `changes`: values
+/// that replace the scene's.
 [[nodiscard]] Light forest_light(const ForestDocument& document,
                                  std::optional<double> visibility,
                                  const SceneLight& changes);

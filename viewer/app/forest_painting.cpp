@@ -73,7 +73,8 @@ Painter& ForestPainting::painter() {
     return *painter_;
 }
 
-/// Maps species by name to those of document_; drops trees of species that no longer exist.
+/// The painting with species of document_, matched by name. Drops trees of species that no longer
+/// exist.
 Painting ForestPainting::renamed(const Painting& painting) const {
     const std::vector<std::string> names = names_of(document_->scene);
     Painting result{{}, painting.erased};

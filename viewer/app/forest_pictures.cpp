@@ -37,7 +37,7 @@ nlohmann::ordered_json pass_stats(const FrameStats& pass) {
     return stats;
 }
 
-/// `trees` of the whole ground are expected ones.
+/// Statistics of a streamed forest as JSON. `trees` is an estimate: tree_count().
 nlohmann::ordered_json streaming_stats(const ForestStreamer& streamer,
                                        const ForestDocument& document) {
     const StreamStats numbers = streamer.stats();

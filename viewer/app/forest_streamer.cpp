@@ -13,8 +13,9 @@ namespace lsys::view {
 
 namespace {
 
-/// Bytes of a square, shown or not: a shown one also has its trees and cells in ForestLod and on the
-/// device. Counted alike, so that the budget holds whatever is shown.
+/// Bytes of a square, with the copies of its trees and cells that ForestLod and the device have
+/// while it is shown. Counts them for hidden squares too, so that the budget holds whatever is
+/// shown.
 std::uint64_t bytes_of(const ForestSquare& square) {
     return square.trees.size() * kBytesPerStreamedTree +
            square.cells.size() * kBytesPerStreamedCell;
@@ -159,7 +160,7 @@ void ForestStreamer::forget_squares() {
             }
         }
         if (oldest == ready_.end()) {
-            return; // the wanted ones alone: more trees than expected
+            return; // only wanted squares are left, with more trees than expected
         }
         stats_.bytes -= bytes_of(*oldest->second.square);
         ready_.erase(oldest);

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// ForestStreamer: places and prepares the squares of a streamed forest around a camera on threads of
-// its own, keeps them within a budget of memory, and tells which squares to show and to hide. Squares
-// that the camera no longer wants are hidden at once, so the squares shown are a function of the
-// camera when all are ready, and kept while the budget allows it.
+// ForestStreamer: places and prepares the squares of a streamed forest around a camera on threads
+// of its own, keeps them within a budget of memory, and tells which squares to show and to hide.
+// Squares that the camera no longer wants are hidden at once, and stay in memory while the budget
+// allows it. When all wanted squares are ready, the squares shown are a function of the camera.
 #pragma once
 
 #include "viewer/app/forest_document.h"
@@ -52,9 +52,9 @@ public:
     ForestStreamer& operator=(const ForestStreamer&) = delete;
     ~ForestStreamer();
 
-    /// Changes for a camera, without waiting: with squares that are ready, nearest first, until
-    /// `max_trees` trees are added, and at least one square. Throws std::bad_alloc if a thread ran
-    /// out of memory.
+    /// Changes for a camera, without waiting. Shows squares that are ready, nearest first, with at
+    /// most `max_trees` trees in all, but at least one square. Throws std::bad_alloc if a thread
+    /// ran out of memory.
     [[nodiscard]] StreamStep
     step(const Camera& camera, std::uint32_t picture_height, std::uint64_t max_trees);
     /// Shows all wanted squares of a camera: hands `apply` the squares to hide, waits until all
@@ -76,7 +76,7 @@ private:
     };
 
     void work();
-    /// Replaces the wishes of the threads. Needs the lock.
+    /// Replaces the list of squares that the threads have to make. Needs the lock.
     void want(const WantedSquares& wanted);
     [[nodiscard]] WantedSquares wanted_for(const Camera& camera,
                                            std::uint32_t picture_height) const;
@@ -101,7 +101,7 @@ private:
     StreamStats stats_;
     bool out_of_memory_ = false;
     bool ends_ = false;
-    std::vector<std::thread> threads_; // last member: they use the others
+    std::vector<std::thread> threads_; // last member: the threads use the others
 };
 
 /// Threads for streaming: one less than the machine has, 1 to 4; at most `limit` unless it is 0.

@@ -451,7 +451,7 @@ void ForestView::grow() {
                     now,
                     false});
     settings.edits.years = year;
-    requested_->years = year; // made by the growth thread, so the loader must not make it
+    requested_->years = year; // the growth thread makes this year, so the loader must not
 }
 
 void ForestView::grow_by_years() {

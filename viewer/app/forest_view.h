@@ -27,7 +27,7 @@ inline constexpr float kMaxBrush = 500.0F; // m, radius
 
 /// Settings of the user that undo() takes back.
 struct ForestEdits {
-    SceneOverrides edits; // applied after those of the command line; a change makes a new forest
+    SceneOverrides edits; // applied after command-line options; a change makes a new forest
 
     bool shadows = true;
     bool antialiasing = true;
@@ -36,7 +36,7 @@ struct ForestEdits {
     bool windy = false; // wind is on
     Wind wind;
     std::optional<double> visibility; // km; empty: default_visibility()
-    SceneLight light;                 // in place of the scene's
+    SceneLight light;                 // values that replace the scene's
     std::uint64_t max_triangles = 1'500'000;
 
     friend bool operator==(const ForestEdits&, const ForestEdits&) = default;
@@ -58,7 +58,7 @@ struct CacheStats {
     std::uint32_t generations = 0;
     std::uint32_t heroes = 0;
     std::uint64_t keys = 0;
-    std::uint64_t branches = 0; // kept
+    std::uint64_t branches = 0; // recorded branches, whole plants included
     std::uint64_t hits = 0;
     std::uint64_t misses = 0;
     std::uint64_t dropped = 0;
@@ -157,7 +157,7 @@ private:
     void show_outline();
     /// Shows and hides squares of a streamed forest for the camera of a frame.
     void stream(Frame& frame);
-    /// Says that a streamed forest cannot be painted; returns whether it is one.
+    /// Returns whether the forest is streamed, after a note that such a forest cannot be painted.
     bool refuses_painting();
     void show_colours();
     [[nodiscard]] std::string painted_text(const char* what) const;
@@ -209,8 +209,8 @@ private:
 
     std::mutex saved_mutex_;
     std::string saved_text_;     // text last written by this view
-    ViewOptions shown_options_;  // with which document_ was made
-    SceneOverrides shown_edits_; // likewise
+    ViewOptions shown_options_;  // options with which document_ was made
+    SceneOverrides shown_edits_; // edits with which document_ was made
     MakingProgress progress_;
     ForestLoader loader_;
     FileWatch watch_; // last member: it calls the loader

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // LatestRequestWorker: handles requests on a thread of its own. A new request replaces a pending
-// one; a running one is cancelled when it takes long.
+// one, and cancels a running one that takes long.
 #pragma once
 
 #include <atomic>
@@ -144,7 +144,7 @@ private:
     std::condition_variable changed_;
     std::optional<Request> pending_;
     std::optional<Request> last_;
-    std::optional<Request> finished_; // the last one that was not cancelled
+    std::optional<Request> finished_; // the last request that was not cancelled
     std::optional<Outcome> outcome_;
     bool is_running_ = false;
     bool is_running_repeat_ = false; // Request::is_repeat of the running or last request

@@ -72,8 +72,8 @@ ExitStatus run_forest_pictures(const ViewOptions& options, const Console& consol
         return status;
     }
     hidden_renderer.renderer->colour_branches(options.colours);
-    // Keep the model of a growing forest, which is shown again for each picture, and the model for
-    // --pick, and squares, which read its forms.
+    // Keep the model if it is read again: by each picture of a growing forest, by --pick, or by
+    // squares, which read its forms.
     const bool keeps_model = options.grow || options.pick || document.squares != nullptr;
     if (const Result<void> shown = hidden_renderer.renderer->show_forest(
             keeps_model ? document.model : std::move(document.model));

@@ -47,7 +47,7 @@ void MakingProgress::begin(LongStep step) {
     generation_ = 0;
 }
 
-/// Sums the expected modules as the generations come: plants have up to 2^32 generations.
+/// Keeps a running sum of the expected modules, since a plant may have up to 2^32 generations.
 void MakingProgress::derive(const DerivationProgress& progress) {
     const std::lock_guard lock(mutex_);
     if (generation_ == 0) {

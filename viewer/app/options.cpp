@@ -308,7 +308,7 @@ ParsedOptions parse_options(std::span<const std::string> arguments) {
     if (options.is_forest) {
         options.overrides.season = season;
     } else if (season) {
-        options.grammar.definitions.push_back({"season", *season}); // of a plant
+        options.grammar.definitions.push_back({"season", *season}); // a constant
     }
     if (options.is_forest && options.gravity) {
         return UsageError{"--gravity bends a plant, not a forest", "leave it out"};

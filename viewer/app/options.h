@@ -59,7 +59,7 @@ struct ViewOptions {
     PlantStyle style = PlantStyle::Surface;
     LineKind lines = LineKind::None;
     BranchColours colours = BranchColours::Natural; // forests only
-    SceneLight light;                               // in place of the scene's
+    SceneLight light;                               // values that replace the scene's
     std::uint32_t samples = 4;
     std::uint64_t max_triangles = 1'500'000;               // budget of branches in a forest
     std::uint64_t stream_bytes = std::uint64_t{128} << 20; // budget of trees of a streamed forest

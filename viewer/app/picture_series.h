@@ -33,8 +33,8 @@ struct PictureSeries {
 [[nodiscard]] Frame frame_of(const ViewOptions& options, const Camera& camera);
 
 /// Draws and writes the pictures of the options, starting with `frame`. `prepare`, which may be
-/// empty, is called before each with its frame; a status other than Ok ends the series. `after` is
-/// called after each, and may end it too. Fails on OpenGL errors.
+/// empty, is called before each picture with its frame, and `after` after each picture; a status
+/// other than Ok of either ends the series. Fails on OpenGL errors.
 [[nodiscard]] ExitStatus take_series(const ViewOptions& options,
                                      Frame frame,
                                      Renderer& renderer,

@@ -16,11 +16,11 @@ namespace lsys::view {
 
 namespace {
 
-/// The options of `lsc export` that the settings and the mesh of the plant stand for.
+/// The options of `lsc export` with the effect of the settings and of the plant's mesh options.
 Result<PlantFileOptions> file_options(const ExportRequest& request) {
     const MeshOptions& mesh = request.options.mesh;
     std::vector<NamedOption> options;
-    // A preset leaves out what these two options prevent.
+    // The parser must know these two options: a preset leaves out what they prevent.
     if (mesh.method == MeshMethod::Solid) {
         options.emplace_back("method", "solid");
     }

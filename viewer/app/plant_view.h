@@ -37,7 +37,7 @@ struct PlantEdits {
     bool shadows = true;
     bool ground = true;
     bool antialiasing = true;
-    SceneLight light; // in place of daylight at a fixed time
+    SceneLight light; // values that replace the default daylight
 
     bool simulates = false; // gravity and wind move the plant
     Bending bending;

@@ -104,7 +104,7 @@ std::shared_ptr<const StreamedTrees> SquareSource::describe(const ForestModel& m
         streamed->mean_scales.push_back(
             counts[form] > 0.0 ? static_cast<float>(scales[form] / counts[form]) : 0.0F);
     }
-    // Crowns on the whole ground, by its densities at a lattice of places.
+    // Area of the crowns on the whole ground, from tree densities at a lattice of places.
     constexpr int kLattice = 24;
     std::vector<double> crown_sums(crowns.size());
     std::vector<double> densities_here(crowns.size());
@@ -121,7 +121,7 @@ std::shared_ptr<const StreamedTrees> SquareSource::describe(const ForestModel& m
         const std::uint32_t first = model.first_form[s];
         const std::size_t end =
             s + 1 < crowns.size() ? model.first_form[s + 1] : model.forms.size();
-        double trees = 0.0; // of the sample of the species: by stage
+        double trees = 0.0; // sampled trees of the species, all stages
         for (std::size_t form = first; form < end; ++form) {
             trees += counts[form];
         }

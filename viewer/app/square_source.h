@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// SquareSource: the trees of any part of the ground of a scene whose placement is on an unbounded
-// grid, by place alone, so that a forest of any number of trees can be shown square by square.
+// SquareSource: computes the trees of any part of the ground independently of all other parts, so
+// that a forest of any size can be shown square by square. For placements on an unbounded grid.
 #pragma once
 
 #include "runtime/pipeline/forest.h"
@@ -26,8 +26,8 @@ public:
     [[nodiscard]] static bool
     is_needed(const Scene& scene, const Project& project, const GrownForest& grown);
 
-    /// Precondition: is_needed(). `grown` must outlive the source. Errors: those of place_trees(),
-    /// except too many trees in total.
+    /// Precondition: is_needed(). `grown` must outlive the source. Errors: the errors of
+    /// place_trees(), except too many trees in total.
     [[nodiscard]] static Result<std::shared_ptr<const SquareSource>>
     make(const Scene& scene, const Project& project, const GrownForest& grown);
 
@@ -36,7 +36,8 @@ public:
     /// All trees of a part of the ground, sized, by ascending number. May be called from several
     /// threads. Throws std::bad_alloc.
     [[nodiscard]] std::vector<Tree> trees_of(const Region& region) const;
-    /// Upper estimate of their number, from the density of places at 16 of its points.
+    /// Upper estimate of the number of trees of a region, from the density of places at 16 points
+    /// where the density varies.
     [[nodiscard]] double expected_trees(const Region& region) const;
     /// Expected number of places on the whole ground.
     [[nodiscard]] double all_places() const { return all_places_; }

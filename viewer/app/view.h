@@ -51,14 +51,14 @@ public:
     /// Takes finished work and requests work for changed settings, between two frames. Returns
     /// whether panels may show something new: messages, a description or a trace.
     virtual bool update() = 0;
-    /// Draws unless nothing changed. Returns whether it drew.
+    /// Draws if something has changed. Returns whether it drew.
     virtual bool draw(std::uint32_t width, std::uint32_t height) = 0;
     /// Call when the last picture is on the screen. `draw_seconds`: time to draw it.
     virtual void picture_shown(double draw_seconds) = 0;
     /// Whether work or motion goes on, so that update() is due soon.
     [[nodiscard]] virtual bool is_busy() const = 0;
-    /// The work of a thread on the next picture. Empty without such work, and in its first
-    /// kProgressDelay.
+    /// The work of another thread for the next picture. Empty if there is none, and in the first
+    /// kProgressDelay of the work.
     [[nodiscard]] virtual std::optional<MakingState> making() const = 0;
     /// Stops what making() returns. The last plant or forest stays, with the settings that made it.
     virtual void cancel_making() = 0;
@@ -128,7 +128,7 @@ protected:
         return (picker_ != nullptr && picker_->is_busy()) ||
                (tracer_ != nullptr && tracer_->is_busy());
     }
-    /// Draws `frame` unless nothing changed. Returns whether it drew.
+    /// Draws `frame` if something has changed. Returns whether it drew.
     bool draw_frame(const Frame& frame);
     /// Stores the messages of a request; prints them if they differ from the last ones.
     void take_messages(const Messages& messages, bool succeeded);

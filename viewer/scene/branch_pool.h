@@ -20,7 +20,7 @@ struct PoolBranch {
     float scale = 1.0F;
     std::array<std::int16_t, 4> rotation{}; // x, y, z, w in 1/32767
     std::uint32_t mesh = 0;                 // instance in its form's cache
-    std::uint32_t tree = 0;                 // index in ForestLod::trees()
+    std::uint32_t tree = 0;                 // number for ForestLod::lod_tree()
 
     /// Transforms a point of the hero, m, into the forest.
     [[nodiscard]] glm::vec3 at(const glm::vec3& place) const;
@@ -56,7 +56,7 @@ public:
     [[nodiscard]] std::uint64_t used_branches() const { return used_branches_; }
     /// Ranges written since the last take_written().
     [[nodiscard]] std::vector<PoolSpan> take_written();
-    /// Ranges of all trees in the pool.
+    /// Ranges of the trees in the pool, by tree.
     [[nodiscard]] std::map<std::uint32_t, PoolSpan> spans() const;
 
     static constexpr std::uint32_t kMaxBranches = 2U << 20U; // 64 MiB

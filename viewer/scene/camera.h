@@ -20,7 +20,7 @@ struct Camera {
     glm::vec3 eye{4.0F, 2.0F, 6.0F}; // relative to `origin`, like `target`
     glm::vec3 target{0.0F, 1.0F, 0.0F};
     float field_of_view = 40.0F; // degrees, vertical
-    /// Place in the world, m, near the eye: 100 km from it binary32 would be coarser than 7 mm.
+    /// Place in the world, m, near the eye: 100 km away, steps of binary32 would be 8 mm wide.
     glm::dvec3 origin{};
 
     friend bool operator==(const Camera&, const Camera&) = default;

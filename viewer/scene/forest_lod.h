@@ -30,10 +30,10 @@ namespace lsys::view {
 struct LodOptions {
     /// Min height of a tree in pixels for each level of branches.
     std::array<float, kTreeLevels> level_pixels{860.0F, 430.0F, 260.0F, 150.0F};
-    /// Below this height of its tallest tree, a cell is drawn as a cluster.
+    /// Height of a cell's tallest tree in pixels below which the cell is drawn as a cluster.
     float cluster_pixels = 8.0F; // 0: never
-    /// Up to this factor above the limit of a coarser band, both bands are drawn, each in a part of
-    /// the pixels, so that nothing pops.
+    /// From the limit of a coarser band up to this multiple of it, both bands are drawn, each in a
+    /// part of the pixels, so that nothing pops.
     float blend = 1.25F;
     /// Max triangles of branches; with more, the heights of all trees in pixels are multiplied by
     /// DrawLists::detail, below 1.
@@ -137,15 +137,15 @@ struct ForestCell {
     float scale = 1.0F;        // mean scale of its trees
     float tallest = 0.0F;      // m
     std::uint16_t form = 0;    // most frequent form of its trees
-    std::uint32_t seed = 0;    // of a streamed forest: number of its first tree
+    std::uint32_t seed = 0;    // of a streamed forest: number of the cell's first tree
     std::uint32_t removed = 0; // count of removed trees; with any, the cell is never a cluster
 };
 
 /// Bounding sphere of a tree, for any choice of its branches.
 [[nodiscard]] Sphere bounding_sphere(const ForestModel& model, const LodTree& tree, float yaw);
-/// Bounding sphere of its impostor.
+/// Bounding sphere of the impostor of a tree.
 [[nodiscard]] Sphere impostor_sphere(const ForestModel& model, const LodTree& tree);
-/// Sets the fields of a cell that its trees determine. `all`: by LodTree::tree.
+/// Sets the fields of a cell that its trees determine. LodTree::tree is an index in `all`.
 void describe_cell(const ForestModel& model,
                    std::span<const LodTree> trees,
                    std::span<const Tree> all,
@@ -165,13 +165,13 @@ public:
     /// The model must outlive this object.
     explicit ForestLod(const ForestModel& model);
 
-    /// Adds or removes a tree, in time independent of the size of the forest. `index`: in
-    /// Forest::trees, or beyond them for added trees, numbered in order; a removed one may be
-    /// replaced. Returns the index for lod_tree().
+    /// Adds or removes a tree, in time independent of the size of the forest. `index`: index in
+    /// Forest::trees; the indices of added trees follow, in order of addition. A removed added tree
+    /// may be replaced. Returns the index for lod_tree().
     std::uint32_t change_tree(std::uint32_t index, const Tree& tree, bool alive);
 
-    /// Of a streamed forest: sets the place of the world, in m, to which all places are relative, and
-    /// moves the trees there.
+    /// For a streamed forest: sets the place of the world, in m, to which all places are relative,
+    /// and updates the places of the trees.
     void set_origin(const glm::dvec3& origin);
     /// Adds the trees of a square of a streamed forest, or removes them. Time is linear in the trees
     /// of the square.
@@ -250,8 +250,8 @@ private:
     /// Group of mesh_counts_ for blended trees; each level has a group before it.
     static constexpr std::uint32_t kBlending = kTreeLevels;
 
-    /// A shown square of a streamed forest; it has the cells from its index times the cells of a
-    /// square on.
+    /// A shown square of a streamed forest. The cells of square i begin in cells_ at i times the
+    /// count of cells of a square.
     struct ShownSquare {
         std::shared_ptr<const ForestSquare> square; // null: free
         std::uint32_t first = 0;                    // index in trees_
@@ -270,7 +270,7 @@ private:
 
     void sort_into_cells();
     [[nodiscard]] Tree streamed_tree(std::uint32_t number) const;
-    /// Room for `count` trees in trees_: index of the first.
+    /// Finds room for `count` trees in trees_. Returns the index of the first.
     [[nodiscard]] std::uint32_t allocate_trees(std::uint32_t count);
     void release_trees(std::uint32_t first, std::uint32_t count);
     /// Copies the trees and cells of a shown square relative to origin_.

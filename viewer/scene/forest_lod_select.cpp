@@ -31,7 +31,7 @@ float finer_weight(float pixels, float limit, float blend) {
     return blend > 1.0F ? std::clamp((pixels / limit - 1.0F) / (blend - 1.0F), 0.0F, 1.0F) : 1.0F;
 }
 
-/// Part of the pixels of trees at a distance of the eye, m, that is drawn: 1 up to four fifths of
+/// Fraction of a tree's pixels that are drawn at `distance` from the eye, m: 1 up to four fifths of
 /// `range`, 0 beyond it.
 float presence_at(float distance, float range) {
     constexpr float kFading = 0.2F;

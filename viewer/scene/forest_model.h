@@ -62,7 +62,7 @@ struct ForestModel {
     const Forest* forest = nullptr;
     const Terrain* terrain = nullptr;
     GroundPictures ground; // of the terrain
-    /// Of a forest whose trees come square by square, while Forest::trees is empty; else null.
+    /// Set for a streamed forest, whose Forest::trees is empty; null for other forests.
     std::shared_ptr<const StreamedTrees> streamed;
     std::vector<TreeForm> forms;
     // By species: index of its first stage in `forms`; its other stages follow.

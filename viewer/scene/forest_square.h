@@ -16,7 +16,7 @@ namespace lsys::view {
 
 struct ForestSquare {
     SquareId id;
-    glm::dvec2 corner{};            // m; the places below are relative to it along X and Z
+    glm::dvec2 corner{};            // m; origin of `lod_trees` and `cells` along X and Z
     std::vector<Tree> trees;        // by cell; places of the world
     std::vector<LodTree> lod_trees; // of `trees`, in the same order; `tree`: index in `trees`
     std::vector<ForestCell> cells;  // `first`: index in `trees`

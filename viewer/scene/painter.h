@@ -31,7 +31,7 @@ struct TreeChange {
 
 class Painter {
 public:
-    /// `placed` and `terrain` must stay unchanged and outlive the painter or the next move_to().
+    /// `placed` and `terrain` must live unchanged until the next move_to() or the painter's end.
     /// `painting`: earlier changes; its erased trees start removed. `key`: of the forest.
     Painter(std::span<const Tree> placed,
             const Painting& painting,

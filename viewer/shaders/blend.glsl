@@ -19,8 +19,8 @@ void keep_range(vec2 range) {
     }
     gl_SampleMask[0] = mask;
 }
-// Fraction of a pixel that a cut-out picture covers. The edge is where the opacity is 0.5, and a pixel
-// wide; without multisampling it is hard. Call it before any discard.
+// Fraction of a pixel that a cut-out picture covers. The edge lies at opacity 0.5; it is a pixel
+// wide with multisampling, else hard. Call the function before any discard.
 float cut_out_cover(float opacity) {
     float cover = (opacity - 0.5) / max(fwidth(opacity), 1e-4) + 0.5;
     return gl_NumSamples > 1 ? clamp(cover, 0.0, 1.0) : step(0.5, opacity);
@@ -29,8 +29,8 @@ float cut_out_cover(float opacity) {
 void keep_cover(float opacity) {
     keep_range(vec2(0.0, cut_out_cover(opacity)));
 }
-// Keeps the samples that a cut-out picture covers in a band. All bands together keep those of
-// keep_cover().
+// Keeps the samples that a cut-out picture covers in a band. All bands together keep the samples
+// that keep_cover() keeps.
 void keep_cover_in_range(float opacity, vec2 range) {
     keep_range(vec2(range.x, min(range.y, cut_out_cover(opacity))));
 }

@@ -10,10 +10,10 @@ layout(std140, binding = 1) uniform Culling {
     vec4 clusters;      // x: LodOptions::cluster_pixels; y: side of a cell, m
     vec4 casters_low;   // box of the casters of shadows, m
     vec4 casters_high;
-    uvec4 trees;        // x: cells; y: trees in cells; z: added trees; w: 1: casters of shadows
+    uvec4 trees;        // x: cells; y: trees in cells; z: added trees; w: 1 to list shadow casters
     uvec4 limits;       // max of: xy: triangles (64 bits); z: branches; w: candidates
     uvec4 key;          // xy: key of the forest; z: max impostors; w: keys of branches
-    vec4 ground;        // x: 1: the ground occludes; y: height of the eye above it, m
+    vec4 ground;        // x: 1 if the ground occludes, else 0; y: height of the eye above it, m
     uvec4 heights;      // x: levels of the ground; y: distances of the horizon
     ivec4 origins[14];  // xy: first texel of the heights of a level, in cells of the level
 } culling;
@@ -88,8 +88,8 @@ float finer_weight(float pixels, float limit) {
     float blend = culling.sway.w;
     return blend > 1.0 ? clamp((pixels / limit - 1.0) / (blend - 1.0), 0.0, 1.0) : 1.0;
 }
-// Counts the min heights above `pixels`. Without an index that varies: with one, a driver of NVIDIA
-// (580.159) gave every tree lower than the first min height kLevels.
+// Counts the min heights above `pixels`. A loop over level_pixels with a variable index fails: a
+// driver of NVIDIA (580.159) returned kLevels for every tree lower than the first min height.
 uint level_of(float pixels) {
     return uint(dot(vec4(lessThan(vec4(pixels), culling.level_pixels)), vec4(1.0)));
 }

@@ -8,8 +8,8 @@ layout(local_size_x = 256) in;
 // Three per cell: low corner, height of the tallest tree; high corner, count of trees and, in bit
 // 31, whether trees were removed; mean position, first tree. Floats as bits, except counts.
 layout(std430, binding = 4) readonly buffer Cells { uvec4 cells[]; };
-// Of cells with visible trees: first tree, trees of the cells before, weight of its trees against
-// its cluster.
+// Cells with visible trees: first tree, number of trees in the cells before, weight of the trees
+// against the cluster.
 layout(std430, binding = 8) writeonly buffer VisibleCells { uvec4 visible_cells[]; };
 #include "culling_entries.glsl"
 

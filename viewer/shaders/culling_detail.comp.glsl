@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Largest factor of the heights of trees in pixels whose branches keep the max triangles:
-// ForestLod::detail_in_budget(). Each of six steps sums the triangles for 15 factors and so finds four
-// bits of the factor in 1/2^24; a seventh step stores it. The first step also sums for factor 1.
+// Finds the largest factor of heights in pixels that keeps the triangles of branches within their
+// max: ForestLod::detail_in_budget(). Each of six steps sums triangles for 15 factors, which gives
+// four bits of the factor in 1/2^24. A seventh step stores it. The first step also tries factor 1.
 #include "culling.glsl"
 layout(local_size_x = 256) in;
 layout(location = 0) uniform uint step_number;
@@ -20,7 +20,7 @@ bool fits(uint step, uint part) {
     uvec2 most = culling.limits.xy;
     return sum.y < most.y || (sum.y == most.y && sum.x <= most.x);
 }
-// The factor found by the steps before, in units of kUnit.
+// The factor that the steps before `step` have found, in units of kUnit.
 uint factor_before(uint step) {
     uint factor = 0u;
     for (uint i = 0u; i < step; ++i) {

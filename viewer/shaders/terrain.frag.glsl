@@ -9,7 +9,7 @@ layout(location = 18) uniform int has_normal_map;
 #else
 layout(binding = 2) uniform sampler2D noise; // tileable
 layout(location = 20) uniform vec2 widest_shift;    // place of the origin in the turned noise tile
-layout(location = 21) uniform vec2 noise_shifts[3]; // and in the others
+layout(location = 21) uniform vec2 noise_shifts[3]; // place of the origin in the other tiles
 #endif
 layout(location = 24) uniform vec3 canopy;       // colour of crowns
 layout(location = 25) uniform vec2 canopy_range; // m, where the canopy begins and is complete; y 0: none
@@ -37,8 +37,8 @@ void main() {
 // Grass on level ground, earth on steep ground and in bare patches.
 void main() {
     vec3 up = normalize(world_normal);
-    // Noise tiles of 173, 37 and 3.1 m; the smaller ones fade before their repetition is visible. One
-    // of 611 m, turned by the angle of a triangle 3-4-5, hides that of the largest.
+    // Noise tiles of 173, 37 and 3.1 m; the two smaller ones fade before their repetition shows. A
+    // tile of 611 m, turned by the angle of a 3-4-5 triangle, hides the repetition of the largest.
     float away = fog.z;
     vec4 widest_noise =
         texture(noise, mat2(0.8, 0.6, -0.6, 0.8) * world_position.xz * (1.0 / 611.0) + widest_shift);

@@ -7,8 +7,8 @@
 //   number, real, truth, tag (an enumerator), id, text, optional_number, table, codes
 //   number_or_none a number that is kNone in most programs; kNone does not change the digest
 //   table_or_none  a table that most programs lack; an empty one does not change the digest
-//   implied        a truth value, computed from a field for the digest: the derived word depends on
-//                  it, but not on the rest of the field, which goes to outside_digest()
+//   implied        a truth value computed from a field, for the digest alone: the derived word
+//                  depends on it, while the field itself goes to outside_digest()
 //   outside_digest() returns the stream for fields that do not affect the derived word: an
 //                  IgnoringStream in the digest, otherwise the stream itself
 // The settings follow their table, settings.def. Every other struct is taken apart by a structured

@@ -203,8 +203,8 @@ Count GrowthWalk::max_matches(const SequenceRule& rule) const {
     return matches;
 }
 
-/// Subtracts from the lower bounds the modules that `matches` matches of the rule replace, because
-/// that many matches may occur.
+/// Subtracts the modules that the rule replaces from the lower bounds, because up to `matches`
+/// matches may occur.
 void GrowthWalk::subtract_replaced(const SequenceRule& rule, const Count& matches) {
     if (is_zero(matches)) {
         return;

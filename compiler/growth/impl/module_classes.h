@@ -2,7 +2,7 @@
 // Classes of modules that are rewritten alike, which the growth analysis counts instead of modules.
 // A class is a code and the known values of its relevant parameters (production_index.h). If a
 // condition reads the parameter of A, A(12) and A(11) are two classes; F(2) and F(2.2) are one
-// class if no condition reads the parameter. An unknown value stands for every value. Beyond
+// class if the parameter of F is not relevant. An unknown value stands for every value. Beyond
 // kMaxClassesWithKnownValues classes, new classes have no known values: bounds stay valid but
 // become wider.
 #pragma once
@@ -48,7 +48,7 @@ struct ClassExpansion {
 
 class ModuleClasses {
 public:
-    /// Further classes have no known values.
+    /// Max number of classes with known values. Further classes have no known values.
     static constexpr std::uint32_t kMaxClassesWithKnownValues = 4096;
     /// Limit of instructions run plus template codes read; above it new classes have no known
     /// values.

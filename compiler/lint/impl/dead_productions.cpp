@@ -62,8 +62,8 @@ public:
     }
 
 private:
-    /// Marks `symbol` and the modules that would occur if `symbol` occurred. The report about
-    /// `symbol` explains why they do not.
+    /// Marks `symbol` and the modules that would occur if `symbol` occurred, because the report
+    /// about `symbol` explains why all of them never occur.
     void explain(SymbolId symbol) {
         std::vector<SymbolId> work{symbol};
         explained_[static_cast<std::size_t>(symbol)] = true;

@@ -12,8 +12,8 @@
 namespace lsys {
 
 struct Reachable {
-    /// Per symbol: the first generation in which it can occur, or kNone if it never occurs. 0 for
-    /// sequential rewriting, where the first generation is not known.
+    /// Per symbol: the first generation in which it can occur, or kNone if it never occurs. 0 with
+    /// sequential rewriting, #decompose or #interpret, where the first generation is not known.
     std::vector<std::uint32_t> generation;
     /// Per production: whether it can be used.
     std::vector<bool> usable;

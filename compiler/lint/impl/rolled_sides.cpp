@@ -90,7 +90,7 @@ private:
 
     /// Reports two productions that differ only by rolls in opposite directions, if something is
     /// drawn after the rolls and nothing changes the heading until the branch ends. Returns whether
-    /// it did.
+    /// it reported them.
     bool check(const Production& one, const Production& other) {
         const std::size_t count = one.successor.module_count;
         if (other.successor.module_count != count) {

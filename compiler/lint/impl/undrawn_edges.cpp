@@ -159,7 +159,7 @@ private:
     const Program& program_;
     Diagnostics& diagnostics_;
     Reachable reachable_;
-    /// By symbol: its only production, if it is plain; kNone: no production; kNotPlain: others.
+    /// By symbol: its only production if that is plain, kNone without a production, else kNotPlain.
     std::vector<std::uint32_t> plain_production_;
 };
 

@@ -12,7 +12,7 @@ namespace lsys {
 
 namespace {
 
-/// Whether `name` is a setting whose value is one number.
+/// Whether `name` is a setting that a constant of this name may be meant to set.
 bool is_setting_name(std::string_view name) {
     constexpr std::array<std::string_view, 6> kNames{"angle", "step",  "width",
                                                      "seed",  "sides", "height"};

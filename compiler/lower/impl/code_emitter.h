@@ -22,7 +22,8 @@ public:
 
     /// Emits code for `value` that ends with Test, End; returns its first instruction.
     std::uint32_t condition(ValueId value, SourceSpan span);
-    /// Emits code that computes each local value i and moves it to slot i, ending with End.
+    /// Emits code that computes each local value i, except leaves, and moves it to slot i, ending
+    /// with End.
     std::uint32_t locals(std::span<const LocalValue> values);
     /// Emits code that computes `values` and emits each, ending with End.
     std::uint32_t arguments(std::span<const ValueId> values);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The probable kind of statements that did not parse, from a second look at the text, so that a
-// damaged `#define a 2 2;` does not make every use of `a` an error. Only used for incomplete Asts.
+// damaged `#define a 2 2;` does not make every use of `a` an error. Empty unless Ast::incomplete.
 #pragma once
 
 #include "compiler/resolve/impl/resolution.h"

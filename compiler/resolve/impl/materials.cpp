@@ -255,8 +255,8 @@ void MaterialResolver::read_picture(const Entry& entry, MaterialPictureName& pic
     picture = {path_of(file), file.span};
 }
 
-/// The path of the file relative to the root file; paths are written relative to the including
-/// file.
+/// The path of the file relative to the root file. A statement gives it relative to the file that
+/// contains the statement.
 std::string MaterialResolver::path_of(const SetValue& file) const {
     const std::string name(resolution_.text(file.word));
     const FileId root = resolution_.ast.files[0].file;

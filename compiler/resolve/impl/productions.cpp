@@ -29,7 +29,7 @@ bool ProductionResolver::check_first_of_name(const ProductionNode& node) {
     Diagnostic& error = report_duplicate(resolution_, node.name_span, first,
                                          fmt::format("production {}", quoted(name)));
     if (first.file != node.name_span.file || first.begin == node.name_span.begin) {
-        return false; // the file may be included twice
+        return false; // no fix: another file, or one file that is included twice
     }
     std::string free(name);
     while (!free.empty() && free.back() >= '0' && free.back() <= '9') {

@@ -28,7 +28,7 @@ constexpr auto kKeys = std::to_array<std::string_view>({
 /// Smaller densities are probably meant in g/cm³.
 constexpr float kMinLikelyDensity = 2.0F;
 
-/// Forms of module names that a front end reads.
+/// How `#set names` splits text into module names.
 enum class NameReading : std::uint8_t { Words, Letters, Characters };
 constexpr std::array kReadings{NameReading::Words, NameReading::Letters, NameReading::Characters};
 std::string_view name_of(NameReading reading) {
@@ -240,7 +240,7 @@ void SetResolver::read_number(const SetNode& node, ExpressionResolver& expressio
     } else if (key == "spring") {
         read_spring(node, expressions);
     }
-    // Other keys are modes or unknown: read_modes() has handled both.
+    // The rows of settings.def follow. Any further key is a mode or unknown, see read_modes().
 #define LSYS_NUMBER(field, initial, use, group, min, wanted)                                       \
     else if (key == #field) {                                                                      \
         const NumberRange range{min, -kLowestNumber, false, wanted};                               \

@@ -28,7 +28,7 @@ public:
 
     /// Reads the modes and profiles of all statements, and reports unknown keys and duplicates.
     void read_modes();
-    /// Reads a number; does nothing for other keys and for duplicates.
+    /// Reads a setting of one or more numbers; does nothing for other keys and for duplicates.
     void read_number(const SetNode& node, ExpressionResolver& expressions);
 
 private:

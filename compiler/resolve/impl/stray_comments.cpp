@@ -94,8 +94,8 @@ public:
         }
         return false;
     }
-    /// For a file with `names letters`: whether a word looks like part of a remark. None of its
-    /// letters is a module of the file, or at least three of them are not.
+    /// For a file with `names letters`: whether a word looks like part of a remark, because all or
+    /// at least three of its letters occur in no word of the file.
     [[nodiscard]] bool has_foreign_letters(std::string_view word) const {
         const auto foreign = std::count_if(
             word.begin(), word.end(), [&](char letter) { return letters_.count(letter) == 0; });

@@ -8,7 +8,7 @@
 namespace lsys {
 
 /// Reports each `//` before a word that is not a module of the grammar: the word is neither known,
-/// nor used outside of such lines, nor split into modules. `known`: by name, whether the module
+/// nor used outside of comments, nor split into modules. `known`: by name, whether the module
 /// name is known. Precondition: no module of the Ast has been released.
 void check_stray_comments(Resolution& resolution,
                           const std::vector<bool>& known,

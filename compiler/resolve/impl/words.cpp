@@ -50,8 +50,8 @@ void append_module(ModuleReading& reading, const ModuleView& module) {
     }
 }
 
-/// Appends modules from `index` on while they have no arguments and a cached symbol; nearly all
-/// modules of a long word do. Returns the index of the first module that does not.
+/// Appends modules from `index` on up to the first that has arguments or no cached symbol, and
+/// returns its index. Nearly all modules of a long word are appended here.
 std::uint32_t append_bare(ModuleReading& reading, std::uint32_t index, std::uint32_t end) {
     ChunkedVector<ProgramModule>& made = reading.resolution.program.modules;
     const std::span<const SymbolId> bare = reading.bare;

@@ -17,9 +17,9 @@ struct LeftParameters {
     bool any = false; // true if a rule has a count
 };
 
-/// Follows the parameters of axiom and right sides through the rules. A note reports each parameter
-/// that moves to another symbol, an error each one that no module can take. Mistakes within the
-/// texts are left to the CareyWriter.
+/// Follows the parameters of axiom and right sides through the rules. A note reports a parameter
+/// that moves to another symbol, an error a parameter that no module can take. CareyWriter reports
+/// mistakes within the texts.
 [[nodiscard]] LeftParameters find_left_parameters(const CareyFile& file,
                                                   const ParseContext& context);
 

@@ -15,7 +15,7 @@ namespace lsys {
 
 enum class CareyText : std::uint8_t { Axiom, Left, Right };
 
-/// `text` without blanks, as left sides are compared.
+/// `text` without blanks; left sides are compared in this form.
 [[nodiscard]] std::string remove_blanks(std::string_view text);
 
 class CareyWriter {

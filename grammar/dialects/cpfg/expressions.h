@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Expressions and statements of cpfg in .lsys. An assignment of a production becomes a local value,
 // an assignment of the header a constant, and `if` chooses among the values of the variables that
-// its blocks assign. Global variables are known if each step adds the same amount to them or
-// assigns them before reading them.
+// its blocks assign. The value of a global variable is known if each step adds the same amount to
+// the variable or assigns it before reading it.
 #pragma once
 
 #include "grammar/dialects/cpfg/curves.h"

@@ -140,8 +140,8 @@ void CpfgWriter::write_setting(const char* begin, ForeignId expression, const ch
     out_.put(number ? ";\n" : ");\n", span);
 }
 
-/// Writes the number of passes of a stage. Random numbers in conditions take additional passes: up
-/// to one per pass if they are of this stage, and one pass of Decompose if they are of Rewrite.
+/// Writes the number of passes of a stage. Random numbers in conditions of this stage double the
+/// number; random numbers in conditions of Rewrite add one pass of Decompose.
 void CpfgWriter::write_depth(const char* begin, ForeignId expression, Stage stage) {
     const bool own = bound_.count(stage) != 0;
     const bool first = stage == Stage::Decompose && bound_.count(Stage::Rewrite) != 0;

@@ -138,7 +138,8 @@ bool CpfgExpressions::depends(const std::vector<int>& statements,
 }
 
 /// The expression that each step adds to the variable, or kNoForeign. It exists if the only
-/// assignment to the variable is `v = v + e;` outside of any `if`, and no step changes `e`.
+/// assignment to the variable is `v = v + e;` outside of any `if`, and `e` is neither random nor
+/// changed by a step.
 ForeignId CpfgExpressions::increment_of(const std::string& variable) const {
     if (assignments(session_.start_each, variable) + assignments(session_.end_each, variable) !=
         1) {

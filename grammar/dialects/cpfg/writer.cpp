@@ -24,7 +24,7 @@ constexpr std::uint64_t kMaxCondition = 4'000;
 std::string bound_label(Stage stage, const std::string& name) {
     return (stage == Stage::Interpret ? "#interpret " : "#decompose ") + name;
 }
-/// Stage of that production.
+/// Stage of the production that replaces a module of random numbers of `stage`.
 Stage bound_stage(Stage stage) {
     return stage == Stage::Rewrite ? Stage::Decompose : stage;
 }

@@ -148,7 +148,7 @@ ForeignId HoudiniExpressions::call(const ForeignNode& node, std::vector<ForeignI
     return tree_.call(found->in_lsys, std::move(arguments), node.token);
 }
 
-/// A number from 0 to 1, the same for the same seed in one rule.
+/// A random number from 0 to 1; equal seeds in one rule give one number.
 ForeignId HoudiniExpressions::random(const ForeignNode& node, const HoudiniScope& scope) {
     if (scope.place == HoudiniPlace::Condition || scope.place == HoudiniPlace::Probability) {
         Diagnostic& error =

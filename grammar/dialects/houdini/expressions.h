@@ -29,7 +29,7 @@ public:
 
     /// Sets the value of the variable `a`.
     void set_angle(std::string angle) { angle_ = std::move(angle); }
-    /// Begins the premise or a variant of a rule, whose local values come next.
+    /// Begins the premise or a variant of a rule, which draws its own random numbers.
     void begin() { seeds_.clear(); }
     /// Returns the equivalent of an expression in .lsys.
     [[nodiscard]] ForeignId term(ForeignId root, const HoudiniScope& scope);

@@ -42,8 +42,8 @@ bool is_setting(std::string_view line) {
     return find_houdini_setting(key) != nullptr;
 }
 
-/// A rule has a symbol, perhaps with contexts, parameters and a condition, then a `=`; a line with
-/// an arrow is not a rule.
+/// The kind of a line with a `=`: Rule if a symbol, perhaps with contexts, parameters and a
+/// condition, stands before the `=` and the line has no arrow; else Other.
 LineKind rule_kind(std::string_view line, std::size_t equals) {
     std::string_view head = trimmed(line.substr(0, equals));
     head = trimmed(head.substr(0, head.find(':')));

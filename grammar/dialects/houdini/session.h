@@ -99,7 +99,7 @@ private:
     std::uint32_t line_node_ = 0; // first node of the line
 };
 
-/// A key in one form: lower-case letters only.
+/// The letters of a key in lower case, without other characters.
 [[nodiscard]] std::string houdini_key(std::string_view text);
 
 /// One pass of the scanner over a text.

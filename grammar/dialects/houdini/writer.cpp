@@ -311,7 +311,7 @@ bool HoudiniWriter::lower_special(Lowered& made, char symbol, const HoudiniScope
     }
 }
 
-/// The value of an omitted parameter that others follow.
+/// The value of an omitted parameter: its default for a turtle command, else 0.
 ForeignId HoudiniWriter::omitted_argument(const HoudiniModule& module,
                                           std::uint32_t index,
                                           SourceSpan place) {

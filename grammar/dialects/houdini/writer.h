@@ -62,7 +62,7 @@ private:
 
     [[nodiscard]] Word lower_word(const std::vector<HoudiniModule>& word,
                                   const HoudiniScope& scope);
-    /// Finds the local values of a word from index `first` on, and their names.
+    /// Finds which local values from index `first` on a word reads, and gives them names.
     void name_locals(const Word& word, std::size_t first, std::set<std::string> taken);
     void write_word(const Word& word);
     void write_expression(ForeignId expression, const HoudiniScope& scope);
@@ -93,7 +93,7 @@ private:
     std::vector<std::string_view> zeros_;   // parameters that the variant of a rule lacks
     std::string warned_;                    // symbols that have been reported
     std::uint32_t fresh_ = 0;               // count of generated parameter names
-    std::size_t premise_local_count_ = 0;   // the first of tree_.locals()
+    std::size_t premise_local_count_ = 0;   // locals of the premise; first in tree_.locals()
 };
 
 } // namespace lsys

@@ -57,7 +57,7 @@ struct ForeignLocal {
     ForeignId value = kNoForeign;
     SourceSpan span{};
     bool is_final = false;  // written as a `let` even if it is read only once
-    bool is_inline = false; // written in place of its name
+    bool is_inline = false; // the value is written in place of the name
     bool is_constant = false;
     std::uint32_t reads = 0; // reads by other written values; set by count_reads()
 };
@@ -135,7 +135,8 @@ public:
     [[nodiscard]] std::vector<ForeignId> subtree(ForeignId root) const;
 
     void write(ForeignId root, const ForeignWriting& how, Translation& out) const;
-    /// Writes `before`, then `let a = ..., b = ...`, the local values from `first` to `end`.
+    /// Writes `before` and `let a = ..., b = ...`, the local values from `first` to `end`; nothing
+    /// if is_written() is false for all.
     void write_locals(std::string_view before,
                       std::size_t first,
                       std::size_t end,

@@ -29,8 +29,8 @@ void write_letter(const LetterModule& module,
                   Translation& translation);
 
 /// Calls visit(LetterModule) for each module of `text`, without blanks. A `(` right after a
-/// character begins its arguments, which the matching `)` ends. Reports a missing `)`; returns
-/// false after reporting a mistake.
+/// character begins its arguments, which the matching `)` ends. Reports a missing `)` and
+/// characters that cannot be modules; returns false after reporting a mistake.
 bool read_letter_modules(SourceSpan text,
                          const ParseContext& context,
                          const std::function<void(const LetterModule&)>& visit);

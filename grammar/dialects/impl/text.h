@@ -10,7 +10,7 @@ namespace lsys {
 /// `text` without the characters of `blanks` at both ends.
 [[nodiscard]] std::string_view trimmed(std::string_view text, std::string_view blanks = " \t\r");
 [[nodiscard]] bool is_one_of(char c, std::string_view set);
-/// Length of `text` before the first character of `stops`, or of all of it.
+/// Length of `text` before the first character of `stops`; its size if it has none.
 [[nodiscard]] std::size_t length_up_to(std::string_view text, std::string_view stops);
 /// Whether all of `text` is a number, which may begin with one of `signs`.
 [[nodiscard]] bool is_number(std::string_view text, std::string_view signs = "");

@@ -55,8 +55,8 @@ write_header(const L3dFile& file, const ParseContext& context, Translation& tran
     return static_cast<std::uint32_t>(generations);
 }
 
-/// Returns the axiom: the last line without a `=`. Without such a line, the first rule is the axiom
-/// if its `=` can be the command that sets the thickness, as in `fA=(5)A`.
+/// Returns the axiom: the last line without a `=`. Without such a line and unless bug-compatible,
+/// the first rule is the axiom if its `=` can be the command for the thickness, as in `fA=(5)A`.
 std::optional<SourceSpan> take_axiom(L3dFile& file, const ParseContext& context) {
     Diagnostics& diagnostics = context.diagnostics;
     for (std::size_t i = 0; i + 1 < file.axioms.size(); ++i) {

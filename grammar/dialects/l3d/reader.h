@@ -19,7 +19,7 @@ struct L3dRule {
 
 struct L3dFile {
     std::vector<SourceSpan> numbers; // three, else an error has been reported
-    std::vector<SourceSpan> axioms;  // the last one counts
+    std::vector<SourceSpan> axioms;  // the last is the axiom
     std::vector<L3dRule> rules;
     bool has_end_mark = false; // a `@`, which ends the file
 };

@@ -139,7 +139,7 @@ void L3dWriter::write(SourceSpan text) {
     source_ = context_.sources.file(text.file).text();
     const std::string_view whole = source_.substr(0, text.end);
     translation_.put("`", text);
-    char command = '\0';   // the last command, if a parameter may follow it
+    char command = '\0';   // the previous character; NUL at the start and after a parameter
     std::size_t close = 0; // the next `)`, or the end
     const auto next_close = [&](std::size_t from) {
         if (close < from) {

@@ -12,7 +12,7 @@ namespace {
 /// Maximum excess of an aligned cell over the median width, and maximum padding of an aligned cell.
 /// Other cells are not aligned.
 constexpr std::uint32_t kWidestGap = 24;
-/// A longer head leaves too little of the line for modules.
+/// Maximum columns of a head if its line must be broken; a longer one leaves modules little room.
 constexpr std::uint32_t kLongHead = 50;
 
 bool has_columns(const LayoutRow& row) {
@@ -73,7 +73,7 @@ LayoutRow measure(std::string_view text, std::size_t begin, std::uint32_t column
     bool has_modules = false;
     bool in_first_module = false;
     bool has_outer_place = false; // the first line can be broken outside of branches
-    // Pieces after the first line or beyond its last column need no measures.
+    // After the first module, pieces on other lines or beyond the last column need no measures.
     const auto is_measured = [&] {
         return has_modules && !in_first_module && (!in_first_line || end_column > kColumns);
     };

@@ -146,7 +146,7 @@ void LexemeReader::next_part() {
     if (part_ == 0) {
         return;
     }
-    // Local values are a part of their own.
+    // Local values stand between colons of their own, and belong to part 3.
     const bool has_locals = part_ == 3 && !has_locals_ && begins_local_values(text_, at_);
     has_locals_ = has_locals_ || has_locals;
     part_ += has_locals ? 0U : 1U;
@@ -200,7 +200,7 @@ void LexemeReader::module() {
 
 void LexemeReader::value(LexemeKind kind, std::size_t length) {
     take(kind, length);
-    // Values of `#set` are adjacent, and an expression follows the name of a constant.
+    // A value follows, not an operator: after a value of `#set` and after the name of a constant.
     after_value_ = !(area_ == Area::Set && depth_ == 0) && (area_ != Area::Name || in_formals_);
     if (area_ == Area::Name) {
         area_ = Area::Expression;

@@ -27,8 +27,8 @@ bool closes_bracket(const Lexeme& lexeme) {
     return is_module(lexeme, ']') || is_module(lexeme, '}');
 }
 
-/// Whether a blank separates two tokens of a statement. Comments always have blanks around them,
-/// because an adjacent `/` could change where they begin or end.
+/// Whether a blank separates two tokens of a statement. Only parentheses, braces, `,` and `;` may
+/// adjoin a comment: an adjacent `/` could change where the comment begins or ends.
 bool blank_between(const Lexeme& before, const Lexeme& after) {
     using enum LexemeKind;
     if (before.kind == BlockComment) {

@@ -14,7 +14,7 @@ inline constexpr std::uint32_t kMaxSearchedBytes = 4096;
 /// Maximum number of searches in a text.
 inline constexpr std::uint32_t kMaxBracketSearches = 1000;
 
-/// The first `)` after `at` in the statement whose `(` is not after `at`.
+/// The first `)` at or after `at` in the statement that closes no `(` at or after `at`.
 [[nodiscard]] std::optional<std::uint32_t> unmatched_parenthesis(std::string_view text,
                                                                  std::uint32_t at);
 

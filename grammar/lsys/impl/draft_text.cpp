@@ -155,7 +155,7 @@ std::vector<FreeLine> find_free_lines(std::string_view text) {
                 end = begin - 1; // the next statement begins this line
                 break;
             }
-            end = end_of_line(text, next); // more content on the line where the last content ends
+            end = end_of_line(text, next); // more content follows on the line of `next`
             next = end_of_content(text, next, end);
         }
         at = std::max(end, std::min(next, text.size()) == text.size() ? text.size() : end) + 1;

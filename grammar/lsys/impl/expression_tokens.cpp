@@ -309,7 +309,7 @@ std::size_t number_before_name(std::string_view text) {
         name.find('.') != std::string_view::npos) {
         return 0;
     }
-    // Not in `1e`, `1f`, `1e5F` and `0x10`, which are numbers of other languages.
+    // `1e`, `1f`, `1e5F` and `0x10` are numbers of other languages.
     const bool is_suffix = name == "f" || name == "F" || name == "e" || name == "E";
     const bool is_hexadecimal =
         text.substr(0, length) == "0" && (name[0] == 'x' || name[0] == 'X') && name.size() > 1;
@@ -708,7 +708,7 @@ void report_wrong_operator(ParseSession& session, std::string_view right) {
     LSYS_DCHECK(synonym != nullptr && synonym->spelling == right);
     Diagnostic& diagnostic = session.report(DiagnosticCode::SyntaxError,
                                             "there is no operator `" + std::string(text) + "`");
-    // `2**x` may be a power, `2*3*x` without its number, or a `*` typed twice.
+    // `2**x` may be a power, a product that lacks a factor, or a `*` typed twice.
     add_fix(diagnostic, help_for(*synonym, text), diagnostic.span, std::string(right),
             text != "**");
 }
@@ -727,7 +727,7 @@ bool report_word_for_operator(ParseSession& session, std::string_view word) {
         const Synonym& synonym = *find_synonym(SynonymKind::Operator, word);
         Diagnostic& diagnostic = session.report(DiagnosticCode::SyntaxError,
                                                 "there is no operator `" + std::string(word) + "`");
-        // Between arguments the word may be a name without its commas.
+        // Between arguments the word may be a name that lacks the commas around it.
         const bool in_list =
             !scan.open.empty() && scan.open.back().kind != OpenBracket::Kind::Group;
         add_fix(diagnostic, help_for(synonym, word), diagnostic.span, std::string(synonym.spelling),

@@ -12,14 +12,14 @@
 
 namespace lsys::lsys_grammar {
 
-/// The token of a number; reports a number out of range.
+/// The token of a number; reports a percentage and a number out of range.
 Token number(ParseSession& session, std::string_view text, SourceSpan span);
 void report_malformed_number(ParseSession& session, std::string_view text, SourceSpan span);
 /// Length of the number in texts like `2x`; 0 if no name follows it.
 [[nodiscard]] std::size_t number_before_name(std::string_view text);
 
-/// Reports and inserts a `,` or an operator before the current value, which follows another one.
-/// The value is read again, unless the statement is skipped.
+/// Reports and inserts a `,` or an operator before the current value, which follows another value.
+/// The scanner reads the current value again, unless it skips the statement.
 Token insert_before_value(ParseSession& session);
 /// Whether a `{` would begin the bounds of #param.
 [[nodiscard]] bool begins_bounds(const ScanState& scan);
@@ -45,7 +45,7 @@ void report_assignment(ParseSession& session);
 /// Whether the current `=` gives an argument a name, `F(length=2)`.
 [[nodiscard]] bool is_named_argument(const ParseSession& session);
 void report_named_argument(ParseSession& session);
-/// Whether the current `%` ends a percentage, which its number has reported.
+/// Whether the current `%` ends a percentage, which number() has reported.
 [[nodiscard]] bool is_percent_sign(const ParseSession& session);
 /// Reports a unit of measure after a number. Returns whether the current word is one.
 [[nodiscard]] bool report_unit_word(ParseSession& session, std::string_view word);

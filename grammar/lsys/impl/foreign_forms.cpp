@@ -15,7 +15,7 @@ namespace lsys::lsys_grammar {
 
 namespace {
 
-constexpr std::size_t kMaxStatement = 4096; // longer ones are not searched
+constexpr std::size_t kMaxStatement = 4096; // bytes; longer statements are not searched
 
 /// Bytes [begin, end) of the draft, without blanks at their ends.
 struct Piece {
@@ -516,7 +516,7 @@ private:
                                       ")`");
         }
         static_cast<void>(draft_.replace(begin, close + 1, first.empty() ? "1" : first));
-        // Uses of the table would only cause further errors.
+        // Removes the index from each use of the table, which would cause further errors.
         for (std::size_t at = text().find(word + "["); at != std::string_view::npos;
              at = text().find(word + "[", at + 1)) {
             const std::size_t open = at + word.size();
@@ -699,7 +699,7 @@ private:
         std::optional<Edit> value_edit; // edit of the condition
         const bool is_production = keyword_ != Keyword::Axiom;
         std::size_t colons = 1;
-        bool begins_part = true; // true also after a repaired module
+        bool begins_part = true; // after a `:`, `<`, `>` or repaired module
         for (std::size_t at = colon + 1; at < statement_.end; ++at) {
             const char c = char_at(at);
             if (kWhitespace.find(c) != std::string_view::npos) {
@@ -948,7 +948,7 @@ private:
     Keyword keyword_ = Keyword::Label;
 };
 
-/// Repairs `colour #6b4423` if it stands at `at`: three numbers from 0 to 1 are meant.
+/// Repairs `#6b4423` at `at` after the key `colour`: three numbers from 0 to 1 are meant.
 void repair_hexadecimal_colour(DraftText& draft, std::size_t at) {
     constexpr std::size_t kDigits = 6;
     // Searches backwards from `at`: the masked comments before the first statement may be long.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Lookahead in the text of a .lsys file without a scan: the next character, the end of a statement.
-// Each function takes time linear in the bytes passed and is called once per statement or mistake.
+// Each function takes time linear in the bytes it reads, and runs once per statement or mistake.
 #pragma once
 
 #include "grammar/base/synonyms.h"

@@ -35,9 +35,9 @@ struct NormalizedText {
 
 namespace lsys_grammar {
 
-/// Handles a character beyond ASCII in the scanner. Before the parse it is recorded, and its
-/// normalized form overwrites the end of its bytes; returns the bytes to skip. In the parse it is
-/// reported.
+/// Handles a character beyond ASCII in the scanner. A scan before the parse records the character
+/// and overwrites its last bytes with its normalized form; the parse reports the character. Returns
+/// the number of bytes to skip.
 int normalize_character(ParseSession& session, char* character, int length);
 /// Records a letter beyond ASCII that continues the current word, for example the ligature U+FB01
 /// (fi) in a `#define` copied from a PDF.

@@ -56,7 +56,7 @@ std::string normalized_form(char32_t point) {
 }
 
 void Normalizer::replace_all(std::span<const StrayCharacter> strays) {
-    // Offsets have 32 bits, and a replaced letter has up to 2.5 times its bytes: `_00E9` for two.
+    // Offsets have 32 bits, and a letter may grow to 2.5 times its bytes: from two to `_00E9`.
     const bool may_grow = text_.size() <= kMaxSourceBytes / 2;
     for (const StrayCharacter& stray : strays) {
         const CodePoint point = decode_utf8(text_.substr(stray.begin));

@@ -42,8 +42,8 @@ public:
     bool silent = false;                        // reports nothing
     std::vector<TextRange>* comments = nullptr; // receives comments; may be null
     std::vector<StrayCharacter>* strays = nullptr; // receives stray characters; null in the parse
-    // Set by the parser too, so no token may depend on them: scans without a parser yield the same
-    // tokens.
+    // The parser sets `failed` and `token_inserted` too, so no token may depend on them: scans
+    // without a parser yield the same tokens.
     bool failed = false;         // the statement has a syntax error and gets no further reports
     bool token_inserted = false; // the last token was inserted
 
@@ -87,7 +87,7 @@ public:
     }
 
 private:
-    /// Whether an error of `code` is neither the cause nor the consequence of others.
+    /// Whether an error of `code` is neither the cause nor the consequence of other errors.
     [[nodiscard]] static bool is_independent(DiagnosticCode code);
     /// Whether the current part of the statement has an error without a certain fix; later errors
     /// of the part may be consequences. A `:` begins a new part.
@@ -96,8 +96,9 @@ private:
     /// were complete. Precondition: `at` never decreases between calls, since each call continues
     /// the search of the last one.
     [[nodiscard]] bool is_commented_out(std::size_t at);
-    /// Makes all fixes of a statement offers if one of its errors has no certain fix, or if it
-    /// follows a `//`. Statements that may belong together count as one.
+    /// Makes all fixes of a statement offers if one of its errors has no certain fix, or if the
+    /// statement is on a line that begins with `//`. Statements that may belong together count as
+    /// one.
     void offer_doubtful_fixes();
 
     /// Diagnostics of statements that may belong together, as a range of context.diagnostics.

@@ -272,7 +272,8 @@ constexpr std::array<Entity, 9> kEntities{{{"&lt;", '<'},
                                            {"&#34;", '"'},
                                            {"&#60;", '<'}}};
 
-/// Whether the `;` that ends before `at` cannot end a statement: text of the statement follows it.
+/// Whether a statement continues after the `;` before `at`: text other than a comment or a new
+/// statement follows on the line.
 bool continues_statement(std::string_view text, std::size_t at) {
     const std::string_view line = stripped(text.substr(at, end_of_line(text, at) - at));
     return !line.empty() && !is_comment(line) && !is_statement_start(line, 0);
@@ -593,7 +594,7 @@ std::optional<Meaning> header_meaning(std::string_view line) {
         std::string statements = "#n = " + std::string(leading_number(*value)) + ";";
         const std::string_view rest = value->substr(leading_number(*value).size());
         if (word == "n" && stripped(rest) == ";") {
-            return std::nullopt; // lacks only its `#`
+            return std::nullopt; // a statement that lacks only its `#`
         }
         const std::size_t sign = rest.find('=');
         if (sign != std::string_view::npos &&
@@ -681,7 +682,7 @@ void repair_foreign_lines(DraftText& draft) {
             has_statement = has_statement || is_statement_start(line.text, 0);
             continue;
         }
-        // `word : ...` is a statement without its `#` if it has the parts of one.
+        // Lines without a meaning stay: the scanner reports statements without their `#`.
         std::optional<Meaning> meaning = header_meaning(line.text);
         if (!meaning) {
             meaning = line_without_meaning(line.text);

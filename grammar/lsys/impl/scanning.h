@@ -12,7 +12,7 @@ Token next_token(ParseSession& session, void* scanner);
 
 class Scanning {
 public:
-    /// `session` outlives it.
+    /// `session` must outlive this object.
     explicit Scanning(ParseSession& session);
     ~Scanning();
     Scanning(const Scanning&) = delete;

@@ -13,10 +13,11 @@ namespace lsys::lsys_grammar {
 
 namespace {
 
-/// Maximum sizes of texts searched for words and of statements searched for comments; beyond them
-/// repairs are offers.
+/// Maximum bytes of a text that is searched for words; in a larger text repairs are offers.
 constexpr std::size_t kMaxSearchedText = std::size_t{1} << 17;
+/// Maximum bytes at the end of a statement that are searched for comments.
 constexpr std::size_t kMaxSearchedStatement = 4096;
+/// Maximum words of a comment that are searched for in the text.
 constexpr std::size_t kMaxWords = 16;
 
 bool is_blank(char c) {
@@ -155,8 +156,8 @@ comment_after_modules(std::string_view text, std::uint32_t begin, std::uint32_t 
     if (before == std::string_view::npos || before + 1 < begin) {
         return std::nullopt;
     }
-    // Words of arguments and of `/* ... */` are not names of modules either; brackets and several
-    // rolls, `////`, are modules.
+    // The comment is uncertain if its line has parentheses or `/* ... */`, whose words name no
+    // modules, or brackets or several rolls, `////`, which are modules.
     const std::string_view line = text.substr(comment, line_end(text, comment) - comment);
     const bool may_be_modules = line.find_first_of("()[]{}") != std::string_view::npos ||
                                 line.find("/*") != std::string_view::npos ||

@@ -89,8 +89,8 @@ std::string_view text_after_semicolon(std::string_view text, std::size_t at) {
     return rest.substr(0, rest.find_first_of(";#"));
 }
 
-/// Whether the `;` at `at` is a mistyped `:`: the text after it begins no statement and has the
-/// other colons of the production, `missing` in number.
+/// Whether the `;` at `at` is a mistyped `:`: the text up to the next `;` begins with neither a
+/// statement nor a comment and has exactly `missing` colons.
 bool is_mistyped_colon(std::string_view text, std::size_t at, std::ptrdiff_t missing) {
     const std::string_view rest = text_after_semicolon(text, at);
     const std::size_t first = rest.find_first_not_of(kWhitespace);
@@ -772,8 +772,8 @@ void report_unclosed(ParseSession& session) {
     }
 }
 
-/// Whether the predecessor of the current production is one module without contexts, and so lacks
-/// no `:`.
+/// Whether the predecessor of the current production is one module without contexts, with nothing
+/// else before the `:` or `~` after it.
 bool has_plain_head(const ParseSession& session) {
     const std::string_view text = session.scanned.text;
     const std::size_t first = text.find(':', session.scan.statement_begin);

@@ -33,8 +33,8 @@ std::optional<Token> missing_opening(ParseSession& session);
 /// character is one.
 bool report_needless_sign(ParseSession& session);
 
-/// Reports a `:` that repeats the one before it in a statement with too many. Returns whether the
-/// current `:` does.
+/// Reports a `:` that repeats the `:` before it in a statement with too many colons. Returns
+/// whether the current `:` does.
 bool report_doubled_colon(ParseSession& session);
 Token colon_after_modules(ParseSession& session);
 /// The current token if it is `let`, a name, `=` or `,` of local values outside of their

@@ -12,10 +12,10 @@ constexpr std::uint32_t kTabStop = 4;
 constexpr std::string_view kEllipsis = "...";
 /// Characters before the focus in an excerpt that is cut on its left.
 constexpr std::size_t kCharactersBeforeFocus = 50;
-/// Bounds the work for lines with many characters of zero width.
+/// Maximum characters of an excerpt; bounds the work for lines with many characters of zero width.
 constexpr std::size_t kMaxCharacters = std::size_t{8} * kMaxColumns;
 
-/// Characters that terminals hide or that reorder others (Unicode category Cf, C1 controls).
+/// Whether terminals hide the character or it reorders others (Unicode category Cf, C1 controls).
 bool is_invisible(char32_t value) {
     return (value >= 0x80 && value < 0xA0) || value == 0xAD ||
            (value >= 0x200B && value <= 0x200F) || (value >= 0x2028 && value <= 0x202E) ||

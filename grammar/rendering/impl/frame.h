@@ -33,8 +33,8 @@ struct Mark {
     std::string_view colour;
 };
 
-/// Appends the source lines of `primary` with its marks, and below the first line also the marks of
-/// `others` in the shown part of that line. Returns the marks of `others` that are not shown.
+/// Appends the source lines of `primary` with its marks. If `primary` lies in one line, also
+/// appends the marks of `others` in the shown part of that line. Returns the marks not shown.
 [[nodiscard]] std::vector<Mark> append_frame(const Mark& primary,
                                              const std::vector<Mark>& others,
                                              const SourceFile& file,

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // ActiveMask: two bits per module, in blocks of 64 modules: whether the module may be rewritten,
-// and whether it stores a parameter. Vectors of codes are looked up at once, so that a module that
-// is certain to be copied costs a fraction of a table lookup. A module that only productions with
-// contexts may rewrite is active only if its neighbours can match one of these contexts.
+// and whether it stores a parameter. Codes are looked up a vector at a time, so that a module
+// that is certain to be copied costs a fraction of a table lookup. A module that only productions
+// with contexts may rewrite is active only if its neighbours can match one of these contexts.
 #pragma once
 
 #include "runtime/derive/engine/contexts.h"
@@ -74,15 +74,15 @@ public:
     static constexpr std::uint8_t kStores = 0x80;
     /// The group of rows that accept any neighbours.
     static constexpr std::uint8_t kAnyNeighbours = 0x01;
-    /// Lookup tables by code, each of one byte of group bits: the groups of a module's row, and the
-    /// groups that accept the module as a left or as a right neighbour.
+    /// Lookup tables with one byte per code. A bit stands for a group of rows with equal guards:
+    /// the group of the code's row, and the groups that accept the code as left or right neighbour.
     struct Tables {
         std::vector<std::uint8_t> centre; // kStores: stores a parameter
         std::vector<std::uint8_t> left;
         std::vector<std::uint8_t> right;
         std::uint8_t at_begin = kAnyNeighbours; // groups that need no left neighbour
         std::uint8_t at_end = kAnyNeighbours;   // groups that need no right neighbour
-        std::size_t banks = 0;                  // 16 codes each
+        std::size_t banks = 0;                  // number of runs of 16 codes
         bool looks_left = false;
         bool looks_right = false;
     };

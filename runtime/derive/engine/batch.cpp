@@ -27,7 +27,7 @@ std::size_t rows_of(const BatchProgram& program) {
     return std::size_t{program.formal_rows} + program.stack_rows + program.slot_rows;
 }
 
-/// The modules of a batch that compute a value: all bits set for these, 0 for the others.
+/// For each module of a batch, whether it computes a value: all bits set, else 0.
 using Mask = std::array<std::int32_t, kLanes>;
 
 std::int32_t mask_of(bool is_set) {
@@ -40,7 +40,7 @@ struct BatchRun {
     const BatchInputs& inputs;
     const BatchProgram& program;
     const BatchModules& modules;
-    Lanes* rows = nullptr; // formals are set
+    Lanes* rows = nullptr; // the rows of formals are filled in
 };
 
 /// Calls visit(i) for every lane. For loops that have no vector form, in steps of eight, so that
@@ -55,8 +55,9 @@ template <typename Visit>
     }
 }
 
-/// The domain of rows of numbers. Both sides of a choice are computed; a mask says which modules
-/// take the side, so that draws and functions without a vector form are computed for these only.
+/// The domain of rows of numbers. Both sides of a choice are computed for all modules. The mask
+/// says which modules need the current side: distributions and functions without a vector form are
+/// computed for these only.
 class RowsOfNumbers : public UnknownDomain<Lanes> {
 public:
     // NOLINTNEXTLINE: units_ is set with block_

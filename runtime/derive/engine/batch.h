@@ -25,7 +25,7 @@ struct alignas(64) Lanes {
     std::array<float, kLanes> values;
 };
 
-/// The code of a production's parameters with the room that batches need for it.
+/// A production whose parameters are computed in batches, with the number of rows it needs.
 struct BatchProgram {
     std::uint32_t production = 0;
     std::vector<std::uint32_t> formals; // formals that are read, ascending
@@ -37,7 +37,7 @@ struct BatchProgram {
     bool gathers = false;           // formals come from several modules and must be copied
 };
 
-/// The program of a production; none if it would need much memory per thread.
+/// The program of a production; none if it would need too many rows.
 [[nodiscard]] std::optional<BatchProgram>
 batch_program(const Bytecode& bytecode, std::uint32_t production, bool gathers);
 

@@ -38,7 +38,7 @@ public:
     /// row.base + r rewrites it. Returns false if a condition or weight is at fault; see fault().
     [[nodiscard]] bool choose(const ModulePlace& place, const Row& row, std::uint32_t& record);
 
-    /// The draw of a module of a Choice row. module_draws() draws for `count` modules at once.
+    /// The draw of a module of a Choice row. module_draws() makes the draws of several modules.
     [[nodiscard]] float module_draw(std::uint64_t index) const {
         const std::uint64_t position = word_.first_position + index;
         const DrawKey key = choice_key();

@@ -19,7 +19,7 @@ struct EvalFrame {
     float steps = 0.0F; // number of generations of the derivation
 };
 
-/// Number of the first draw of branches: the first of block 2^31.
+/// Number of the draw of branch 0: the first of the four draws of block 2^31.
 inline constexpr std::uint64_t kFirstBranchDraw = std::uint64_t{4} << 31;
 
 /// Source of the draws of random ranges: one module, or the start of the derivation.
@@ -87,7 +87,7 @@ struct EvalFault {
                             RangeDraws* draws,
                             float* out,
                             EvalFault& fault);
-/// Evaluates the arguments of a word after its local values, as evaluate().
+/// evaluate() for a word: its local values first, then its arguments.
 [[nodiscard]] bool evaluate(const Bytecode& bytecode,
                             const WordTemplate& word,
                             const EvalFrame& frame,

@@ -201,7 +201,7 @@ bool Levels<C, R>::descend(std::uint64_t index) {
     return true;
 }
 
-/// Whether no production matches after the last pass over a block; fails with TooDeep if one does.
+/// Checks a block after its last pass: if a production still matches, fails with TooDeep.
 template <typename C, typename R>
 bool Levels<C, R>::check_decomposed(std::uint64_t index) {
     if (!steps_.checked || !steps_.rewrites(index)) {

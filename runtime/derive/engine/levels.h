@@ -23,7 +23,7 @@ namespace lsys {
 /// each age.
 struct LevelSteps {
     const Plan* rewriting = nullptr; // may be null if first_age is last_age
-    const Plan* passes = nullptr;    // plan of a later stage; null: `depth` is 0
+    const Plan* passes = nullptr;    // plan of a later stage; null if `depth` is 0
     std::uint64_t seed = 0;
     std::uint32_t first_age = 0;
     std::uint32_t last_age = 0;

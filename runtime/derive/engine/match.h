@@ -60,7 +60,8 @@ public:
     /// matched modules for formals().
     [[nodiscard]] bool matches_contexts(const BytecodeProduction& production, std::uint64_t index);
     /// All formals of the candidate's production for the module at `place`. Precondition if some
-    /// belong to contexts: the last matches_contexts() was for this production's group and place.
+    /// formals belong to contexts: the last matches_contexts() was for the group of this production
+    /// and this place.
     [[nodiscard]] const float* formals(const Candidate& candidate, const ModulePlace& place);
     /// formals() after a new search for the contexts, for calls without matches_contexts().
     [[nodiscard]] const float* formals_after_search(const Candidate& candidate,

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The origins of the modules that a pass writes: the records of the counting pass are read a second
-// time, if DeriveOptions::origins is set. The origin of a written module is its place in the
+// Writes the origins of the modules that a pass writes, if DeriveOptions::origins is set: reads the
+// records of the counting pass a second time. The origin of a written module is its place in the
 // successor; a copied module keeps its origin. Successors of a followed module keep its index.
 #pragma once
 

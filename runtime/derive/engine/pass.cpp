@@ -418,7 +418,7 @@ void Passes::take_census(const WordView<C>& word) {
     }
 }
 
-/// Replaces the census by that of the written word: its product with the growth matrix.
+/// Replaces the census by the census of the written word: multiplies it by the growth matrix.
 void Passes::advance_census() {
     std::vector<std::uint64_t> next(census_.size(), 0);
     for (Code code = 0; code < census_.size(); ++code) {

@@ -93,7 +93,7 @@ private:
     ContextTables contexts_;
     ActiveMask mask_;
     std::vector<Chunk> chunks_;
-    std::uint64_t previous_modules_ = 0; // of the word that the last pass read; 0: none
+    std::uint64_t previous_modules_ = 0; // length of the word that the last pass read; 0: none
     Arena records_;                     // records of a chunk begin at the index of its first module
     std::vector<std::uint64_t> census_; // number of modules of each code in the word
     bool census_known_ = false;

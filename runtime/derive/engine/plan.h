@@ -103,7 +103,7 @@ struct Candidate {
     std::uint32_t comparison_count = 0;
     std::uint32_t comparison_room = 0;
     std::uint32_t first_term = 0;        // index in terms, if more than kEntryTerms parameters
-    std::uint32_t batch_program = kNone; // if the parameters were not terms at some time
+    std::uint32_t batch_program = kNone; // set once a parameter has not been a term
     float weight = 0.0F;
     ConditionKind condition = ConditionKind::Always;
     bool stochastic = false;
@@ -294,12 +294,12 @@ private:
         std::vector<Test> list;
         std::vector<std::uint32_t> of_code; // index in lists; kNone: none yet
     };
-    /// Templates with folded modules, where arguments are known.
+    /// Templates with folded modules, for codes whose arguments are known.
     struct Folding {
         std::optional<FoldedIndex> index; // none: nothing is folded
         std::vector<Code> codes;          // codes of folded templates, at the pool's end
         std::unordered_map<std::uint64_t, std::uint32_t> templates; // by code and candidate
-        std::vector<std::uint32_t> block_of_code; // first own entry; kNone: the family's
+        std::vector<std::uint32_t> block_of_code;                   // first own entry; kNone: none
         std::uint64_t budget = 0; // candidates that may still be tried for folded modules
     };
     /// Summary of the active rows.

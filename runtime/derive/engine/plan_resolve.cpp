@@ -103,7 +103,7 @@ void Plan::shape_entry(const Candidate& candidate, Entry& entry) {
 }
 
 void Plan::make_batch_program(Candidate& candidate) {
-    constexpr std::size_t kMaxPrograms = 1024; // each writer has a queue for each
+    constexpr std::size_t kMaxPrograms = 1024; // each writer has a queue per program
     if (candidate.batch_program != kNone || batch_programs_.size() == kMaxPrograms) {
         return;
     }

@@ -62,7 +62,7 @@ public:
         }
         if (opcode == Opcode::Negate && x.kind == ShapeKind::Affine && !x.offset) {
             Term term =
-                x; // only without an offset: where a sum is +0, no term yields its negative -0
+                x; // only without an offset: the negative of a sum +0 is -0, which no term yields
             term.affine.scale = -term.affine.scale;
             term.scaled = true;
             return term;
@@ -88,8 +88,8 @@ public:
                            t.kind == ShapeKind::Constant;
         return known ? constant_term(arithmetic::mix(x.constant, y.constant, t.constant)) : Term{};
     }
-    /// Only the truth value of comparisons counts: they yield 0 or any other number, as conditions
-    /// do.
+    /// Conjunctions and negations written with if(). Comparisons stand for their truth value only:
+    /// a condition holds for any number but 0.
     Term choice(const Term& x, const Term& y, const Term& z) {
         if (x.kind == ShapeKind::Constant) {
             return x.constant != 0.0F ? y : z;

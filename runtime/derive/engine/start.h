@@ -17,7 +17,7 @@ draw_globals(const Bytecode& bytecode, std::uint64_t seed, std::vector<float>& g
 /// The axiom that a derivation with this seed begins with (docs/language.md section 6.3).
 [[nodiscard]] const BytecodeAxiom& chosen_axiom(const Bytecode& bytecode, std::uint64_t seed);
 
-/// Evaluates the parameters that this axiom stores. Returns the first error.
+/// Evaluates the parameters that chosen_axiom() stores. Returns the first error.
 [[nodiscard]] std::optional<RuntimeError> axiom_parameters(const Bytecode& bytecode,
                                                            std::uint64_t seed,
                                                            const std::vector<float>& globals,

@@ -81,7 +81,7 @@ struct PrintedValue {
     float number = 0.0F;
     std::string text;
     Binding binding = Binding::Leaf;
-    bool is_new_slot = true; // a slot was set to this value and has no name yet
+    bool is_new_slot = true; // in a slot: set by the last instruction, not named yet
     bool is_truth = false;   // a comparison or a logical operation
 };
 

@@ -21,7 +21,7 @@ constexpr double kPlaceTolerance = 1e-5;
 // Max error of positions due to an omitted key, relative to the max displacement of a tip in the
 // clip.
 constexpr double kKeyTolerance = 2e-3;
-constexpr double kMaxKeyAngle = 0.01;     // rad
+constexpr double kMaxKeyAngle = 0.01;     // rad, max error of a rotation due to an omitted key
 constexpr std::uint32_t kMaxSamples = 16; // frames in which errors are measured
 constexpr std::uint32_t kNoBone = ~std::uint32_t{0};
 constexpr int kFitRounds = 4;
@@ -196,7 +196,7 @@ private:
         for (std::uint32_t at = worst; at != kNoSegment && at != root; at = tree_.parents[at]) {
             way.push_back(at);
         }
-        if (way.empty()) { // a rounding error, far from the origin
+        if (way.empty()) { // the worst segment is the root: a rounding error, far from the origin
             pieces_[piece].error = 0.0;
             return;
         }
@@ -282,7 +282,7 @@ glm::dquat fitted(const glm::dquat& start,
 }
 
 /// Frames that need keys, so that interpolated rotations deviate by at most the angle whose half
-/// has the sine `half_sine`. Empty: all rotations are that near to the first.
+/// has the sine `half_sine`. Empty: all rotations are within this angle of the first.
 std::vector<std::uint32_t> keys_of(std::span<const glm::quat> rotations, double half_sine) {
     const auto is_near = [half_sine](const glm::dquat& a, const glm::dquat& b) {
         const glm::dquat turn = glm::conjugate(a) * b;

@@ -67,9 +67,10 @@ struct PackedTransforms {
     std::uint64_t group_count = 0;   // at least 1
     std::array<ForestView, 3> views; // translations, rotations, scales
 };
-/// Compresses the transforms `floats` of `groups`. Translations are rounded to multiples of the
-/// largest power of two up to half the scale of the instance, which is the step of its quantised
-/// positions in metres; components of rotations to 16 bits; scales to 16 significant bits.
+/// Compresses the transforms `floats` of `groups`. The scale of an instance is the step of its
+/// quantised positions in metres; translations are rounded to multiples of the largest power of two
+/// up to half the scale. Components of rotations are rounded to 16 bits, scales to 16 significant
+/// bits.
 [[nodiscard]] PackedTransforms pack_transforms(std::span<const ForestGroup> groups,
                                                std::span<const float> floats,
                                                std::uint32_t threads);

@@ -258,8 +258,8 @@ void read_indices(const ForestSurface& surface,
     }
 }
 
-/// Calls visit(indices) for the parts of one material whose slices are wide, or if `wide` is false
-/// narrow.
+/// Calls visit(indices) for the parts of one material with wide slices or, if `wide` is false, with
+/// narrow slices.
 template <typename Visit>
 void for_each_part(const ForestSurface& surface,
                    std::size_t material,

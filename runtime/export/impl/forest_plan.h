@@ -123,8 +123,8 @@ void ForestPlan::for_each_branch_of(std::uint64_t first,
     }
 }
 
-/// Distinct materials of a scene, and the number among them of each material of the stages and of
-/// the ground.
+/// Distinct materials of a scene. `of_stages` and `of_ground` have the number of the distinct
+/// material for each material of a mesh.
 struct ForestMaterials {
     Mesh samples; // of material_samples.h: a part for each material
     std::vector<std::vector<std::uint32_t>> of_stages;

@@ -123,7 +123,7 @@ private:
     }
 
     void put_nodes() {
-        // The root of the joints is a sibling: a skinned mesh ignores the transforms of its node.
+        // Joint 0 is a second root of the scene: a skinned mesh ignores the transforms of its node.
         json_.member("scene", 0).array("scenes").object().array("nodes").value(0);
         if (motion_ != nullptr) {
             json_.value(first_joint());
@@ -369,7 +369,7 @@ Outcome<void> write(const ExportJob& job, bool binary, PieceWriter& out) {
     return put_gltf_file(file, out) ? finish(out) : too_large_for_format(job.info.subject);
 }
 
-/// `order`: null, or the order of the mesh.
+/// Makes a document of `mesh`. `order`: the order of the mesh; null: it is computed.
 MeshDocument mesh_document(const Mesh& mesh, const ExportInfo& info, const MeshOrder* order) {
     const Skeleton none;
     const ExportJob job{mesh, none, info};

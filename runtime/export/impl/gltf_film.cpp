@@ -184,7 +184,7 @@ void put_film_animation(JsonWriter& json,
         }
         ++node;
     }
-    if (channels.empty()) { // an animation has at least one channel
+    if (channels.empty()) { // glTF forbids animations without channels
         return;
     }
     json.array("animations").object().member("name", "growth").array("channels");

@@ -94,7 +94,7 @@ struct GltfItem {
 
 using GltfBytes = std::function<void(std::span<const std::byte>)>;
 /// Writes an item for each vertex: positions, normals, texture coordinates, tangents, or colours of
-/// the palette. glTF requires normals and tangents of unit length, so others are replaced.
+/// the palette. glTF requires unit normals and tangents, so vectors of other lengths are replaced.
 void write_items(const Mesh& mesh,
                  std::span<const std::uint32_t> vertices,
                  GltfArray array,

@@ -239,7 +239,7 @@ void put_bone_animation(JsonWriter& json,
                         std::size_t accessor) {
     if (std::all_of(bones.joints.begin(), bones.joints.end(),
                     [](const Bone& bone) { return bone.keys.empty(); })) {
-        return; // an animation has at least one channel
+        return; // glTF forbids animations without channels
     }
     json.array("animations").object().member("name", "motion").array("channels");
     std::size_t sampler = 0;
@@ -322,7 +322,7 @@ void put_skin_and_animation(JsonWriter& json,
         return;
     }
     const std::size_t moving = motion.moving_joints();
-    if (moving == 0) { // an animation has at least one channel
+    if (moving == 0) { // glTF forbids animations without channels
         return;
     }
     json.array("animations").object().member("name", "motion").array("channels");

@@ -34,8 +34,8 @@ struct GltfMotion {
     [[nodiscard]] std::uint64_t rotation_count() const;
 };
 
-// The functions below write the arrays of some vertices of the mesh or of all joints, in the order
-// of GltfArray.
+// Functions that write the arrays of some vertices of the mesh, or of all joints. They are declared
+// in the order of GltfArray.
 void write_vertex_joints(const Mesh& mesh,
                          std::span<const std::uint32_t> vertices,
                          const GltfMotion& motion,

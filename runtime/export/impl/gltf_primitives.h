@@ -68,7 +68,7 @@ inline constexpr std::size_t kMinMergedMaterials = 4;
 struct GltfVertexUse {
     const Pictures& pictures; // of materials
     bool segments = false;    // joints or wind data
-    /// The order of the vertices and triangles of a mesh with one part; null: it is found.
+    /// The order of the vertices and triangles of a mesh with one part; null: it is computed.
     const MeshOrder* order = nullptr;
 };
 

@@ -27,7 +27,7 @@ struct GltfPlant {
     const GltfMotion* motion = nullptr; // null: no skin
     const WindData* wind = nullptr;     // null: no wind data; else texture coordinates are complete
     const MeshFilm* film = nullptr;     // null: no film; else `mesh` is the mesh of the film
-    const MeshOrder* order = nullptr;   // null: found for compressed files
+    const MeshOrder* order = nullptr;   // null: the order is computed for compressed files
 };
 
 struct GltfStream {

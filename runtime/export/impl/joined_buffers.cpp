@@ -24,7 +24,7 @@ void align(std::string& bytes) {
     bytes.resize((bytes.size() + kAlignment - 1) / kAlignment * kAlignment, '\0');
 }
 
-/// What the items of a view are: the name of an attribute or "indices", and their size in bytes.
+/// Kind of the items of a view: the name of an attribute or "indices", and their size in bytes.
 /// Texture coordinates have a view for each accessor, so their name has the numbers of the document
 /// and of the accessor: loaders.gl 4.3 applies KHR_texture_transform to an accessor by replacing
 /// its whole view, which breaks the other accessors of the view.

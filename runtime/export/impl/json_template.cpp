@@ -7,7 +7,7 @@
 
 namespace lsys {
 
-/// Formats values; as deep as they nest, which the writers of glTF bound.
+/// Formats values recursively. The documents of the writers of glTF have a bounded depth.
 class JsonTemplateMaker {
 public:
     explicit JsonTemplateMaker(const JsonReferences& references) : references_(references) {}

@@ -54,7 +54,7 @@ char* put_corner(char* at, std::uint64_t vertex, std::uint64_t normal, bool text
     return vertex == normal ? put_text(at, number) : put_number(at, normal);
 }
 
-/// Position, texture coordinate and normal of a corner have the same number.
+/// Writes faces. Position, texture coordinate and normal of a corner have the same number.
 void put_faces(TriangleReader& indices, const MeshPart& part, bool textured, PieceWriter& out) {
     for (std::uint64_t i = 0; i + 2 < part.index_count && !out.stopped(); i += 3) {
         char* at = out.room(kLineBytes);

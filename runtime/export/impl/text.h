@@ -43,9 +43,9 @@ inline char* put_text(char* at, std::string_view text) {
 [[nodiscard]] std::string plant_name(const ExportInfo& info);
 /// Valid UTF-8: invalid bytes become U+FFFD.
 [[nodiscard]] std::string valid_utf8(std::string_view text);
-/// Escaped for a JSON string, without its quotes.
+/// The text escaped for a JSON string, without quotes.
 [[nodiscard]] std::string json_text(std::string_view text);
-/// Escaped for XML, between tags or in an attribute.
+/// The text escaped for XML, between tags or in an attribute.
 [[nodiscard]] std::string xml_text(std::string_view text);
 /// A file name as a relative reference (RFC 3986): all characters except unreserved ones are
 /// percent-encoded.

@@ -383,7 +383,7 @@ private:
         use(GltfList::Used, "EXT_structural_metadata");
     }
 
-    /// Puts all nodes below one that has the matrix of the document, if it has one.
+    /// Puts all nodes below a new node with the matrix of the document, unless it is the identity.
     void put_matrix() {
         if (document_.matrix_ == glm::dmat4(1.0)) {
             return;

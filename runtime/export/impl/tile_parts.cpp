@@ -64,7 +64,7 @@ private:
     void refer(const GltfJson& number, JsonGapKind kind, std::size_t to) {
         references_[&number] = {kind, to};
     }
-    /// Makes the number `key` refer to an item, if there is one.
+    /// Marks the number `key` of `holder`, if present, as a reference to an item.
     void refer(const GltfJson& holder, const char* key, const GltfNumbers& numbers) {
         if (holder.contains(key)) {
             const GltfJson& number = holder[key];

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// TilePart: a glTF document of one mesh as text, ready for tiles. Items and buffers that several parts
-// have are in a PartTable once. Made by make_tile_part(); read by TileDocument.
+// TilePart: a glTF document of one mesh as text, ready for tiles. Items and buffers that several
+// parts have are in a PartTable once. Made by make_tile_part(); read by TileDocument.
 #pragma once
 
 #include "runtime/export/impl/json_template.h"
@@ -41,10 +41,11 @@ struct TileBuffer {
     std::uint64_t bytes = 0;
 };
 
-/// Items and buffers, each once. Buffer 0 is that of the GLB.
+/// Items and buffers, each once. Buffer 0 is the buffer of the GLB.
 class PartTable {
 public:
-    /// A table that goes on with the numbers of `shared`, which must outlive it; null: an empty one.
+    /// A table whose numbers begin after the numbers of `shared`, which must outlive the table;
+    /// null: they begin at 0.
     explicit PartTable(const PartTable* shared);
 
     /// The number of an item, which is added if the table does not have it.

@@ -25,7 +25,7 @@ public:
     Call& operator=(const Call&) = delete;
 
     [[nodiscard]] ::lsys::Project& project() { return inner_; }
-    /// Becomes true when the call is to end.
+    /// The flag that is set to true to end the call.
     [[nodiscard]] const std::atomic<bool>* cancelled() const { return cancelled_; }
 
     /// Makes a public outcome. `work` returns an outcome of the pipeline, and `make` converts its

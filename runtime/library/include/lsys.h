@@ -38,7 +38,7 @@ typedef enum lsys_status {
     LSYS_FAILED = 2,        /* a file cannot be read, an option does not fit */
     LSYS_LIMIT = 3,         /* max_modules or max_bytes */
     LSYS_OUT_OF_MEMORY = 4, /* a failed allocation */
-    LSYS_CANCELLED = 5      /* by the function `progress` */
+    LSYS_CANCELLED = 5      /* a function of the caller ended the call */
 } lsys_status;
 
 typedef struct lsys_grammar lsys_grammar;
@@ -131,7 +131,7 @@ LSYS_C_API lsys_status lsys_compile_text(const char* text,
                                          const lsys_project* project,
                                          lsys_grammar** grammar,
                                          lsys_messages** messages);
-/* The value of `#n`; negative: none. */
+/* The value of lsys_grammar_options::generations, else of `#n`; negative: none. */
 LSYS_C_API int64_t lsys_grammar_generations(const lsys_grammar* grammar);
 LSYS_C_API uint64_t lsys_grammar_seed(const lsys_grammar* grammar);
 LSYS_C_API void lsys_grammar_free(lsys_grammar* grammar); /* null is allowed */

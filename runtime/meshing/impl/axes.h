@@ -27,12 +27,12 @@ struct Axes {
             2.0F * (q.y * q.z + q.w * q.x)};
 }
 
-/// Whether `child` begins at the tip of its parent `parent`, up to rounding of floats. A parent
-/// drawn backwards was reversed, so its tip is elsewhere.
+/// Whether `child` is linked and begins at the tip of `parent`, within a tolerance. A parent drawn
+/// backwards is stored reversed, so its children begin at its base.
 [[nodiscard]] bool joins(const Segment& parent, const Segment& child);
 
-/// Finds for each segment the child that continues it: the linked child of the same order, with
-/// several children the one that bends least, and with equal bends the first. The result does not
+/// Finds for each segment the child that continues it: among the children of the same order that
+/// joins() accepts, the one that bends least; with equal bends, the first. The result does not
 /// depend on the number of workers.
 [[nodiscard]] Axes find_axes(const Skeleton& skeleton, Workers& workers);
 

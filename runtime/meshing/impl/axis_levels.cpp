@@ -11,8 +11,8 @@ namespace lsys {
 
 namespace {
 
-// Max joints that one edge may replace, which keeps the search linear: without and with an error
-// in metres.
+// Max joints that one edge may replace: by a tolerance in radii, and by an error in metres. These
+// limits keep the search linear.
 constexpr std::size_t kMaxLeftOut = 32;
 constexpr std::size_t kMaxLeftOutByError = 256;
 

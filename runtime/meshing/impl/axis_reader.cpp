@@ -127,7 +127,7 @@ bool AxisReader::read(Run& run) {
     for (std::uint32_t after = 0; at < kForked; at = after) {
         after = axes_.next[at];
         if (after < kForked) {
-            // Segments of branches lie between the two in memory.
+            // The next segment of the axis lies behind the segments of branches in memory.
             prefetch(skeleton_.segments[after]);
         }
         const Segment& segment = skeleton_.segments[at];

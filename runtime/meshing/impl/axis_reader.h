@@ -93,7 +93,7 @@ private:
     std::array<float, 256> widening_{};     // factor of the radius, by Segment::sides
     // With a deviation, sides_ and joints have the sides of level 0 until fit_sides().
     std::optional<SideCounts> counts_;
-    std::array<std::uint8_t, kMaxSides + 1> max_sides_{}; // of the level, by the sides of level 0
+    std::array<std::uint8_t, kMaxSides + 1> max_sides_{}; // at options_.level, by sides of level 0
     float max_base_radius_ = 0.0F; // max radius of the corners of an open base
     std::array<float, 2> flare_{}; // radii at the ends of the longest collar; 0: none
     LargeVector<float> radii_;

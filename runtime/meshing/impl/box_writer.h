@@ -20,7 +20,7 @@ inline constexpr std::size_t kMaxOnSide = 4; // max children per side of a joint
 struct BoxSocket {
     static constexpr std::uint32_t kNone = 0xFFFFFFFFu;
     std::array<std::uint32_t, 4> corners{};
-    std::array<std::uint32_t, 4> between{kNone, kNone, kNone, kNone}; // after each corner
+    std::array<std::uint32_t, 4> between{kNone, kNone, kNone, kNone}; // vertex after each corner
     glm::vec3 right{};
     glm::vec3 up{};
     glm::vec3 normal{};

@@ -129,7 +129,7 @@ void write_vertex(const CatmullClark& surface,
     block.set(to, {.position = mesh.positions[vertex],
                    .normal = normal,
                    .texture_coordinate = mesh.texture_coordinates[vertex],
-                   // v goes down: pictures that are not mirrored turn clockwise.
+                   // v grows downwards, so `mirrored` is negative where a picture is not mirrored.
                    .tangent = glm::vec4(unit_or(tangent, fallback), mirrored > 0.0F ? -1.0F : 1.0F),
                    .palette = mesh.colours[lowest]});
     if (!block.segments.empty()) {

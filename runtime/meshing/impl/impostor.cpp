@@ -64,8 +64,8 @@ glm::vec3 normal_on_card(glm::vec3 normal, bool is_upright) {
         normal = -normal;
     }
     if (is_upright) {
-        // An eye sees cards of three directions. These spread their normals about the vertical
-        // nearly as much as a plant does by itself, so each card has a part of that spread only.
+        // The eye sees cards of three directions, which by themselves spread their normals about
+        // the vertical nearly as much as a plant. So each card keeps only a part of its own spread.
         const glm::vec2 level(kTurned * normal.x, normal.z);
         const float before = std::sqrt(normal.x * normal.x + normal.z * normal.z);
         const float after = glm::length(level);

@@ -64,7 +64,7 @@ Cubic curve_of(const LargeVector<Joint>& joints,
         curve.leaving =
             derivative(before.heading, from.heading, from.heading, from.length, before.length);
     } else if (start) {
-        // The derivative after an edge of the same length along `tangent`.
+        // The derivative as if an edge of the same length along `tangent` came before.
         const glm::dvec3 tangent(start->tangent);
         curve.leaving = glm::dot(straight, tangent) * tangent;
     } else {

@@ -102,7 +102,7 @@ void ShapeWriter::cylinder(const Segment& segment, std::uint32_t number) {
     }
 }
 
-/// `bend`: distance of the tip from the plane of the leaf.
+/// Writes a leaf. `bend`: distance of its tip from its plane.
 void ShapeWriter::leaf(const PlacedObject& object, double bend) {
     const std::array<glm::dvec3, kLeafCorners> corners{{
         {0.0, 0.01, 0.0},

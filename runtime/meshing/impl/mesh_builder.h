@@ -103,8 +103,8 @@ public:
     }
 
     /// Adds complete parts, by ascending material, and makes room for their vertices. Must be the
-    /// first call. WholePart::triangles count vertices from 0. Returns false, without effect, if
-    /// the parts do not fit.
+    /// first call. Indices in WholePart::triangles count from 0. If the parts do not fit, adds
+    /// nothing, sets stop() and returns false.
     [[nodiscard]] bool
     place_parts(std::vector<WholePart> parts, std::uint64_t vertices, MeshBlock& block);
     /// Like place_parts(), but makes room for the indices of each part instead of taking triangles.
@@ -115,8 +115,8 @@ public:
 
     /// The number of the part of a material, for reserve(). `word`: name of the items drawn.
     [[nodiscard]] std::uint32_t part(const MaterialKey& material, const std::string& word = {});
-    /// Makes room for more vertices and indices of a part. Returns false, without effect, if it
-    /// does not fit.
+    /// Makes room for more vertices and indices of a part. If they do not fit, sets stop() and
+    /// returns false.
     [[nodiscard]] bool
     reserve(std::uint32_t part, std::uint64_t vertices, std::uint64_t indices, MeshBlock& block);
 

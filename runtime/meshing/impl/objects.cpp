@@ -23,7 +23,7 @@ namespace {
 constexpr std::uint64_t kVerticesPerPiece = 1U << 15;
 
 constexpr unsigned kColourBits = 25;
-static_assert(kTurtleOperationCount < 1U << 7); // the bits of a kind
+static_assert(kTurtleOperationCount < 1U << 7); // a kind has 7 bits in key_of()
 
 /// Kind, file and colour, packed into one number that orders the parts; kNoGroup: not drawn.
 std::uint64_t key_of(const PlacedObject& object, std::size_t file_count) {

@@ -23,7 +23,7 @@ namespace {
 constexpr std::uint32_t kMinSolidSides = 9; // fewer would lose thin parts
 /// The edge of a cell is kCellSides * radius / number of sides of a cross-section.
 constexpr double kCellSides = 7.2;
-/// Width of the thinnest part, as a fraction of the largest extent of the plant.
+/// Default of MeshOptions::min_width, as a fraction of the largest extent of the plant.
 constexpr double kMinWidth = 1.0 / 150.0;
 /// Min width that the finest cells resolve, as a fraction of the largest extent.
 constexpr double kFinestWidth = 2e-5;

@@ -23,13 +23,13 @@ double nearest_ball(const SolidShape& cone, double along, double across) {
     return std::clamp(along - across * cone.ball_shift, 0.0, cone.length);
 }
 
-/// The distance of a point from a triangle. The nearest point of a triangle is on a side that faces
-/// the point, or below it.
+/// The distance of a point from a triangle. The nearest point of the triangle is on a side that
+/// faces the point, or, if no side does, the projection of the point onto the plane.
 double distance_from(const SolidShape& triangle, const glm::dvec3& point) {
     const glm::dvec3 offset = point - triangle.corners[0];
     const glm::dvec2 at(glm::dot(offset, triangle.axes[0]), glm::dot(offset, triangle.axes[1]));
     const double above = glm::dot(offset, triangle.axes[2]);
-    double nearest = std::numeric_limits<double>::max(); // square, to the sides, in the plane
+    double nearest = std::numeric_limits<double>::max(); // squared distance to sides, in the plane
     bool outside = triangle.is_flat;
     for (const SolidShape::Side& side : triangle.sides) {
         const glm::dvec2 arm = at - side.from;

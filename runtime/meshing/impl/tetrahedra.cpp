@@ -43,9 +43,11 @@ constexpr double kChord = 0.031;
 constexpr double kLipschitz = 1.02;
 /// Size of a tetrahedron of generation k, k modulo 3, relative to k = 0: 2^(-k / 3).
 constexpr std::array<double, 3> kSteps{1.0, 0.7937005259840998, 0.6299605249474366};
-/// Min distance of a vertex from the ends of its edge, per length: no triangle shrinks to a line.
+/// Min distance of a vertex from the ends of its edge, as a fraction of the length of the edge, so
+/// that no triangle shrinks to a line.
 constexpr double kEdgeMargin = 0.02;
-/// Max distance from the surface, per length of the edge, of a vertex that counts as on it.
+/// Max distance from the surface, as a fraction of the length of its edge, at which a vertex counts
+/// as on the surface.
 constexpr double kExact = 1e-6;
 
 struct Tetrahedron {

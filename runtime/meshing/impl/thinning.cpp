@@ -107,8 +107,8 @@ void order_foliage(const Skeleton& skeleton, ThinningOrder& order) {
         order.group_of[i] = place->second;
         ++sizes[place->second];
     }
-    // Within a group, items are in random order; across groups, in the order of the fraction of
-    // their group before them.
+    // The items of a group are in random order. Item::place is the fraction of the group before an
+    // item; sorting all items by it mixes the groups evenly.
     struct Item {
         std::uint32_t group = 0;
         std::uint32_t random = 0;

@@ -30,7 +30,7 @@ struct ThinningOrder {
     /// tip that is farthest along the wood. Paths that carry most wood come first; each path comes
     /// after its parent, so the first n paths are connected for every n.
     LargeVector<std::uint32_t> path_ranks;
-    std::vector<std::uint16_t> path_orders; // by rank: number of paths between it and the root
+    std::vector<std::uint16_t> path_orders; // by rank: number of ancestors of the path
     /// Items of foliage by rank, in random order: the first n items contain about the same fraction
     /// of each group, for every n.
     LargeVector<std::uint32_t> foliage;

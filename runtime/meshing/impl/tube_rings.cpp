@@ -26,8 +26,8 @@ struct Ellipse {
     }
 };
 
-/// Writes `columns` vectors of both ellipses, three floats each. All but the last are stored as
-/// four floats; the next one overwrites the fourth.
+/// Writes `columns` vectors of both ellipses, three floats each. Each vector but the last is stored
+/// as four floats; the next vector overwrites the fourth.
 void put_ellipses(glm::vec3* positions,
                   const Ellipse& position,
                   glm::vec3* normals,

@@ -209,7 +209,8 @@ void TubeWriter::transport_normal(const glm::vec3& in, const glm::vec3& out, Pla
         normal = glm::dot(normal, axis) * axis +
                  glm::dot(normal, glm::cross(axis, in)) * glm::cross(axis, out);
     }
-    // Renormalized, so that a million steps leave it a unit vector across the edge.
+    // Corrects the normal from time to time, so that it is a unit vector across the edge even after
+    // a million steps.
     if (++place.steps % kEdgesPerOrthogonalization == 0) {
         normal -= out * glm::dot(out, normal);
         normal *= 1.5F - 0.5F * glm::dot(normal, normal);
@@ -235,11 +236,11 @@ void TubeWriter::set_mitred(const glm::vec3& in, const glm::vec3& out, Ring& rin
     const float sum = 1.0F + glm::dot(in, out);
     const float length = std::sqrt(2.0F * sum); // of `in` + `out`
     ring.tangent = (in + out) * (1.0F / length);
-    // Turned by half of the bend.
+    // Turns the normal and the binormal by half of the bend.
     const glm::vec3 turn = (in + ring.tangent) * (1.0F / (length + sum));
     ring.normal = normal - normal_part * turn;
     ring.binormal = binormal - binormal_part * turn;
-    // Projected along the edge onto the plane.
+    // Projects the normal and the binormal along the edge onto the plane of the ring.
     const glm::vec3 along = in * (1.0F / sum);
     ring.wide_normal = normal - normal_part * along;
     ring.wide_binormal = binormal - binormal_part * along;

@@ -31,8 +31,8 @@ struct VisibleAreas {
     }
 };
 
-/// Measures meshes in square views of one frame from twelve sides, each level with the plant and
-/// from above.
+/// Measures meshes in 24 square views of one frame: from twelve sides, each once level with the
+/// plant and once from above.
 class AreaMeter {
 public:
     /// Computes the size of the views from trial views of the finest mesh: more pixels for plants

@@ -56,16 +56,17 @@ Twigs twigs_of(const std::vector<Body>& bodies) {
     return out;
 }
 
-/// Place of body number `i` of a run: 0 at its base, 1 at its tip.
+/// Place of body number `i` in a run of `length` bodies: 0 at the base of the run, 1 at its tip.
 double place_in_run(std::size_t i, std::size_t length) {
     return (static_cast<double>(i) + 0.5) / static_cast<double>(length);
 }
-/// Interpolation parameter of a body at `place` from the rotation of the parent's run (0) to the
-/// rotation of its own run (1). `joined`: the run continues the parent's run, whose bodies turn too.
+/// Weight of the rotation of a body's own run, for a body at `place`; the rest is the weight of the
+/// rotation of the parent run. `joined`: the run continues the parent run, where turned_ahead()
+/// begins the turn.
 double turned_part(double place, bool joined) {
     return std::min(joined ? 0.5 + place : 2.0 * place, 1.0);
 }
-/// Interpolation parameter of a body of the parent's run, if a run continues it.
+/// Weight of the rotation of the next run, for a body at `place` of the run that it continues.
 double turned_ahead(double place) {
     return std::max(place - 0.5, 0.0);
 }

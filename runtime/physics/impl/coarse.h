@@ -14,9 +14,10 @@ namespace lsys {
 /// Min bodies of a plant that has coarse plants.
 inline constexpr std::uint32_t kMinCoarsened = 2000;
 
-/// A connected part of a plant. A twig that is left out becomes a point mass at its base, on its
-/// parent, with its area in the wind. A body represents a run of bodies, each the only kept child of
-/// its predecessor: the run is rigid in the coarse plant, and its joints bend together.
+/// A connected part of a plant. A twig that is left out becomes a point mass on its parent body, at
+/// the base of the twig; the parent body gets the twig's area in the wind. A body represents a run
+/// of bodies, each the only kept child of its predecessor: the run is rigid in the coarse plant,
+/// and its joints bend together.
 struct CoarsePlant {
     Bodies bodies; // `segments` and `places` are empty
     /// Bodies of the whole plant in the runs, run by run, from base to tip of a run.

@@ -39,7 +39,7 @@ struct BodyPose {
 
 /// Motion of a body, in the axes of the world.
 struct BodyMotion {
-    glm::dvec3 bend{0.0};        // of its joint: rotation vector from rest, relative to the parent
+    glm::dvec3 bend{0.0};        // rotation vector of the joint from rest, relative to the parent
     glm::dvec3 spin{0.0};        // rad/s
     glm::dvec3 velocity{0.0};    // of the base, m/s
     glm::dvec3 centripetal{0.0}; // centripetal acceleration of the base, m/s^2

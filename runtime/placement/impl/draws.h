@@ -23,8 +23,8 @@ inline constexpr std::uint32_t kLifeBlock = 2;       // words: age of death, sta
 inline constexpr std::uint32_t kCellBlock = 8;
 /// Blocks whose position is a step of PoissonDisk: one for the active point, then one per two attempts.
 inline constexpr std::uint32_t kStepBlock = 16;
-/// Blocks whose position is a plant's number: kMaxSeeds per year, the first for the number of seeds,
-/// then one per seed.
+/// Blocks whose position is a plant's number: kMaxSeeds blocks per year, the first for the number
+/// of seeds, then one per seed.
 inline constexpr std::uint32_t kSeedBlock = 0x80000000u;
 inline constexpr std::uint32_t kMaxSeeds = 256; // blocks per plant and year
 

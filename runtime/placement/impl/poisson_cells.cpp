@@ -35,7 +35,7 @@ constexpr std::int64_t kBlock = 64; // cells along each side of a block
 /// within 2^13 cells of the origin, so that rivals are in neighbouring cells.
 constexpr double kCellSide = 1.0 + 0x1p-9;
 
-constexpr std::uint8_t kUndecided = 0xFF; // instead of a round: neither accepted nor rejected
+constexpr std::uint8_t kUndecided = 0xFF; // instead of a round: not accepted, or not rejected
 constexpr float kNowhere = 1.0e30F;       // a coordinate far from all others
 // Max distance of rivals in quarters, where a cell has four quarters.
 constexpr std::int64_t kNeighbourQuarters = 2;

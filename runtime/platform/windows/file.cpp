@@ -192,7 +192,7 @@ Reason resolve_links(const std::string& path, std::string& real) {
     const Reason reason = count == 0 ? last_reason() : 0;
     ::CloseHandle(handle);
     name.resize(count);
-    // A long path begins with \\?\, on a network share with \\?\UNC\.
+    // The path begins with \\?\UNC\ on a network share, else with \\?\ alone.
     real = utf8_text(name);
     if (real.starts_with("\\\\?\\UNC\\")) {
         real.replace(0, 8, "\\\\");

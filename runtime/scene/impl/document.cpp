@@ -9,10 +9,10 @@
 #include <string_view>
 #include <utility>
 
-// toml++ is header-only and compiled here only. Version 3.3 has two wrong assertions: a key follows
-// the `[` of a heading, and a character beyond ASCII in a key is a blank. With assertions such input
-// would end the process, and without assertions it is undefined behaviour. The macros below make
-// toml++ continue and report such input as mistakes.
+// toml++ is header-only and compiled here only. Version 3.3 wrongly asserts that a key follows the
+// `[` of a heading, and that a character beyond ASCII in a key is a blank. Other input would end
+// the process or, without assertions, cause undefined behaviour. The macros below make toml++
+// continue and report such input as mistakes.
 #define TOML_EXCEPTIONS 0
 #define TOML_ENABLE_FORMATTERS 0
 #include <toml++/impl/preprocessor.h>

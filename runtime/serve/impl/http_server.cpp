@@ -317,7 +317,7 @@ Result<void> serve_tiles(TileService& service,
     while (!shared.network.stopped()) {
         try {
             shared.network.run();
-        } catch (const std::bad_alloc&) { // cuts the connection; the others continue
+        } catch (const std::bad_alloc&) { // cuts the connection; other connections continue
         }
     }
     shared.pool.join();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// For systems without Boost.Asio.
+// serve_tiles() of a build without LSYS_SERVER.
 #include "runtime/serve/http_server.h"
 
 namespace lsys {

@@ -81,8 +81,8 @@ NoiseAxis::NoiseAxis(std::span<const float> places) {
 }
 
 NoiseLayer::NoiseLayer(float height) {
-    // Near a lattice point the noise is its gradient times the distance, up to a part of the cube of
-    // the distance. The two distances differ so much that one value shows both components.
+    // Near a lattice point the noise is the gradient times the distance, up to an error of third
+    // order. The distances along X and Z differ so much that one value shows both components.
     constexpr float kNear = 0x1p-7F;
     constexpr float kNearest = 0x1p-12F;
     const auto lattice = std::make_shared<Lattice>();

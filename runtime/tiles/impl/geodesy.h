@@ -34,8 +34,8 @@ public:
     [[nodiscard]] bool is_curved() const { return origin_.has_value(); }
     /// The point (x, y, z) of the scene.
     [[nodiscard]] glm::dvec3 place(double x, double y, double z) const;
-    /// Axes east, north and up at (x, 0, z), and this point. Local coordinates of a tile are in such
-    /// a frame.
+    /// The frame with axes east, north and up and origin (x, 0, z), as a matrix to the coordinates
+    /// of the tileset. Each tile has such a frame at its middle.
     [[nodiscard]] glm::dmat4 frame(double x, double z) const;
 
 private:

@@ -20,7 +20,7 @@ struct PatchPlan {
     std::uint32_t cells = 1; // along each side
     Region region;           // of the scene
     const TileFrame& frame;
-    double skirt = 0.0; // m, its depth
+    double skirt = 0.0; // m, depth of the skirt
     Material material;
     /// Altitudes in m at patch_places() along X and Z, in rows along X.
     std::vector<double> heights;

@@ -27,7 +27,7 @@ public:
 
     /// The index of the plant with the root instance of the tree.
     [[nodiscard]] std::size_t hero_of(const Tree& tree) const;
-    /// By instance of the cache of the tree, or of a stage.
+    /// Heroes of each instance of a cache: of the tree, or of a stage.
     [[nodiscard]] std::span<const InstanceHeroes> instances_of(const Tree& tree) const;
     [[nodiscard]] std::span<const InstanceHeroes> instances_of(std::uint32_t species,
                                                                std::uint32_t stage) const;

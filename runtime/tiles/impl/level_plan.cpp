@@ -9,15 +9,15 @@ namespace lsys {
 
 namespace {
 
-/// A tile with too many triangles stays whole if its quarters would have a lower mean of trees.
+/// A tile with too many triangles is not divided if its quarters would have fewer trees on average.
 constexpr double kMinTileTrees = 4.0;
 constexpr double kGroundError = 0.1;        // m, tolerated error of the ground in every tile
-constexpr std::uint32_t kEmptyLevels = 2;   // of a forest with more levels without trees
+constexpr std::uint32_t kEmptyLevels = 2;   // levels without content, see leave_out_content()
 constexpr std::uint32_t kGroundCells = 128; // max along a side of a tile with trees
-/// In a level whose tiles have this many times the side of the error, clients that allow 16 pixels in
-/// views of about 1,000 show the tiles at a distance of about one side.
+/// If the side of a tile is this many times its error, clients that allow an error of 16 pixels in
+/// views of about 1,000 pixels show the tile at a distance of about one side.
 constexpr double kSidesOfError = 64.0;
-constexpr double kCoarser = 1.5; // factor of the errors of a level that has too much
+constexpr double kCoarser = 1.5; // factor of errors if a level has too many triangles or branches
 
 class Planner {
 public:
@@ -81,7 +81,7 @@ private:
     [[nodiscard]] double deviation_of(std::size_t hero) const {
         return needs_.deviations[hero] * needs_.max_scales[needs_.heroes[hero].species];
     }
-    /// Whether trees are more than one hero each.
+    /// Whether trees are assembled from branches, so that a tree may show several heroes.
     [[nodiscard]] bool has_branches() const {
         return std::any_of(needs_.heroes.begin(), needs_.heroes.end(),
                            [](const Hero& hero) { return hero.is_alone; });
@@ -299,8 +299,8 @@ private:
         return cells;
     }
 
-    /// Clients load the tiles around a view at every level, so the first two levels of many have no
-    /// content: then the forest as a whole is 16 tiles.
+    /// Removes the content of the first two levels if more than two levels show a canopy, because
+    /// clients load the tiles around a view at every level. The coarsest content is then 16 tiles.
     void leave_out_content() {
         for (std::uint32_t number = 0; number < kEmptyLevels; ++number) {
             if (plan_.first_tree_level > kEmptyLevels) {

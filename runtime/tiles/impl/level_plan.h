@@ -27,7 +27,7 @@ struct LevelNeeds {
     const Forest& forest;         // its trees are not used
     std::span<const Hero> heroes; // plants, then branches
     const HeroTable& hero_table;
-    std::vector<double> deviations;   // m, by hero: TreeBounds::deviation, 0 for heroes alone
+    std::vector<double> deviations;   // m, by hero: TreeBounds::deviation; 0 if Hero::is_alone
     std::span<const Tree> some_trees; // for means
     std::vector<double> max_scales;   // by species, of a tree
     double density = 0.0;             // mean number of trees per m2
@@ -39,15 +39,15 @@ struct LevelNeeds {
 struct LevelDetail {
     /// By hero: number of its level of detail, or kNotShown.
     std::vector<std::size_t> detail;
-    /// By hero: whether trees show it with its stand-ins; else they show the instance alone and go on
-    /// at its exits.
+    /// By hero: whether trees show it with its stand-ins; else they show the instance alone and its
+    /// true branches at the exits.
     std::vector<bool> is_whole;
 };
 
 struct LevelPlan {
     std::vector<TileLevel> levels;
     std::uint32_t first_tree_level = 0; // the first level with single trees
-    std::vector<std::uint32_t> cells;   // by level: of the surface, along a side
+    std::vector<std::uint32_t> cells;   // by level: number along a side of the surface of a tile
     std::vector<double> skirts;         // m, by level: height below the surface
     std::vector<LevelDetail> details;   // by level; empty for levels without trees
     std::vector<std::size_t> crowns;    // by hero: level of detail of plants in a canopy

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The files of the heroes' meshes and their pictures, which tiles share. A file has what a level of the
-// quadtree draws and no coarser one, so that a client that refines a view asks for one file more.
+// The files of the heroes' meshes and their pictures, which tiles share. The meshes of a file are
+// those that one level of the quadtree draws and no coarser level does, so that a client that
+// refines a view needs few more files.
 #pragma once
 
 #include "runtime/export/tile_document.h"

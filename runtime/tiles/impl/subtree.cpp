@@ -164,9 +164,9 @@ Json square_of(const TilesetPlan& plan) {
             0.0,  0.0,   rounded_for_tileset(-height)};
 }
 
-/// The least error of the root with which no level that shows something has too small an error if
-/// each has half of the error of the level above. Levels without content do not count: with their
-/// error, the side of the ground, a client would load the finest tiles everywhere.
+/// The min error of the root with which each level with content gets at least its own error if the
+/// error halves from level to level. Levels without content do not count: with their error, the
+/// side of the ground, a client would load the finest tiles everywhere.
 double implied_error(const std::vector<TileLevel>& levels) {
     double error = 0.0;
     double factor = 1.0;

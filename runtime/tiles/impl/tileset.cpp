@@ -61,7 +61,7 @@ public:
     }
 
 private:
-    /// A tile that the tileset lists, with those below it, without a transform.
+    /// A tile that the tileset lists, with the tiles below it, without a transform.
     Json node_of(const TileId& tile) {
         Json node = bounds_of(tile);
         if (plan_.levels[tile.level].has_content) {

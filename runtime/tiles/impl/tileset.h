@@ -15,8 +15,8 @@
 namespace lsys {
 
 inline constexpr std::uint32_t kSubtreeLevels = 3; // number of levels that most tilesets list
-/// Whether tiles of a level, apart from level 0, have a tileset of the tiles below them. That of
-/// level 0 has one to five levels, or three to five if there are others.
+/// Whether tiles of a level, apart from level 0, have a tileset of the tiles below them. The
+/// tileset of level 0 lists one to five levels, or three to five if there are other tilesets.
 [[nodiscard]] constexpr bool has_subtrees(std::uint32_t level, std::uint32_t finest) {
     return level > 1 && level < finest && finest > 4 && (finest - level) % kSubtreeLevels == 0;
 }
@@ -28,7 +28,7 @@ struct TilesetPlan {
     const TileBoxes& boxes;
 };
 
-/// From the frame of a tile to that of the root of the quadtree.
+/// The matrix from the frame of a tile to the frame of the root of the quadtree.
 [[nodiscard]] glm::dmat4 frame_in_root(const TileBoxes& boxes, const TileId& tile);
 
 /// Implements TileForest::tileset().

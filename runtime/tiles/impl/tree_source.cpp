@@ -113,7 +113,7 @@ Result<void> CellTrees::check(const PlacementOptions& options, const Terrain& te
     if (const Result<double> places = expected_places(options); !places) {
         return places.error();
     }
-    // Places at the corners, because there the numbers of cells are largest.
+    // Places trees at the corners of the region, where the cell numbers are largest.
     for (int corner = 0; corner < 4; ++corner) {
         PlacementOptions piece = options;
         const Region& all = options.region;

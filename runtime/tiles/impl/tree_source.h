@@ -45,8 +45,8 @@ private:
 /// Trees of a placement on an unbounded grid.
 class CellTrees : public TreeSource {
 public:
-    /// Preconditions: is_tileable(options.method), and check() has no error. What `options` refers to,
-    /// `terrain`, `sizer` and `grid` must outlive the source.
+    /// Preconditions: is_tileable(options.method), and check() has no error. `terrain`, `sizer`,
+    /// `grid` and the objects that `options` refers to must outlive the source.
     CellTrees(const PlacementOptions& options,
               const Terrain& terrain,
               const TreeSizer& sizer,

@@ -20,7 +20,7 @@ struct HalfAngle {
     double cosine = 1.0;
     double sine = 0.0;
 };
-/// Exact for multiples of 180 degrees.
+/// Cosine and sine of half of `degrees`; exact for multiples of 180 degrees.
 [[nodiscard]] HalfAngle half_angle(double degrees);
 
 struct Action {

@@ -436,7 +436,8 @@ bool Turtle::State::execute(const Action& action, const float* arguments) {
     return true;
 }
 
-/// Handles a module that is not drawn: after a `%` or in a skipped branch, until its `]`.
+/// Counts the brackets of a part that is not drawn, after a `%` or in a skipped branch. The `]`
+/// that ends the part restores the turtle.
 bool Turtle::State::skip(const Action& action) {
     const bool opens = action.operation == TurtleOperation::Save ||
                        action.operation == TurtleOperation::SaveBranch;

@@ -25,7 +25,7 @@ inline constexpr std::size_t kModulesBetweenChecks = std::size_t{1} << 16;
 inline constexpr double kMaxFloat = static_cast<double>(std::numeric_limits<float>::max());
 inline constexpr float kPercent = 0.01F;
 inline constexpr double kFullTurn = 360.0;
-/// Number of colours of Fractint; 0 is the background.
+/// Number of colours of Fractint; colour 0 is the background.
 inline constexpr double kColours = 256.0;
 
 /// Sides of a segment in the program L3D, by the ratio of radius to length.
@@ -138,7 +138,7 @@ struct Turtle::State {
     bool place(const Action& action, const float* arguments);
     bool save();
     bool restore();
-    /// Skips a module after a `%` or in a skipped branch; its `]` restores the turtle.
+    /// Skips a module after a `%` or in a skipped branch; the branch's `]` restores the turtle.
     bool skip(const Action& action);
     bool save_branch(const Action& action, const float* arguments);
     [[nodiscard]] TurtlePlace current_place() const;

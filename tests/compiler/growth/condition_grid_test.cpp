@@ -141,7 +141,7 @@ TEST_CASE("a deeper right operand, computed first, gives the same splits and val
         return encode(opcode, operand);
     };
     const auto three = std::bit_cast<std::uint32_t>(3.0F);
-    // 3 - x * 3, or x * 3 - 3; `swapped`: the right operand is computed first.
+    // `falling`: 3 - x * 3, else x * 3 - 3. `swapped`: the right operand is computed first.
     const auto side = [&](bool swapped, bool falling) {
         const test::Instructions constant{op(Opcode::Literal), three};
         const test::Instructions product{op(Opcode::Formal), op(Opcode::Literal), three,
@@ -253,8 +253,8 @@ TEST_CASE("a condition has one truth value in each cell and in each order of com
         std::vector<KnownValue> values(formals, KnownValue{0.0F, true});
         std::vector<KnownValue> inside(formals, KnownValue{0.0F, true});
         for (int probe = 0; probe < 50; ++probe) {
-            // Find the grid point that lies in the same cells as a random point, with its values in
-            // the same order.
+            // Find the grid point in the cells of a random point whose compared values have the
+            // same order.
             for (KnownValue& value : inside) {
                 value.value = random() % 2 == 0
                                   ? static_cast<float>(random() % 21) / 2.0F - 5.0F

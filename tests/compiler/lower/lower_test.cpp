@@ -164,8 +164,8 @@ TEST_CASE("nothing is lowered if there are errors or if lowering is not requeste
 
 namespace {
 
-/// Each module of axiom and successors with its production, its place by the bytecode, and its text
-/// there: "p 3:7 F(x)"; "-" for the axiom.
+/// A line for each module of axiom and successors: the production ("-" for the axiom), the place
+/// that the bytecode gives, and the text at this place: "p 3:7 F(x)".
 std::vector<std::string> placed(const test::Compiled& c) {
     REQUIRE(c.outcome.bytecode);
     const Bytecode& b = *c.outcome.bytecode;
@@ -226,7 +226,7 @@ TEST_CASE("modules at equal distances share a row of places") {
     REQUIRE(all.size() == 2'003);
     CHECK(all[1'998] == "- 1:3003 F");
     CHECK(all[2'001] == "p 2:18 F(2)");
-    // Blanks stand before every second module only, so a row of equal distances has two modules.
+    // Blanks stand before every second module only, so a place run has two modules.
     CHECK(c.outcome.bytecode->template_places.size() == 1'001);
     const test::Compiled dense = compile_text("#w : F+F+F+F+F-F-F;\n#p : F : * : F(1)F(2)F(3);\n");
     CHECK(placed(dense).size() == 16);

@@ -48,7 +48,7 @@ TEST_CASE("a missing axiom or number of generations is reported at the end of th
     CHECK(without("#w : F;\n") == Reports{"missing-generations"});
     CHECK(without("#n = 1;\n#p : F : * : F;\n") == Reports{"missing-axiom"});
     CHECK(without("#n = 1;\n#w : ;\n") == Reports{"empty-axiom"});
-    // Statements that do not parse are not reported as missing too.
+    // A statement with a syntax error is not also reported as missing.
     CHECK(without("#n = 1 1;\n#w : F(1 1);\n").size() == 2);
     CHECK(compile_text("#w : F;\n").reports().empty()); // -n is given
 }

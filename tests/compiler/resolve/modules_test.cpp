@@ -49,7 +49,7 @@ TEST_CASE("an unknown name that consists of known names is split") {
 TEST_CASE("Crankshaw 2019, 7.3: the last part may be a name that is used alone elsewhere") {
     const std::string rest = "#p : A : * : F S(1);\n";
     CHECK(axiom(compile_text("#w : AS(1);\n" + rest)) == "A S/1");
-    CHECK(axiom(compile_text("#w : AS;\n" + rest)) == "AS"); // S without parameters is not used
+    CHECK(axiom(compile_text("#w : AS;\n" + rest)) == "AS"); // elsewhere, S has a parameter
     // Only the last part may have parameters.
     CHECK(axiom(compile_text("#w : SA(1);\n" + rest)) == "SA/1");
     CHECK(axiom(test::compile_files(

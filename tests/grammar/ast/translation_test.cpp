@@ -70,7 +70,7 @@ TEST_CASE("a translation over the size limit is an error at the part that exceed
     translation.put("GG", {file, 6, 7});
     translation.put(";");
     translation.copy_as("FF", {file, 0, 2});
-    // The parts after the first that does not fit are left out too.
+    // All parts from the first one that does not fit are omitted.
     CHECK(translation.text() == "#w : FFFF");
     CHECK(translation.origin(8, 20) == SourceSpan{file, 3, 4});
     Diagnostics diagnostics;

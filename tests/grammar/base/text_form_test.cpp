@@ -27,7 +27,7 @@ TEST_CASE("binary files are recognised") {
     CHECK(recognise_non_text("%PDF-1.7\n")->what == "a PDF document");
     CHECK(recognise_non_text("\x89PNG\r\n")->what == "a PNG picture");
     CHECK(recognise_non_text(std::string(100, '\x02'))->what == "binary data");
-    // Big-endian UTF-16 begins with a NUL byte; this text does not, though it has UTF-16 in it.
+    // ASCII text in big-endian UTF-16 begins with a NUL byte; this text has UTF-16 only later.
     CHECK(recognise_non_text("#w : F" + as_utf16(std::string(40, 'F'), true))->what ==
           "binary data");
 }

@@ -48,11 +48,11 @@ TEST_CASE("the remaining time is estimated from the predicted number of modules"
     std::ostringstream terminal;
     Progress progress(&terminal, 3, begin, {1, 1e6, 3e6, 6e6});
     progress.update(1, 1'000'000, begin + 500ms);
-    progress.update(2, 1'500'000, begin + 5s); // 2.5 of ten million modules are done
+    progress.update(2, 1'500'000, begin + 5s); // 2.5 of 10 million modules are done
     CHECK(terminal.str() == "\r\x1b[K[================        ] generation 2 of 3, 1500000 "
                             "modules, 500 k/s, 15 s left");
     terminal.str("");
-    progress.update(3, 1'000'000, begin + 500s); // 5 of ten million
+    progress.update(3, 1'000'000, begin + 500s); // 5 of 10 million modules are done
     CHECK(terminal.str() == "\r\x1b[K[========================] generation 3 of 3, 1000000 "
                             "modules, 7 k/s, 8:20 min left");
     progress.clear();

@@ -142,7 +142,7 @@ TEST_CASE("implicit tiling has subtree files instead of tilesets, and the same c
         const bool is_tileset = path.ends_with(".json");
         CHECK((is_tileset && path != "tileset.json") != files.contains(path));
         contents += path.ends_with(".glb") ? 1U : 0U;
-        if (path.starts_with("models/") || path == "0/0/0.glb") { // the root is in its own place
+        if (path.starts_with("models/") || path == "0/0/0.glb") { // the root is not moved
             CHECK(files.at(path) == bytes);
         }
     }
@@ -150,7 +150,7 @@ TEST_CASE("implicit tiling has subtree files instead of tilesets, and the same c
     for (const auto& [path, bytes] : files) {
         CHECK((by_json.contains(path) || path.ends_with(".subtree")));
     }
-    // A stopped run is continued by the same command, and parts are shared out as without it.
+    // As without --implicit, --resume continues a stopped run and --part divides the files.
     fs::remove(folder.path() / "again/0/0/0.subtree");
     fs::remove(folder.path() / "again/tileset.json");
     REQUIRE(write_tiles(folder, "again", {"--implicit", "--resume"}).status == 0);

@@ -155,7 +155,7 @@ TEST_CASE("modules of a batch between other modules") {
         words + "#p : A(x, y) : * : let r = {0.5, 1} : A(y*r, x) [B(r) C] A(x/r, y);\n"
                 "#q : B(x) : x < 4 : B(x + 1) C;\n#r : B(x) : x >= 4 : B(x*{0, 1}) A(x, x);\n",
         7);
-    // More parameters than a wide store, and than a batch in the fast loop, can hold.
+    // Successors with more parameters than a wide store, or a batch in the fast loop, can hold.
     for (const int count : {5, 16, 17, 40}) {
         std::string many = "#w : A(1) A(2) A(3);\n#p : A(x) : * : let r = {0, 1} : A(x + r) A(r)";
         for (int i = 2; i < count; ++i) {
@@ -217,7 +217,7 @@ TEST_CASE("values of a batch that are not finite are errors") {
 TEST_CASE("threads share the batches of a long word") {
     const Bytecode bytecode = bytecode_of_batches(
         "#w : A(1) A(1) A(1);\n#p : A(x) : * : let r = {0.5, 1} : A(x*r) A(x*r);\n");
-    constexpr std::uint32_t kDoublings = 17; // the last words are long enough to be shared
+    constexpr std::uint32_t kDoublings = 17; // the last words are long enough for several threads
     const auto parameters = [&](std::uint32_t threads) {
         DeriveOptions options;
         options.generations = kDoublings;

@@ -226,7 +226,7 @@ TEST_CASE("runs of modules without a production are copied as a block") {
 }
 
 TEST_CASE("long runs of modules that nothing rewrites keep their parameters") {
-    // Chunks of a few modules are rewritten without the mask that finds such runs.
+    // Chunks of a few modules are rewritten without the mask of active modules.
     std::string row;
     std::string next;
     for (int i = 0; i < 1000; ++i) {

@@ -98,7 +98,7 @@ TEST_CASE("the message names the production that adds the most modules") {
     Derivation derivation(bytecode, options);
     REQUIRE(derivation.start() == std::nullopt);
     REQUIRE(derivation.run_to(9) == Stop::Limit);
-    // In generation 2, 3 A add 6 modules, 1 B adds 4, and 4 C add 8.
+    // The word of generation 1 has 3 A, 1 B and 4 C: p adds 6 modules, q 4 and r 8.
     CHECK(derivation.limit().generation == 1);
     CHECK(derivation.limit().production == 2);
 }

@@ -39,7 +39,7 @@ void check_closed(const ConvexHull& hull) {
     CHECK(hull.triangles.size() == 2 * hull.vertices.size() - 4); // Euler's formula
 }
 
-/// The greatest distance of a point from the outer side of a triangle.
+/// The greatest distance of a point from the plane of a triangle, on the outer side.
 double farthest_outside(const ConvexHull& hull, const std::vector<glm::vec3>& points) {
     double max_distance = 0.0;
     for (const auto& [a, b, c] : hull.triangles) {

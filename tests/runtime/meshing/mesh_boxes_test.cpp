@@ -495,8 +495,7 @@ TEST_CASE("smoothed ends are flat, with a rounded edge") {
     const Bounds box = test::bounds_of(mesh);
     CHECK(box.high.y == Approx(1.0F).margin(0.01));
     CHECK(box.low.y == Approx(0.0F).margin(0.01));
-    // Below a half ball, the surface would be 0.03 lower than the end at a distance of 0.07 from
-    // the axis.
+    // A half ball would be 0.03 lower at a distance of 0.07 from the axis than on the axis.
     float widest = 0.0F;
     for (const glm::vec3& at : mesh.positions) {
         widest = at.y > 0.985F ? std::max(widest, std::hypot(at.x, at.z)) : widest;

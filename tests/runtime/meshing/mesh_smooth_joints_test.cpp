@@ -159,7 +159,7 @@ TEST_CASE("a smooth branch leaves along its parent and keeps its radius", "[mesh
     const std::vector<Joint> joints = joints_of(plant.skeleton(), kSmooth, branch);
     CHECK(joints.front().centre == plant.skeleton().segments[branch].base);
     CHECK(joints.back().centre == tip(plant.skeleton().segments[branch]));
-    // The first piece of the curve turns from the trunk by only about half of a ring's turn.
+    // The first ring turns from the trunk by about half of the turn between two rings.
     CHECK(glm::dot(joints.front().heading, glm::vec3(0, 1, 0)) > std::cos(10.0F * kDegree));
     CHECK(max_turn(joints) < 15.0F);
     for (std::size_t i = 1; i < joints.size(); ++i) {
@@ -183,7 +183,7 @@ TEST_CASE("a branch across or against its parent leaves as without smooth joints
 }
 
 TEST_CASE("edges that are too short for their radius stay straight", "[mesh][tubes]") {
-    // Rings of a curve would cross on its inner side.
+    // The rings of a curve would cross on the inner side of such a bend.
     const float degrees = GENERATE(60.0F, 90.0F, 120.0F, 170.0F, 180.0F);
     const float radius = GENERATE(0.05F, 0.3F, 1.0F, 5.0F);
     CAPTURE(degrees, radius);

@@ -128,7 +128,7 @@ TEST_CASE("friction holds a rod on the ground until the wind is stronger") {
         return std::atan2(static_cast<double>(along.z), static_cast<double>(along.x));
     };
     CHECK(turn_in_wind(0.0) == Approx(0.0).margin(1e-9));
-    CHECK(std::abs(turn_in_wind(0.9 * limit)) < 0.01); // below the sticking speed it creeps
+    CHECK(std::abs(turn_in_wind(0.9 * limit)) < 0.01); // held by friction, the rod only creeps
     CHECK(turn_in_wind(1.1 * limit) > 0.1);
 }
 

@@ -159,7 +159,7 @@ TEST_CASE("the key draws the stage at which a tree starts, for every method") {
         const LargeVector<Tree> trees = place_trees(options, ground).value().trees;
         options.threads = 5;
         CHECK(same_trees(place_trees(options, ground).value().trees, trees));
-        // Only the age is drawn in addition.
+        // Stages change nothing but the ages of the trees.
         REQUIRE(trees.size() == without.size());
         std::array<std::array<double, kStages>, 2> counts{};
         double together = 0.0; // pairs of consecutive trees in one stage

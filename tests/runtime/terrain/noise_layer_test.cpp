@@ -43,7 +43,7 @@ TEST_CASE("a layer of noise has the bits of stb_perlin") {
 
 TEST_CASE("a grid of noise has the bits of its points") {
     const NoiseLayer layer(9.0F);
-    // Many points in one lattice cell, and several cells between two points; at the end of the period.
+    // Steps from 1/100 of a lattice cell to several cells; x ends at the period, 256.
     for (const float step : {0.01F, 0.3F, 2.7F}) {
         std::vector<float> x;
         std::vector<float> z;

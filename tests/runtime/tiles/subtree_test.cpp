@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Implicit tiling: its subtree files list the tiles of the explicit tilesets, with the same boxes and
-// errors, and its contents are the explicit ones below a node with their place.
+// Implicit tiling: the subtree files list the tiles of the explicit tilesets, with the same boxes
+// and errors. A content is the explicit content below a node with the place of the tile.
 #include "runtime/tiles/impl/subtree.h"
 #include "tests/support/tile_forest.h"
 
@@ -57,7 +57,7 @@ add_explicit(const TileForest& forest, const Json& tile, const glm::dmat4& place
         TileId root;
         REQUIRE(std::sscanf(uri.c_str(), "%u/%u/%u", &root.level, &root.column, &root.row) == 3);
         const Json below = Json::parse(forest.tileset(root));
-        count = 0; // the tile that refers to the tileset
+        count = 0; // a tile that only refers to a tileset does not count
         for (const Json& child : below["root"]["children"]) {
             count += add_explicit(forest, child, place * matrix_of(child["transform"]), seen);
         }
@@ -95,7 +95,7 @@ public:
     SeenTiles seen;
     std::size_t count = 0;
     std::size_t files = 0;
-    std::map<std::string, std::size_t> constants; // availabilities without a stream
+    std::map<std::string, std::size_t> constants; // by availability: files with a constant
 
 private:
     void read(const TileId& root) {
@@ -217,7 +217,7 @@ TEST_CASE("implicit tiling has the tiles of the explicit tilesets") {
     CHECK(reader.count == count);
     CHECK(reader.files > 1);
     CHECK(reader.constants.at("childSubtreeAvailability") > 0);
-    CHECK(reader.constants.at("tileAvailability") < reader.files); // beside the strip there is none
+    CHECK(reader.constants.at("tileAvailability") < reader.files); // no tile beside the strip
     REQUIRE(reader.seen.size() == wanted.size());
     for (const auto& [path, tile] : wanted) {
         CAPTURE(path);
@@ -230,7 +230,8 @@ TEST_CASE("implicit tiling has the tiles of the explicit tilesets") {
         }
         CHECK(glm::distance(other.middle, tile.middle) < 0.01);
     }
-    // A client that ignores the metadata halves the error of the root per level: none is too small.
+    // A client that ignores the metadata halves the error of the root with each level; no error it
+    // computes is too small.
     const Json top = Json::parse(forest.tileset({}))["root"];
     CHECK(matrix_of(top["transform"]) == matrix_of(root["transform"]));
     double implied = top["geometricError"].get<double>();

@@ -105,7 +105,7 @@ TEST_CASE("a placement whose cells have no numbers is refused before a tile is m
     const GreyMap map = slope_map();
     PlacementOptions options = options_of(PlacementMethod::Jittered, region, map);
     const Terrain level = Terrain::flat(region).value();
-    CHECK_FALSE(CellTrees::check(options, level)); // a spacing of 4 m reaches only to 131 km
+    CHECK_FALSE(CellTrees::check(options, level)); // cells of 4 m have numbers only up to 131 km
     options.spacing = 30.0;
     CHECK(CellTrees::check(options, level));
     options.spacing = -1.0;

@@ -179,7 +179,7 @@ TEST_CASE("vertices of a polygon are its dots, or without dots the ends of its s
     CHECK(dots.skeleton.corners.size() == 3);
     const Drawing steps = draw("{-(60)f(1)+(120)f(1)+(120)f(1)}");
     REQUIRE(steps.skeleton.polygons.size() == 1);
-    CHECK(steps.skeleton.corners.size() == 3); // it closes on its first point
+    CHECK(steps.skeleton.corners.size() == 3); // the last step ends at the first corner
     const Drawing nested = draw("{.f(1).{.+(90)f(1).+(90)f(1).}+(90)f(1).f(1).}");
     REQUIRE(nested.skeleton.polygons.size() == 2);
     CHECK(nested.skeleton.polygons[0].corner_count == 3);

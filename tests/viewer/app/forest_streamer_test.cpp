@@ -201,7 +201,7 @@ TEST_CASE("a camera that jumps keeps the budget") {
         CHECK(*range > 0.0F);
         CHECK(shown.squares.size() > 20);
     }
-    CHECK(jumps_without_squares == 4); // squares are hidden before others are made
+    CHECK(jumps_without_squares == 4); // old squares are hidden before new ones are made
     CHECK(streamer.stats().peak_bytes <= kStreamerBytes);
 }
 

@@ -249,7 +249,7 @@ TEST_CASE("values set in the window replace those of the scene") {
     REQUIRE(viewed.until([&] {
         return viewed.forest().document()->scene.placement.method == PlacementMethod::PoissonDisk;
     }));
-    CHECK(viewed.forest().painting().tree_count() > 25); // of 40
+    CHECK(viewed.forest().painting().tree_count() > 25); // about 40
     CHECK(viewed.forest().painting().tree_count() < 60);
     edits.terrain = TerrainKind::Flat;
     REQUIRE(viewed.until(

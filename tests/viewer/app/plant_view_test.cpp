@@ -600,7 +600,7 @@ TEST_CASE("a plant that takes long is reported, and cancelled together with its 
     REQUIRE(viewed.until_swaps(2));
     CHECK(view.document()->plant.generations == 3);
 
-    // A changed file whose plant was cancelled is read with the next change.
+    // After the plant of a changed file was cancelled, the next change of a setting reads the file.
     write_text(file, "#n = 40;\n#w : A(0);\n#p : A(x) : x >= 0 : A(x) F F A(x);\n");
     REQUIRE(viewed.until([&] { return view.making().has_value(); }));
     view.cancel_making();
@@ -608,7 +608,7 @@ TEST_CASE("a plant that takes long is reported, and cancelled together with its 
     REQUIRE(viewed.until_swaps(3));
     CHECK(view.document()->plant.modules == 10);
 
-    // So is a plant of another file, which leaves the first one open.
+    // If the plant of another file is cancelled, the first file stays open.
     const std::string other = scratch / "other.lsys";
     write_text(other, "#n = 40;\n#w : A(0);\n#p : A(x) : x >= 0 : A(x) F A(x);\n");
     view.open(other);

@@ -371,7 +371,7 @@ TEST_CASE("a forest with deeply nested instances is left to the CPU") {
     const auto context = std::move(HeadlessContext::make().value());
     auto wood = make_wood(20, 30.0F);
     CHECK(make_culling_tables(wood->model));
-    // A chain of branches, one in the other.
+    // A chain of branches, each within the one before.
     CacheOptions options;
     options.heroes = 2;
     InstanceCache& cache = wood->forest.species[0].stages[0].cache;

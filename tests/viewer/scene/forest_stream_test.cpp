@@ -85,7 +85,7 @@ StreamedWood make_streamed_wood(double shift) {
 
 struct DrawnSquares {
     std::vector<std::array<float, 4>> trees; // place and first threshold, in the order of drawing
-    std::vector<std::array<float, 4>> clusters;                // likewise
+    std::vector<std::array<float, 4>> clusters;                // place and first threshold
     std::vector<std::pair<std::uint32_t, std::uint32_t>> runs; // instance and count
     std::uint64_t triangles = 0;
 
@@ -233,7 +233,7 @@ TEST_CASE("a far camera keeps places of a tenth of a millimetre") {
     CHECK(std::abs(eye_of(camera).x - 150'000.1234) < 1.3e-4);
     CHECK(std::abs(eye_of(camera).z + 149'999.8765) < 1.3e-4);
     CHECK(parse_camera(to_text(camera), Camera{}).value() == camera);
-    // A step of 1 mm moves it by 1 mm.
+    // A move of 1 mm moves the eye by 1 mm.
     const Camera later = moved(camera, 0.001F, 0.0F, 0.0F);
     CHECK(glm::distance(eye_of(later), eye_of(camera)) == Approx(0.001).margin(1.5e-4));
     const Camera half = between(camera, Camera{}, 0.5);

@@ -17,8 +17,8 @@ inline constexpr std::uint32_t kMaxWalkDepth = 64;
 
 struct CullingTables {
     std::vector<std::uint32_t> words;
-    /// Keys of branches: one per form, group and instance. Groups: a level each, then blended ones.
-    std::vector<std::uint32_t> first_keys; // by form
+    /// Keys of branches: one for each form, group (see kBranchGroups) and instance.
+    std::vector<std::uint32_t> first_keys; // first key of each form
     std::uint32_t key_count = 0;
     /// Max branches of one tree; at most 2^32 - 1.
     std::uint32_t max_branches = 0;

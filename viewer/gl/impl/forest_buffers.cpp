@@ -475,7 +475,7 @@ ForestBuffers::command_templates(const std::vector<std::uint32_t>& first_keys) c
         for (const bool blends : {false, true}) {
             CommandRange& range = templates.ranges.emplace_back();
             range.first = static_cast<std::uint32_t>(templates.commands.size());
-            // Finer levels first, as ForestLod::list_runs().
+            // Finer levels first, as in ForestLod::list_runs().
             for (std::uint32_t group = blends ? kTreeLevels : 0;
                  group < (blends ? kTreeLevels + 1 : kTreeLevels); ++group) {
                 for (std::size_t f = 0; f < form_levels_.size(); ++f) {

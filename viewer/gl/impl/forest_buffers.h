@@ -29,8 +29,8 @@ enum class BranchClass : std::uint8_t {
 /// Count of these classes; each picture of a mesh file is a further class.
 inline constexpr std::size_t kBranchClasses = 4;
 
-/// Buffers that uploads and draws use. Baking of impostors has its own, because it happens between
-/// pictures of the forest.
+/// Buffers that uploads and draws use. Baking of impostors has a set of its own, because it happens
+/// between pictures of the forest.
 enum class BufferSet : std::uint8_t { Forest, Impostor };
 
 struct DrawCommand { // layout of glMultiDrawElementsIndirect
@@ -92,7 +92,7 @@ public:
     void set_branches(std::span<const PoolBranch> branches);
     /// Uploads the lists of branches and the draw commands of each class.
     void upload_commands(const DrawLists& lists);
-    /// `first_keys`: by form, of CullingTables.
+    /// `first_keys`: CullingTables::first_keys.
     [[nodiscard]] CommandTemplates
     command_templates(const std::vector<std::uint32_t>& first_keys) const;
     /// Draws forests with these commands instead of uploaded ones, until they are null.

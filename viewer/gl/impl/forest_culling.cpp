@@ -288,7 +288,7 @@ void ForestCulling::apply_changes(const ForestLod& lod) {
     std::sort(changed_.begin(), changed_.end());
     changed_.erase(std::unique(changed_.begin(), changed_.end()), changed_.end());
     grow_lists(lod.tree_count());
-    // Copies from a buffer of their own: see Buffer.
+    // Changes go into a buffer of their own and are copied from there: see Buffer::write().
     std::vector<std::uint32_t> words;
     struct Copy {
         const Buffer* to;
@@ -318,7 +318,7 @@ void ForestCulling::apply_changes(const ForestLod& lod) {
 }
 
 void ForestCulling::begin(const ForestLod& lod, const ForestBuffers& buffers, Block& block) {
-    // Shaders of the picture before have written the buffers that are cleared and copied to.
+    // Shaders of the previous picture have written the buffers that are cleared or copied to.
     glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
     apply_changes(lod);
     block.trees = {static_cast<std::uint32_t>(lod.cells().size()),

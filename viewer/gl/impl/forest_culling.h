@@ -31,7 +31,7 @@ struct CullingLimits {
     std::int32_t storage_blocks = 0;   // GL_MAX_COMPUTE_SHADER_STORAGE_BLOCKS
     std::int32_t invocations = 0;      // GL_MAX_COMPUTE_WORK_GROUP_INVOCATIONS
 };
-/// The first limit that is too low for the compute shaders, as text; nullopt: none is.
+/// The first limit that is too low for the compute shaders, as text; nullopt: all suffice.
 [[nodiscard]] std::optional<std::string> lacking_for_culling(const CullingLimits& limits);
 /// Limits of the current context.
 [[nodiscard]] CullingLimits culling_limits();
@@ -82,7 +82,7 @@ public:
     [[nodiscard]] Result<void> reload(const ShaderSource& shaders);
     [[nodiscard]] bool has_programs() const { return static_cast<bool>(programs_.sum); }
     /// Uploads cells, trees and tables. Returns false if the forest is beyond kMaxWalkDepth.
-    /// `buffers`: of this forest.
+    /// `buffers`: the buffers of the same forest.
     [[nodiscard]] bool show(const ForestLod& lod, ForestBuffers& buffers);
     /// Records a change of a tree, which the next select() uploads.
     void change_tree(std::uint32_t number);
@@ -108,7 +108,7 @@ public:
     }
     /// Buffer of draw commands for impostors.
     [[nodiscard]] GLuint impostor_commands() const { return state_.name(); }
-    /// Offset in bytes of two commands, for whole and for blended impostors.
+    /// Offset in impostor_commands(), bytes, of two commands: for whole and for blended impostors.
     [[nodiscard]] static std::size_t impostor_command(bool clusters);
 
     /// Counts of the last picture that the device has finished; null: none. Does not wait.

@@ -378,7 +378,7 @@ std::uint64_t ForestPass::draw_device_quads(const ProgramObject& program,
 }
 
 void ForestPass::draw_device_impostors(bool clusters, FrameStats& stats) {
-    // As draw_impostors().
+    // Depth pass first, as in draw_impostors().
     glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
     stats.draws += draw_device_quads(programs().impostor_depth, clusters, 0, 1);
     stats.draws += draw_device_quads(programs().blending_impostor_depth, clusters, 1, 1);

@@ -35,7 +35,7 @@ public:
     /// Error: a shader does not compile; the old ones stay in use.
     [[nodiscard]] Result<void> reload(const ShaderSource& shaders);
     /// Replaces the forest. Old impostors stand in until new ones are baked. Forest and terrain
-    /// must outlive the pass or the next call.
+    /// must live until the next call or the end of the pass.
     void show(ForestModel model, const MaterialTextures& textures);
     /// Chooses trees and branches of later forests by compute shaders, or on the CPU. Error: a
     /// shader does not compile.

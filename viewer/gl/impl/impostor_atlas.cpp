@@ -127,7 +127,7 @@ void ImpostorAtlas::find_missing() {
             pending_.push_back(layer);
         }
     }
-    // The first layer of each form without a picture comes first.
+    // First bake one layer of each form that has no picture yet.
     const auto waits = [this](std::uint32_t layer) {
         for (std::uint32_t other = 0; other < layers_; ++other) {
             const bool is_earlier = other < layer && keys_[other] != target_keys_[other];

@@ -20,8 +20,8 @@ public:
 
     /// Error: a shader does not compile; the old one stays in use.
     [[nodiscard]] Result<void> reload(const ShaderSource& shaders);
-    /// Replaces the ground. `cover` may be empty. `terrain` must outlive the pass or the next call. Pictures that are
-    /// shown already are not uploaded again.
+    /// Replaces the ground. `cover` may be empty. `terrain` must live until the next call or the
+    /// end of the pass. Pictures that are shown already are not uploaded again.
     void show(const Terrain& terrain,
               const GroundPictures& pictures,
               float view_distance,

@@ -79,8 +79,8 @@ using FileReceiver = std::function<bool(const FilePiece& piece)>;
 
 /// Writes `path`, whose extension sets the format, and the files beside it: pictures, materials,
 /// buffers, levels, frames. All appear when they are complete, or none. Returns their paths.
-/// Options: the options of `lsc export` from `format` to `fps` (form, mesh, levels of detail,
-/// bending, motion, growth), and `height`, which grows the plant again.
+/// Options: the options of `lsc export` for form, mesh, levels of detail, bending, motion and
+/// growth (from `format` to `fps` in its help), and `height`, which grows the plant again.
 [[nodiscard]] LSYS_API Outcome<std::vector<std::string>> save_plant(const Plant& plant,
                                                                     const std::string& path,
                                                                     const Options& options = {},

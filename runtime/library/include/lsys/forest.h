@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Forest: trees of some species on a ground, from a scene file, grammars or given places; its
 // instances as arrays for renderers, and its files. Metres, right-handed axes, +Y up. Arrays are
-// spans into the forest or the instances, without a copy: they are valid as long as a copy of that
-// value exists.
+// spans into the Forest or Instances, without a copy: they are valid as long as any copy of the
+// Forest or Instances exists.
 #pragma once
 
 #include <cstddef>

@@ -18,7 +18,7 @@ enum class Status : std::uint8_t {
     Failed,      // a file cannot be read, or an option is invalid
     Limit,       // a value of Limits is exceeded
     OutOfMemory, // a failed allocation
-    Cancelled,   // by Host::progress or Host::cancelled
+    Cancelled,   // by Host::cancelled or a function of the caller
 };
 
 /// The text of a status: "out of memory".

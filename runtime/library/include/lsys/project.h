@@ -35,8 +35,8 @@ struct Host {
     /// Called several times per second and after each generation; returns false to end the call
     /// with Status::Cancelled. May be unset.
     std::function<bool(const Progress& progress)> progress;
-    /// Set to true by another thread to end the call with Status::Cancelled. The call sets it too
-    /// if a function ends the call. May be null.
+    /// Set to true by another thread to end the call with Status::Cancelled. The library sets it to
+    /// true if `progress` or an exception of a callback ends the call. May be null.
     std::atomic<bool>* cancelled = nullptr;
 };
 
