@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The operations of the turtle: turtle_operations.def as an enum and a table. Code that
-// distinguishes operations reads a column of the table; no other list of operations exists.
+// The operations of the turtle: turtle_operations.def as an enum and a table. The columns of the
+// table are properties of an operation; its effect is a case in runtime/turtle/impl/commands.cpp.
 #pragma once
 
 #include "grammar/base/counted_enum.h"

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Colours that distinguish the branches of a forest by id, age or hero (docs/language.md section
-// 9). Branches of one value have one colour in every forest and on every machine.
+// 9). An id or hero has the same colour in every forest; the colour of an age depends on the
+// greatest age of the forest. Colours are the same on every machine.
 #pragma once
 
 #include "viewer/scene/forest_model.h"

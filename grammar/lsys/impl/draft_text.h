@@ -62,7 +62,7 @@ struct DraftText {
 /// The text of a statement, from its `#` to its `;` or, without one, to the next statement.
 struct StatementText {
     std::size_t begin = 0;
-    std::size_t end = 0; // offset of the `;`
+    std::size_t end = 0; // offset of the `;`, else of the next statement or the end of the text
 };
 
 /// Whether blanks, a `#` and a word follow `at`.

@@ -220,3 +220,36 @@ TEST_CASE("trees on a grid that were placed before give the tiles of the grid") 
     REQUIRE(write_tiles(folder, "b", {"--trees", folder / "trees"}).status == 0);
     CHECK(files_of(folder.path() / "a") == files_of(folder.path() / "b"));
 }
+
+TEST_CASE(
+    "tiles with branches do not depend on threads, and accept trees placed for branches only") {
+    const ScratchFolder folder;
+    write_text(folder / "tree.lsys", kTree);
+    write_text(folder / "wood.toml",
+               "key = 3\n[placement]\nmethod = \"jittered\"\nspacing = 4\n"
+               "[terrain]\nsize = [90, 60]\n[[species]]\ngrammar = \"tree.lsys\"\n"
+               "heroes = 2\nrho = 0.7\nheight = [3, 5]\n");
+    const auto tiles = [&](const std::string& to, const std::vector<std::string>& more) {
+        std::vector<std::string> arguments{
+            "tiles", folder / "wood.toml", "--instances", "branches", "--error",
+            "0",     "--triangles",        "20000",       "-o",       folder / to};
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        return run_lsc(arguments, "");
+    };
+    REQUIRE(tiles("one", {"--threads", "1"}).status == 0);
+    REQUIRE(tiles("three", {"--threads", "3"}).status == 0);
+    const auto one = files_of(folder.path() / "one");
+    CHECK(one == files_of(folder.path() / "three"));
+
+    const auto place = [&](const std::string& to, const std::string& instances) {
+        return run_lsc({"place", folder / "wood.toml", "--instances", instances, "-o", folder / to},
+                       "");
+    };
+    REQUIRE(place("branches.trees", "branches").status == 0);
+    REQUIRE(place("heroes.trees", "trees").status == 0);
+    REQUIRE(tiles("placed", {"--trees", folder / "branches.trees"}).status == 0);
+    CHECK(one == files_of(folder.path() / "placed"));
+    const LscRun refused = tiles("refused", {"--trees", folder / "heroes.trees"});
+    CHECK(refused.status != 0);
+    CHECK(refused.err.find("placed for another scene, or with other options") != std::string::npos);
+}
