@@ -58,7 +58,7 @@ std::string glfw_error() {
 struct Window::State {
     GLFWwindow* window = nullptr;
     bool has_panels = false;
-    bool captured = false;
+    bool mouse_captured = false;
     // Collected until the next wait().
     WindowInput input;
     glm::vec2 mouse{0.0F};
@@ -78,7 +78,7 @@ struct Window::State {
         }
         bool& is_held = held[static_cast<std::size_t>(button)];
         const bool was_held = is_held;
-        is_held = action == GLFW_PRESS && (captured || !ImGui::GetIO().WantCaptureMouse);
+        is_held = action == GLFW_PRESS && (mouse_captured || !ImGui::GetIO().WantCaptureMouse);
         if (button == GLFW_MOUSE_BUTTON_LEFT && is_held != was_held) {
             shift = (modifiers & GLFW_MOD_SHIFT) != 0;
             add_pointer_event(is_held ? PointerEvent::Kind::Press : PointerEvent::Kind::Release);
@@ -113,7 +113,7 @@ struct Window::State {
         const glm::vec2 way = has_mouse ? to - mouse : glm::vec2(0.0F);
         mouse = to;
         has_mouse = true;
-        if (captured) {
+        if (mouse_captured) {
             input.motion += pixels(way);
         } else if (held[GLFW_MOUSE_BUTTON_LEFT]) {
             input.left_drag += pixels(way);
@@ -129,7 +129,7 @@ struct Window::State {
     bool press_key(int code, int scan_code, int action, int modifiers) {
         input.any = true;
         const Key key = key_of(code, scan_code);
-        const bool is_typing = !captured && ImGui::GetIO().WantTextInput;
+        const bool is_typing = !mouse_captured && ImGui::GetIO().WantTextInput;
         if (action == GLFW_RELEASE) {
             std::erase_if(keys, [code](const auto& held_key) { return held_key.first == code; });
             return true;
@@ -142,7 +142,7 @@ struct Window::State {
             }
         }
         // Outside of text fields Tab starts to fly; ImGui would put the cursor into a field.
-        return is_typing || (!captured && key != Key::Tab);
+        return is_typing || (!mouse_captured && key != Key::Tab);
     }
 
     /// ImGui chains its own callbacks to these.
@@ -158,7 +158,7 @@ struct Window::State {
         glfwSetScrollCallback(window, [](GLFWwindow* from, double /*x*/, double y) {
             State& state = of(from);
             state.input.any = true;
-            if (state.captured || !ImGui::GetIO().WantCaptureMouse) {
+            if (state.mouse_captured || !ImGui::GetIO().WantCaptureMouse) {
                 state.input.wheel += static_cast<float>(y);
             }
         });
@@ -247,7 +247,8 @@ WindowInput Window::wait(double seconds) {
     }
     WindowInput input = std::exchange(state_->input, {});
     input.mouse = state_->pixels(state_->mouse);
-    input.over_picture = state_->has_mouse && !state_->captured && !ImGui::GetIO().WantCaptureMouse;
+    input.over_picture =
+        state_->has_mouse && !state_->mouse_captured && !ImGui::GetIO().WantCaptureMouse;
     for (const auto& [code, key] : state_->keys) {
         input.held.push_back(key);
     }
@@ -286,7 +287,7 @@ void Window::set_title(const std::string& title) {
 }
 
 void Window::capture_mouse(bool captured) {
-    state_->captured = captured;
+    state_->mouse_captured = captured;
     state_->has_mouse = false;
     state_->held = {};
     glfwSetInputMode(state_->window, GLFW_CURSOR,

@@ -35,17 +35,17 @@ void append_line(std::uint32_t number,
 
 struct Columns {
     std::uint32_t first = 0;
-    std::uint32_t last = 0; // one past
+    std::uint32_t end = 0; // one past the last
 };
 
 /// The columns of bytes [begin, end) of the excerpt's line, at least one. For a combining character
 /// the column of its base letter.
 Columns columns_of(const Excerpt& excerpt, std::size_t begin, std::size_t end) {
     Columns columns{excerpt.column(begin), excerpt.column(end)};
-    if (columns.last <= columns.first) {
+    if (columns.end <= columns.first) {
         const bool combining = end > begin && columns.first > 0;
         columns.first -= combining ? 1U : 0U;
-        columns.last = columns.first + 1;
+        columns.end = columns.first + 1;
     }
     return columns;
 }
@@ -54,7 +54,7 @@ void append_marks(Columns columns, const Mark& mark, const Palette& colours, std
     append_gutter(0, colours, out);
     out.append(std::size_t{columns.first} + 1, ' ');
     out += mark.colour;
-    out.append(columns.last - columns.first, mark.character);
+    out.append(columns.end - columns.first, mark.character);
     if (!mark.text.empty()) {
         out += ' ';
         append_visible(mark.text, out);
@@ -252,8 +252,8 @@ std::uint32_t append_preview(const Preview& preview,
             if (is_on_line(i) && to > preview.added[i].first) {
                 const Columns columns =
                     columns_of(excerpt, preview.added[i].first - begin, to - begin);
-                marks.resize(std::max<std::size_t>(marks.size(), columns.last), ' ');
-                std::fill(marks.begin() + columns.first, marks.begin() + columns.last,
+                marks.resize(std::max<std::size_t>(marks.size(), columns.end), ' ');
+                std::fill(marks.begin() + columns.first, marks.begin() + columns.end,
                           preview.characters[i]);
             }
         }

@@ -210,7 +210,7 @@ bool Levels<C, R>::check_decomposed(std::uint64_t index) {
     const Level& level = levels_[index];
     PassKeys keys = steps_.keys_of(index);
     keys.first_draw = steps_.keys_of(index - 1).first_draw;
-    keys.same_age = true;
+    keys.keeps_age = true;
     set_view(level, keys);
     if (level.settled || !may_rewrite(*steps_.passes, view_)) {
         return true;

@@ -525,7 +525,7 @@ bool write_modules(const Plan& plan,
     }
     if (request.origins != nullptr) {
         const OriginRequest traced{begin, request.begin.index,
-                                   keys.generation + (keys.same_age ? 0 : 1), request.mask};
+                                   keys.generation + (keys.keeps_age ? 0 : 1), request.mask};
         request.origins = trace_origins(plan, word, traced, records, request.origins);
     }
     return true;

@@ -24,15 +24,15 @@ constexpr std::uint64_t kManyShapes = 1'000;
 
 /// Whether most keys of the cache (docs/language.md section 9.5) have only one recorded branch.
 bool has_single_instances(const ForestSpecies& species) {
-    std::uint64_t keys = 0;
-    std::uint64_t single = 0;
+    std::uint64_t key_count = 0;
+    std::uint64_t single_count = 0;
     for (const ForestStage& stage : species.stages) {
         for (std::size_t i = 1; i < stage.cache.slots.size(); ++i) {
-            ++keys;
-            single += stage.cache.slots[i].variant_count == 1 ? 1U : 0U;
+            ++key_count;
+            single_count += stage.cache.slots[i].variant_count == 1 ? 1U : 0U;
         }
     }
-    return 2 * single > keys;
+    return 2 * single_count > key_count;
 }
 
 std::string advice(const SceneSpecies& species, const ForestSpecies& grown) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// `lsc fmt` with bytes that golden cases cannot contain: byte order marks and line ends.
+// `lsc fmt` on files with byte order marks and with CRLF line ends.
 #include "tests/support/lsc_run.h"
 
 #include <catch2/catch.hpp>
