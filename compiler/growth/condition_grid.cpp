@@ -295,7 +295,8 @@ std::optional<ConditionGrid> GridBuilder::finish(std::uint64_t max_points) {
     if (cuts_.size() > kMaxAxes || (!pairs_.empty() && cuts_.size() > 3)) {
         return std::nullopt;
     }
-    // Compared parameters get the same cuts, so that samples in equal cells can have any order.
+    // Parameters that are compared with each other get the same cuts. If both values are in equal
+    // cells, there are then samples for each result of the comparison: less, equal and greater.
     for (bool changed = true; changed;) {
         changed = false;
         for (const auto& [a, b] : pairs_) {

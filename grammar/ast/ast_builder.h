@@ -76,8 +76,8 @@ public:
     [[nodiscard]] ModuleList
     module_arguments(ModuleList list, std::uint32_t count, SourceSpan parentheses);
 
-    /// Removes the recorded `//` at or after `begin` of the scanned text; another message already
-    /// explains them.
+    /// Removes each `//` at or after `begin` of the scanned text from Ast::slashes; another message
+    /// already explains them.
     void remove_slashes(std::uint32_t begin);
 
     // --- statements

@@ -43,7 +43,7 @@ void add_collision(CLI::App& app, CollisionKind& kind, CollisionNames& names) {
 }
 
 /// Adds the options of unit, pivot and collision shapes of plant files.
-void add_placement(CLI::App& app, PlantFileOptions& options) {
+void add_unit_pivot_collision(CLI::App& app, PlantFileOptions& options) {
     add_unit(app, options.unit);
     add_choice<PlantPivot>(
         app, "--pivot", options.pivot,
@@ -162,7 +162,7 @@ void add_plant_form(CLI::App& app, PlantFileOptions& options) {
     add_choice(app, "--format", options.format, std::move(formats),
                "Format (default: by the extension of the output)");
     add_preset(app, PresetCommand::Export, options.preset);
-    add_placement(app, options);
+    add_unit_pivot_collision(app, options);
     add_compression(app, options.compression);
     add_choice<std::optional<BufferPlace>>(
         app, "--buffers", options.buffers,

@@ -124,7 +124,8 @@ long double log_choose(long double n, long double k) {
     return std::lgamma(n + 1) - std::lgamma(k + 1) - std::lgamma(n - k + 1);
 }
 
-// The least k below `end` for which the sum of probability(0) to probability(k) exceeds u.
+// The least k below `end` for which the sum of probability(0) to probability(k) exceeds u; `end` if
+// there is none.
 template <typename Probability>
 float least_exceeding(float u, int end, Probability probability) {
     long double sum = 0;

@@ -29,8 +29,8 @@ private:
 
     mutable std::mutex mutex_;
     LongStep step_ = LongStep::Read;
-    // The following three belong to LongStep::Derive.
-    std::uint32_t generation_ = 0; // 0: it has not written a module yet
+    // The members below belong to LongStep::Derive.
+    std::uint32_t generation_ = 0; // 0: the derivation has not reported progress yet
     std::uint32_t generations_ = 0;
     std::uint64_t modules_ = 0;
     double expected_ = 0.0;        // modules of all generations; 0: unknown

@@ -178,8 +178,9 @@ public:
     /// Sets where the trees of later forests are chosen; Auto at first.
     virtual void set_culling(Culling culling) = 0;
     /// Shows a forest in place of the plant or forest before. Forest and terrain of the model must
-    /// live as long as it is shown. Impostors of the previous forest are drawn until
-    /// bake_impostors() has made new ones. Error: a shader does not compile, or the device cannot do
+    /// live as long as it is shown. bake_impostors() makes the new impostors. Until then, if both
+    /// forests have the same number of impostors, those of the previous forest are drawn, else only
+    /// those that both forests share. Error: a shader does not compile, or the device cannot do
     /// what set_culling() wants.
     [[nodiscard]] virtual Result<void> show_forest(ForestModel model) = 0;
     /// Updates the trees of the forest shown after a change; its other parts must be unchanged.

@@ -42,8 +42,8 @@ public:
     bool silent = false;                        // reports nothing
     std::vector<TextRange>* comments = nullptr; // receives comments; may be null
     std::vector<StrayCharacter>* strays = nullptr; // receives stray characters; null in the parse
-    // The parser sets `failed` and `token_inserted` too, so no token may depend on them: scans
-    // without a parser yield the same tokens.
+    // No token may depend on `failed` or `token_inserted`, since the parser sets them, and scans
+    // without a parser must yield the same tokens.
     bool failed = false;         // the statement has a syntax error and gets no further reports
     bool token_inserted = false; // the last token was inserted
 

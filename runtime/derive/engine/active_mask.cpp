@@ -127,7 +127,8 @@ void ActiveMask::prepare(const Plan& plan, const ContextTables* contexts) {
     tables_.looks_left = false;
     tables_.looks_right = false;
 
-    // Each pair of guards is a group. Rows beyond six groups accept any neighbours.
+    // Rows with the same pair of guards form a group. There are at most six groups; the remaining
+    // rows accept any neighbours.
     std::array<std::pair<std::uint32_t, std::uint32_t>, 6> groups;
     std::size_t group_count = 0;
     const auto group_of = [&](const Row& row) -> std::uint8_t {

@@ -290,7 +290,8 @@ TEST_CASE("a tree whose branches fit onto their parents is one surface") {
     Plant plant;
     const std::uint32_t trunk = plant.grow(kNoSegment, glm::quat(1, 0, 0, 0), 1.0F, 0.1F, 0.08F);
     const std::uint32_t top = plant.grow(trunk, turned(20, {0, 0, 1}), 1.0F, 0.08F, 0.06F);
-    for (int i = 0; i < 3; ++i) { // all three begin nearest to the top of the box
+    // The headings of all three branches are nearest to the top side of the joint.
+    for (int i = 0; i < 3; ++i) {
         const std::uint32_t branch = plant.grow(
             top, turned(120.0F * static_cast<float>(i), {0, 1, 0}) * turned(25, {1, 0, 0}), 0.8F,
             0.05F, 0.03F);

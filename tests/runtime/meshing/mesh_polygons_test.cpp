@@ -67,7 +67,8 @@ Corners random_star(std::mt19937& random, std::size_t count) {
     return corners;
 }
 
-double area(const glm::dvec2& a, const glm::dvec2& b, const glm::dvec2& c) {
+/// Positive if a, b and c are counterclockwise.
+double orientation(const glm::dvec2& a, const glm::dvec2& b, const glm::dvec2& c) {
     return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
 }
 
@@ -88,8 +89,8 @@ Corners random_knot(std::mt19937& random, std::size_t count) {
                 const glm::dvec2 b = corners[i + 1];
                 const glm::dvec2 c = corners[j];
                 const glm::dvec2 d = corners[(j + 1) % count];
-                if (a != d && (area(a, b, c) > 0) != (area(a, b, d) > 0) &&
-                    (area(c, d, a) > 0) != (area(c, d, b) > 0)) {
+                if (a != d && (orientation(a, b, c) > 0) != (orientation(a, b, d) > 0) &&
+                    (orientation(c, d, a) > 0) != (orientation(c, d, b) > 0)) {
                     std::reverse(corners.begin() + static_cast<std::ptrdiff_t>(i + 1),
                                  corners.begin() + static_cast<std::ptrdiff_t>(j + 1));
                     changed = true;
