@@ -45,8 +45,8 @@ struct Instruction {
     float literal = 0.0F;
 };
 
-/// The instructions of verified code from word `first` up to `last`, or up to and including its
-/// End.
+/// The instructions of verified code from word `first` to the first End, which is included, or to
+/// word `last`, which is not, whichever comes first.
 class InstructionRange {
 public:
     InstructionRange(std::span<const std::uint32_t> words,

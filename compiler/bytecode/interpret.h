@@ -9,8 +9,8 @@
 //   bool enter()                    called before each instruction; false stops the run
 //   Value literal(float)            the value of a literal
 //   Value formal(i), global(i), step(), steps(), branch_draw(i)     the values of other leaves
-//   Value unary(opcode, x)          every opcode from Negate to Mod that takes one value, and
-//   Value binary(opcode, x, y)      every one that takes two
+//   Value unary(opcode, x)          an opcode from Negate to Mod that takes one value
+//   Value binary(opcode, x, y)      an opcode from Negate to Mod that takes two values
 //   Value curve(i, x)               the value of curve i
 //   Value mix(x, y, t)              arithmetic::mix()
 //   bool random_draw(opcode, x, y, i, at)   replaces x by draw i of the range [x, y) or of a

@@ -43,7 +43,8 @@ struct GenerationSize {
     Count bytes;      // code width per module, plus 4 per stored parameter
 };
 
-/// Max number of listed generations; beyond it only the last one is predicted, if possible.
+/// The highest generation that is listed. Of higher generations only the last requested one is
+/// predicted, if possible.
 inline constexpr std::uint32_t kMaxListedGenerations = 10'000;
 
 /// Bounds low[g] and high[g] of generation g. Lists all requested generations up to

@@ -14,7 +14,7 @@ namespace lsys::analysis {
 
 class ProductionIndex {
 public:
-    /// `bytecode` is verified and outlives this.
+    /// `bytecode` is verified and outlives this object.
     explicit ProductionIndex(const Bytecode& bytecode);
 
     /// The productions whose predecessor is one module of this symbol, in file order.
@@ -42,8 +42,8 @@ public:
 private:
     void find_relevant();
     void find_age_dependence();
-    /// Calls visit(parameter) for each formal of the predecessor that the instructions read.
-    /// Returns whether they call step().
+    /// Calls visit(parameter) for each formal of the predecessor that the instructions, or the
+    /// local values if the instructions use any, read. Returns whether one of them calls step().
     template <typename Visit>
     bool scan(std::uint32_t production, InstructionRange instructions, Visit&& visit) const;
 

@@ -9,7 +9,7 @@ namespace {
 
 struct ListedCheck {
     Check check;
-    bool needs_complete; // true: run the check only if Program::is_valid
+    bool needs_valid; // true: run the check only if Program::is_valid
 };
 
 // Diagnostics at the same place appear in the order of this list.
@@ -41,7 +41,7 @@ constexpr ListedCheck kChecks[] = {
 
 void run_checks(const CheckInput& input, Diagnostics& diagnostics) {
     for (const ListedCheck& listed : kChecks) {
-        if (input.program.is_valid || !listed.needs_complete) {
+        if (input.program.is_valid || !listed.needs_valid) {
             listed.check(input, diagnostics);
         }
     }

@@ -33,8 +33,8 @@ struct CheckInput {
 
 using Check = void (*)(const CheckInput& input, Diagnostics& diagnostics);
 
-/// Runs all checks. Without Program::is_valid runs only the checks of single productions, words and
-/// statements.
+/// Runs all checks. If Program::is_valid is false, runs only the checks that also work on programs
+/// with errors (checks.cpp).
 void run_checks(const CheckInput& input, Diagnostics& diagnostics);
 
 // Checks of rules of docs/language.md that need the whole program, each in a file of its own. Lints

@@ -30,7 +30,8 @@ struct Ast;
 struct CompileOptions {
     std::vector<Definition> definitions;
     /// Ast whose `#set` statements replace `#set` statements of the grammar with the same keys.
-    /// They may use the constants of the grammar; both share one Names. Null: no replacements.
+    /// They may use the constants of the grammar; the two Asts share one Names. Null: no
+    /// replacements.
     Ast* settings = nullptr;
     std::optional<std::uint32_t> generations; // -n; suppresses the warning about a missing #n
     std::uint64_t max_modules = std::uint64_t{1}

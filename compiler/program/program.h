@@ -211,11 +211,11 @@ struct IgnoredName {
 };
 
 struct Program {
-    /// No error was found, and the text is not a part of a grammar. Checks that need the whole
-    /// program require it.
+    /// True if no error was found and the text is a whole grammar, not a part of one. Checks of the
+    /// whole program run only then.
     bool is_valid = false;
-    /// No statement was dropped after an error. A statement that is missing here is then missing in
-    /// the grammar, too.
+    /// True if no statement was dropped after an error. A statement that the Program lacks is then
+    /// missing in the grammar, too.
     bool has_all_statements = false;
     Settings settings;
     std::optional<std::uint32_t> generations;

@@ -27,8 +27,8 @@ bool equals_without_case(std::string_view a, std::string_view b) {
     });
 }
 
-/// Damerau-Levenshtein distance with adjacent transpositions, in half steps: a difference of letter
-/// case is one half step.
+/// Edit distance by insertions, deletions, replacements and exchanges of two neighbours (optimal
+/// string alignment). Each counts 2, the replacement of a letter by its other case 1.
 std::size_t edit_distance(std::string_view a, std::string_view b) {
     std::vector<std::size_t> before(b.size() + 1);
     std::vector<std::size_t> previous(b.size() + 1);

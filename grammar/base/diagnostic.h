@@ -78,7 +78,7 @@ struct Diagnostic {
     std::vector<std::string> notes;
     std::vector<std::string> help;
     std::vector<Fix> fixes;
-    std::vector<Fact> facts; // in JSON only; the texts say the same
+    std::vector<Fact> facts; // in JSON only; the texts state the same facts
 };
 
 /// Adds a fix of one edit, which replaces `span`.
@@ -116,7 +116,7 @@ public:
     }
     [[nodiscard]] bool has_errors() const { return count(Severity::Error) != 0; }
 
-    /// Sorts by file id, place and severity (stable) and drops duplicates.
+    /// Sorts by file id, begin of the span and severity, errors first; stable. Drops duplicates.
     void sort_by_place();
     /// Whether an error from index `first` on has no certain fix.
     [[nodiscard]] bool has_doubtful_error_from(std::size_t first) const;
@@ -132,8 +132,8 @@ public:
         }
     }
     /// Removes repairs that propose .lsys text, for a file of a dialect: help texts that contain
-    /// `pattern`, and fixes whose replacements are not names of at least two characters without
-    /// `_`. The remaining fixes become offers.
+    /// `pattern`, and all fixes except those whose replacements are names of two or more
+    /// characters without `_`. The remaining fixes become offers.
     void drop_repairs(std::string_view pattern);
     /// Gives each diagnostic the severity that `severity_of` returns for it, or removes it.
     template <typename SeverityOf>
@@ -163,8 +163,9 @@ private:
     std::array<std::uint64_t, 3> counts_{};
 };
 
-/// The candidate nearest to `wanted` by edit distance, if at most a third of the letters of the
-/// shorter name differ; the first of equally near ones.
+/// The first candidate that differs from `wanted` only in letter case; else the candidate nearest
+/// by edit distance, if at most a third of the letters of the shorter name differ, and the first of
+/// equally near ones. Skips candidates that equal `wanted`.
 [[nodiscard]] std::optional<std::string_view>
 nearest_name(std::string_view wanted, const std::vector<std::string_view>& candidates);
 

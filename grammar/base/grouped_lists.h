@@ -28,7 +28,7 @@ public:
     [[nodiscard]] std::span<const std::uint32_t> operator[](std::size_t key) const {
         return std::span(values_).subspan(first_[key], first_[key + 1] - first_[key]);
     }
-    /// All values, by key.
+    /// The values of all lists, in order of their keys.
     [[nodiscard]] std::span<const std::uint32_t> all() const { return values_; }
 
 private:

@@ -41,8 +41,8 @@ template <typename T>
     return bits ^ bits >> 33;
 }
 
-/// Adds a word to a hash: a bijection of the state for a given word, and of the word for a given
-/// state. Sequences that differ in one word never collide.
+/// Adds 64 bits, `word`, to a hash: a bijection of the state for a given word, and of the word for
+/// a given state. Sequences that differ in one word never collide.
 [[nodiscard]] constexpr std::uint64_t combine(std::uint64_t state, std::uint64_t word) {
     state = golden_multiple(state ^ word);
     return state ^ state >> 29;
@@ -66,8 +66,8 @@ template <typename T>
     }
     return bytes.empty() ? state : combine(state, word_of(bytes.data(), bytes.size()));
 }
-/// Adds numbers, truth values and enumerators, of up to 64 bits each; floating-point numbers by their
-/// bits.
+/// Adds numbers, truth values and enumerators, of up to 64 bits each; floating-point numbers by
+/// their bits.
 template <typename... Numbers>
 [[nodiscard]] constexpr std::uint64_t combine_numbers(std::uint64_t state, Numbers... numbers) {
     const auto bits_of = [](auto number) {

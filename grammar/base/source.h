@@ -25,7 +25,8 @@ struct SourceSpan {
     friend bool operator==(const SourceSpan&, const SourceSpan&) = default;
 };
 
-/// The span that covers both; `first` if they are in different files.
+/// The smallest span that covers both spans; `first` if they are in different files; if one has no
+/// file, the other.
 [[nodiscard]] SourceSpan join(SourceSpan first, SourceSpan last);
 
 /// A line and a column, both from 1. A column is one Unicode code point, or one byte that is not
@@ -33,7 +34,7 @@ struct SourceSpan {
 struct LineColumn {
     std::uint32_t line = 1;
     std::uint32_t column = 1;
-    std::uint32_t utf16_column = 1; // the same place in UTF-16 code units
+    std::uint32_t utf16_column = 1; // like `column`, in UTF-16 code units
 };
 
 /// The path and text of a file, immutable. A byte order mark is not part of the text.

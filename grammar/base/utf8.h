@@ -15,7 +15,7 @@ struct CodePoint {
     bool valid = false;
 };
 
-/// The first character of `text`: no overlong forms, no surrogates, nothing above U+10FFFF.
+/// The first character of `text`. Overlong forms, surrogates and values above U+10FFFF are invalid.
 /// Precondition: !text.empty().
 [[nodiscard]] CodePoint decode_utf8(std::string_view text);
 

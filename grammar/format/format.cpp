@@ -121,7 +121,7 @@ private:
 
     struct StatementEnd {
         std::uint32_t column = 0; // just after the statement
-        bool is_one_line = false; // the whole statement
+        bool is_one_line = false; // the whole statement is one line
     };
 
     StatementEnd write_statement(const LayoutRow& row, std::string& out) const {

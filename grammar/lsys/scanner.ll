@@ -26,7 +26,7 @@
     scan.begin = static_cast<std::uint32_t>(yytext - YY_CURRENT_BUFFER_LVALUE->yy_ch_buf);         \
     scan.end = scan.begin + static_cast<std::uint32_t>(yyleng);
 
-/* Shortens the match and moves the end with it. */
+/* Shortens the match to `length` bytes and updates scan.end. */
 #define SHORTEN(length)                                                                            \
     do {                                                                                           \
         const int shortened = (length);                                                            \

@@ -25,7 +25,7 @@ struct GreyMap {
     }
 };
 
-/// Adds the pixels of a map to a hash (grammar/base/hash.h).
+/// Adds the size and the pixels of a map to a hash (grammar/base/hash.h).
 [[nodiscard]] std::uint64_t combine_map(std::uint64_t state, const GreyMap& map);
 
 /// Reads a PNG file of 1 to 16 bits per sample; an 8-bit sample b becomes 257 * b. Gamma and

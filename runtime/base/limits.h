@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Limits of a run, and the report of a run that reached one.
+// Limits of a run, and the report of a run that reached a limit.
 #pragma once
 
 #include <cstdint>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // NumberQueue: ranges of numbers that one thread adds and others take one by one. The adding thread
-// can wait until few are left, and add more before the others run out.
+// can wait until few numbers are left, and add more before the other threads run out of them.
 #pragma once
 
 #include <cstdint>
@@ -36,13 +36,13 @@ public:
         changed_.notify_all();
     }
 
-    /// The next number. Waits for one; none if the queue is closed and empty.
+    /// Waits for the next number and takes it; none if the queue is closed and empty.
     std::optional<std::uint64_t> take() {
         std::unique_lock lock(mutex_);
         changed_.wait(lock, [this] { return is_closed_ || left_ != 0; });
         return next(lock);
     }
-    /// The next number; none if the queue is empty. Does not wait.
+    /// Takes the next number; none if the queue is empty. Does not wait.
     std::optional<std::uint64_t> take_now() {
         std::unique_lock lock(mutex_);
         return next(lock);

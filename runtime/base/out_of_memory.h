@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Conversion of exceptions for missing memory into a value. Within a library std::bad_alloc and
-// std::length_error may be thrown anywhere; its public functions that build large results catch
-// both here and return a status instead (runtime/README.md, "Memory").
+// std::length_error may be thrown anywhere; the public functions of the library that build large
+// results catch the two exceptions by catch_out_of_memory() and return a status instead
+// (runtime/README.md, "Memory").
 #pragma once
 
 #include <new>

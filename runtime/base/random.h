@@ -78,7 +78,7 @@ void draw_all_units(const DrawKey& key,
 
 /// Blocks per draw_block_run().
 inline constexpr std::uint32_t kBlockRun = 8;
-/// First words of blocks `first_block` ... `first_block` + 7 at one position. Uses vector
+/// Word 0 of each of the blocks `first_block` ... `first_block` + 7 at one position. Uses vector
 /// instructions if the machine has them; the words are the same on every machine.
 [[nodiscard]] std::array<std::uint32_t, kBlockRun> draw_block_run(std::uint64_t seed,
                                                                   std::uint32_t generation,

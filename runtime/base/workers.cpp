@@ -78,7 +78,7 @@ struct Workers::Team {
         all_left.wait(lock, [&] { return busy == 0; });
     }
 
-    /// Waits for a task after number `last`; returns false when the team ends.
+    /// Waits until a task after task number `last` begins; returns false when the team ends.
     bool wait_for_task(std::uint64_t last) {
         for (int i = 0; i < kPolls && tasks_begun.load(std::memory_order_relaxed) == last; ++i) {
             pause_a_moment();

@@ -32,7 +32,8 @@ public:
     void for_each(std::uint64_t pieces, const std::function<void(std::uint64_t)>& piece);
     /// Calls `caller` on the calling thread and at the same time `helper` on each other thread of
     /// the team, if any; returns when all have returned. A helper that has not begun when `caller`
-    /// returns is not called. Both may throw the exceptions that a piece may throw.
+    /// returns is not called. `caller` and `helper` may throw the exceptions that a piece of
+    /// for_each() may throw.
     void run(const std::function<void()>& caller, const std::function<void()>& helper);
 
 private:

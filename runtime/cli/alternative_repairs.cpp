@@ -147,8 +147,8 @@ void add_without_letters(const StatementRepair& repair, std::vector<std::string>
 }
 
 /// Whether the parenthesis at `at` may be a mistyped digit or name: `)` after a digit, as in
-/// `/(6))`, or after `(`, as in `F())`, or `(` between blanks, as in `a - ( - b`, or between a blank
-/// and a digit, as in `= (6`, but not in `(0.5`.
+/// `/(6))`, or after `(`, as in `F())`, or `(` between blanks, as in `a - ( - b`, or between a
+/// blank and a digit, as in `= (6`, but not in `(0.5`.
 bool may_be_value(std::string_view text, std::size_t at) {
     const char before = at == 0 ? ' ' : text[at - 1];
     const char after = at + 1 == text.size() ? ' ' : text[at + 1];
@@ -188,8 +188,8 @@ std::vector<std::string> bracket_repairs(std::string_view broken, bool is_single
         if (is_pair) {
             add(at, 2, std::string{broken[at + 1], broken[at]});
         }
-        // An opening bracket is removed only after an equal one or an operator of comparison, before
-        // `;` or at the end.
+        // An opening bracket is removed only after an equal one or an operator of comparison,
+        // before `;` or at the end.
         const std::size_t next = broken.find_first_not_of(kWhitespace, at + 1);
         const bool is_removable =
             (at > 0 && (broken[at - 1] == broken[at] ||

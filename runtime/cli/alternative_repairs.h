@@ -18,7 +18,8 @@ struct StatementRepair {
     std::string_view repaired;
     std::uint32_t place = 0;    // byte offset of the first edit in `broken`
     std::string_view file_text; // whole file; its `#set names` applies to the statement
-    /// The file has one mistake of this code, so the bracket may be a mistyped digit or name.
+    /// Whether the file has only one mistake of this code; the bracket may then be a mistyped digit
+    /// or name.
     bool is_single = false;
 };
 

@@ -156,7 +156,7 @@ dump_instanced(const DumpCommand& command, const Grammar& grammar, const Console
         page->first = command.first.value_or(page->first);
         page->count = command.rows.value_or(page->count);
     }
-    std::optional<Output> output; // opened for the first piece: an earlier error replaces no file
+    std::optional<Output> output; // opened at the first piece, so earlier errors replace no file
     Result<void> written;
     const auto put = [&](std::string_view text) {
         if (!output) {

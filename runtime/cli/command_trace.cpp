@@ -30,9 +30,9 @@ std::string find_conflict(const TraceCommand& command) {
     return {};
 }
 
-/// Reads and compiles the grammar. Here -n names the generation of a module, so the checks use the
-/// number of generations of `#n`. The checks use -n for a file without `#n`, and for standard
-/// input, which can be read only once.
+/// Reads and compiles the grammar. Here -n names the generation of a module, so the checks of the
+/// compiler use the number of generations of `#n`. They use -n for a file without `#n`, and for
+/// standard input, which can be read only once.
 Outcome<Grammar> load_traced(const TraceCommand& command, const Project& project) {
     GrammarOptions options = command.grammar;
     if (options.generations && !is_standard_input(command.file)) {

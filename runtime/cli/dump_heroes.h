@@ -10,7 +10,7 @@
 namespace lsys::lsc {
 
 /// Prints the words of the heroes, one after the other, with the operations of instancing around
-/// valid branches. Moves from `grammar.program`, which must be set.
+/// valid branches (section 9.1). Moves from `grammar.program`, which must be set.
 [[nodiscard]] ExitStatus
 dump_heroes(const DumpCommand& command, Grammar& grammar, const Console& console);
 

@@ -19,11 +19,11 @@ struct AddedText {
 /// The one character other than blanks that a repair adds; '\0' if it adds none or several.
 [[nodiscard]] char added_sign(std::string_view added);
 
-/// Other repairs of the text before the addition. Either the nearest character before or after the
-/// place of the addition is replaced by the added sign, or the nearest character before this place
-/// is exchanged with the character before it, if this is the same sign. A replacement is omitted if
-/// the text has other signs of this kind, none of them has blanks on the same sides, and the
-/// replacement does not follow a `:`.
+/// Other repairs of the text without the addition. A replacement puts the added sign in place of
+/// the nearest character before or after the addition. An exchange swaps the nearest character
+/// before the addition with a sign like the added one that stands directly before this character. A
+/// replacement is omitted if the text has other signs like it, none of them has blanks on the same
+/// sides as the replacement, and the replacement does not follow a `:`.
 [[nodiscard]] std::vector<std::string> mistyped_texts(std::string_view text, AddedText added);
 
 } // namespace lsys::lsc

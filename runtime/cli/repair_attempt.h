@@ -34,7 +34,7 @@ struct AppliedFix {
     DiagnosticCode code{};
     std::string path;         // file of the first edit
     std::uint32_t place = 0;  // offset of the first edit in the original text
-    char added = '\0';        // the sign that the fix adds, if it does nothing else
+    char added = '\0';        // the sign that the fix adds; 0 if it does anything else
     bool may_be_slip = false; // the mistake may be one mistyped character
 };
 
@@ -63,7 +63,8 @@ public:
 
     /// Applies fixes until none is left that may be applied.
     [[nodiscard]] Result<void> run();
-    /// Repaired statements with errors after the repair, for FixChoice::Offered with new errors.
+    /// Repaired statements with errors after the repair; with FixChoice::Offered only new errors
+    /// count.
     [[nodiscard]] std::set<StatementKey> wrong_statements() const;
     /// Repaired statements with plausible alternatives (repair_attempt_ambiguous.cpp).
     [[nodiscard]] std::set<StatementKey> ambiguous_statements() const;

@@ -116,8 +116,8 @@ bool RepairAttempt::may_be_mistyped(const AppliedFix& fix) const {
     });
 }
 
-/// Whether an alternative is as plausible as the applied fix. `is_single`: the original has one
-/// mistake of this code.
+/// Whether an alternative is as plausible as the applied fix. `is_single`: the original has only
+/// one mistake of this code.
 bool RepairAttempt::has_alternative(const StatementKey& key,
                                     const AppliedFix& fix,
                                     bool is_single) const {

@@ -32,7 +32,7 @@ struct TileTotals {
 /// several threads at once.
 using NextFile = std::function<std::optional<std::uint64_t>()>;
 
-/// The file numbers of a part below `end`: every `part.of`-th number.
+/// The file numbers of a part: every `part.of`-th number from `part.number` - 1 on, below `end`.
 [[nodiscard]] NextFile files_of_part(const TilePart& part, std::uint64_t end);
 
 /// Returns an error if the output is a file, or a folder that has files without --force, --resume
@@ -56,7 +56,7 @@ public:
     /// shows that the tileset is complete.
     [[nodiscard]] std::uint64_t root() const { return count() - 1; }
 
-    /// Makes the folder itself.
+    /// Makes the folder of the tileset.
     void make();
     /// Writes a file, unless the folder has it and the command resumes. May be called from several
     /// threads with different numbers. Throws std::bad_alloc.

@@ -196,7 +196,7 @@ struct Derivation::State {
         return stop;
     }
 
-    /// Rewrites by one rule; kNone: by all of them.
+    /// Rewrites by one rule; kNone: by all rules.
     [[nodiscard]] std::optional<Stop>
     rewrite(std::uint64_t first_draw, std::uint32_t rule, const Word*& current) {
         return pass(*passes, {options.seed, age, first_draw}, {.rule = rule}, current);
@@ -275,7 +275,8 @@ struct Derivation::State {
         });
     }
 
-    /// Runs passes of #decompose over a word of age `word_age` until nothing matches.
+    /// Runs passes of #decompose over a word of age `word_age` until nothing matches, or up to the
+    /// max number of passes.
     [[nodiscard]] std::optional<Stop> decompose(std::uint32_t word_age, const Word*& current) {
         if (!decompose_plan) {
             return std::nullopt;

@@ -19,7 +19,7 @@
 namespace lsys {
 
 enum class RuntimeErrorKind : std::uint8_t {
-    NotFinite,       // a parameter or condition is infinite or not a number
+    NotFinite,       // a parameter, condition or weight is infinite or not a number
     RangeReversed,   // {min, max} with min > max
     RangeTooWide,    // a bound or the width is not finite
     BadDistribution, // a distribution whose arguments are outside their bounds
@@ -40,7 +40,7 @@ struct RuntimeError {
     std::uint64_t position = 0;   // index of the module in that word
     SymbolId symbol = kNoSymbol;  // the symbol of the module
     std::vector<float> parameters; // the parameters of the module
-    float value = 0.0F;            // for NotFinite and OutOfBounds
+    float value = 0.0F;            // for NotFinite, OutOfBounds and errors of weights
     float minimum = 0.0F; // for RangeReversed, RangeTooWide; the first argument of BadDistribution
     float maximum = 0.0F; // the second argument of BadDistribution
     Opcode opcode = Opcode::Range; // for BadDistribution
@@ -54,15 +54,15 @@ struct DerivationPass {
     enum class Kind : std::uint8_t { Cut, Rewrite, Decompose, Interpret };
     Kind kind = Kind::Rewrite;
     std::uint32_t rule = kNone;   // the only rule of the pass; kNone: all rules of its stage
-    std::uint32_t number = 0;     // index among the passes of this kind in the step
-    std::uint32_t generation = 0; // key of its random draws; the value of step()
+    std::uint32_t number = 0;     // Decompose, Interpret: index among the passes of this kind
+    std::uint32_t generation = 0; // key of its random draws; value of step() in the grammar
     std::uint64_t first_draw = 0; // number of the first draw of each module
     const Word* in = nullptr;
     const Word* out = nullptr; // null: the pass is about to begin
 };
 
 struct DeriveOptions {
-    std::uint32_t generations = 0; // number to derive; the value of steps()
+    std::uint32_t generations = 0; // number to derive; value of steps() in the grammar
     std::uint64_t seed = 0;
     std::uint32_t threads = 0; // 0: as many as the machine has
     /// Whether to keep the origin of each module: 8 bytes per module, and slower passes.
@@ -101,7 +101,7 @@ public:
     /// Continues from a saved word of age `age`. Globals are drawn again from the seed, with the
     /// same values. Modules of a word without origins get unknown origins.
     [[nodiscard]] std::optional<Stop> resume(Word word, std::uint32_t age);
-    /// Rewrites the word once. After a Stop the word is still that of age().
+    /// Rewrites the word once. After a Stop the word still has the age age().
     [[nodiscard]] std::optional<Stop> step();
     /// Steps until the age is `age`, or until a Stop.
     [[nodiscard]] std::optional<Stop> run_to(std::uint32_t age);

@@ -101,7 +101,7 @@ LSYS_COUNTED_ENUM(Verdict,
                   LeftContext,
                   RightContext,
                   Condition, // the condition is 0
-                  Fault,     // condition or weight is not finite, or the weight is negative
+                  Fault,     // condition, weight or sum of weights not finite, or weight negative
                   NoWeight,  // the computed weight is 0
                   NotDrawn,  // it matches, but another production was drawn
                   NotTried); // an earlier production was taken
@@ -160,7 +160,7 @@ LSYS_COUNTED_ENUM(Fate,
 struct ModuleTrace {
     DerivationPass::Kind kind = DerivationPass::Kind::Rewrite;
     std::uint32_t rule = kNone; // the only rule of the pass
-    std::uint32_t pass = 0;     // index among the passes of its kind
+    std::uint32_t pass = 0;     // DerivationPass::number
     std::uint32_t generation = 0;
     bool was_run = true; // false: the engine skipped the pass, which could change no module
 

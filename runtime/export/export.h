@@ -87,7 +87,8 @@ struct FormatTraits {
 [[nodiscard]] std::span<const ExportFormat> export_formats();
 /// The format of the path's extension, in upper or lower case; none if it is unknown.
 [[nodiscard]] std::optional<ExportFormat> format_of_path(std::string_view path);
-/// Names of the formats for which `is_listed`, in alphabetical order: "glb, gltf or usda".
+/// Names of the formats for which `is_listed` returns true, in alphabetical order: "glb, gltf or
+/// usda".
 [[nodiscard]] std::string format_names(std::string_view conjunction,
                                        const std::function<bool(const FormatTraits&)>& is_listed);
 

@@ -43,7 +43,8 @@ struct ForestExportInfo {
     std::uint32_t threads = 0;            // 0: as many as the machine has
     UpAxis up = UpAxis::Y;                // for FormatTraits::up_axes
     LengthUnit unit = LengthUnit::Metres; // for FormatTraits::units
-    /// Collision shapes of each hero at rest, named after its mesh, in glTF of whole trees.
+    /// Collision shapes of each hero at rest, named after its mesh; for glTF files whose instances
+    /// are whole trees.
     CollisionKind collision = CollisionKind::None;
     CollisionNames collision_names = CollisionNames::Unreal;
     glm::vec3 pivot{0.0F}; // m, the point of the scene that becomes the origin of the file

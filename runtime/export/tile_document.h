@@ -124,8 +124,8 @@ public:
     void add_instances(std::size_t part, std::vector<TileInstance> instances) {
         groups_.push_back({part, std::move(instances)});
     }
-    /// Moves the whole tile by a matrix that keeps lengths and angles, for coordinates with +Z up. The
-    /// matrix is a part of the file, in binary64.
+    /// Moves the whole tile by a matrix that keeps lengths and angles, for coordinates with +Z up.
+    /// The matrix is a part of the file, in binary64.
     void move(const glm::dmat4& matrix) { matrix_ = matrix; }
     /// The file. Precondition: it has a surface. Call it once.
     [[nodiscard]] std::string write();

@@ -36,7 +36,7 @@ struct Forest {
     std::vector<ForestSpecies> species; // by Tree::species
     LargeVector<Tree> trees;
 
-    /// The tree's index in ForestSpecies::stages.
+    /// Index of the tree's stage in ForestSpecies::stages.
     [[nodiscard]] std::uint32_t stage_of(const Tree& tree) const {
         const ForestSpecies& kind = species[tree.species];
         const auto last = static_cast<std::uint32_t>(kind.stages.size()) - 1;

@@ -321,8 +321,8 @@ BranchInstance root_of(const Tree& tree) {
     return root;
 }
 
-/// Chooses a variant of `slot`: number floor(u * variant_count), without rounding, for u = draw 0
-/// of block `node`.
+/// Chooses a variant of `slot`: number floor(u * variant_count), computed in integers, for
+/// u = draw 0 of block `node`.
 std::uint32_t
 TreeExpander::choose(const InstanceSlot& slot, std::uint32_t tree, std::uint32_t node) {
     if (node % kBlockRun == 0) {

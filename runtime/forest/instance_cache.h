@@ -54,7 +54,7 @@ struct Instance {
     DrawnCounts size;                     // sum over its ranges
     glm::dquat frame{1.0, 0.0, 0.0, 0.0}; // frame of the turtle at the entry, in the skeleton
     glm::dvec3 position{};                // m, position of the entry, in the skeleton
-    std::uint32_t order = 0;              // order of the branch and its segments in its hero
+    std::uint32_t order = 0;              // brackets around the branch in its hero, own included
 };
 
 /// The instances of one key, with counts of the recording.
@@ -106,10 +106,11 @@ struct CacheOptions {
     std::uint32_t generations = 0;
     std::uint64_t seed = 0; // hero k has seed + k
     std::uint32_t cap = 0;  // max instances per key; 0: any number
-    /// Rounding step of the values in keys, as a fraction of the first value recorded at the same
-    /// place of a key; 0: exact values.
+    /// Rounding step of each value in a key, as a fraction of the first value recorded for the same
+    /// branch id at the same position in the key; 0: exact values.
     float tolerance = 0.0F;
-    /// Per id: whether the drawing depends on the up direction, which is then part of the key.
+    /// By branch id: whether the drawing of the branch depends on the up direction, which is then
+    /// part of the key.
     std::vector<bool> depends_on_vertical;
     bool keep_keys = false; // fills InstanceCache::keys
     std::uint32_t threads = 0;
@@ -131,7 +132,8 @@ struct CacheOutcome {
 };
 
 /// Derives and draws the heroes. `bytecode` is an instanced system
-/// (compiler/instancing/impl/instancing_pass.h); with another system the cache has whole plants only.
+/// (compiler/instancing/impl/instancing_pass.h); with another system the cache has whole plants
+/// only.
 [[nodiscard]] CacheOutcome make_instance_cache(const Bytecode& bytecode,
                                                const CacheOptions& options);
 
@@ -154,8 +156,8 @@ public:
     /// Depends only on cache, key and tree. Returns the number of instances.
     template <typename Visit>
     std::uint32_t expand(const Tree& tree, Visit&& visit);
-    /// Like expand(), but visit() returns whether to visit the instances at the exits. The visited
-    /// instances are the same as in expand().
+    /// Like expand(), but visit() returns whether to visit the instances at the exits. It chooses
+    /// the same instances as expand().
     template <typename Visit>
     void expand_until(const Tree& tree, Visit&& visit);
     /// Calls visit(instance) for the instances of expand(), without transforms, in a third of the
@@ -183,7 +185,7 @@ private:
     public:
         [[nodiscard]] bool empty() const { return count_ == 0; }
         T pop() { return items_[--count_]; }
-        /// Room for `count` further items.
+        /// Adds `count` items, which the caller writes; returns the first one.
         T* add(std::size_t count) {
             if (count > items_.size() - count_) {
                 items_.resize(2 * (count_ + count));

@@ -64,7 +64,7 @@ void cut_instances(const InstanceCache& cache, Skeleton& skeleton) {
 
 /// Triangles of each segment, object and polygon, in the order of the mesh.
 struct ItemTriangles {
-    LargeVector<std::uint32_t> first; // by item, then the number of triangles
+    LargeVector<std::uint32_t> first; // by item; last entry: number of triangles
     LargeVector<std::uint32_t> triangles;
 };
 
@@ -182,7 +182,8 @@ list_instances(const InstanceCache& cache, const MeshOptions& options, InstanceM
             }
         });
     };
-    // By instance and part: first the count of indices, later the place of the first in `listed`.
+    // By instance and part: first the count of indices, later the position of the next index in
+    // `listed`.
     LargeVector<std::uint64_t> index_offsets;
     index_offsets.assign(cache.instances.size() * hero_part_count, 0);
     const auto offsets_of = [&](std::uint64_t instance) {

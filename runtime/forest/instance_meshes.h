@@ -20,7 +20,7 @@ struct InstanceMeshes {
     /// Surface in the coordinates of the heroes. Indices: the lists of all instances in order.
     /// Parts: the parts of the first instance by ascending material, then of the next instance.
     Mesh mesh;
-    std::vector<std::uint32_t> first_part; // by instance, then the number of parts
+    std::vector<std::uint32_t> first_part; // by instance; last entry: number of parts
 
     /// Parts with the triangles of an instance; none for an instance that no tree can contain.
     [[nodiscard]] std::span<const MeshPart> parts_of(std::uint32_t instance) const {
@@ -43,16 +43,17 @@ struct InstanceMeshes {
 
 /// Makes the surfaces of all instances of a cache. A triangle belongs to all instances that contain
 /// its segment, object or polygon. A segment at whose tip a branch is left out ends as if the
-/// branch were drawn. Drooping leaves and bark noise are the same as on the heroes. Boxes are joined
-/// within an instance; where an instance begins they are cut, and the closed surface of the branch
-/// begins within its parent. MeshOptions::segments is ignored; max_bytes limits the result. Returns
-/// the same Stop as make_mesh().
+/// branch were drawn. Drooping leaves and bark noise are the same as on the heroes. Boxes are
+/// joined within an instance; where an instance begins they are cut, and the closed surface of the
+/// branch begins within its parent. MeshOptions::segments is ignored; max_bytes limits the result.
+/// Returns the same Stop as make_mesh().
 [[nodiscard]] std::optional<Stop> make_instance_meshes(const InstanceCache& cache,
                                                        const std::vector<UserMesh>& user_meshes,
                                                        const MeshOptions& options,
                                                        InstanceMeshes& meshes);
 
-/// Transform of the heroes' coordinates that puts an instance at `branch`.
+/// Transform from the coordinates of the heroes that places an instance as a BranchInstance says:
+/// scale, then rotation, then translation.
 struct InstancePose {
     glm::quat rotation{1.0F, 0.0F, 0.0F, 0.0F};
     glm::vec3 translation{}; // m

@@ -55,7 +55,8 @@ std::vector<bool> find_slots_with_segments(const InstanceCache& cache) {
     return begins;
 }
 
-/// Appends the items of an instance, which are in the coordinates of the heroes, placed at a branch.
+/// Appends the items of an instance, which are in the coordinates of the heroes, placed at a
+/// branch.
 void append_placed(const Skeleton& part,
                    const BranchInstance& at,
                    const Instance& instance,

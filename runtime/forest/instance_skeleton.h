@@ -16,7 +16,8 @@ namespace lsys {
 /// The segments of the heroes at whose tip a segment of a left out branch begins.
 [[nodiscard]] std::vector<std::uint32_t> forked_segments(const InstanceCache& cache);
 
-/// The instance of a slot that stands in for the others in PartSkeletons::whole(): the first one.
+/// The stand-in of a slot: its first instance, which PartSkeletons::whole() takes for every
+/// instance of the slot.
 [[nodiscard]] inline std::uint32_t stand_in(const InstanceCache& cache, const InstanceSlot& slot) {
     return cache.variants[slot.first_variant];
 }

@@ -11,7 +11,8 @@ namespace lsys {
 
 namespace {
 
-/// Calls visit(slot) for the slots of all trees, slots at the exits of its instances first.
+/// Calls visit(slot) for each slot that trees can contain, after the slots at the exits of its
+/// instances.
 template <typename Visit>
 void visit_slots(const InstanceCache& cache, const Visit& visit) {
     struct Open {

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Heights of the trees of a forest: measures trees that are assembled from instances, and computes
-// the scales that give trees a height in metres (docs/language.md section 7.5). Used by the pipeline
-// after the placement. A height depends only on the cache, the key of the forest and the tree.
+// the scales that give trees a height in metres (docs/language.md section 7.5). Used by the
+// pipeline after the placement. A height depends only on the cache, the key of the forest and the
+// tree.
 #pragma once
 
 #include "runtime/forest/forest.h"
@@ -55,10 +56,10 @@ private:
 /// Scales the skeleton, entries and exits of a cache, with masses and springs as in scale_plant().
 void scale_cache(double factor, const StemMaterial& material, InstanceCache& cache);
 
-/// Gives trees their heights: multiplies the scale of every tree of species s by heights[s] / (height
-/// of the tree at scale 1), so that a tree is scale * heights[s] metres high. Younger trees use the
-/// height of the last stage of their species. Scales stay if heights[s] is 0, and for trees that are
-/// flat or draw nothing.
+/// Gives trees their heights: multiplies the scale of every tree of species s by heights[s] /
+/// (height of the tree at scale 1), so that a tree is scale * heights[s] metres high. Younger trees
+/// use the height of the last stage of their species. Scales stay if heights[s] is 0, and for trees
+/// that are flat or draw nothing.
 class TreeSizer {
 public:
     /// Precondition: `forest` outlives the sizer; its trees are not used. heights[s]: height of

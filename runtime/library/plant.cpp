@@ -77,7 +77,7 @@ Material public_material(const ::lsys::Material& material) {
     return out;
 }
 
-/// Writes the items `first` to `end`, of `size` bytes each, one every `stride` bytes.
+/// Writes items [first, end), of `size` bytes each, one every `stride` bytes; 0: without gaps.
 void write_items(const void* from,
                  std::size_t size,
                  std::uint64_t first,

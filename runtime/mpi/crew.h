@@ -19,12 +19,12 @@ public:
     Crew(lsc::TilesetFolder& folder, std::uint32_t threads);
 
     /// Writes the files that `step` adds, while the calling thread calls `step` until it returns
-    /// false. `step` may wait for a moment by wait(). Call it once.
+    /// false. `step` may wait for a moment by wait(). Call run() once.
     void run(const std::function<bool()>& step);
 
     /// Adds files begin ... end - 1. Only `step` may call add() and the functions below.
     void add(std::uint64_t begin, std::uint64_t end) { queue_.add(begin, end); }
-    /// Ends the work when all added files are written: add() is not called after close().
+    /// Lets the threads end after the last added file. Do not call add() after close().
     void close();
     /// Whether the threads will soon have no file left.
     [[nodiscard]] bool wants_files() const { return !is_closed_ && queue_.left() < low_; }
@@ -34,7 +34,7 @@ public:
     /// interruption) and no thread writes any more. Only after close().
     [[nodiscard]] bool is_finished() const;
     /// Waits for at most `time`: until few files are left, or for the whole `time` if few are left
-    /// already. If the system has started no other thread, writes a file instead.
+    /// already or after close(). If the system has started no other thread, writes a file instead.
     void wait(std::chrono::milliseconds time);
 
 private:

@@ -60,7 +60,7 @@ public:
         if (status_ == ExitStatus::Ok && forest) {
             report(*forest);
         }
-        console_.io().err << std::flush; // before mpirun notices the end
+        console_.io().err << std::flush; // before mpirun notices that ranks end
         for (int rank = 1; rank < ranks_.count(); ++rank) {
             ranks_.send(rank, MessageKind::End, {static_cast<std::uint64_t>(status_)}, "");
         }
@@ -89,7 +89,8 @@ private:
         states_[0].totals = folder.totals();
     }
 
-    /// Exchanges messages; returns false when all files but the last are written.
+    /// Exchanges messages; returns false when all ranks have ended their work. All files except
+    /// tileset.json are then written, or the job has failed.
     bool step(lsc::TilesetFolder& folder, Crew& crew) {
         receive_messages(&folder);
         note_failure(folder);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The tileset as a rank plans it, and times of waiting.
+// Plans the tileset on a rank; times between checks for messages.
 #pragma once
 
 #include "runtime/cli/options.h"

@@ -17,7 +17,7 @@ enum class MessageKind : std::uint8_t {
     Request, // member to leader: hash of the plan, number of files wanted, files and bytes written
     Files,   // leader to member: begin and end of the numbers of files; equal if none are left
     Failed,  // member to leader: exit status, 1 if the tileset was planned, else 0; error message
-    Stop,    // leader to member: another rank has failed
+    Stop,    // leader to member: the job ends early, after an error or an interruption
     Done, // member to leader, last message: files, bytes and trees written, threads; machine name
     End   // leader to member, after all are done: exit status
 };
@@ -55,7 +55,7 @@ public:
     /// least 1. All ranks must call it.
     [[nodiscard]] static std::uint32_t processors_per_rank();
 
-    /// Ends all processes of the job at once; this one too.
+    /// Ends all processes of the job at once, including this process.
     void abort(int status);
 
     void send(int rank, MessageKind kind, const Message::Numbers& numbers, const std::string& text);

@@ -12,13 +12,13 @@ struct TilesCommand;
 
 namespace lsys::mpi {
 
-/// Writes the tileset; returns the exit status of the job, the same on all ranks. All ranks must
-/// call it with the same command. Precondition: `command.run.threads` is above 0. `console`: prints
-/// on rank 0. Throws std::bad_alloc.
+/// Writes the tileset as rank 0; returns the exit status of the job, which all ranks get. All other
+/// ranks must call join_tiles() with an equal command. Precondition: `command.run.threads` is above
+/// 0. `console` prints the messages of the job. Throws std::bad_alloc.
 [[nodiscard]] ExitStatus
 lead_tiles(const lsc::TilesCommand& command, Ranks& ranks, const Console& console);
-/// Takes part in lead_tiles() as another rank; returns the exit status of the job. Prints nothing:
-/// rank 0 prints for all. The output streams of `io` are not used.
+/// Takes part in lead_tiles() as a rank other than 0; returns the exit status of the job. Prints
+/// nothing: rank 0 prints for all. The output streams of `io` are not used.
 [[nodiscard]] ExitStatus join_tiles(const lsc::TilesCommand& command, Ranks& ranks, const Io& io);
 
 } // namespace lsys::mpi

@@ -32,7 +32,7 @@ struct ForestTarget {
                                         const ForestTarget& target,
                                         std::optional<float> rho);
 
-/// A forest to write. References outlive the calls below.
+/// A forest to write. References must outlive the calls below.
 struct ForestOutput {
     const ForestFileOptions& options;
     const ForestTarget& target;

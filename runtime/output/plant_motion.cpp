@@ -172,8 +172,8 @@ pose_growth(const PlantRun& run, PlantGrowth& growth, const GrowthMoment& moment
                : run.context.console.take(growth.pose(moment, run.context.project, grown));
 }
 
-/// Sets the pivot of all frames to the pivot of the last plant. Derives nothing if the pivot is the
-/// origin.
+/// Sets the pivot of all frames to the pivot of the plant of the last generation. Derives nothing
+/// if the pivot is the origin.
 ExitStatus find_growth_pivot(PlantRun& run, PlantGrowth& growth) {
     if (run.options.pivot == PlantPivot::Origin) {
         return ExitStatus::Ok;

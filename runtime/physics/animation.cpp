@@ -115,7 +115,7 @@ public:
         }
     }
 
-    /// Raises segments of a frame, whose poses are `places`.
+    /// Raises segments of a frame. `places`: the poses of all segments.
     void raise(const Skeleton& plant, std::span<SegmentPlace> places) const {
         if (arms_.empty()) {
             return;

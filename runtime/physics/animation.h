@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 // PlantAnimation: poses of a moving plant, for exporters of skins. Made by record(). Objects and
-// polygons move rigidly with their parent segment; without a parent they stand still. With the
-// ground, no end of an object and no corner that is above y = 0 at rest is below y = 0 in a frame:
-// the segment that carries this point turns up.
+// polygons move rigidly with their parent segment; without a parent they stand still. With
+// PhysicsOptions::ground no end of an object and no corner of a polygon that is above y = 0 at rest
+// is below y = 0 in a frame: the segment that carries it turns up or, if that is not enough, moves
+// up.
 #pragma once
 
 #include "runtime/base/large_vector.h"
@@ -41,7 +42,7 @@ struct PlantAnimation {
     return segments * frames * sizeof(SegmentPlace);
 }
 
-/// A clip that loops: a PlantAnimation whose last frame is its first.
+/// A clip that loops: a PlantAnimation whose last frame equals its first.
 struct PlantLoop {
     PlantAnimation animation;
     /// Max distance of an end of a segment between the first and the last frame before they were

@@ -128,14 +128,14 @@ private:
 /// Compares the energy lost in the last rounds of settle() with the friction of the ground.
 class RecentRounds {
 public:
-    /// `has_many_bodies`: whether this is a stage after the first, with at least kManyBodies bodies;
-    /// `is_last`: whether no stage follows.
-    RecentRounds(bool has_many_bodies, bool is_last)
-        : has_many_bodies_(has_many_bodies),
+    /// `is_large_late_stage`: whether this is a stage after the first, with at least kManyBodies
+    /// bodies; `is_last`: whether no stage follows.
+    RecentRounds(bool is_large_late_stage, bool is_last)
+        : is_large_late_stage_(is_large_late_stage),
           stage_friction_(is_last ? kLastStageFriction : kStageFriction) {}
 
     void add(double share, double energy_loss, double slide) {
-        if (!has_many_bodies_) {
+        if (!is_large_late_stage_) {
             energy_loss_ = kRememberedShare * energy_loss_ + energy_loss;
             slide_ = kRememberedShare * slide_ + slide;
         } else if (share > 0.0) {
@@ -147,9 +147,9 @@ public:
 
     /// Whether friction would hold the plant.
     [[nodiscard]] bool is_held() const {
-        return has_many_bodies_ ? count_ >= kStageRounds &&
-                                      sum_of(energy_losses_) < stage_friction_ * sum_of(slides_)
-                                : energy_loss_ < kRestFriction * slide_;
+        return is_large_late_stage_ ? count_ >= kStageRounds &&
+                                          sum_of(energy_losses_) < stage_friction_ * sum_of(slides_)
+                                    : energy_loss_ < kRestFriction * slide_;
     }
 
 private:
@@ -159,12 +159,12 @@ private:
         return std::accumulate(last.begin(), last.end(), 0.0);
     }
 
-    bool has_many_bodies_;
+    bool is_large_late_stage_;
     double stage_friction_;
     double energy_loss_ = 0.0; // J, decaying sum over all rounds
     double slide_ = 0.0;       // J, decaying sum of Energies::slide
     Last energy_losses_{};     // J, of the last rounds that moved the plant
-    Last slides_{};            // J, of the same rounds
+    Last slides_{};            // J, Energies::slide of these rounds
     std::size_t count_ = 0;
 };
 
@@ -189,9 +189,9 @@ PhysicsOptions usable(PhysicsOptions options) {
     return options;
 }
 
-/// The rotation at rest of a body whose joint bears only the body, on a parent with rotation `start`.
-/// Force F at arm c bends the joint towards F by an angle x: k x = |c| |F| sin(a - x), where a is the
-/// angle between c and F. There is one root from 0 to a.
+/// The rotation at rest of a body whose joint bears only the body, on a parent with rotation
+/// `start`. Force F at arm c bends the joint towards F by an angle x: k x = |c| |F| sin(a - x),
+/// where k is the spring constant and a the angle between c and F. There is one root from 0 to a.
 glm::dquat bent_by_itself(const Body& body, const glm::dquat& start, const Forces& forces) {
     constexpr int kHalvings = 60;
     constexpr int kWindRounds = 40; // the drag depends on the rotation
@@ -300,7 +300,7 @@ struct PlantPhysics::State {
     PlantBodies plant;
     double time = 0.0;
     double energy =
-        0.0; // J, the allowed energy: the energy of the plant or, by rounding, a little more
+        0.0; // J, the allowed energy: the energy of the plant or, by rounding, a little less
 
     /// Computes poses, velocities and energy from the current motion.
     void update_energy() {
@@ -315,7 +315,7 @@ struct PlantPhysics::State {
         double share = 0.0;       // share of the solved motion that was made
         double turn = 0.0;        // rad, max rotation of the complete solved motion
         double energy_loss = 0.0; // J, decrease of the energy plus the work done by the wind
-        double slide = 0.0;       // J, work of the ground friction
+        double slide = 0.0;       // J, Energies::slide
     };
     /// Moves the plant to rest under LoadRule::Own, where each joint bears its own segment only:
     /// joint by joint, from the root to the tips.

@@ -5,8 +5,9 @@
 //
 // Guarantees: all values are finite, for any skeleton; without wind the energy never grows,
 // for any springs, masses, lengths and time step; results are the same for any number of threads.
-// The comment at the top of physics.cpp describes a step and proves the guarantees. With the ground,
-// no end of a segment, object or corner is below y = 0 unless it is below y = 0 at rest.
+// The comment at the top of physics.cpp describes a step and proves the guarantees. With
+// PhysicsOptions::ground no end of a segment or object and no corner of a polygon is below y = 0
+// unless it is below y = 0 at rest.
 #pragma once
 
 #include "runtime/turtle/skeleton.h"

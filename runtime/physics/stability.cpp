@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 // Linear buckling of spring-joint plants. In absolute rotations w of the bodies the second
-// derivative of the energy at rest is the sum of k |w - w_p|^2 of the joints and w . G w of the
-// weight, which has no coupling between bodies (see impl/joints.cpp). G is -m g y about the level
-// axes, where m is the mass of the load of a body and y its height above the base of the body: a load
-// to the side bends a plant but never makes it buckle, a load above can. Elimination from the tips to
-// the root, P = k + G + sum of R of the children, R = k - k P^-1 k, tests whether the sum is positive
-// definite: it is if every P is positive definite (Sylvester). Bisection over the multiple of the
-// weight gives the factor.
+// derivative of the energy at rest is the sum of k |w - w_p|^2 of the joints (k: spring constant,
+// w_p: rotation of the parent) and w . G w of the weight, which has no coupling between bodies (see
+// impl/joints.cpp). G is -m g y about the level axes, where m is the mass of the load of a body and
+// y its height above the base of the body: a load to the side bends a plant but never makes it
+// buckle, a load above can. Elimination from the tips to the root, P = k + G + sum of R of the
+// children, R = k - k P^-1 k, tests whether the sum is positive definite: it is if every P is
+// positive definite (Sylvester). Bisection over the multiple of the weight gives the factor.
 #include "runtime/physics/stability.h"
 
 #include "runtime/physics/impl/bodies.h"

@@ -44,7 +44,7 @@ using NotedAxioms = std::set<std::pair<std::string, std::uint32_t>>;
 
 /// Removes NoVariety notes from `diagnostics`: all notes if the species has one hero or `is_wanted`
 /// is false, else the notes at places in `noted`. Adds the places of the remaining notes to
-/// `noted`. Returns whether `diagnostics` had such notes.
+/// `noted`. Returns whether `diagnostics` had NoVariety notes.
 bool drop_variety_notes(const SceneSpecies& species,
                         bool is_wanted,
                         const std::string& path,

@@ -35,7 +35,8 @@ struct LoadedScene {
 struct AxiomPlace {
     SourceSpan span;
     std::shared_ptr<const SourceMap> sources; // of `span`
-    /// Whether a note has been given that the plants are equal, or that no branch can be replaced.
+    /// Whether the plants are known to be equal or copies of the heroes, or no branch was replaced;
+    /// note_variety() then adds no note.
     bool is_noted = false;
 };
 

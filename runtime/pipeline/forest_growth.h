@@ -25,13 +25,13 @@ public:
     ForestGrowth(ForestGrowth&&) noexcept;
     ForestGrowth& operator=(ForestGrowth&&) noexcept;
 
-    /// The last year: last_year() of the scene. If trees have stages, it is the year in which the
-    /// last tree reaches its last stage.
+    /// last_year() of the scene: with domination its number of years, else the year by which every
+    /// tree has reached its last stage.
     [[nodiscard]] std::uint32_t last_year() const;
     /// Advances to `moment` and writes its trees to `trees`, with painting applied. At whole years
     /// the trees equal the result of place_forest() with this number of years, between years the
-    /// result of trees_between(). A year earlier than before restarts at year 0. Precondition:
-    /// `moment` is not after last_year().
+    /// result of trees_between(). With domination, a moment before the two stored years restarts at
+    /// year 0. Precondition: `moment` is not after last_year().
     [[nodiscard]] Outcome<void> trees(const GrowthMoment& moment,
                                       const TreeHeight& height_of,
                                       const Project& project,

@@ -55,8 +55,8 @@ struct DerivedWord {
     std::uint64_t seed = 0;
 };
 
-/// Derives the grammar. Uses only `generations`, `seed` and `origins` of the options. Folds a copy
-/// of the bytecode of the grammar (fold_modules()), if that is worth it.
+/// Derives the grammar, with a folded copy of its bytecode unless fold_reached() returns nothing.
+/// Uses only `generations`, `seed` and `origins` of the options.
 [[nodiscard]] Outcome<DerivedWord>
 derive_word(const PlantOptions& options, const Grammar& grammar, const Project& project);
 

@@ -26,8 +26,8 @@ public:
 
     [[nodiscard]] std::uint32_t last_generation() const;
     /// Derives up to `moment` and writes the plant of `moment` to `out`. At whole generations the
-    /// plant equals the result of grow_plant(), unless a production calls steps(). A generation
-    /// earlier than before restarts at the axiom. Messages: the messages of drawing the last
+    /// plant equals the result of grow_plant(), unless a production calls steps(). A moment before
+    /// the two stored generations restarts at the axiom. Messages: the messages of drawing the last
     /// generation; a note if polygons lose corners suddenly. Precondition: `moment` is not after
     /// the last generation.
     [[nodiscard]] Outcome<void>

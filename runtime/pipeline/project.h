@@ -52,7 +52,7 @@ struct Host {
     std::function<Result<std::string>(const std::string& path, const ReadLimit& limit)>
         read_referenced_file;
     std::function<bool(const std::string& path)> file_exists;
-    /// The caller sets it to true to stop the call; may be null.
+    /// A flag that the caller sets to true to stop the call; may be null.
     const std::atomic<bool>* cancelled = nullptr;
     /// Reports progress. May be empty.
     std::function<void(const DerivationProgress& progress)> progress;

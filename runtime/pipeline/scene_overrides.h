@@ -17,7 +17,8 @@
 
 namespace lsys {
 
-/// A tile of an unbounded forest: a square of `size` metres, `column` along X and `row` along Z.
+/// A tile of an unbounded forest: a square with sides of `size` metres; columns run along X, rows
+/// along Z.
 struct ForestTile {
     std::int64_t column = 0;
     std::int64_t row = 0;

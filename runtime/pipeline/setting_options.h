@@ -18,7 +18,8 @@
 
 namespace lsys {
 
-/// Parses `KEY=VALUES` and trims both. Later steps check that the setting exists and fits.
+/// Parses `KEY=VALUES` and trims key and values. Later steps check that the setting exists and that
+/// the values fit.
 [[nodiscard]] Result<SettingText> parse_setting(std::string_view text);
 
 /// The values of a key; empty if `settings` does not have it.

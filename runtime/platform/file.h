@@ -55,7 +55,8 @@ struct FileFacts {
 /// Opens a device or a pipe for writing.
 [[nodiscard]] Reason open_to_write(const std::string& path, File& file);
 /// Makes a file; EEXIST if the name exists, even as a dangling link. Only its owner can open a
-/// private file; the permissions of any other file follow the umask.
+/// private file; the permissions of any other file follow the umask. On Windows every file has the
+/// access rights of its folder.
 [[nodiscard]] Reason create_file(const std::string& path, bool is_private, File& file);
 
 [[nodiscard]] Reason facts_of(const File& file, FileFacts& facts);

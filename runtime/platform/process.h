@@ -25,9 +25,9 @@ namespace lsys::platform {
 
 /// Handles Ctrl-C, and requests to end the process (SIGTERM, SIGHUP, a closing console). The first
 /// of them sets end_requested(), and blocked reads return. A second Ctrl-C calls `clean_up` and
-/// ends the process at once. Two seconds after any other request the same happens. `clean_up` runs
+/// ends the process at once; a request other than Ctrl-C does so after two seconds. `clean_up` runs
 /// in a signal handler or another thread. A write beyond the file size limit becomes an error. Call
-/// it at most once per process.
+/// handle_end_requests() at most once per process.
 void handle_end_requests(void (*clean_up)() noexcept);
 [[nodiscard]] const std::atomic<bool>& end_requested();
 /// Exit status of a process that ends because of a request, 128 plus the number of the signal: 130

@@ -15,7 +15,7 @@ namespace lsys {
 /// A host that reads files on disk. `cancelled` may be null.
 [[nodiscard]] Host make_file_host(const std::atomic<bool>* cancelled);
 /// A host that reads files on disk, and standard input for the paths `-` and `standard_input`.
-/// `console` must outlive it.
+/// `console` must outlive the host.
 [[nodiscard]] Host make_host(const Console& console, const std::string& standard_input);
 
 /// A project with make_host(), without progress.

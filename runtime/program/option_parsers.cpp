@@ -328,7 +328,7 @@ to_usage_error(const CLI::ParseError& error, const CLI::App& app, const std::str
         return error.get_exit_code() == static_cast<int>(code);
     };
     const std::vector<std::string> extras = app.remaining(true);
-    // CLI11 reports a missing argument before an unknown option, which may be the cause of it.
+    // CLI11 reports a missing argument before an unknown option, which may have caused it.
     const auto unknown = std::find_if(extras.begin(), extras.end(), [](const std::string& extra) {
         return extra.starts_with('-');
     });

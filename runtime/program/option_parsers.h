@@ -91,7 +91,8 @@ void add_grammar(CLI::App& app, GrammarOptions& options, RunOptions& run);
 /// The options --base and --stdin-name: folder or path of a grammar from standard input.
 void add_base(CLI::App& app, RunOptions& run);
 /// Applies --base or --stdin-name: replaces each `-` in `files` by the path of standard_input_in()
-/// or standard_input_as(). Returns a mistake if one of these options is given without a `-`.
+/// or standard_input_as(). Returns a mistake if one of these options is given without a `-`, or if
+/// both are given.
 [[nodiscard]] std::optional<UsageError> apply_base(const RunOptions& run,
                                                    std::span<std::string> files);
 void add_seed(CLI::App& app, std::optional<std::uint64_t>& seed);

@@ -10,9 +10,10 @@
 namespace lsys {
 
 /// Calls `run` with the arguments after the program's name and the streams of the process. Returns
-/// the exit status of `run`, or 130 after SIGINT, 143 after SIGTERM and 129 after SIGHUP. Call it
-/// at most once per process. `program`: the prefix of messages; `revision`: Io::revision. Closed
-/// standard streams become files that cannot be read or written.
+/// the exit status of `run`; in place of ExitStatus::Interrupted, 130 after SIGINT, 143 after
+/// SIGTERM and 129 after SIGHUP. Call it at most once per process. `program`: the prefix of
+/// messages; `revision`: Io::revision. Closed standard streams become files that cannot be read or
+/// written.
 [[nodiscard]] int run_process(int argc,
                               char** argv,
                               const char* program,

@@ -341,7 +341,7 @@ private:
     /// comparison shares its line with the arithmetic before it.
     void parts(const ExpressionTrace& condition) {
         std::vector<PartLine> lines;
-        std::size_t first = 0; // operation
+        std::size_t first = 0; // index of the first operation that is in no line yet
         for (std::size_t i = 0; i + 1 < condition.parts.size(); ++i) {
             if (!condition.parts[i].is_truth) {
                 continue;

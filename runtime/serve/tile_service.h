@@ -106,7 +106,7 @@ private:
     std::uint64_t cache_bytes_;
     TileCounts counts_;
     std::unordered_map<std::string, std::shared_ptr<Entry>>
-        shared_;               // files of all tiles, and the page
+        shared_;               // files that tiles share, and the page
     mutable std::mutex mutex_; // guards the members below
     std::unordered_map<std::string, Cached> cache_;
     std::list<std::string> uses_; // paths of cache_, the latest first

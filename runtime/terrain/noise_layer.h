@@ -21,9 +21,9 @@ struct NoiseAxis {
     std::vector<float> weights;       // of the lattice points above the places
 };
 
-/// Perlin's improved noise (Perlin 2002) at an integral height. At such heights the two lattice
-/// points below a place do not depend on those above it, so four gradients suffice, not eight.
-/// They are measured once from stb_perlin and kept: 128 KiB, which copies share.
+/// Perlin's improved noise (Perlin 2002) at an integral height. At such heights the lattice points
+/// of the next height have weight 0, so four gradients suffice, not eight. The gradients of the
+/// layer are measured once from stb_perlin and kept: 128 KiB, which copies share.
 class NoiseLayer {
 public:
     static constexpr std::uint32_t kPeriod = 256; // lattice cells after which the noise repeats

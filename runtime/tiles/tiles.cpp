@@ -69,7 +69,7 @@ struct TileForest::State {
 
     std::unique_ptr<DensityField> field;     // of a placement on an unbounded grid
     std::optional<CanopyField> field_canopy; // of a placement on an unbounded grid
-    std::vector<Canopy> counted_canopies;    // of other placements, by level without trees
+    std::vector<Canopy> counted_canopies;    // of other placements, for levels without trees
     CanopyAtCorner canopy_at;
 
     std::optional<TileParts> parts;
@@ -226,7 +226,7 @@ Outcome<void> TileForest::State::sample_trees(const Project& project) {
                                          grown.forest.species[s].name));
         }
     }
-    // The mean over the middles of a grid.
+    // Means over the middles of the cells of a grid.
     constexpr int kSamples = 64; // along each side
     const Region& region = scene.terrain.region;
     std::vector<double> densities(max_scales.size());
@@ -550,9 +550,9 @@ bool TileForest::State::is_plant(std::size_t hero) const {
     return !each.is_alone && cache.instances[each.instance].slot == 0;
 }
 
-/// Some trees of each species, for means.
+/// Some trees, for means: of each species of a placement on a grid, else every n-th placed tree.
 std::vector<Tree> TileForest::State::some_trees() const {
-    constexpr std::size_t kTrees = 64; // of a species, or all
+    constexpr std::size_t kTrees = 64; // of each species, or about 4 * kTrees of all placed trees
     std::vector<Tree> trees;
     for (const std::vector<Tree>& of_species : samples) {
         trees.insert(trees.end(), of_species.begin(),

@@ -139,7 +139,7 @@ struct SkeletonGrowth::State {
         joints.push_back(made);
     }
 
-    void set_widths(MovingSegment& moving, std::size_t end, const Segment& segment) {
+    void set_shape(MovingSegment& moving, std::size_t end, const Segment& segment) {
         moving.length[end] = segment.length;
         moving.base_radius[end] = segment.base_radius;
         moving.tip_radius[end] = segment.tip_radius;
@@ -150,7 +150,7 @@ struct SkeletonGrowth::State {
         MovingSegment moving;
         moving.motion.parent = segment.parent;
         set_end(moving.motion, 1, segment.base, segment.frame);
-        set_widths(moving, 1, segment);
+        set_shape(moving, 1, segment);
         if (piece.segment == kNoSegment) {
             set_vanished(moving.motion, 0);
             ++counts.grown;
@@ -184,7 +184,7 @@ struct SkeletonGrowth::State {
         MovingSegment moving;
         moving.motion.parent = new_segment_of(segment.parent);
         set_end(moving.motion, 0, segment.base, segment.frame);
-        set_widths(moving, 0, segment);
+        set_shape(moving, 0, segment);
         set_vanished(moving.motion, 1);
         new_segments[index] = static_cast<std::uint32_t>(segments.size());
         add_joints(moving);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Sizes of a drawn plant: the widths of the pipe model and a height in metres (docs/language.md
-// section 7.5). Both change a skeleton after the turtle, widths first, and before all steps that
+// section 7.5). Applied to a skeleton after the turtle, widths first, and before all steps that
 // read metres: physics, meshing, placement.
 #pragma once
 

@@ -143,7 +143,8 @@ public:
                                            std::span<const Origin> origins);
     /// Ends the word; called once, after its last piece.
     [[nodiscard]] std::optional<Stop> finish();
-    /// Begins another word, derived with `seed`: from the same start, into the same skeleton.
+    /// Begins another word, derived with `seed`: the turtle returns to its start, and the skeleton
+    /// keeps its items.
     /// Precondition: finish() was called, and no Stop was returned.
     void begin_word(std::uint64_t seed);
     [[nodiscard]] TurtlePlace place() const;

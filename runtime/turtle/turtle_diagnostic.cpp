@@ -73,7 +73,7 @@ bool ends_drawing(TurtleFaultKind kind) {
            kind == TurtleFaultKind::TooMany || kind == TurtleFaultKind::EndOutside;
 }
 
-/// Names the place that writes the module, if there is only one.
+/// Notes the production that writes modules of this symbol, if only one production does.
 void note_writer(Code code, const Bytecode& bytecode, Diagnostic& diagnostic) {
     std::optional<std::uint32_t> found;
     for (std::uint32_t i = 0; i < bytecode.template_codes.size(); ++i) {

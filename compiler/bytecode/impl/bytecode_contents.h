@@ -44,7 +44,7 @@ struct IgnoringStream {
     void table_or_none(const std::vector<Row>& /*rows*/, Function /*row*/) {}
 };
 
-// The describe functions: `Value` is the const type for a stream that only reads the fields.
+// In the describe functions `Value` is a const type if the stream only reads the fields.
 
 template <typename Stream, typename Value>
 void describe_traits(Stream& stream, Value& traits) {

@@ -279,8 +279,8 @@ ModuleClasses::Matches ModuleClasses::match(SymbolId symbol,
             continue;
         }
         const bool certain = first == Holds::Yes;
-        // Whether the module is certain to be replaced if the condition holds. In a group some weight
-        // must be known to be above 0.
+        // Whether the module is certain to be replaced if the condition holds. In a group some
+        // weight must be known to be above 0.
         bool is_taken = true;
         if (!production.stochastic) {
             matches.list.push_back({p, 1.0});

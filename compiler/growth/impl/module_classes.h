@@ -54,7 +54,8 @@ public:
     /// values.
     static constexpr std::uint64_t kMaxWork = 20'000'000;
 
-    /// `bytecode` is verified and outlives this; `steps` is the number of generations asked for.
+    /// `bytecode` is verified and outlives this object; `steps` is the number of generations asked
+    /// for.
     ModuleClasses(const Bytecode& bytecode, std::uint32_t steps);
 
     [[nodiscard]] const Bytecode& bytecode() const { return *bytecode_; }

@@ -17,7 +17,8 @@ namespace lsys {
 
 namespace {
 
-/// Effects of a symbol: true if a word that the symbol can become by rewriting has the property.
+/// Whether the drawing of a symbol, or of a word that it can become, depends on the vertical, and
+/// whether its rewriting is random.
 struct Effects {
     bool depends_on_vertical = false;
     bool is_random = false;

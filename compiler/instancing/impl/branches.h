@@ -19,7 +19,7 @@ struct BranchSite {
     std::uint32_t production = 0;
     std::uint32_t number = 0;  // within its successor, in text order
     std::uint32_t open = 0;    // index of `[` among the modules of the successor
-    std::uint32_t close = 0;   // index of `]`, likewise
+    std::uint32_t close = 0;   // index of `]` among them
     std::uint32_t kind_id = 0; // 1 + index in Branches::kinds
 };
 
@@ -42,8 +42,8 @@ struct Branches {
 };
 
 /// Returns nothing if the system cannot be instanced, after reporting the reasons. Also reports a
-/// system whose plants would all be equal, or all be copies of heroes, the plants whose branches are
-/// recorded (DiagnosticCode::NoVariety). Precondition: program.is_valid.
+/// system whose plants would all be equal, or all be copies of heroes, the plants whose branches
+/// are recorded (DiagnosticCode::NoVariety). Precondition: program.is_valid.
 [[nodiscard]] std::optional<Branches>
 find_branches(const Program& program, const Names& names, Diagnostics& diagnostics);
 

@@ -84,8 +84,9 @@ public:
     }
 
 private:
-    /// Sets `below` and `above` to the points next to `point` along `axis`. Returns false unless
-    /// the cell of `axis` is a single value or parameter `axis` equals another one at `point`.
+    /// Sets `below` and `above` to the points next to `point` along `axis`. Returns false if one of
+    /// them does not exist, or if the cell of `axis` has several values and equal_axis() finds no
+    /// axis.
     bool neighbours(std::uint64_t point,
                     std::size_t axis,
                     std::uint64_t& below,
@@ -105,8 +106,8 @@ private:
         return cell.low == cell.high || equal_axis(point, axis);
     }
 
-    /// An axis other than `axis` that has the same value at `point`. Conditions compare both with
-    /// another parameter (GridAxis::compared).
+    /// Another axis whose value at `point` equals the value of `axis`, if conditions compare the
+    /// parameters of both axes with other parameters (GridAxis::compared).
     std::optional<std::size_t> equal_axis(std::uint64_t point, std::size_t axis) const {
         const std::vector<analysis::GridAxis>& axes = table_.grid.axes;
         const auto value = [&](std::size_t i) {

@@ -203,8 +203,8 @@ private:
                     "`.` adds the position to the polygon between `{` and `}`");
             }
         }
-        // If exactly one word has more `{` than `}` and exactly one more `}` than `{`, the latter
-        // may end the polygon that the former begins.
+        // If exactly one word has more `{` than `}`, and exactly one word has more `}` than `{`,
+        // the second word may end the polygon that the first begins.
         if (opened != closed && !(open_words_ == 1 && end_words_ == 1)) {
             report_imbalance(word, where, opened > closed ? open.back().begin : *first_end,
                              opened > closed);
@@ -278,8 +278,8 @@ private:
     std::vector<bool> inside_; // by symbol: can occur in a polygon
     GroupedLists rewriters_;
     bool stray_reported_ = false;
-    /// Some polygon begins in one word and ends in another, so modules outside of `{` and `}` of
-    /// their own word may be inside a polygon.
+    /// Some successor leaves a polygon open, so modules outside of `{` and `}` of their own word
+    /// may be inside a polygon.
     bool crosses_words_ = false;
     std::size_t open_words_ = 0; // words with more `{` than `}`
     std::size_t end_words_ = 0;  // words with more `}` than `{`

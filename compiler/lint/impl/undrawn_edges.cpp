@@ -111,8 +111,8 @@ private:
         return program_.productions[plain_production_[static_cast<std::size_t>(symbol)]];
     }
 
-    /// The successor of `edge` as steps; sets `other` to the only other edge. Empty if there are
-    /// other modules, or no turn.
+    /// The successor of `edge` as steps; sets `other` to the only other edge. Empty if the
+    /// successor has a third edge, a module with parameters, no other edge or no turn.
     [[nodiscard]] std::vector<Step> steps(SymbolId edge, SymbolId& other) const {
         std::vector<Step> path;
         bool fits = true;

@@ -317,8 +317,9 @@ SourceSpan ExpressionResolver::fault_place(Opcode opcode,
     return expression.span();
 }
 
-/// Whether the unknown name `text` can only mean the one parameter of the production: both are one
-/// letter, there are no constants, and nothing else after the predecessor reads the parameter.
+/// Whether the unknown name `text` can only mean the one parameter of the production: both names
+/// have one letter, there are no constants, and nothing else after the predecessor reads the
+/// parameter.
 bool ExpressionResolver::is_only_choice(std::string_view text, const Expression& unknown) const {
     if (formals_.size() != 1 || text.size() != 1 || !resolution_.program.constants.empty() ||
         formal_spans_[0].file != unknown.file || formal_spans_[0].end > unknown.begin) {

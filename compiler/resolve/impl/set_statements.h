@@ -26,8 +26,8 @@ public:
     };
     SetResolver(Resolution& resolution, Origin origin) : resolution_(resolution), origin_(origin) {}
 
-    /// Reads all settings whose value is a word: modes and the profile of the turtle. Reports unknown
-    /// keys and duplicates.
+    /// Reads all settings whose value is a word: modes and the profile of the turtle. Reports
+    /// unknown keys and duplicates.
     void read_modes();
     /// Reads a setting of one or more numbers; does nothing for other keys and for duplicates.
     void read_number(const SetNode& node, ExpressionResolver& expressions);

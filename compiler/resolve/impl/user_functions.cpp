@@ -253,7 +253,8 @@ bool ExpressionResolver::draws(ValueId root) const {
 }
 
 /// Inlines a call: a copy of the body with the arguments in place of the formals. An argument that
-/// is used several times, or possibly never, is computed once into a slot.
+/// the body uses several times, or once if the body has a choice, is computed once into a slot, as
+/// is an unused argument that draws a random number. Leaves need no slot.
 ValueId ExpressionResolver::expanded(const UserFunction& function,
                                      std::span<const ValueId> arguments,
                                      SourceSpan span) {

@@ -125,8 +125,9 @@ std::to_chars_result write(char* first, char* last, Number value, bool is_fixed)
         return put(first, last, {out.data(), out.size()});
     }
     const Digits digits = shortest_digits(magnitude);
-    // The shorter form; if both have equal length, the one without an exponent: `0.000123` for
-    // `1.23e-04`, `12300000` for `1.23e+07`. A single digit has no point before its exponent.
+    // The shorter of the forms with and without an exponent; the form without one if they have
+    // equal length: `0.000123` for `1.23e-04`, `12300000` for `1.23e+07`. A single digit has no
+    // point before its exponent.
     const int point = digits.count == 1 ? 1 : 0;
     if (!is_fixed &&
         (digits.exponent < point - (digits.count + 3) || digits.exponent > 5 - point)) {

@@ -163,8 +163,8 @@ void translate_carey(const DialectRow& row, const ParseContext& context, Transla
         any_choice = any_choice || !is_new;
     }
     const LeftParameters parameters = find_left_parameters(file, context);
-    // With `rewriting cyclic`, the same module with and without parameters would take different
-    // turns; the forest generator gives them one turn.
+    // With `rewriting cyclic`, `F` and `F(x)` would be rewritten in different turns; the forest
+    // generator rewrites them in one turn.
     translation.put("#set turtle " + std::string(row.turtle) +
                     ";\n#set names letters;\n#set rewriting " +
                     (parameters.any ? "leftmost" : "cyclic") + ";\n");

@@ -242,8 +242,10 @@ void CpfgWriter::weigh_group(const std::vector<std::size_t>& members) {
     }
 }
 
-/// The condition of the choice: the last random number, times the sum of the weights of all
-/// matching productions, lies below the sum of the weights up to this one.
+/// The condition under which production `index` of a group is chosen: its own condition holds, and
+/// the last random number, times the sum of the weights of all matching productions, is less than
+/// the sum of their weights up to and including production `index`. The last production of the
+/// group needs only its own condition.
 ForeignId CpfgWriter::weighted_condition(const std::vector<std::size_t>& members,
                                          std::size_t index) {
     const CpfgProduction& production = session_.productions[index];

@@ -100,7 +100,7 @@ public:
                      std::span<const ForeignId> expanded,
                      std::size_t first);
     /// Gives the written local values from `first` to `end` names that are not in `taken`, and adds
-    /// the names to it.
+    /// the names to `taken`.
     void name_locals(std::size_t first, std::size_t end, std::set<std::string>& taken);
     [[nodiscard]] static bool is_written(const ForeignLocal& local) {
         return local.reads != 0 && !local.is_inline;

@@ -48,7 +48,7 @@ public:
     LinePiece next(PieceLength length);
     /// Skips blanks and comments; returns the text from the next piece on.
     [[nodiscard]] std::string_view ahead();
-    /// Text from here on.
+    /// The text after the last piece, with blanks and comments.
     [[nodiscard]] std::string_view rest() const { return text_.substr(at_); }
     /// The next `length` bytes as a piece; `length` may be 0.
     LinePiece take(std::size_t length);

@@ -12,9 +12,8 @@
 
 namespace lsys {
 
-/// `rules`: in the order of the file, without comments. Derives the word in both orders, up to
-/// `generations` or a limit of work, and reports two rules if their order changes one of these
-/// words.
+/// `rules`: in the order of the file, without comments. Derives words in both orders, up to
+/// `generations` or a limit of work, and reports two rules if their order changes a word.
 void report_rule_order(const std::vector<L3dRule>& rules,
                        std::string_view axiom,
                        std::uint32_t generations,

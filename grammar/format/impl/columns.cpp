@@ -9,8 +9,8 @@ namespace lsys {
 
 namespace {
 
-/// Maximum excess of an aligned cell over the median width, and maximum padding of an aligned cell.
-/// Other cells are not aligned.
+/// Maximum columns by which an aligned cell is wider than the median of the cells, and maximum
+/// columns of its padding. Other cells are not aligned.
 constexpr std::uint32_t kWidestGap = 24;
 /// Maximum columns of a head if its line must be broken; a longer one leaves modules little room.
 constexpr std::uint32_t kLongHead = 50;

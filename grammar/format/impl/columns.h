@@ -42,7 +42,7 @@ void line_up(std::span<LayoutRow> rows);
 /// Value of a padding for a cell that is not aligned.
 inline constexpr std::uint32_t kUnaligned = 0xFFFFFFFFu;
 
-/// Replaces each width by its difference from the common column, or by kUnaligned.
+/// Replaces each width by the padding up to the width of the widest aligned cell, or by kUnaligned.
 void pad(std::vector<std::uint32_t>& widths);
 
 } // namespace lsys

@@ -200,7 +200,7 @@ void LexemeReader::module() {
 
 void LexemeReader::value(LexemeKind kind, std::size_t length) {
     take(kind, length);
-    // A value follows, not an operator: after a value of `#set` and after the name of a constant.
+    // After a value of `#set` and after the name of a constant comes a value, not an operator.
     after_value_ = !(area_ == Area::Set && depth_ == 0) && (area_ != Area::Name || in_formals_);
     if (area_ == Area::Name) {
         area_ = Area::Expression;

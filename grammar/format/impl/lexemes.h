@@ -16,7 +16,7 @@ enum class LexemeKind : std::uint8_t {
     Keyword,      // `#name`
     Module,       // a name or symbol of a module list
     Open,         // the `(` after a module
-    Close,        // its `)`
+    Close,        // the `)` of Open
     Context,      // `<` or `>` of a production's head
     Colon,
     Semicolon,

@@ -28,7 +28,8 @@ public:
     [[nodiscard]] std::uint32_t column() const { return column_; }
 
 private:
-    /// A possible break of the line, which drops its bytes [end, begin).
+    /// A possible break of the line: byte `end` ends the first part, byte `begin` begins the
+    /// second. The blanks between them are dropped.
     struct LineBreak {
         std::size_t end = 0;
         std::size_t begin = 0;

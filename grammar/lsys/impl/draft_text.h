@@ -54,8 +54,8 @@ struct DraftText {
     void blank(std::size_t begin, std::size_t end);
     /// Writes `replacement` and blanks over [begin, end) if it fits; returns whether it does.
     bool replace(std::size_t begin, std::size_t end, std::string_view replacement);
-    /// The lines between statements, in order. The reference stays valid until the next call; after
-    /// a change of `text` the lines still describe the text before the change.
+    /// The lines between statements, in order. The list stays valid until the next call. A change
+    /// of `text` does not update the list, but FreeLine::text shows the changed bytes.
     [[nodiscard]] const std::vector<FreeLine>& free_lines();
 };
 

@@ -348,7 +348,7 @@ void normalize_quoted(ParseSession& session, std::string_view text) {
         const auto begin = session.scan.begin + static_cast<std::uint32_t>(at);
         if (confusable && !is_translation) {
             record_stray(session, begin, true);
-            // U+00A0 and the characters below are blanks or controls, not names.
+            // U+00A0 and lower code points are blanks or controls, not names.
         } else if (confusable && point.value > 0xA0) {
             report_foreign_confusable(session, session.scanned.span(begin, begin + point.length),
                                       point.value, *confusable);

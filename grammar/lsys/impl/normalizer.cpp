@@ -164,7 +164,7 @@ bool Normalizer::is_word_at(std::uint32_t at) const {
     return point.value >= 0x80 && is_letter_beyond_ascii(point.value);
 }
 
-/// Reports the first occurrence of a Greek letter that is a whole word. Returns whether it is one.
+/// Returns whether `word` is a single Greek letter; reports the first occurrence of each letter.
 bool Normalizer::report_greek(std::uint32_t begin, TextPart word, const CodePoint& point) {
     constexpr std::array<std::string_view, 25> kGreek{
         "alpha", "beta",   "gamma",   "delta", "epsilon", "zeta",    "eta",  "theta", "iota",

@@ -94,7 +94,7 @@ private:
     [[nodiscard]] bool follows_doubtful_error();
     /// Whether the line of `at` begins with `//` and would be a comment if the statement before it
     /// were complete. Precondition: `at` never decreases between calls, since each call continues
-    /// the search of the last one.
+    /// the search of the call before it.
     [[nodiscard]] bool is_commented_out(std::size_t at);
     /// Makes all fixes of a statement offers if one of its errors has no certain fix, or if the
     /// statement is on a line that begins with `//`. Statements that may belong together count as

@@ -14,8 +14,9 @@ namespace lsys::lsys_grammar {
 /// A `//` among modules that may be meant as a comment to the end of its line.
 struct LikelyComment {
     std::uint32_t begin = 0;
-    /// Whether a word of the comment occurs nowhere else in the text; such a word is not the name
-    /// of a module.
+    /// Whether the comment is certain: no earlier `//` may begin one, nothing on the line looks
+    /// like modules, and a word of the comment occurs nowhere else in the text. Such a word is not
+    /// the name of a module.
     bool certain = false;
 };
 

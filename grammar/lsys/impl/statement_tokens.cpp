@@ -347,8 +347,8 @@ Token start_without_hash(ParseSession& session, std::string_view word) {
         after_statement && (scan.keyword == Keyword::Label || scan.keyword == Keyword::Axiom);
     // Text after a `;` may belong to the statement before it; then the `;` and the fixes of that
     // statement are wrong. So first_diagnostic stays the index of the first diagnostic of that
-    // statement, and its fixes become offers if this text is an error. A statement after one with
-    // an error may belong to it, too.
+    // statement, whose fixes become offers if this text is an error. A statement after a statement
+    // with an error may belong to it, too.
     if (!after_statement || (is_statement && !session.context.diagnostics.has_doubtful_error_from(
                                                  scan.first_diagnostic))) {
         scan.first_diagnostic = session.context.diagnostics.all().size();
@@ -536,7 +536,7 @@ bool report_probability_at_end(ParseSession& session) {
     const std::string_view part = text.substr(second_colon + 1, third_colon - second_colon - 1);
     const std::size_t last = part.find_last_not_of(kWhitespace);
     if (last == std::string_view::npos || part.find_first_of("~=") != std::string_view::npos) {
-        return false; // it has a probability, or local values stand here
+        return false; // the part has a probability or local values
     }
     const std::string probability(text.substr(number, end - number));
     const auto condition_end = static_cast<std::uint32_t>(second_colon + 1 + last + 1);

@@ -298,7 +298,7 @@ bool report_empty_condition(ParseSession& session, const Unexpected& error) {
     return true;
 }
 
-/// Reports `t++`; returns whether the current `+` is its second one.
+/// Reports `t++`; returns whether the current `+` is the second `+` of such an increment.
 bool report_increment(ParseSession& session) {
     const ScanState& scan = session.scan;
     const std::string_view text = session.scanned.text;

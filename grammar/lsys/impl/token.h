@@ -22,7 +22,7 @@ struct Token {
         token.inserted = true;
         return token;
     }
-    /// The symbol of the token; the parser uses one numbering for both.
+    /// The parser's symbol for the token. Tokens and symbols have equal numbers (api.token.raw).
     [[nodiscard]] Parser::symbol_kind_type kind() const {
         return static_cast<Parser::symbol_kind_type>(type);
     }

@@ -15,7 +15,8 @@ constexpr std::size_t kCharactersBeforeFocus = 50;
 /// Maximum characters of an excerpt; bounds the work for lines with many characters of zero width.
 constexpr std::size_t kMaxCharacters = std::size_t{8} * kMaxColumns;
 
-/// Whether terminals hide the character or it reorders others (Unicode category Cf, C1 controls).
+/// Whether terminals hide the character or it reorders other characters: C1 controls, the soft
+/// hyphen, characters of zero width, line separators, marks of the text direction.
 bool is_invisible(char32_t value) {
     return (value >= 0x80 && value < 0xA0) || value == 0xAD ||
            (value >= 0x200B && value <= 0x200F) || (value >= 0x2028 && value <= 0x202E) ||

@@ -74,12 +74,11 @@ public:
     static constexpr std::uint8_t kStores = 0x80;
     /// The group of rows that accept any neighbours.
     static constexpr std::uint8_t kAnyNeighbours = 0x01;
-    /// Lookup tables with one byte per code. A bit stands for a group of rows with equal guards:
-    /// the group of the code's row, and the groups that accept the code as left or right neighbour.
+    /// Lookup tables with one byte per code. Each bit stands for a group of rows with equal guards.
     struct Tables {
-        std::vector<std::uint8_t> centre; // kStores: stores a parameter
-        std::vector<std::uint8_t> left;
-        std::vector<std::uint8_t> right;
+        std::vector<std::uint8_t> centre; // group of the code's row; kStores: stores a parameter
+        std::vector<std::uint8_t> left;   // groups that accept the code as left neighbour
+        std::vector<std::uint8_t> right;  // groups that accept the code as right neighbour
         std::uint8_t at_begin = kAnyNeighbours; // groups that need no left neighbour
         std::uint8_t at_end = kAnyNeighbours;   // groups that need no right neighbour
         std::size_t banks = 0;                  // number of runs of 16 codes

@@ -27,7 +27,7 @@ std::size_t rows_of(const BatchProgram& program) {
     return std::size_t{program.formal_rows} + program.stack_rows + program.slot_rows;
 }
 
-/// For each module of a batch, whether it computes a value: all bits set, else 0.
+/// For each module of a batch: all bits set if the current value is computed for it, else 0.
 using Mask = std::array<std::int32_t, kLanes>;
 
 std::int32_t mask_of(bool is_set) {
@@ -55,9 +55,9 @@ template <typename Visit>
     }
 }
 
-/// The domain of rows of numbers. Both sides of a choice are computed for all modules. The mask
-/// says which modules need the current side: distributions and functions without a vector form are
-/// computed for these only.
+/// The Domain (compiler/bytecode/interpret.h) whose values are rows of numbers. Both sides of a
+/// choice are computed for all modules. The mask says which modules need the current side;
+/// distributions and functions without a vector form are computed for these modules only.
 class RowsOfNumbers : public UnknownDomain<Lanes> {
 public:
     // NOLINTNEXTLINE: units_ is set with block_
@@ -357,7 +357,7 @@ void Batches::add_copy(std::uint32_t index,
     add(index, copy, position, out);
 }
 
-/// Makes room for the modules of a program, or runs its full batch.
+/// Allocates the first batch of a program, or runs its full batch.
 void Batches::make_room(std::uint32_t index) {
     Queue& queue = queues_[index];
     if (queue.modules != nullptr) {

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Batches: parameters that need the stack machine, evaluated for 64 modules of a production at
 // once. Each value of the machine is a row of 64 numbers, so an instruction is decoded once per
-// batch and computed with vector instructions. Rows hold the same binary32 values as evaluate() in
-// eval.h. The writing pass adds modules and leaves room for their parameters, which are filled in
-// when a batch is full or the pass ends.
+// batch and computed with vector instructions. Rows hold the same binary32 values that evaluate()
+// in eval.h computes. The writing pass adds modules and leaves room for their parameters, which are
+// filled in when a batch is full or the pass ends.
 #pragma once
 
 #include "compiler/bytecode/bytecode.h"

@@ -20,7 +20,7 @@ struct PassKeys {
     /// Number of the first draw of each module: 0, or 4096 k for the pass of rule k of a sequential
     /// generation; for later stages see stage_depth.h.
     std::uint64_t first_draw = 0;
-    bool keeps_age = false; // the written word has age `generation`, not the next
+    bool keeps_age = false; // the written word has age `generation`, not `generation` + 1
 };
 
 /// Holds references: word and keys may change between calls.

@@ -84,8 +84,8 @@ public:
     /// modules. Available if a right context has brackets and the word is not plain().
     [[nodiscard]] std::uint64_t jump_from(std::uint64_t index) const { return jump_.get(index); }
     static constexpr std::uint64_t kOffsetStride = 64;
-    /// The number of parameters stored before module `index` rounded down to a multiple of
-    /// kOffsetStride. Available if a formal of a context is used.
+    /// The number of parameters stored before module m, which is `index` rounded down to a multiple
+    /// of kOffsetStride. Available if a formal of a context is used.
     [[nodiscard]] std::uint64_t offset_before(std::uint64_t index) const {
         return offsets_.as<std::uint64_t>()[index / kOffsetStride];
     }

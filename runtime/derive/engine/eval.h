@@ -32,7 +32,7 @@ public:
                                               std::uint64_t first) {
         return {seed, generation, position, first};
     }
-    /// Range i is draw 0 at position `position + i` of the start.
+    /// Range i is draw 0 at position `position + i` in generation kStartGeneration.
     [[nodiscard]] static RangeDraws at_start(std::uint64_t seed, std::uint32_t position) {
         return {seed, kStartGeneration, position, 0};
     }
@@ -70,7 +70,7 @@ enum class Fault : std::uint8_t {
 struct EvalFault {
     Fault kind = Fault::None;
     std::uint32_t instruction = 0;
-    float value = 0.0F;   // for NotFinite and NegativeWeight
+    float value = 0.0F;   // for NotFinite and faults of weights
     float minimum = 0.0F; // for faults of ranges; the first argument of a distribution
     float maximum = 0.0F; // the second argument of a distribution
 };

@@ -32,7 +32,7 @@ struct LevelSteps {
     std::uint64_t first_pass_draw = 0; // number of the first draw of the first pass
     bool prunes = false;               // each generation begins with the cuts of `%` modules
 
-    /// Number of steps; level count() is the last one.
+    /// Number of steps, which is also the index of the last level.
     [[nodiscard]] std::uint64_t count() const {
         return (std::uint64_t{last_age} - first_age + 1) * depth + (last_age - first_age);
     }

@@ -82,7 +82,7 @@ private:
     std::vector<std::uint64_t> left_; // module matched by each pattern item
     std::vector<std::uint64_t> right_;
     std::vector<std::uint64_t> predecessor_;
-    std::vector<std::uint64_t> branches_; // gaps after the branches that enclose the pattern
+    std::vector<std::uint64_t> branches_; // gaps after the branches that the search has entered
     std::vector<float> formals_;
 };
 

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Writes the origins of the modules that a pass writes, if DeriveOptions::origins is set: reads the
 // records of the counting pass a second time. The origin of a written module is its place in the
-// successor; a copied module keeps its origin. Successors of a followed module keep its index.
+// successor; a copied module keeps its origin. Successors of a module followed by
+// Derivation::follow() keep its index.
 #pragma once
 
 #include "runtime/derive/engine/active_mask.h"
@@ -20,7 +21,7 @@ struct OriginRequest {
     const ActiveMask* mask = nullptr; // the mask of WriteRequest
 };
 
-/// Writes origins to `out`; returns the place of the next one. `records` as in write_modules().
+/// Writes origins to `out`; returns the place of the next origin. `records` as in write_modules().
 /// Precondition: word.origins is not null.
 template <typename C, typename R>
 [[nodiscard]] Origin* trace_origins(const Plan& plan,

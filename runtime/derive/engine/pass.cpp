@@ -31,14 +31,14 @@ constexpr std::uint64_t kMinChunk = 1U << 14;
 constexpr std::uint64_t kMinSharedWord = 1U << 17;
 /// Modules of the word at which threads are started, a few generations before they are needed:
 /// starting them takes as long as rewriting such a word. A word that grows by less than
-/// 1 / kMinGrowth per generation may never need them.
+/// 1 / kMinGrowth per generation may never need the threads.
 constexpr std::uint64_t kMinWordForThreads = 1U << 13;
 constexpr std::uint64_t kMinGrowth = 8;
 /// Modules between two reports of progress.
 constexpr std::uint64_t kProgressStride = std::uint64_t{1} << 24;
 
-/// A mask is faster if at most one in this many modules is active: for words with Fixed rows only,
-/// and for words with other rows, whose modules cost more.
+/// A mask is faster if at most one in this many modules is active. Fixed: all rows are Fixed.
+/// Dynamic: some rows are not, and their modules cost more.
 constexpr std::uint64_t kModulesPerActiveFixed = 8;
 constexpr std::uint64_t kModulesPerActiveDynamic = 2;
 

@@ -30,9 +30,9 @@
 
 namespace lsys {
 
-/// Parameters that an entry computes without a loop.
+/// Max parameters that an entry computes without a loop.
 inline constexpr std::size_t kEntryTerms = 4;
-/// Parameters of a batched entry.
+/// Max parameters of a batched entry.
 inline constexpr std::uint32_t kMaxBatchedParameters = 16;
 
 struct alignas(64) Entry {
@@ -49,7 +49,7 @@ struct alignas(64) Entry {
     std::uint32_t first_place = 0;   // index of the successor in template_codes
     bool general = false;            // parameters need a batch or evaluate()
     bool reads_own = false;          // terms read the module's parameters
-    bool special = false;            // needs more than one wide store of codes or of terms
+    bool special = false;            // not written by one wide store of codes and one of terms
     bool batched = false;            // special for its parameters only, which a batch computes
 };
 
@@ -70,7 +70,7 @@ struct Row {
     std::uint32_t stored = 0;          // parameters of the module in the word
     std::uint32_t constants = kNone;   // folded module: index in Bytecode::constants
     std::uint32_t source = 0;          // index of a choice (Choice), test list (Tests) or family
-    std::uint32_t left_guard = kNone;  // General: accepted neighbours, in guards
+    std::uint32_t left_guard = kNone;  // General: index in guards() of the accepted neighbours
     std::uint32_t right_guard = kNone;
     RowKind kind = RowKind::Fixed;
     bool copies = true; // Fixed: writes the module itself
@@ -103,7 +103,7 @@ struct Candidate {
     std::uint32_t comparison_count = 0;
     std::uint32_t comparison_room = 0;
     std::uint32_t first_term = 0;        // index in terms, if more than kEntryTerms parameters
-    std::uint32_t batch_program = kNone; // set once a parameter has not been a term
+    std::uint32_t batch_program = kNone; // index in batch_programs(); set when first needed
     float weight = 0.0F;
     ConditionKind condition = ConditionKind::Always;
     bool stochastic = false;
@@ -114,7 +114,7 @@ struct Candidate {
 };
 
 /// The fixed set of a Choice row. The first record whose cumulative weight exceeds the draw is
-/// taken.
+/// taken, or else the last record.
 struct Choice {
     std::uint32_t first = 0; // index in thresholds and records
     std::uint32_t count = 0;
@@ -275,8 +275,8 @@ private:
     /// Codes at the word's width, and the codes of each symbol.
     struct CodeTables {
         std::vector<std::byte> pool;      // templates, each code once, folded templates, slack
-        std::uint32_t first_identity = 0; // index in the pool of code 0, which copies write
-        std::vector<std::uint32_t> first_of_symbol; // in by_symbol; one more at the end
+        std::uint32_t first_identity = 0; // index in the pool where the list of all codes begins
+        std::vector<std::uint32_t> first_of_symbol; // index in by_symbol; last: its size
         std::vector<Code> by_symbol;
         std::uint32_t width = 1; // bytes per code
         std::uint32_t wide_bytes = 16;

@@ -162,7 +162,7 @@ private:
                (x.constant != 0.0F) == truth;
     }
 
-    /// The conjunction of x and y if both are comparisons found one after the other, else unknown.
+    /// The conjunction of x and y if both are comparisons stored one after the other, else unknown.
     static Term conjunction(const Term& x, const Term& y) {
         if (x.kind != ShapeKind::Comparisons || y.kind != ShapeKind::Comparisons ||
             x.first_comparison + x.comparison_count != y.first_comparison) {
@@ -173,8 +173,8 @@ private:
         return term;
     }
 
-    /// The negation of `x` if it is a single comparison, else unknown. The sides of a comparison are
-    /// never NaN, so exactly one of <, = and > holds.
+    /// The negation of `x` if it is a single comparison, else unknown. The sides of a comparison
+    /// are never NaN, so exactly one of <, = and > holds.
     Term complement(const Term& x) {
         if (x.kind != ShapeKind::Comparisons || x.comparison_count != 1) {
             return {};

@@ -66,7 +66,8 @@ struct ValueShape {
 
 inline constexpr std::uint32_t kMaxShapedInstructions = 4096;
 /// The shapes of the values of the expression at `first`, in order; an empty list for expressions
-/// longer than kMaxShapedInstructions. `locals`: the code of local values before it, or kNone.
+/// longer than kMaxShapedInstructions. `locals`: the code that computes local values before it, or
+/// kNone.
 [[nodiscard]] std::vector<ValueShape> shapes_of(const Bytecode& bytecode,
                                                 std::uint32_t locals,
                                                 std::uint32_t first,

@@ -289,7 +289,7 @@ struct PrintedNumbers : UnknownDomain<PrintedValue> {
     }
 
     /// Adds the local values that are leaves, such as a literal or a formal, which no code
-    /// computes. Called after run(), which adds the others.
+    /// computes. Called after run(), which adds the local values that code computes.
     void add_leaves() {
         const std::size_t named = frame.names == nullptr ? 0 : frame.names->locals.size();
         for (std::size_t i = 0; i < named; ++i) {

@@ -200,8 +200,8 @@ private:
             pieces_[piece].error = 0.0;
             return;
         }
-        // A cut nearer to the root increases the error of the part above the cut and decreases the
-        // error of the part below it.
+        // A cut nearer to the root decreases the error of the part on the side of the root and
+        // increases the error of the part beyond the cut.
         std::size_t low = 0;
         std::size_t high = way.size() - 1;
         while (low < high) {
@@ -253,7 +253,7 @@ struct FitPoint {
 };
 
 /// The rotation that takes `arms` nearest to `targets` by weighted least squares, iterated from
-/// `start`. Both are relative to the joint.
+/// `start`. `arms` and `targets` are relative to the joint.
 glm::dquat fitted(const glm::dquat& start,
                   std::span<const glm::dvec3> arms,
                   std::span<const glm::dvec3> targets,

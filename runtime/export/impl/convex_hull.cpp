@@ -73,8 +73,9 @@ public:
     [[nodiscard]] const Point& point(std::uint32_t number) const { return points_[number]; }
 
 private:
-    /// Six times the volume of the tetrahedron; positive if `apex` is on the outer side.
-    [[nodiscard]] std::int64_t volume(const Corners& triangle, std::uint32_t apex) const {
+    /// Positive if `apex` is on the outer side of the triangle, 0 in its plane: six times the
+    /// volume of the tetrahedron.
+    [[nodiscard]] std::int64_t orientation(const Corners& triangle, std::uint32_t apex) const {
         const Point& a = points_[triangle[0]];
         const Point normal = cross(minus(points_[triangle[1]], a), minus(points_[triangle[2]], a));
         const Point arm = minus(points_[apex], a);
@@ -97,13 +98,13 @@ private:
         }
         const Corners base{0, 1, third};
         std::uint32_t apex = third + 1;
-        while (apex < count && volume(base, apex) == 0) {
+        while (apex < count && orientation(base, apex) == 0) {
             ++apex;
         }
         if (apex >= count) {
             return false;
         }
-        const bool outside = volume(base, apex) > 0;
+        const bool outside = orientation(base, apex) > 0;
         const std::uint32_t b = outside ? third : 1;
         const std::uint32_t c = outside ? 1 : third;
         triangles_ = {{0, b, c}, {0, c, apex}, {c, b, apex}, {b, 0, apex}};
@@ -113,22 +114,22 @@ private:
     /// Extends the hull to the point `apex`. Triangles whose planes contain the point count as
     /// facing it, so that no edge of the horizon is collinear with the point.
     void add(std::uint32_t apex) {
-        volumes_.clear();
+        orientations_.clear();
         for (const Corners& triangle : triangles_) {
-            volumes_.push_back(volume(triangle, apex));
+            orientations_.push_back(orientation(triangle, apex));
         }
-        const auto is_above = [](std::int64_t volume) { return volume > 0; };
-        if (std::none_of(volumes_.begin(), volumes_.end(), is_above)) {
+        const auto is_above = [](std::int64_t orientation) { return orientation > 0; };
+        if (std::none_of(orientations_.begin(), orientations_.end(), is_above)) {
             return;
         }
         edges_.clear();
         for (std::size_t t = 0; t < triangles_.size(); ++t) {
-            for (std::size_t i = 0; volumes_[t] >= 0 && i < 3; ++i) {
+            for (std::size_t i = 0; orientations_[t] >= 0 && i < 3; ++i) {
                 edges_.insert({triangles_[t][i], triangles_[t][(i + 1) % 3]});
             }
         }
         std::size_t number = 0;
-        std::erase_if(triangles_, [&](const Corners&) { return volumes_[number++] >= 0; });
+        std::erase_if(triangles_, [&](const Corners&) { return orientations_[number++] >= 0; });
         for (const auto& [from, to] : edges_) {
             if (!edges_.contains({to, from})) {
                 triangles_.push_back({from, to, apex});
@@ -138,7 +139,7 @@ private:
 
     std::vector<Point> points_;
     std::vector<Corners> triangles_;
-    std::vector<std::int64_t> volumes_;
+    std::vector<std::int64_t> orientations_;
     std::set<std::pair<std::uint32_t, std::uint32_t>>
         edges_; // of the triangles that face the point
 };

@@ -69,8 +69,8 @@ struct PackedTransforms {
 };
 /// Compresses the transforms `floats` of `groups`. The scale of an instance is the step of its
 /// quantised positions in metres; translations are rounded to multiples of the largest power of two
-/// up to half the scale. Components of rotations are rounded to 16 bits, scales to 16 significant
-/// bits.
+/// that is at most half the scale. Components of rotations are rounded to 16 bits, scales to 16
+/// significant bits.
 [[nodiscard]] PackedTransforms pack_transforms(std::span<const ForestGroup> groups,
                                                std::span<const float> floats,
                                                std::uint32_t threads);
@@ -110,8 +110,8 @@ private:
         return info_.collision_names == CollisionNames::Unreal;
     }
     [[nodiscard]] std::string mesh_name(const ExportedStage& stage, std::uint32_t instance) const;
-    /// Calls visit(instance) for each tree with collision shapes of its own, in the order of nodes;
-    /// `instance` is numbered among all stages.
+    /// Calls visit(instance) for each group (Instanced) or tree (Expanded) that has nodes of
+    /// collision shapes, in the order of nodes; `instance` is numbered among all stages.
     template <typename Visit>
     void for_each_collider(const Visit& visit) const;
     /// Plans the views of a surface, without their offsets in the buffer.

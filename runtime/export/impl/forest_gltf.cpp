@@ -228,7 +228,8 @@ void ForestDocument::add_views(ForestSurface& surface) {
 namespace {
 
 /// The indices of a part, within its slice. `ordered`, for compression: triangles are sorted by
-/// their highest index, so that triangles of nested lists come first, as in a separate mesh.
+/// their highest index, so that triangles of nested lists come first, as if the part were a
+/// separate mesh.
 void read_indices(const ForestSurface& surface,
                   std::size_t number,
                   bool ordered,

@@ -22,7 +22,7 @@ void append(std::string& items, const T& value) {
     items.append(reinterpret_cast<const char*>(&value), sizeof value);
 }
 
-/// The exponent of the largest power of two up to `value`.
+/// The exponent of the largest power of two that is at most `value`.
 int exponent_of(float value) {
     int exponent = 0;
     static_cast<void>(std::frexp(value, &exponent));

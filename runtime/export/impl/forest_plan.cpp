@@ -106,8 +106,8 @@ void ForestPlan::cut_cells() {
     }
 }
 
-/// Sets ForestPiece::counts_before to the counts of the piece itself; find_groups() then adds up
-/// the counts of earlier pieces.
+/// Sets ForestPiece::counts_before to the counts of the piece itself; find_groups() then replaces
+/// them by the counts in earlier pieces.
 void ForestPlan::count_pieces(std::uint32_t threads) {
     Workers(threads).for_each(pieces_.size(), [this](std::uint64_t number) {
         ForestPiece& piece = pieces_[number];

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The writers of formats.def. Each writes one whole file and may stop early once the PieceWriter
-// has stopped. The mesh has at least one triangle and at most as many as the format can count; its
-// optional arrays are empty or complete.
+// has stopped. The mesh has at least one triangle, except for formats that draw the skeleton, and
+// at most as many as the format can count; its optional arrays are empty or complete.
 #pragma once
 
 #include "runtime/export/impl/piece_writer.h"

@@ -18,7 +18,8 @@ static_assert(std::endian::native == std::endian::little,
 
 namespace {
 
-// Bits of a position. 14 bits compress to fewer bytes than 16; decoded, both take 2 bytes.
+// Bits of a coordinate of a position. 14 bits compress to fewer bytes than 16; decoded, a
+// coordinate takes 2 bytes.
 constexpr unsigned kPositionBits = 16;
 constexpr unsigned kCompressedPositionBits = 14;
 // Bits of a texture coordinate: the fewest that keep a step within half a texel of the built-in

@@ -96,7 +96,7 @@ group_parts(const Mesh& mesh, std::uint32_t first_part, std::uint32_t part_count
     return list;
 }
 
-/// Whether the triangles share an edge, in opposite directions.
+/// Whether the triangles share an edge, which they list in opposite directions.
 bool share_edge(const std::uint32_t* a, const std::uint32_t* b) {
     const auto has = [b](std::uint32_t from, std::uint32_t to) {
         return (b[0] == from && b[1] == to) || (b[1] == from && b[2] == to) ||

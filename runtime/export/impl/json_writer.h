@@ -84,7 +84,7 @@ private:
         out_.used(fmt::format_to(at, FMT_COMPILE("{}"), number));
         return *this;
     }
-    /// Room for `bytes - 1` bytes of a value, after its comma if it needs one.
+    /// Room for `bytes - 1` bytes of a value, after a comma if the value needs one.
     [[nodiscard]] char* begin_value(std::size_t bytes) {
         char* at = out_.room(bytes);
         if (comma_) {

@@ -76,12 +76,12 @@ std::optional<Card> card_of(const UserMesh& mesh, const Triangle& corners) {
     const auto& p = mesh.positions;
     const glm::vec2 a = t[corners[1]] - t[corners[0]];
     const glm::vec2 b = t[corners[2]] - t[corners[0]];
-    const float area = a.x * b.y - a.y * b.x;
-    if (!(std::fabs(area) > 1e-9F)) {
+    const float determinant = a.x * b.y - a.y * b.x;
+    if (!(std::fabs(determinant) > 1e-9F)) {
         return std::nullopt;
     }
-    const glm::vec3 to_a = (p[corners[1]] - p[corners[0]]) / area;
-    const glm::vec3 to_b = (p[corners[2]] - p[corners[0]]) / area;
+    const glm::vec3 to_a = (p[corners[1]] - p[corners[0]]) / determinant;
+    const glm::vec3 to_b = (p[corners[2]] - p[corners[0]]) / determinant;
     Card card;
     card.along_u = to_a * b.y - to_b * a.y;
     card.along_v = to_b * a.x - to_a * b.x;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Outlines of objects for drawings: convex hulls of the parts of their shapes. Flat parts (cards)
-// with a picture that has holes are drawn as the outline of its opaque parts.
+// with a picture that has holes are drawn as outlines of the picture's opaque parts.
 #pragma once
 
 #include "runtime/meshing/mesh.h"

@@ -149,7 +149,7 @@ private:
     struct Buffer {
         std::size_t number = 0;          // in the table
         std::uint64_t decoded_bytes = 0; // size of its fallback; 0: no fallback
-        std::size_t fallback = 0;        // its number
+        std::size_t fallback = 0;        // number of its fallback
     };
 
     [[nodiscard]] const TilePart& part_of(const TileDocument::Group& group) const {
@@ -188,7 +188,7 @@ private:
         return std::exchange(size, aligned(size + bytes));
     }
 
-    /// Begins an item of a list; returns the text to which it is appended.
+    /// Begins an item of a list; returns the text to which the item is appended.
     std::string& next(GltfList list) {
         List& to = lists_[static_cast<std::size_t>(list)];
         if (to.count++ == 0) {
@@ -457,7 +457,7 @@ private:
     std::vector<std::uint32_t> buffer_numbers_; // by number in the table
     std::vector<std::uint32_t> numbers_;        // of items in their lists, by number in the table
     std::array<List, kGltfLists> lists_;
-    std::vector<GltfList> order_; // of the first items of lists
+    std::vector<GltfList> order_; // lists in the order of their first items
     std::vector<std::string> used_;
     std::vector<std::string> required_;
     std::vector<std::uint32_t> rows_;        // of the table of properties, by tree

@@ -27,7 +27,7 @@ struct PartCursor {
     const Mesh& mesh;
     TriangleReader indices{mesh.indices};
     std::size_t part = 0;
-    std::uint64_t first = 0; // corners of the parts before
+    std::uint64_t first = 0; // number of corners of earlier parts
 
     std::uint32_t index(std::uint64_t corner) {
         while (corner - first >= mesh.parts[part].index_count / 3 * 3) {

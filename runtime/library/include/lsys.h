@@ -36,7 +36,7 @@ typedef enum lsys_status {
     LSYS_OK = 0,
     LSYS_DIAGNOSED = 1,     /* mistakes in the grammar */
     LSYS_FAILED = 2,        /* a file cannot be read, an option does not fit */
-    LSYS_LIMIT = 3,         /* max_modules or max_bytes */
+    LSYS_LIMIT = 3,         /* max_modules or max_bytes is exceeded */
     LSYS_OUT_OF_MEMORY = 4, /* a failed allocation */
     LSYS_CANCELLED = 5      /* a function of the caller ended the call */
 } lsys_status;
@@ -218,7 +218,7 @@ LSYS_C_API const float* lsys_mesh_texture_coordinates(const lsys_mesh* mesh);
 LSYS_C_API void
 lsys_mesh_read_indices(const lsys_mesh* mesh, uint64_t first, uint64_t count, uint32_t* to);
 
-/* Triangles of one material: indices first_index to first_index + index_count. */
+/* Triangles of one material: `index_count` indices from `first_index` on. */
 typedef struct lsys_mesh_part {
     uint64_t first_index, index_count;
     const char* material;

@@ -66,7 +66,7 @@ double place_in_run(std::size_t i, std::size_t length) {
 double turned_part(double place, bool joined) {
     return std::min(joined ? 0.5 + place : 2.0 * place, 1.0);
 }
-/// Weight of the rotation of the next run, for a body at `place` of the run that it continues.
+/// Weight of the rotation of the next run, for a body at `place` of the run before it.
 double turned_ahead(double place) {
     return std::max(place - 0.5, 0.0);
 }
@@ -137,7 +137,7 @@ public:
 
     [[nodiscard]] std::uint32_t count_runs() const {
         std::uint32_t count = 0;
-        // By body: number of bodies in its run up to it.
+        // By body: number of bodies of its run from the base of the run to this body.
         std::vector<std::uint32_t> lengths(plant_->bodies.size(), 0);
         for (std::uint32_t b = 0; b < plant_->bodies.size(); ++b) {
             if (is_kept(b)) {

@@ -10,10 +10,10 @@
 //        + 1/2 h^2 G |w|^2                                             weight and wind
 // where h is the time step, M the mass matrix of a body, r the arm from the base of the parent to
 // the base of the body, c the damping, k the spring constant and d the rotation vector of the joint.
-// G is |g| |sum m r| over the body and its children, with the whole load of a child at the base of
-// the child, plus the same term for the force of the wind: the second derivative of the energy of
-// the weight in absolute rotations has no coupling between bodies and is nowhere greater than G. The
-// second derivative of the energy of a spring along a rotation is nowhere greater than k. So the
+// G is |g| |Body::moment|, plus |arm| |force| of the wind on the body and on each child with its
+// descendants: the second derivative of the energy of the weight in absolute rotations has no
+// coupling between bodies and is nowhere greater than G. The second derivative of the energy of a
+// spring along a rotation is nowhere greater than k. So the
 // minimum has a lower energy, however long the step is. Forces::exactness replaces these bounds by
 // the true second derivatives. In directions with a negative true derivative, as for a branch that
 // could fall to either side, the absolute value is used, so that all other directions keep the

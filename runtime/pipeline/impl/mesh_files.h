@@ -17,14 +17,14 @@
 namespace lsys {
 
 struct MeshFiles {
-    std::vector<UserMesh> meshes; // in the order of the MeshFile symbols
+    std::vector<UserMesh> meshes; // of symbols with a file, in the order of symbols
     std::vector<float> lengths;   // along +Y, by index of the symbol; empty if there are no meshes
     std::shared_ptr<const Looks> looks; // of `#material`; null without any
 };
 
 /// Reads the mesh files and the pictures of materials, whose paths are absolute or relative to
-/// `grammar_file`. A missing or invalid picture is left out with a warning at its place. `budget`
-/// counts the memory.
+/// `grammar_file`. A missing or invalid picture of a material is left out with a warning at its
+/// place. `budget` counts the memory.
 [[nodiscard]] Outcome<MeshFiles> read_mesh_files(const std::string& grammar_file,
                                                  const Grammar& grammar,
                                                  const Project& project,

@@ -11,7 +11,7 @@
 namespace lsys {
 
 struct Cell {
-    std::int64_t column = 0; // along X; [side column, side (column + 1))
+    std::int64_t column = 0; // along X: x is in [side * column, side * (column + 1))
     std::int64_t row = 0;    // along Z
 };
 

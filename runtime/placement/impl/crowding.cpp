@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // A grid for circles of very different sizes: each plant is listed in every square that the
-// bounding box of its circle touches, so overlapping circles share a square. The area of a square is
-// the ground per plant or the area of the mean box, whichever is larger: there are at most as many
-// squares as plants, and on average a few entries per plant.
+// bounding box of its circle touches, so overlapping circles share a square. The area of a square
+// is the ground per plant or the area of the mean box, whichever is larger: there are about as
+// many squares as plants or fewer, and on average a few entries per plant.
 #include "runtime/placement/impl/crowding.h"
 
 #include <algorithm>

@@ -142,8 +142,8 @@ void PoissonBlock::sort_by_rank() {
     }
 }
 
-/// The first round in which all rivals of lower rank are rejected; kUndecided if a rival is not
-/// rejected in kRounds rounds.
+/// The round after the one that rejects the last rival of lower rank, 1 without such rivals.
+/// kUndecided if this is after round kRounds, or if a rival of lower rank is never rejected.
 std::uint8_t PoissonBlock::round_without_rivals(std::uint32_t candidate) const {
     const std::int64_t cell = candidate / kCandidates;
     const std::int64_t column = cell % cells_.columns;

@@ -37,7 +37,7 @@ struct CrownSums {
 [[nodiscard]] CrownSums sums_of(const Crown& crown, double scale);
 /// The means of crowns on `ground` m2. The cover is the expected one if each tree stands anywhere on
 /// the ground, independently of the others: 1 - (1 - area of a crown / ground)^trees, in the limit
-/// 1 - exp(-area / ground). So its mean is the same for cells of any size.
+/// 1 - exp(-area / ground). So the mean cover is the same for cells of any size.
 [[nodiscard]] CanopyPoint canopy_point(const CrownSums& sums, double ground);
 
 /// The cells of one level, with trees that have been counted.

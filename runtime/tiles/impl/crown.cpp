@@ -79,9 +79,9 @@ Crown crown_of(const Mesh& mesh) {
                 at[k] = {(position.x - static_cast<double>(bounds.low.x)) / step_x, position.y,
                          (position.z - static_cast<double>(bounds.low.z)) / step_z};
             }
-            const double area = (at[1].x - at[0].x) * (at[2].z - at[0].z) -
-                                (at[2].x - at[0].x) * (at[1].z - at[0].z);
-            if (area == 0.0) {
+            const double twice_area = (at[1].x - at[0].x) * (at[2].z - at[0].z) -
+                                      (at[2].x - at[0].x) * (at[1].z - at[0].z);
+            if (twice_area == 0.0) {
                 continue;
             }
             const glm::dvec3 colour =
@@ -103,10 +103,10 @@ Crown crown_of(const Mesh& mesh) {
                     const double z = row + 0.5;
                     const double w1 = ((x - at[0].x) * (at[2].z - at[0].z) -
                                        (at[2].x - at[0].x) * (z - at[0].z)) /
-                                      area;
+                                      twice_area;
                     const double w2 = ((at[1].x - at[0].x) * (z - at[0].z) -
                                        (x - at[0].x) * (at[1].z - at[0].z)) /
-                                      area;
+                                      twice_area;
                     if (w1 < 0.0 || w2 < 0.0 || w1 + w2 > 1.0) {
                         continue;
                     }

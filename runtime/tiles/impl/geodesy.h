@@ -17,8 +17,9 @@ namespace lsys {
 /// Earth-centred, Earth-fixed coordinates in m.
 [[nodiscard]] glm::dvec3 earth_fixed(const GeoPlace& place);
 /// The place at the end of the geodesic of `distance` m that leaves `start` with the direction
-/// (east, north), of length 1. Same height. The error is below 0.1 mm for 1,000 km. Source: Vincenty
-/// 1975, "Direct and inverse solutions of geodesics on the ellipsoid", direct formula.
+/// (east, north), of length 1; its height is the height of `start`. The error is below 0.1 mm for
+/// 1,000 km. Source: Vincenty 1975, "Direct and inverse solutions of geodesics on the ellipsoid",
+/// direct formula.
 [[nodiscard]] GeoPlace
 along_geodesic(const GeoPlace& start, double east, double north, double distance);
 

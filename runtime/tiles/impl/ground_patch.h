@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// GroundPatch: the surface of a tile as a grid, with skirts that hang down at its border and hide the
-// gaps between tiles of different levels.
+// The surface of a tile as a grid, with skirts that hang down at its border and hide the gaps
+// between tiles of different levels.
 #pragma once
 
 #include "runtime/meshing/mesh.h"

@@ -27,7 +27,7 @@ public:
 
     /// The index of the plant with the root instance of the tree.
     [[nodiscard]] std::size_t hero_of(const Tree& tree) const;
-    /// Heroes of each instance of a cache: of the tree, or of a stage.
+    /// The heroes of each instance of the cache of a tree, or of a stage of a species.
     [[nodiscard]] std::span<const InstanceHeroes> instances_of(const Tree& tree) const;
     [[nodiscard]] std::span<const InstanceHeroes> instances_of(std::uint32_t species,
                                                                std::uint32_t stage) const;

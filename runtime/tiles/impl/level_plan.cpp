@@ -103,7 +103,7 @@ private:
         }
         return sum / static_cast<double>(std::max<std::size_t>(plants, 1));
     }
-    /// Means of some trees.
+    /// Means over LevelNeeds::some_trees, shown as `level` says.
     [[nodiscard]] Means means_of(const LevelDetail& level) const {
         Means sum;
         for (const Tree& tree : needs_.some_trees) {
@@ -183,7 +183,9 @@ private:
         return trees * means.triangles > budget_ ||
                (means.heroes > 1.0 && trees * means.heroes > static_cast<double>(kMaxTileBranches));
     }
-    /// The first level whose trees are within the budget of triangles, and whose ground is exact.
+    /// The finest level: the first whose trees are within the limits of triangles and branches, or
+    /// too few to be divided, and whose ground is within its tolerated error; at most
+    /// kMaxTileLevel.
     [[nodiscard]] std::uint32_t depth_of() const {
         Means means{mean_triangles(finest_), 1.0};
         if (has_branches()) {
@@ -289,8 +291,8 @@ private:
         }
     }
 
-    /// Cells along the side of the ground: the least power of two whose error is at most `allowed`, up
-    /// to kGroundCells.
+    /// Cells along the side of the ground: the least power of two below kGroundCells whose error is
+    /// at most `allowed`; kGroundCells if there is none.
     [[nodiscard]] std::uint32_t ground_cells(double side, double allowed) const {
         std::uint32_t cells = kGroundCells;
         while (cells > 1 && needs_.terrain.mesh_error(2.0 * side / cells) <= allowed) {

@@ -17,7 +17,7 @@ namespace lsys {
 
 /// Max number of branches that a tile has on average.
 inline constexpr std::uint64_t kMaxTileBranches = 32'768;
-/// In LevelPlan::detail: no tile of the level shows the hero.
+/// In LevelDetail::detail: no tile of the level shows the hero.
 inline constexpr std::size_t kNotShown = ~std::size_t{0};
 
 /// The input of plan_tile_levels().

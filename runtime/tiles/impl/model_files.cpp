@@ -112,7 +112,7 @@ private:
     std::size_t part_ = 0;                       // number of the current file of the level
     std::string buffer_;                         // pictures of the current file, then its meshes
     std::vector<MeshDocument*> waiting_;         // meshes that end_file() adds to the current file
-    std::size_t waiting_bytes_ = 0;              // size of these meshes before they are joined
+    std::size_t waiting_bytes_ = 0;              // size of `waiting_` before join_buffers()
     std::map<std::string, FilePart> pictures_;   // by their bytes
     std::map<std::string, std::uint64_t> sizes_; // of files, by URI
 };

@@ -19,7 +19,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr std::size_t kAlignment = 8; // of both parts of a subtree file, and of views
+constexpr std::size_t kAlignment = 8; // bytes; of JSON and data in a subtree file, and of views
 
 template <typename T>
 void append(std::string& bytes, T value) {

@@ -104,7 +104,7 @@ private:
         node["geometricError"] = rounded_for_tileset(plan_.levels[tile.level].error);
         return node;
     }
-    /// Tilesets other than the root are two folders deeper.
+    /// Tilesets other than tileset.json are two folders deeper.
     [[nodiscard]] std::string path_to(const std::string& path) const {
         return root_.level == 0 ? path : "../../" + path;
     }

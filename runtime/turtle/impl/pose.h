@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Position and frame of the turtle, in double precision. The frame is the quaternion that takes
 // right (+X), heading (+Y) and up (+Z) of the start to the turtle's own axes; a turn about one of
-// these axes multiplies it from the right.
+// these axes multiplies the quaternion from the right.
 #pragma once
 
 #include "runtime/turtle/impl/actions.h"

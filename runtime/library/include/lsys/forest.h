@@ -20,7 +20,8 @@
 
 namespace lsys::LSYS_INTERFACE {
 
-/// A tree. Its shape depends only on the key of the forest, its species and its number. 28 bytes.
+/// A tree. Its shape depends only on the key of the forest and on its species, age and number.
+/// 28 bytes.
 struct Tree {
     Vector3 position; // of the start of the turtle
     float yaw = 0.0F; // radians about +Y
@@ -92,8 +93,8 @@ struct Instance {
     std::uint32_t group = 0; // index in Instances::groups()
 };
 
-/// A draw call: the instances `first_instance` to `first_instance + instance_count` of the parts
-/// `first_part` to `first_part + part_count` of a mesh.
+/// A draw call: `instance_count` instances, from `first_instance` on, of `part_count` parts of a
+/// mesh, from `first_part` on.
 struct InstanceGroup {
     std::uint32_t mesh = 0;       // index in Instances::meshes()
     std::uint32_t first_part = 0; // index in Mesh::parts()
@@ -109,9 +110,9 @@ public:
     [[nodiscard]] const std::vector<Mesh>& meshes() const;
     [[nodiscard]] const std::vector<InstanceGroup>& groups() const;
     [[nodiscard]] std::span<const Instance> all() const; // by group
-    /// Writes the instances `first` to `first + count` as matrices of 16 floats, column by column,
-    /// on several threads. `stride`: bytes from one to the next; 0: 64. Precondition: first + count
-    /// <= all().size().
+    /// Writes `count` instances from `first` on as matrices of 16 floats, column by column, on
+    /// several threads. `stride`: bytes from one to the next; 0: 64. Precondition: first + count <=
+    /// all().size().
     void
     read_matrices(std::uint64_t first, std::uint64_t count, void* to, std::size_t stride = 0) const;
 

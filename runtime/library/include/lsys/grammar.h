@@ -64,7 +64,7 @@ public:
     /// The grammar as the bytes of a .lsb file.
     [[nodiscard]] std::string bytecode() const;
     /// Sizes of generations 0 to `generations`. Empty if they cannot be predicted, as with
-    /// `#decompose` and `%`; shorter for very large programs.
+    /// `#decompose` and `%`; fewer generations for very large programs.
     [[nodiscard]] std::vector<PredictedSize> predict(std::uint32_t generations) const;
 
     struct Data;

@@ -35,8 +35,8 @@ struct Vector4 {
     float z = 0.0F;
     float w = 0.0F;
 };
-/// A unit quaternion that takes the turtle's axes at the start (right +X, heading +Y, up +Z) to its
-/// axes at an item.
+/// A unit quaternion that takes the turtle's axes at the start (right +X, heading +Y, up +Z) to the
+/// turtle's axes at an item.
 struct Quaternion {
     float x = 0.0F;
     float y = 0.0F;
@@ -158,7 +158,7 @@ struct MeshOptions {
     bool texture_coordinates = true;
     bool tangents = true;
     bool smooth_joints = false;
-    float min_width = 0.0F; // m, of MeshMethod::Solid; 0: 1/150 of the plant
+    float min_width = 0.0F; // m, of MeshMethod::Solid; 0: 1/150 of the largest extent
 };
 
 /// Colours are linear, 0 to 1.
@@ -170,7 +170,7 @@ struct Material {
     bool cut_out = false; // texels below half opacity are discarded
 };
 
-/// Triangles of one material: indices first_index to first_index + index_count.
+/// Triangles of one material: `index_count` indices from `first_index` on.
 struct MeshPart {
     std::uint32_t material = 0; // index in Mesh::materials()
     std::uint64_t first_index = 0;

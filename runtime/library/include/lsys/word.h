@@ -53,8 +53,8 @@ public:
     /// The kinds of modules, indexed by code.
     [[nodiscard]] const std::vector<ModuleKind>& kinds() const;
 
-    /// Calls visit(module) for modules `first` to `first + count` in order, until it returns false.
-    /// Finding the first module takes time linear in `first`.
+    /// Calls visit(module) for `count` modules from `first` on in order, until visit() returns
+    /// false. Finding the first module takes time linear in `first`.
     void visit(std::uint64_t first,
                std::uint64_t count,
                const std::function<bool(const Module& module)>& visit) const;
