@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Compares derivation with hand-written programs for the same systems (tests/bench/limits.h), and
-// measures whole runs of `lsc`, in one run on one machine. Prints a table, and with
+// measures whole runs of `lsc`, in one run on one machine. Prints two tables, and with
 // --benchmark_out=FILE writes the JSON of Google Benchmark. Asserts nothing about time.
 //
 // "cold" is the first derivation of a process: memory comes fresh from the system. "warm" derives
@@ -50,8 +50,8 @@ struct Workload {
     LimitProgram limit;
 };
 
-/// W1 to W6; W3 and W5 also with local values and choices; W7 with one draw for two parameters, as a
-/// local value, and with one draw for each parameter.
+/// W1 to W6; W3 and W5 again with local values and if(); W7 twice: with one draw for both
+/// parameters, as a local value, and with one draw for each parameter.
 std::vector<Workload> workloads() {
     using namespace lsys::bench;
     using Pages = const FreshPages&;

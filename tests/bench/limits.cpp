@@ -61,7 +61,7 @@ std::size_t step_plain(const Templates& templates,
     return static_cast<std::size_t>(cursor - out);
 }
 
-/// Copies a row of codes and of parameters to place `at`.
+/// Copies codes and their parameters to index `at`.
 template <std::size_t Count>
 void put(std::uint8_t* codes,
          float* parameters,
@@ -151,7 +151,7 @@ std::size_t derive_w5(
 
 namespace {
 
-/// 64 random bits for module `index`.
+/// 64 random bits for module `index` of a generation.
 std::uint64_t hash_of(int generation, std::size_t index) {
     std::uint64_t hash = (static_cast<std::uint64_t>(generation) << 40) ^ index ^ 0x1234567U;
     hash = (hash ^ (hash >> 33)) * 0xff51afd7ed558ccdU;

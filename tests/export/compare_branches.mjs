@@ -48,7 +48,7 @@ const measure = mesh => {
     return measured.get(mesh);
 };
 
-/// Adds all instances of a document; `move` takes its coordinates to those of the scene.
+/// Adds all instances of a document; `move` converts its coordinates to those of the scene.
 const addInstances = (document, move, sums) => {
     for (const node of document.getRoot().listNodes()) {
         const batch = node.getExtension('EXT_mesh_gpu_instancing');

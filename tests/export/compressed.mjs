@@ -24,8 +24,8 @@ export function primitivesOf(document) {
                 material.getNormalTextureInfo()?.getExtension('KHR_texture_transform');
             found.push({
                 primitive,
-                // Rounded to floats, with which lsc quantised; the numbers in the file have fewer
-                // digits.
+                // lsc quantised with floats; Math.fround() restores them from the decimal numbers
+                // in the file.
                 scale: Math.fround(scale),
                 shift: shift.map(Math.fround),
                 material,
@@ -81,7 +81,7 @@ export function comparePrimitives(one, other, cellOf, tolerances) {
     return result;
 }
 
-/// The greatest difference of two lists of items.
+/// The greatest difference between corresponding numbers of two lists of items.
 export function greatestDifference(a, b) {
     return a.reduce((most, item, i) =>
         item.reduce((m, x, k) => Math.max(m, Math.abs(x - b[i][k])), most), 0);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Tests the plugin for three.js of scripts/engines with levels of detail in one file.
 // Usage: node lods.mjs MODULES PLUGIN FILE.glb FILE.lods.json
-// The list has the triangles and the distance of each level.
+// FILE.lods.json has the triangles and the distance of each level.
 import { readFileSync } from 'node:fs';
 import { join, resolve } from 'node:path';
 import { pathToFileURL } from 'node:url';

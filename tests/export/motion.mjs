@@ -15,8 +15,8 @@ export function readPlyPositions(bytes) {
     return positions;
 }
 
-/// For each vertex of `gltf` by three.js: its place at rest, its place at `time` (s), and the
-/// number of joints that move it.
+/// For each vertex of `gltf`, as computed by three.js: its position at rest, its position at `time`
+/// (s), and the number of joints that move it.
 export function posedVertices(three, gltf, time) {
     const mixer = new three.AnimationMixer(gltf.scene);
     const action = mixer.clipAction(gltf.animations[0]);
@@ -42,7 +42,7 @@ export function posedVertices(three, gltf, time) {
     return vertices;
 }
 
-/// Place by three.js of each corner of the triangles that a film shows at `time` (s).
+/// Positions, computed by three.js, of the corners of the triangles that a film shows at `time` (s).
 export function shownCorners(three, gltf, time) {
     const mixer = new three.AnimationMixer(gltf.scene);
     const action = mixer.clipAction(gltf.animations[0]);
@@ -53,7 +53,7 @@ export function shownCorners(three, gltf, time) {
     gltf.scene.updateMatrixWorld(true);
     const corners = [];
     gltf.scene.traverse(object => {
-        // Its node has scale 0: the mesh is hidden.
+        // A mesh whose node has scale 0 is hidden.
         if (!object.isMesh || object.matrixWorld.elements[0] === 0) {
             return;
         }

@@ -30,7 +30,7 @@ export function readOffPlus(text) {
 
 const token = /\s*(?:(@@@(?:\\@@@|(?!@@@)[^\n])*@@@|@[^@\n]*@)|([A-Za-z_][\w:.]*(?:\[\])?)|(-?(?:\d+\.?\d*|\.\d+)(?:e[-+]?\d+)?)|("(?:[^"\\\n]|\\.)*")|(<[^<>]*>)|([()[\]{}=,:]))/gy;
 
-/// Parser of USDA. A prim becomes its statements: `properties` by name, `children` by name.
+/// Parser of USDA. A prim becomes an object with its `properties` and `children`, each by name.
 class Parser {
     constructor(text) {
         this.text = text;
@@ -300,7 +300,8 @@ function crc32(bytes) {
     return (crc ^ 0xFFFFFFFF) >>> 0;
 }
 
-/// The entries of a USDZ by name, in order: stored, at multiples of 64 bytes, with right checksums.
+/// The entries of a USDZ by name, in order. Checks that they are uncompressed, begin at multiples of
+/// 64 bytes and have correct checksums.
 export function readUsdz(bytes) {
     const end = bytes.length - 22;
     assert(bytes.readUInt32LE(end) === 0x06054b50, 'no end of an archive');

@@ -3,11 +3,11 @@
 // same name, whose plain binary layout is read here. Usage: read_assimp FOLDER
 //
 // assimp keeps the vertices of PLY and OFF; their number must be that of counts.txt. For OBJ, STL
-// and glTF assimp makes its own vertices; for these, each corner of a triangle must lie at its place
-// in the PLY.
+// and glTF assimp makes its own vertices; in files of these formats, each corner of a triangle must
+// lie at its place in the PLY.
 //
-// --forest: FOLDER has expanded.glb and expanded.gltf. Their nodes place the triangles of baked.ply,
-// in another order.
+// --forest: FOLDER has expanded.glb and expanded.gltf. Their nodes place the triangles of
+// baked.ply, in another order.
 //
 // --box FILE: prints, as JSON, the seconds and memory of reading, the number of nodes with meshes,
 // and the box of all nodes but `ground`.
@@ -35,7 +35,7 @@ namespace {
 using Point = std::array<float, 3>;
 
 struct Triangles {
-    std::vector<Point> corners; // three for each, in the order of the file
+    std::vector<Point> corners; // three per triangle, in the order of the file
     std::uint64_t vertices = 0;
 };
 
@@ -116,7 +116,8 @@ void sort_triangles(Triangles& triangles) {
     }
 }
 
-/// The greatest distance of corresponding corners, as a fraction of the extent.
+/// The greatest difference between coordinates of corresponding corners, as a fraction of the
+/// greatest coordinate.
 double difference(const Triangles& a, const Triangles& b) {
     double extent = 0.0;
     double worst = 0.0;
@@ -160,8 +161,8 @@ void compare(const std::filesystem::path& path, const Triangles& expected) {
     }
 }
 
-/// Bounds of the corners, sum of the corners, total area and number of triangles: none depends on the
-/// order of the triangles.
+/// Bounds of the corners, sum of the corners, total area and number of triangles, which do not
+/// depend on the order of the triangles.
 struct MeshTotals {
     std::array<double, 3> low{1e30, 1e30, 1e30};
     std::array<double, 3> high{-1e30, -1e30, -1e30};

@@ -36,7 +36,7 @@ const contains = (box, p, slack) => [3, 6, 9].every(first => {
     return Math.abs(axis.reduce((sum, x, i) => sum + x * (p[i] - box[i]), 0)) <= (length + slack) * length;
 });
 
-/// The tile of an implicit tileset with all tiles below it as an explicit tile, from its subtree files.
+/// Converts the root of an implicit tileset, with all tiles that its subtree files list, to explicit tiles.
 const expandImplicit = root => {
     const { subtreeLevels, availableLevels, subtrees } = root.implicitTiling;
     const named = (template, level, x, y) =>
@@ -72,7 +72,7 @@ const expandImplicit = root => {
         const boxes = view(table.properties.boundingBox.values);
         const errors = view(table.properties.geometricError.values);
         const rows = tileBits.map((bit, i) => tileBits.slice(0, i).filter(Boolean).length);
-        const tileAt = (depth, place) => { // `place`: on the Z-order curve of its depth
+        const tileAt = (depth, place) => { // `place`: index on the Z-order curve of this depth
             const morton = bit => Array.from({ length: depth }, (_, i) => (place >> (2 * i + bit) & 1) << i)
                 .reduce((sum, x) => sum + x, 0);
             const [column, row] = [x * 2 ** depth + morton(0), y * 2 ** depth + morton(1)];

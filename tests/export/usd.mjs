@@ -16,7 +16,7 @@ export async function usdLoader(module) {
     return { three, load: bytes => new USDLoader().parse(bytes, '') };
 }
 
-/// Place by three.js of each corner of the triangles of `group` at `time` (s).
+/// Positions, computed by three.js, of the corners of the triangles of `group` at `time` (s).
 export function posedCorners(three, group, time) {
     const mixer = new three.AnimationMixer(group);
     const action = mixer.clipAction(group.animations[0]);
@@ -42,7 +42,7 @@ export function posedCorners(three, group, time) {
     return corners;
 }
 
-/// Vertex of each corner of the triangles of a binary PLY as lsc writes it.
+/// Index of the vertex of each triangle corner of a binary PLY as lsc writes it.
 export function readPlyTriangles(bytes) {
     const end = bytes.indexOf('end_header\n') + 'end_header\n'.length;
     const header = bytes.subarray(0, end).toString('latin1');

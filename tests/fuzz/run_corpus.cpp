@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Runs a fuzz function over the files named on the command line, and over every prefix of the short
-// ones.
+// Runs a fuzz function over the files named on the command line, and over about 16 prefixes of each
+// file.
 #include <cstddef>
 #include <cstdint>
 #include <cstdio>

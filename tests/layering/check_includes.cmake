@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-# Fails on includes that cmake/Layers.cmake does not allow, on OpenGL, GLFW and ImGui outside of the viewer, on headers
-# of one operating system outside of runtime/platform, and on libraries that print or end the process.
+# Fails on includes that cmake/Layers.cmake does not allow, on OpenGL, GLFW, ImGui, Boost, MPI, threads and headers of
+# one operating system outside of the few folders that may use them, and on libraries that print or end the process.
 # Usage: cmake -D ROOT=<folder> -P check_includes.cmake
 cmake_minimum_required(VERSION 3.25)
 include("${CMAKE_CURRENT_LIST_DIR}/../../cmake/Layers.cmake")

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Files and forests of liblsys, used only by its public headers.
+// Files and forests of liblsys, used only through its public headers.
 #include <catch2/catch.hpp>
 
 #include <algorithm>

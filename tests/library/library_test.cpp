@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// liblsys, used only by its public headers.
+// liblsys, used only through its public headers.
 #include <catch2/catch.hpp>
 
 #include <atomic>

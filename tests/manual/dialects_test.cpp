@@ -14,7 +14,7 @@ namespace lsys::tests {
 
 namespace {
 
-/// The row of a table with `name` as code; empty if there is none.
+/// The table row that contains `name` in back quotes; empty if there is none.
 std::string table_row(const std::string& document, const std::string& name) {
     std::istringstream lines(document);
     for (std::string line; std::getline(lines, line);) {

@@ -58,7 +58,7 @@ std::string without_code(std::string_view line) {
 
 std::string anchor_of(std::string_view heading) {
     std::string anchor;
-    bool in_target = false; // in the target of a link, which GitHub does not show
+    bool in_target = false; // in the target of a link; targets are not part of the anchor
     for (std::size_t i = 0; i < heading.size(); ++i) {
         const char c = heading[i];
         if (c == ']' && i + 1 < heading.size() && heading[i + 1] == '(') {

@@ -19,9 +19,9 @@ MPIRUN, LSC_MPI, LSC = sys.argv[1:4]
 TREE = """#n = 3; #set angle 25; #w : !(0.2) F(2) X;
 #p : X : * : !(0.08) F({0.5, 0.8}) [ + X ] /(120) [ & X ];
 """
-# Names of unfinished files: the name of the file, a dot and random letters.
+# Names of unfinished files: the final name, a dot and random characters.
 TEMPORARY = re.compile(r"\.(glb|json|bin|png)\.[A-Za-z0-9]+$")
-# Seconds after which a job is taken to hang.
+# Seconds after which a job counts as hanging.
 PATIENCE = 120
 
 
@@ -31,7 +31,7 @@ def options(size=300):
 
 
 def environment():
-    # More processes than processors, as root too, on one machine without a network.
+    # Allows more processes than processors, also as root, on one machine without a network.
     return dict(os.environ, OMPI_ALLOW_RUN_AS_ROOT="1", OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1",
                 OMPI_MCA_rmaps_base_oversubscribe="1", OMPI_MCA_btl="self,vader",
                 OMPI_MCA_btl_vader_single_copy_mechanism="none")
@@ -61,7 +61,7 @@ def ranks_of(process):
         try:
             text = status.read_text()
         except OSError:
-            continue  # it has ended
+            continue  # the process has ended
         name = text[text.index("(") + 1:text.rindex(")")]
         parent = int(text[text.rindex(")") + 2:].split()[1])
         if name == "lsc-mpi" and parent == process.pid:

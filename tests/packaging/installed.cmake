@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
 # Installs into a folder and compares the list of files with installed.list. Documents and samples are compared with
-# the folders they come from. With MPI=1, the files of lsc-mpi are expected too, those of installed_mpi.list.
+# the folders they come from. With MPI=1, the files of lsc-mpi (installed_mpi.list) are expected too.
 # Usage: cmake -D BUILD=... -D SOURCE=... -D FOLDER=... -D VERSION=... -D CHECK_SIZES=0|1 -D MPI=0|1 -P installed.cmake
 cmake_minimum_required(VERSION 3.25)
 file(REMOVE_RECURSE "${FOLDER}")

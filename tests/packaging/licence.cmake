@@ -4,7 +4,7 @@ file(GLOB_RECURSE sources RELATIVE "${SOURCE}" LIST_DIRECTORIES false
   "${SOURCE}/cmake/*" "${SOURCE}/compiler/*" "${SOURCE}/grammar/*" "${SOURCE}/packaging/*" "${SOURCE}/runtime/*"
   "${SOURCE}/scripts/*" "${SOURCE}/tests/*" "${SOURCE}/viewer/*")
 list(FILTER sources INCLUDE REGEX "(\\.(h|cpp|c|yy|ll|def|glsl|mjs|py|cmake)|CMakeLists\\.txt|scripts/[a-z-]+)$")
-# Files that tests read and expect, and folders that builds write.
+# Except files that tests read and expect, and folders that builds write.
 list(FILTER sources EXCLUDE REGEX "^tests/(ui/[^/]*/parts|layering/forbidden)/|__pycache__|node_modules|\\.egg-info")
 set(count 0)
 set(failures "")

@@ -223,7 +223,7 @@ Primitive read_primitive(const Exported& file, const json& primitive) {
     return read;
 }
 
-/// Sum and bounds of the corners of all triangles, which do not depend on their order.
+/// Sum and bounds of the corners of all triangles; the order of the triangles does not affect them.
 struct Shape {
     glm::dvec3 sum{0.0};
     Bounds bounds;
@@ -441,8 +441,8 @@ TEST_CASE("each primitive of a forest has vertices, bounds and indices of its ow
     }
     CHECK(wide_primitives > 0);
     CHECK(nested_instances > 20);
-    // Nested instances share their vertices in the file: the file has few more vertices than the
-    // heroes.
+    // Nested instances share their vertices in the file, so the file has only slightly more
+    // vertices than the heroes.
     std::uint64_t vertices_in_file = 0;
     std::uint64_t vertices_of_heroes = 0;
     for (const json& view : file.document["bufferViews"]) {

@@ -203,7 +203,7 @@ std::vector<double> measures_of(const std::vector<TreeSegment>& segments) {
     return measures;
 }
 
-/// Columns: the values of one measure.
+/// samples[i] holds the values of measure i, one per tree.
 using Samples = std::vector<std::vector<double>>;
 
 void add(Samples& samples, const std::vector<TreeSegment>& segments) {
@@ -222,7 +222,7 @@ double mean(const std::vector<double>& values) {
     return sum / static_cast<double>(values.size());
 }
 
-double squared_error(const std::vector<double>& values) {
+double squared_standard_error(const std::vector<double>& values) {
     const double middle = mean(values);
     double sum = 0.0;
     for (const double value : values) {
@@ -263,7 +263,8 @@ TEST_CASE("trees of independent caches have the means of plain plants") {
         add(plants, segments_of(plain_plant(grammar, 7, 100'000 + i)));
     }
     for (std::size_t m = 0; m < trees.size(); ++m) {
-        const double error = std::sqrt(squared_error(trees[m]) + squared_error(plants[m]));
+        const double error =
+            std::sqrt(squared_standard_error(trees[m]) + squared_standard_error(plants[m]));
         INFO("measure " << m << ": " << mean(trees[m]) << " and " << mean(plants[m]));
         CHECK(std::abs(mean(trees[m]) - mean(plants[m])) <= 3.0 * error);
     }

@@ -231,8 +231,8 @@ TEST_CASE("nested instances share vertices") {
     const Planted planted = plant(kMeshedBush, 6, 0.5F, heroes(10));
     const InstanceMeshes meshes = meshes_of(planted.cache);
     const Mesh heroes_mesh = plain_mesh(planted.cache.skeleton);
-    // There are more vertices than in the heroes only because ends at omitted branches are half balls
-    // instead of discs.
+    // There are more vertices than in the heroes only because ends at omitted branches are half
+    // balls instead of discs.
     CHECK(meshes.mesh.positions.size() < 2 * heroes_mesh.positions.size());
     std::uint64_t end = 0;
     for (const MeshPart& part : meshes.mesh.parts) {
@@ -312,7 +312,7 @@ TEST_CASE("the boxes of an instance are separate closed surfaces") {
     const InstanceMeshes meshes = meshes_of(planted.cache, options);
     std::size_t instances = 0;
     for (std::uint32_t i = 0; i < planted.cache.instances.size(); ++i) {
-        Mesh own; // only its bark
+        Mesh own; // only the bark of the instance
         own.positions = meshes.mesh.positions;
         for (const MeshPart& part : meshes.parts_of(i)) {
             for (std::uint64_t k = 0;
@@ -331,7 +331,8 @@ TEST_CASE("the boxes of an instance are separate closed surfaces") {
         }
     }
     CHECK(instances > 0);
-    // Every segment of a tree is drawn, so its bounding box equals that of the plain plant to 0.1.
+    // Every segment of a tree is drawn, so the bounding box of the tree equals that of the plain
+    // plant to 0.1 m.
     const Bounds plain = test::bounds_of(plain_mesh(plain_plant(grammar, 5, 0), options));
     if (grammar.find('~') == std::string::npos) {
         Bounds bounds;

@@ -28,7 +28,7 @@ namespace {
 using namespace lsys;
 namespace fs = std::filesystem;
 
-/// Larger files are slow and have no other kinds of statements.
+/// Larger files are skipped: they are slow and have no additional kinds of statements.
 constexpr std::uintmax_t kMaxFileBytes = 4000;
 
 struct Compiled {
@@ -176,7 +176,7 @@ private:
     std::vector<Mutant> mutants_;
 };
 
-/// The `number`-th change of one character of a grammar, always the same. Characters of comments
+/// The `number`-th change of one character of a grammar, equal in every run. Characters of comments
 /// stay, because the compiler does not read them.
 Mutant character_mutant(const RightGrammar& grammar, std::uint64_t number) {
     std::uint32_t draw = 0;
@@ -226,7 +226,7 @@ Mutant character_mutant(const RightGrammar& grammar, std::uint64_t number) {
 struct Count {
     std::uint32_t tried = 0;
     std::uint32_t right = 0;      // repaired to the original grammar
-    std::uint32_t wrong = 0;      // repaired to another one
+    std::uint32_t wrong = 0;      // repaired to another grammar
     std::uint32_t unfinished = 0; // repaired in part: errors are left
 };
 
@@ -258,7 +258,7 @@ public:
             keep("unfinished", grammar, mutant, fixed);
         } else if (const std::string program = program_text(fixed.compiled.grammar);
                    program == grammar.program || program == broken.program) {
-            ++count.right; // the original grammar, or the other correct one that the change made
+            ++count.right; // the original grammar, or another correct one that the change made
         } else {
             ++count.wrong;
             keep("wrong", grammar, mutant, fixed);
@@ -329,7 +329,7 @@ private:
     std::string kept_;
 };
 
-/// Repairs the mutants `first` to `end` - 1. The samples take turns.
+/// Repairs the mutants `first` to `end` - 1; each is made from the next sample, in turn.
 void check_characters(Census& census, std::uint64_t first, std::uint64_t end) {
     const std::vector<RightGrammar> grammars = right_grammars_in({LSYS_SOURCE_DIR "/samples"});
     REQUIRE(!grammars.empty());

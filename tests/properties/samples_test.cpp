@@ -21,7 +21,7 @@ using tests::run_lsc;
 using tests::Sample;
 using tests::ScratchFolder;
 
-/// Generations that keep a sample small enough to be derived many times.
+/// A number of generations that keeps a sample small enough to be derived many times.
 std::string few_generations(const Sample& sample) {
     const LscRun stats = run_lsc(
         {"stats", "--quiet", "--message-format", "json", "-n", "6", sample.file.string()}, "");

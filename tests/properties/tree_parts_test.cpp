@@ -163,8 +163,9 @@ TEST_CASE("no tree goes beyond the bounds of its cache") {
     const InstanceCache& cache = planted.cache;
     const TreeBounds bounds = tree_bounds(cache, own_reach(cache));
     const PartSkeletons skeletons(cache);
-    double largest =
-        0.0; // distance between a tree and its plant with stand-ins / bound of this distance
+    // The largest ratio of the distance between a tree and its plant with stand-ins to the bound of
+    // this distance.
+    double largest = 0.0;
     for (std::uint32_t number = 0; number < 60; ++number) {
         const std::uint32_t root = branches_of(cache, number).front().instance;
         const auto tree = segments_of(cache, tree_of(number), kKey);

@@ -29,7 +29,8 @@ struct Line {
 };
 
 /// Operation of each character of a profile: r R (yaw right, left), d u (pitch down, up), l L (roll
-/// left, right), f (move), F (draw).
+/// left, right), | (turn around), $ (level), f (move), F (draw), ! (set width), and * " ; (scale
+/// width, step, angle).
 using Profile = std::map<char, char>;
 
 const std::map<std::string, Profile>& profiles() {

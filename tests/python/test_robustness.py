@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""No leak and no crash of the module: exceptions in callbacks, an interpreter that ends in the middle, many
+"""No leak and no crash of the module: exceptions in callbacks, an interpreter that ends during a call, many
 threads, many mistakes. With libasan (scripts/nightly python) the tests count the bytes of its heap, else the
 resident memory of the process.
 
@@ -27,7 +27,7 @@ FILES = {"tree.lsys": TREE, "part.lsys": '#include "tree.lsys";'}
 
 
 def heap():
-    """Bytes in use, in libasan's heap or else resident, and the growth in bytes that counts as a leak."""
+    """Bytes in use (libasan's heap, else resident memory), and the growth in bytes that counts as a leak."""
     gc.collect()
     try:
         count = ctypes.CDLL(None).__sanitizer_get_current_allocated_bytes

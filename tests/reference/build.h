@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Short ways to write a grammar of reference/grammar.h by hand, for tests. In texts of letters, as
-// in published systems, every character is a module and blanks do not separate names.
+// Short ways to write a grammar of reference/grammar.h by hand, for tests. letters(),
+// letter_pattern() and letter_system() read texts as in published systems: every character except a
+// blank is a module.
 
 #pragma once
 

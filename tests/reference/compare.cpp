@@ -144,8 +144,8 @@ private:
                continues_alike() && origins_alike() && printed_word_parses();
     }
 
-    // Checks the origins of all modules: by threads, streamed, from bytecode and from a saved
-    // state.
+    // Checks the origins of all modules, derived with one thread and two threads, streamed, from
+    // bytecode, and from a saved state.
     bool origins_alike() {
         const std::filesystem::path& folder = folder_.path();
         const std::string all = all_origins(test_case_, derivation_, folder, 0, std::nullopt);
@@ -221,7 +221,7 @@ private:
         return lsc_prints(compile, 0, "") && lsc_prints(compiled_dump({"--all"}), 0, expected_);
     }
 
-    // Checks a derivation in two runs: half of the generations, a saved state, then the others.
+    // Checks a derivation in two runs: half of the generations, a saved state, then the rest.
     bool continues_alike() {
         const std::uint32_t half = derivation_.generations / 2;
         const std::string state = (folder_.path() / "half.state").string();

@@ -45,7 +45,8 @@ std::vector<std::string> options_of(const Request& request);
 std::string all_generations(const Grammar& grammar, const Derivation& derivation);
 
 // Expected output of `dump --all --origins` from generation `first` on, for the files in `folder`.
-// `saved`: generation of a saved state, at most `first`; older modules have it as origin.
+// `saved`: generation of a saved state, at most `first`; this state is the origin of all
+// modules written up to this generation.
 std::string all_origins(const Case& test_case,
                         const Derivation& derivation,
                         const std::filesystem::path& folder,

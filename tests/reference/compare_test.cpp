@@ -59,8 +59,8 @@ TEST_CASE("random grammars 751 to 1000 are derived as by the oracle") {
     compare_seeds(751, 1000);
 }
 
-// Seeds whose first draw falls between the running sum in binary32 and the one in binary64, or on
-// an end of the interval.
+// Seeds whose first draw u falls between a running sum of the weights in binary32 and the same sum
+// in binary64, on a running sum, or on the smallest or largest possible u.
 TEST_CASE("choices at the edge of a weight") {
     struct Edge {
         std::vector<float> weights;
@@ -90,8 +90,8 @@ TEST_CASE("choices at the edge of a weight") {
     }
 }
 
-// Section 4: a production that no module matches causes no error. A successor that is applied and a
-// condition that is tried do.
+// Section 4: a production that no module matches causes no error, unlike a successor that is
+// applied and a condition that is tested.
 TEST_CASE("a value that is never finite is an error only where it is computed") {
     Grammar grammar;
     add_axiom(grammar, letters("A"));
@@ -109,7 +109,7 @@ TEST_CASE("a value that is never finite is an error only where it is computed") 
     undecided.condition = call("log", {number(0)});
     add_production(grammar, undecided);
     CHECK(difference(one_step(grammar, 0)) == "");
-    for (const char* axiom : {"B", "C"}) { // applied, tried
+    for (const char* axiom : {"B", "C"}) { // B: applied successor; C: tested condition
         Grammar faulty = grammar;
         for (Statement& statement : faulty.files[0].statements) {
             if (statement.kind == StatementKind::Axiom) {

@@ -29,7 +29,7 @@ struct System {
     Functions functions;
     std::vector<Entry> productions;    // in file order
     std::vector<Entry> decompositions; // productions of #decompose
-    std::vector<std::string> rules;    // rule k is rules[k]; by first appearance
+    std::vector<std::string> rules;    // in order of first appearance
     std::set<std::string> ignored;
     std::set<std::string> considered;
     std::set<std::string> mentioned;      // names in all words and patterns
@@ -55,8 +55,10 @@ struct PassInput {
     const System& system;
     const Word& word;
     std::uint32_t age = 0;
-    std::uint64_t first_draw = 0;         // sequential rewriting: 4096 times the index of the rule
-    std::optional<std::size_t> only_rule; // the rule of this pass; empty in parallel rewriting
+    // Sequential rewriting: 4096 times the index of the rule; #decompose: 2^32 + 4096 times the
+    // index of the pass.
+    std::uint64_t first_draw = 0;
+    std::optional<std::size_t> only_rule; // the only rule of this pass; empty: all rules
     bool decomposes = false;
 };
 
@@ -335,8 +337,8 @@ private:
                    statement.kind == StatementKind::Param) {
             system_.constants[statement.name] = value_of(statement);
         } else if (statement.kind == StatementKind::Function) {
-            // The body will be evaluated with all constants, also later ones. They change nothing,
-            // because no constant is defined twice.
+            // The body will be evaluated with all constants, also later ones. Later constants
+            // change nothing, because no constant is defined twice.
             system_.functions[statement.name] = {statement.names, statement.expr, {}};
         } else if (statement.kind == StatementKind::Curve) {
             UserFunction& curve = system_.functions[statement.name];
@@ -461,7 +463,7 @@ std::optional<RunError>
 unmatched_bracket(const System& system, const Word& word, std::uint32_t age) {
     std::uint64_t open = 0;
     std::uint64_t polygons = 0;
-    std::uint64_t cut = 0; // branches open in the removed part, and the cut one
+    std::uint64_t cut = 0; // open branches from the cut branch on; 0 outside of a removed part
     for (std::size_t i = 0; i < word.size(); ++i) {
         const std::string& name = word[i].name;
         const bool removed = cut > 0;

@@ -310,7 +310,8 @@ std::size_t ranges_in(const Expr& expr) {
     return count;
 }
 
-// Draws the random numbers of an expression that is not evaluated: it uses them up too.
+// Draws the random numbers of an expression that is not evaluated, because later draws are numbered
+// after them.
 void skip_ranges(const Expr& expr, const Environment& environment) {
     for (std::size_t i = ranges_in(expr); i > 0; --i) {
         environment.draw();

@@ -230,7 +230,8 @@ private:
         }
     }
 
-    // Finds groups in which some productions have a condition, or one has no `~`.
+    // Finds groups of which several productions with `~` were applied, or one with `~` and one
+    // without.
     void groups() {
         std::map<std::string, std::vector<const Production*>> groups;
         for (const Statement* statement : statements_in_order(test_case_.grammar)) {

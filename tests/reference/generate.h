@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Random grammars with all features of the language, one for every test seed. They are legal, their
-// words stay small, and most of their productions are applied. A few of them end in a run-time
+// words stay small, and most of their productions are applied. A few grammars end in a run-time
 // error.
 
 #pragma once

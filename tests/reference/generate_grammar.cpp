@@ -431,7 +431,7 @@ private:
         }
     }
 
-    // Inserts a `%` in some places.
+    // Inserts a `%` into some axioms and successors.
     void insert_cuts() {
         if (!random_.percent(22)) {
             return;

@@ -30,8 +30,8 @@ struct Plan {
     std::size_t stochastic_percent = 0;
     std::size_t range_percent = 0; // of the arguments of successors
     std::size_t local_percent = 0; // of the productions
-    std::vector<Species> species;  // all
-    std::vector<Species> active;   // to be rewritten
+    std::vector<Species> species;  // all modules of the grammar
+    std::vector<Species> active;   // modules that productions rewrite
     std::vector<std::string> ignored;
 };
 

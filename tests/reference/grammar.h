@@ -80,8 +80,8 @@ struct Statement {
     Expr expr;            // Generations, Define, Param; Function: the body; Axiom: its probability
     bool has_probability = false;              // Axiom: one of several
     std::vector<std::pair<Expr, Expr>> points; // Curve
-    Expr low;                                  // Param: the bounds
-    Expr high;                                 //
+    Expr low;                                  // Param: the lower bound
+    Expr high;                                 // Param: the upper bound
     Pattern patterns;                          // Module: the declared module
     std::vector<std::string> names;            // Ignore, Consider; Function: the formals
     std::vector<ModuleUse> modules;            // Axiom

@@ -2,7 +2,7 @@
 // Philox4x32-10, written from Salmon, Moraes, Dror and Shaw, "Parallel Random Numbers: As Easy as
 // 1, 2, 3" (SC 2011), section 3.3 and table 2. The oracle of the tests draws its numbers from it
 // (the language reference, section 6) and the generator of random grammars makes its decisions with
-// it. It shares no code with the runtime, which it checks.
+// it. This file shares no code with the runtime, which the oracle checks.
 
 #pragma once
 

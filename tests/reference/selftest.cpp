@@ -74,7 +74,7 @@ TEST_CASE("Philox4x32-10 gives the published vectors") {
 TEST_CASE("a draw is 24 bits of one word of one block") {
     CHECK(uniform(0, 0, 0, 0) == static_cast<float>(0x6627e8) / 16777216.0F);
     CHECK(uniform(0, 0, 0, 3) == static_cast<float>(0x9b00db) / 16777216.0F);
-    // Position and seed are given low word first.
+    // Counter and key have the low words of position and seed first.
     const std::uint64_t position = 0x85a308d3243f6a88;
     const std::uint64_t seed = 0x299f31d0a4093822;
     const std::uint32_t block =
@@ -212,7 +212,7 @@ TEST_CASE("conditions: the bush of the benchmarks and Crankshaw 2.10") {
 }
 
 TEST_CASE("Anabaena: Crankshaw 2.2") {
-    // al = L, ar = A, bl = K, br = B.
+    // The cells al, ar, bl and br of the source are named L, A, K and B.
     const Grammar anabaena = letter_system("A", {"A=LB", "L=KA", "B=A", "K=L"});
     CHECK(text_after(anabaena, 1) == "LB");
     CHECK(text_after(anabaena, 2) == "KAA");

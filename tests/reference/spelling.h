@@ -24,8 +24,8 @@ bool is_symbol(const std::string& name);
 // Precondition: value is finite and not negative.
 std::string spell_number(float value, Random* random);
 
-// Appends the tokens of `expr`, with the parentheses that the precedences ask for and, with
-// `random`, some that they do not.
+// Appends the tokens of `expr`, with the parentheses that precedence requires and, with `random`,
+// some more.
 void spell_expression(const Expr& expr, Random* random, std::vector<std::string>& tokens);
 
 // Chooses the modules that are joined with the next one of their list, as `AS(1)` for `A S(1)`:

@@ -15,7 +15,8 @@
 
 namespace lsys::test {
 
-/// Adds a segment of uniform radius, at the tip of `parent` or, without one, at the origin.
+/// Adds a copy of `like` with this frame, at the tip of `parent` or, without a parent, at the
+/// origin.
 inline std::uint32_t
 add_segment(Skeleton& plant, std::uint32_t parent, const glm::quat& frame, const Segment& like) {
     Segment segment = like;

@@ -213,7 +213,7 @@ TEST_CASE("imported grammars derive the same words") {
 
 namespace {
 
-/// Replaces text as the forest generator and L3D do, from left to right without overlap.
+/// Replaces text as Carey's forest generator and L3D do, from left to right without overlap.
 std::string with_replaced(const std::string& text, const std::string& key, const std::string& by) {
     std::string out;
     std::size_t at = 0;

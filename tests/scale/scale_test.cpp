@@ -26,11 +26,11 @@ constexpr bool kInstrumented = true;
 #else
 constexpr bool kInstrumented = false;
 #endif
-// The slowest case takes about 7 s on a quiet machine; only a hang or a quadratic algorithm takes ten
-// times as long.
+// The slowest case takes about 7 s on a quiet machine; only a hang or a quadratic algorithm takes
+// ten times as long.
 constexpr double kMaxSeconds = 60.0;
-// With sanitizers, runs take about three times as long; most still stay within the limit. Twice the
-// limit suffices for the others, also on a busy machine.
+// With sanitizers, runs take about three times as long; most runs still stay within the limit.
+// Twice the limit suffices for the slower runs, also on a busy machine.
 constexpr double kInstrumentedFactor = 2.0;
 
 struct ProcessResult {

@@ -40,7 +40,8 @@ struct ProductionText {
 using Instructions = std::vector<std::uint32_t>;
 using NameTable = std::map<std::string, std::uint32_t>;
 
-/// The names in scope of an expression, and the tables it extends.
+/// The names in scope of an expression. Compiling the expression adds its draws to `draws` and sets
+/// `uses_steps` if it calls steps().
 struct ExpressionScope {
     const NameTable& formals;
     const NameTable& globals;

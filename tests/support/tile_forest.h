@@ -6,9 +6,10 @@
 
 namespace lsys::tests {
 
-/// About 300 trees on an unbounded grid, in three levels of tiles.
+/// About 300 trees on a square of 70 m by 70 m, in three levels of tiles.
 [[nodiscard]] TileForest make_small_tile_forest();
-/// A strip of 280 m by 70 m with about 1,200 trees; `triangles`, `error` and `generator` are set here.
+/// A strip of 280 m by 70 m with about 1,200 trees; the function sets `triangles`, `error`
+/// and `generator`.
 [[nodiscard]] TileForest make_tile_strip(TileOptions options);
 
 } // namespace lsys::tests

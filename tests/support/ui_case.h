@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A golden case: a grammar with its runs in the first lines and its diagnostics in annotations.
+// A golden case: a grammar or scene with its runs in the first lines and its diagnostics in
+// annotations.
 // tests/README.md describes the form.
 #pragma once
 
@@ -47,7 +48,7 @@ struct UiDiagnostic {
     std::string code;
 };
 
-/// The diagnostics of standard error: heads of frames, short lines, JSON objects.
+/// The diagnostics of standard error in any format. Only the first line of each message is read.
 [[nodiscard]] std::vector<UiDiagnostic> parse_diagnostics(std::string_view text);
 
 /// Whether the annotation matches the diagnostic; `name`: the file name of the case.

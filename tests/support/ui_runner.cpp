@@ -147,7 +147,7 @@ private:
         return run.input.empty() ? line : line + " < " + run.input;
     }
 
-    /// Replaces `%` by the case and `%t` by a folder for output; removes `%-`.
+    /// Replaces the word `%` by the file name of the case, and `%t` by a folder for output.
     std::string expand(std::string word, const std::string& scratch) const {
         replace_all(word, "%t", scratch);
         return word == "%" ? name_ : word;
@@ -203,8 +203,8 @@ private:
         }
     }
 
-    /// The text of the case after `check --fix` on a copy; empty if unchanged or if the first run is
-    /// not `check`. Checks that no certain fix is left.
+    /// The text of the case after `check --fix` on a copy; empty if unchanged or if the first run
+    /// is not `check`. Checks that no certain fix is left.
     std::string fix(const fs::path& scratch) {
         if (case_.runs.empty() || case_.runs.front().words.empty() ||
             case_.runs.front().words.front() != "check") {

@@ -30,12 +30,13 @@ struct ListedCase {
     std::vector<std::string> words; // the command, with `%` for the file and `%t` as in a case
 };
 
-/// Runs each listed case in its folder and compares standard error with `<file>.stderr` and the text
-/// repaired by `check --fix` with `<file>.fixed`.
+/// Runs each listed case on a temporary copy of its files, and compares standard error with
+/// `<file>.stderr` and the text repaired by `check --fix` with `<file>.fixed`.
 [[nodiscard]] UiOutcome run_listed_cases(const std::vector<ListedCase>& cases,
                                          const UiOptions& options);
 
-/// The cases `<feature>/<fact>.lsys` below `root` that pass a filter.
+/// Runs the cases `<feature>/<fact>.lsys` and `<feature>/<fact>.toml` below `root` that pass a
+/// filter.
 [[nodiscard]] UiOutcome run_ui_cases(const UiOptions& options);
 
 } // namespace lsys::tests

@@ -253,8 +253,8 @@ TEST_CASE("a condition has one truth value in each cell and in each order of com
         std::vector<KnownValue> values(formals, KnownValue{0.0F, true});
         std::vector<KnownValue> inside(formals, KnownValue{0.0F, true});
         for (int probe = 0; probe < 50; ++probe) {
-            // Find the grid point in the cells of a random point whose compared values have the
-            // same order.
+            // Take random values and find the grid point that stands for them: its cells contain
+            // the values, and compared parameters have the same order.
             for (KnownValue& value : inside) {
                 value.value = random() % 2 == 0
                                   ? static_cast<float>(random() % 21) / 2.0F - 5.0F

@@ -121,7 +121,8 @@ TEST_CASE("conditions with a deeper right operand, computed first, are decided")
 TEST_CASE("parameters, segments and bytes are predicted with the modules") {
     const GrowthPrediction prediction = predict_growth(ternary(), 11);
     const GenerationSize& last = prediction.low.back();
-    // F 354,293, ! 88,574, / 177,147 and & 265,719 have one parameter each; codes take one byte.
+    // The 354,293 F, 88,574 !, 177,147 / and 265,719 & have one parameter each; codes take one
+    // byte.
     CHECK(last.parameters.value == 354'293 + 88'574 + 177'147 + 265'719);
     CHECK(last.segments.value == 354'293);
     CHECK(last.bytes.value == last.modules.value + 4 * last.parameters.value);
@@ -159,7 +160,7 @@ TEST_CASE(
     const GrowthPrediction prediction = predict_growth(ageing("A({11, 12})"), 3);
     CHECK(!prediction.exact);
     CHECK(!prediction.has_expected);
-    // Each A becomes 10 modules or one F; none stays.
+    // Each A becomes 10 modules or one F; no A stays unchanged.
     CHECK(prediction.low[1].modules.value == 1);
     CHECK(prediction.high[1].modules.value == 10);
     CHECK(prediction.high[3].modules.value == 118);

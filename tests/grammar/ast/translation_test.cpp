@@ -123,8 +123,8 @@ TEST_CASE("modules of a translation stay in the file of their statement") {
 }
 
 TEST_CASE("a choice among productions of cpfg needs a bounded count of random numbers") {
-    // If several cpfg productions rewrite a module, it has the random numbers of all of them as
-    // parameters.
+    // If several cpfg productions rewrite a module, the module has the random numbers of all these
+    // productions as parameters.
     const auto errors_of = [](int count, const std::string& weight) {
         std::string text = "Lsystem: 1\nseed: 1\nderivation length: 1\nAxiom: A\n";
         for (int i = 0; i < count; ++i) {

@@ -14,7 +14,7 @@ TEST_CASE("the first of several characters is found at every position") {
         for (std::size_t found = 0; found < kSize; ++found) {
             std::string text(kSize, 'a');
             text[found] = found % 2 == 0 ? ';' : '\n';
-            text.replace(0, found / 2, found / 2, ';'); // not found if they lie before `at`
+            text.replace(0, found / 2, found / 2, ';'); // any `;` before `at` is not found
             const std::size_t expected = std::min(text.find_first_of(";\n", at), kSize);
             REQUIRE(find_any<';', '\n'>(text, at) == expected);
         }

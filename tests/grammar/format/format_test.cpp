@@ -58,7 +58,7 @@ TEST_CASE("a file keeps its line ends") {
     const std::string lines = "// a\r\n\r\n#n = 1;\r\n/* b\r\n c */\r\n#w : F\r\n    [A];\r\n";
     CHECK(format_text(text) == lines);
     CHECK(format_text(lines) == lines);
-    // The more frequent of mixed line ends; a single carriage return is not a line end.
+    // Mixed line ends become the more frequent kind; a single carriage return is not a line end.
     CHECK(format_text("#n=1;\r\n\n\n#w:F; // a\rb\n") == "#n = 1;\n\n#w : F;  // a\rb\n");
     CHECK(format_text("#n=1;\r\n#w:F;\r\n#p:F:*:F;\n") ==
           "#n = 1;\r\n#w : F;\r\n#p : F : * : F;\r\n");

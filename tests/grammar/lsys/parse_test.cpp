@@ -11,7 +11,7 @@ namespace {
 
 using namespace lsys;
 
-/// The names of a module list with their numbers of arguments: "F/1 [/0".
+/// The names of a module list; modules with parentheses have their number of arguments: "F/1 [".
 std::string modules_of(const Parsed& parsed, ModuleList list) {
     std::string out;
     for (ModuleCursor cursor(parsed.ast, parsed.names, parsed.sources, list); !cursor.done();
@@ -26,7 +26,7 @@ std::string modules_of(const Parsed& parsed, ModuleList list) {
     return out;
 }
 
-/// The texts of the modules of a list, separated by bars.
+/// The name and the whole text of each module of a list, between bars: "|A|A(2)|".
 std::string texts_of(const Parsed& parsed, ModuleList list) {
     std::string out;
     for (ModuleCursor cursor(parsed.ast, parsed.names, parsed.sources, list); !cursor.done();

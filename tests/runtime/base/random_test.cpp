@@ -64,7 +64,7 @@ TEST_CASE("u lies from 0 to below 1 and has 24 bits") {
 TEST_CASE("a range never yields its maximum") {
     const float largest = 1.0F - 0x1p-24F;
     CHECK(draw_in_range(0.0F, 1.0F, largest) == largest);
-    // These would round up to the maximum if computed directly.
+    // Computed directly, min + (max - min) u would be rounded up to the maximum for these ranges.
     CHECK(draw_in_range(1.0F, 1.0F + 0x1p-23F, largest) == 1.0F);
     CHECK(draw_in_range(1024.0F, 1025.0F, largest) < 1025.0F);
     CHECK(draw_in_range(1024.0F, 1025.0F, largest) ==

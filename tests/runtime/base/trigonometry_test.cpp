@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Compares the trigonometry of runtime/base with the standard library's at 64-bit mantissas.
+// Compares the trigonometry of runtime/base with the standard library in long double.
 #include "runtime/base/trigonometry.h"
 
 #include <catch2/catch.hpp>

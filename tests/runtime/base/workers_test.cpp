@@ -62,7 +62,7 @@ TEST_CASE("idle workers end") {
 }
 
 TEST_CASE("workers can be destroyed while a helper wakes up") {
-    // At the end of a round, a helper may still wake up for a task that the others have finished.
+    // At the end of a round, a helper may wake up for a task that other threads have finished.
     for (int round = 0; round < 20'000; ++round) {
         Workers workers(2);
         std::atomic<int> done{0};

@@ -42,7 +42,7 @@ std::vector<std::string> lines_of(const std::string& text) {
     return lines;
 }
 
-/// The index after `(id,age)` at `at`.
+/// Reads the key `(id,age)` at `at`; returns the index after the key.
 std::size_t read_key(const std::string& word, std::size_t at, std::pair<int, int>& key) {
     char* end = nullptr;
     key.first = static_cast<int>(std::strtol(word.c_str() + at + 1, &end, 10));

@@ -417,7 +417,7 @@ TEST_CASE("dump --stage mesh prints the mesh that export writes") {
         const LscRun run = run_lsc(dump, kTree);
         REQUIRE(run.status == 0);
         REQUIRE(run_lsc(written, kTree).status == 0);
-        // Both have the same numbers in the same order.
+        // The dump and the file have the same numbers in the same order.
         std::istringstream lines(run.out);
         std::istringstream file(read_text(folder / "a.off"));
         std::string word;
@@ -475,7 +475,7 @@ TEST_CASE("the path of a mesh file of #object is relative to its grammar") {
     CHECK(wrong.err.find("line 4") != std::string::npos);
     write_text(folder / "leaf.obj", "v 0 0 0\nv 1 0 0\nv 0 3 0\nf 1 2 3\n");
     REQUIRE(run_lsc({"export", folder / "plant.lsys", "-o", out}, "").status == 0);
-    // The first leaf is as long as its extent times its size.
+    // The first leaf advances the turtle by its extent times its size: 1 + 3 * 2 = 7.
     const LscRun drawn = run_lsc({"dump", "--stage", "skeleton", folder / "plant.lsys"}, "");
     CHECK(drawn.out.find("object 1 \"leaf.obj\" parent 0 order 0 at (0, 7, 0)") !=
           std::string::npos);

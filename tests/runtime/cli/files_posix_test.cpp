@@ -65,7 +65,7 @@ TEST_CASE("a replaced file keeps its permissions, and a link stays a link") {
     struct stat facts {};
     REQUIRE(::stat((f.folder / "x").c_str(), &facts) == 0);
     CHECK((facts.st_mode & 0777U) == 0640);
-    // Setuid: writing other bytes must drop it.
+    // Writing other bytes must remove the setuid bit.
     REQUIRE(::chmod((f.folder / "x").c_str(), 04755) == 0);
     CHECK(write_file(f.folder / "x", "third", f.console).ok());
     REQUIRE(::stat((f.folder / "x").c_str(), &facts) == 0);

@@ -168,7 +168,7 @@ TEST_CASE("standard output that fails is an error") {
 
 TEST_CASE("names of files are UTF-8") {
     Fixture f;
-    const std::filesystem::path file = u8"\u00E4hre \u9EA6.lsys"; // 'ear of wheat', twice
+    const std::filesystem::path file = u8"\u00E4hre \u9EA6.lsys"; // German and Chinese words
     const std::string name = f.folder / path_text(file);
     CHECK(write_file(name, "text", f.console).ok());
     CHECK(f.file_count() == 1);

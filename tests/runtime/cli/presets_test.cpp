@@ -48,7 +48,7 @@ nlohmann::json document_of(const std::string& glb) {
     return nlohmann::json::parse(glb.substr(20, length));
 }
 
-/// A file with the grammar, because scenes name files.
+/// Writes the grammar to a file and returns the path, because a scene names files.
 std::string tree_file(const ScratchFolder& folder) {
     const std::string path = folder / "tree.lsys";
     std::ofstream(path) << kTree;
@@ -206,7 +206,7 @@ TEST_CASE("nodes are named after their file, and collision shapes are children")
     CHECK(mesh["name"] == "UCP_old oak_00");
     const std::size_t positions = mesh["primitives"][0]["attributes"]["POSITION"];
     const nlohmann::json& accessor = document["accessors"][positions];
-    // The trunk is 3 m high and begins 2 m above the start of the turtle, now the pivot.
+    // The trunk is 3 m high; its base, 2 m above the start of the turtle, is the pivot.
     CHECK(accessor["min"][1].get<double>() == Approx(0.0).margin(1e-5));
     CHECK(accessor["max"][1].get<double>() >= 2.9);
     const nlohmann::json& view = document["bufferViews"][accessor["bufferView"].get<std::size_t>()];

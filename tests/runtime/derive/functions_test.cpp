@@ -21,7 +21,7 @@ TEST_CASE("a call stands for the body with its arguments") {
 }
 
 TEST_CASE("an argument is computed once") {
-    // Both uses of x have one draw, numbered by the place of the argument in the call.
+    // Both uses of x share one draw, numbered by the place of the argument in the call.
     const std::string twice = word_of("#function twice(x) x + x;\n#w : A A;\n"
                                       "#p : A : * : F(twice({1, 2})) G({1, 2});\n",
                                       1);

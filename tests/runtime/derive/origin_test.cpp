@@ -176,7 +176,7 @@ TEST_CASE("origins count towards the limit on memory") {
     const Bytecode bytecode =
         BytecodeBuilder().axiom("F").production("p : F : * : F+F-F-F+F").build();
     DeriveOptions options = with_origins(8);
-    // 781,249 modules take a byte each, and 8 more with origins.
+    // 781,249 modules take one byte each, or nine bytes with origins.
     options.limits.max_bytes = 4'000'000;
     options.threads = 1;
     for (const bool asks : {false, true}) {
@@ -214,7 +214,7 @@ TEST_CASE("drawn parts have the origin of their module") {
         }
         return lines;
     };
-    // A % cuts off the rest; the only drawn modules of generation 2 are those written by L.
+    // The % cuts off the `F A` after it, so L writes the only drawn modules of generation 2.
     CHECK(texts(stored.segment_origins) == Lines{"from the axiom, generation 0",
                                                  "from q, generation 2", "from q, generation 1",
                                                  "from p, generation 1", "from p, generation 1",

@@ -186,7 +186,7 @@ TEST_CASE("meshes that are too large for a format are refused at once") {
 TEST_CASE("a primitive uses colours of vertices if they differ from the colour of the material") {
     Mesh mesh = test::plant_mesh();
     std::string json = exported(mesh, ExportFormat::Gltf);
-    // The third part has two palette colours, the others have their material's.
+    // The third part has two palette colours, the other parts have the colour of their material.
     CHECK(json.find(R"("COLOR_0":12},"indices":13,"material":2)") != std::string::npos);
     CHECK(json.find(R"("TANGENT":3},"indices":4,"material":0)") != std::string::npos);
     CHECK(

@@ -178,8 +178,8 @@ TEST_CASE("a subdivided cube has the known counts and limits") {
         const test::Topology topology = test::topology_by_index(triangles_of(surface.mesh()));
         CHECK(topology.open_edges == 0);
         CHECK(topology.euler() == 2);
-        // The limit position (n^2 p + 4 edges + faces) / n (n + 5) of the corner, with valence n =
-        // 3, is half of the corner.
+        // The limit position of the corner, (n^2 p + 4 edges + faces) / (n (n + 5)) with valence
+        // n = 3, is half of the corner.
         const float now = glm::distance(surface.mesh().positions[7], glm::vec3(0.5F));
         CHECK(now < step);
         step = now * 0.5F;
@@ -256,9 +256,9 @@ TEST_CASE("meshes that are not closed are reported") {
     open.corners.resize(20);
     open.face_ends.resize(5);
     CHECK_FALSE(CatmullClark(open, workers).closed());
-    PolygonMesh triangles_turned_over = cube();
-    std::swap(triangles_turned_over.corners[1], triangles_turned_over.corners[3]);
-    CHECK_FALSE(CatmullClark(triangles_turned_over, workers).closed());
+    PolygonMesh turned_over = cube();
+    std::swap(turned_over.corners[1], turned_over.corners[3]);
+    CHECK_FALSE(CatmullClark(turned_over, workers).closed());
     PolygonMesh thrice = cube();
     add_face(thrice, {0, 2, 3, 1});
     CHECK_FALSE(CatmullClark(thrice, workers).closed());

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// MeshOptions::deviation: rings of tubes have as few sides as keep them within the deviation from a
-// circle.
+// MeshOptions::deviation: each ring of a tube has the smallest number of sides that keeps the ring
+// within this distance from a circle.
 #include "runtime/meshing/mesh.h"
 #include "tests/support/mesh_checks.h"
 #include "tests/support/plants.h"

@@ -193,7 +193,7 @@ TEST_CASE("leaves of any direction droop to the ground and keep their length") {
     for (int round = 0; round < 100; ++round) {
         const glm::quat frame = glm::normalize(
             glm::quat(normal(random), normal(random), normal(random), normal(random)));
-        // The corners of the midrib, from the base to the tip.
+        // The height of the leaf's tip for each droop.
         std::vector<float> tips;
         for (const float droop : {0.0F, 0.25F, 0.5F, 0.75F, 1.0F, 2.0F}) {
             MeshOptions options;
@@ -201,21 +201,21 @@ TEST_CASE("leaves of any direction droop to the ground and keep their length") {
             const Mesh mesh = meshed(one({.kind = TurtleOperation::Leaf, .frame = frame}), options);
             CHECK(test::corners_turned_over(mesh) == 0);
             CHECK(test::area_of(mesh) == Approx(test::area_of(straight)).epsilon(0.12));
-            float lowest = 0.0F;
+            float tip_height = 0.0F;
             for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
-                lowest = straight.positions[i].y == 1.0F ? mesh.positions[i].y : lowest;
+                tip_height = straight.positions[i].y == 1.0F ? mesh.positions[i].y : tip_height;
                 // The base stays.
                 if (straight.positions[i].y == 0.0F) {
                     CHECK(glm::length(mesh.positions[i]) < 0.03F);
                 }
             }
-            tips.push_back(lowest);
+            tips.push_back(tip_height);
         }
         for (std::size_t i = 1; i < tips.size(); ++i) {
             CHECK(tips[i] <= tips[i - 1] + 0.06F);
         }
         CHECK(tips[5] == tips[4]); // larger droops count as 1
-        // All leaves end below their base, except those that stand nearly upright.
+        // With droop 1, a leaf that points down ends at least 0.7 below its base.
         if (heading(frame).y < 0.0F) {
             CHECK(tips[4] < -0.7F);
         }

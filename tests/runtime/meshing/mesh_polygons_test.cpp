@@ -300,7 +300,7 @@ TEST_CASE("polygons have a part for each colour and do not depend on threads") {
     CHECK(one.positions == three.positions);
     CHECK(one.indices == three.indices);
     CHECK(one.texture_coordinates == three.texture_coordinates);
-    REQUIRE(one.materials.size() == 3); // 0 and 1 are both leaf green
+    REQUIRE(one.materials.size() == 3); // colours 0 and 1 are leaf green
     CHECK(one.materials[0].name == "polygon");
     CHECK(one.materials[0].kind == MaterialKind::Leaf);
     for (const Material& material : one.materials) {

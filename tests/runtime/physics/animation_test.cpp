@@ -118,7 +118,7 @@ TEST_CASE("objects and corners stay above the ground in all frames") {
             for (std::uint32_t frame = 0; frame < 60; ++frame) {
                 pose_at(first, animation.frame(frame), pose);
                 lowest = std::min(lowest, lowest_in(pose));
-                for (std::size_t i = 1; i < pose.segments.size(); ++i) { // joined
+                for (std::size_t i = 1; i < pose.segments.size(); ++i) { // segments stay joined
                     REQUIRE(glm::length(pose.segments[i].base - tip(pose.segments[i - 1])) < 1e-4F);
                 }
             }

@@ -17,7 +17,8 @@ using namespace lsys::test;
 
 namespace {
 
-/// A limp stalk of five segments with five such stalks at their tips, and so on: 3905 segments.
+/// A limp stalk of five segments, with a shorter stalk at the tip of each segment, and so on: five
+/// orders of stalks, 3905 segments.
 Skeleton limp_plant() {
     Skeleton plant;
     std::vector<std::uint32_t> tips = {kNoSegment};
@@ -64,8 +65,8 @@ Skeleton limp_curve(std::uint32_t order) {
     return plant;
 }
 
-/// Sum of mass times height of the centres of mass of segments: kg m.
-double lifted_mass(const Skeleton& plant) {
+/// Sum over segments of mass times height of the centre of mass, kg m.
+double mass_times_height(const Skeleton& plant) {
     double sum = 0.0;
     for (const Segment& segment : plant.segments) {
         sum += static_cast<double>(segment.mass) *
@@ -249,8 +250,8 @@ TEST_CASE(
             REQUIRE(segment.base.y >= -1e-5F);
             REQUIRE(tip(segment).y >= -1e-5F);
         }
-        CHECK(lifted_mass(bent) < 0.2 * lifted_mass(plant));
-        // Further rounds do not move it.
+        CHECK(mass_times_height(bent) < 0.2 * mass_times_height(plant));
+        // Further rounds do not increase the energy.
         const double settled = physics.energy();
         CHECK(physics.settle(1e-6, 60));
         CHECK(physics.energy() <= settled);

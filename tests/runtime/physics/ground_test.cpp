@@ -105,7 +105,8 @@ TEST_CASE("the axis of a limp stalk comes to rest at its radius above the ground
 
 TEST_CASE("friction holds a rod on the ground until the wind is stronger") {
     // A rod of 1 m and 1 kg that turns freely about its end. The ground bears half its weight at
-    // the tip, so friction of 0.5 holds a torque of 0.5 m g / 2 l; the wind's is 1/2 rho C A v^2 l / 2.
+    // the tip, so a friction coefficient of 0.5 holds a torque of up to 0.5 (m g / 2) l. The torque
+    // of the wind is (rho C A v^2 / 2) (l / 2).
     Skeleton rod_on_ground;
     add_segment(rod_on_ground, kNoSegment, leaning(1.55F), rod(1.0F, 0.02F, 0.0F, 1.0F));
     const double limit = std::sqrt(0.5 * 9.81 / (0.5 * 1.225 * 1.1 * 0.04)); // m/s
@@ -134,7 +135,7 @@ TEST_CASE("friction holds a rod on the ground until the wind is stronger") {
 
 TEST_CASE("a flat plant that falls in its plane settles as fast as with Newton's method") {
     // A plant upright in its plane could fall to either side of the plane, so second derivatives
-    // out of the plane are negative; derivatives within the plane must not be changed for that.
+    // out of the plane are negative. This must not change the derivatives within the plane.
     Skeleton plant;
     std::uint32_t last = kNoSegment;
     for (int i = 0; i < 40; ++i) {

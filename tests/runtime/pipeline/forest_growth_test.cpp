@@ -79,7 +79,7 @@ TEST_CASE("at a whole year, a growing forest equals the forest placed with that 
     ForestGrowth growth = wood.begin();
     CHECK(growth.last_year() == 30);
     LargeVector<Tree> trees;
-    for (const std::uint32_t year : {0U, 1U, 2U, 9U, 10U, 30U, 4U}) { // the last one goes back
+    for (const std::uint32_t year : {0U, 1U, 2U, 9U, 10U, 30U, 4U}) { // back from 30 to 4
         INFO("year " << year);
         REQUIRE(growth.trees({year, 0.0}, stage_height, wood.project, trees));
         CHECK(is_same_wood(trees, wood.placed(year)));

@@ -242,8 +242,8 @@ TEST_CASE("joints of a plant between generations are closed") {
 }
 
 TEST_CASE("segments between generations are pieces of old ones or grow from length 0") {
-    // F is 1 long; its successor 1 + 3. At the start, both segments lie on the old F, with parts of
-    // its length in proportion.
+    // F has length 1; the two segments of the stem that replaces it have lengths 1 and 3. At the
+    // start, both lie on the old F and divide its length 1 : 3.
     GrownSample split("#set width 0.1; #w : F(1); #p : F(l) : * : F(l) [ +(90) F(2) ] F(3*l);", 1,
                       1);
     const Skeleton half = split.at(0, 0.5);

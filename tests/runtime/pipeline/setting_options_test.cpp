@@ -70,7 +70,7 @@ TEST_CASE("a setting given by an option compiles to the same bytes as one in the
         const Result<std::string> written =
             with_values("a.lsys", plain, {{}, {}, {setting}}, no_files());
         REQUIRE(written);
-        // Replace the statement by a comment, so that the places of all others stay.
+        // Replace the statement by a comment, so that all other statements keep their places.
         std::string commented = written.value();
         commented.replace(commented.find("#set"), 2, "//");
         const std::string by_option = compiled_with(commented, {setting});

@@ -45,8 +45,8 @@ bool circles_overlap(const ForestPlant& a, const ForestPlant& b) {
                       static_cast<double>(a.place.y - b.place.y)) < reach;
 }
 
-/// Slope of log(mean mass) against log(density) while a stand thins from half its plants to 300.
-/// Mass is the cube of the radius.
+/// Slope of log(mean mass) against log(density) while a stand thins from half of its initial plants
+/// to 300 plants. Mass is the cube of the radius.
 double thinning_slope(const PlacementOptions& options) {
     Domination forest = Domination::begin(options, ground()).value();
     double n = 0.0;
@@ -112,7 +112,8 @@ TEST_CASE("in every year, plants whose circle overlaps that of a stronger plant 
                 const bool stronger = there > here || (there == here && j < i);
                 dominated = j != i && stronger && circles_overlap(plants[i], plants[j]);
             }
-            // After the first year, the dominating plant may have died in the same year.
+            // A plant may still be marked as dominated if the dominating plant died in the year
+            // that has just passed.
             REQUIRE((plants[i].dominated == dominated || (year > 0 && !dominated)));
         }
         REQUIRE(forest.step());

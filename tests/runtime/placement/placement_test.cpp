@@ -86,8 +86,8 @@ TEST_CASE("forests are the same on every machine and in every version") {
     NoiseOptions noise;
     noise.feature = 30.0;
     const Terrain ground = Terrain::noise({-100.0, -100.0, 200.0, 200.0}, noise).value();
-    // FNV-1a of the bytes of each tree and four zeros behind them, as g++ 12 and clang 14 make
-    // them on x86-64.
+    // FNV-1a of the bytes of all trees, each followed by four zero bytes; results of g++ 12 and
+    // clang 14 on x86-64.
     const std::vector<std::uint64_t> expected{
         0x5A58215400336BECU, 0xC692149E8450D500U, 0xE64B21214A83C50AU, 0x40D270F84CC7DA36U,
         0x91CCFC13974ACAE4U, 0x6B80210703125606U, 0x3BF438036224C867U, 0xF0C93E5550AF4479U,
@@ -341,8 +341,8 @@ TEST_CASE("Poisson distances hold far from the origin, where coordinates are coa
 }
 
 TEST_CASE("densities of a map are within 2 percent in cells of at least 10,000 expected plants") {
-    // A map of 16 cells with greys from 0.25 to 1; a white cell has 50,000 plants. Pixels are
-    // larger and smaller than the squares of error diffusion.
+    // A map of 16 cells with greys from 0.25 to 1; a white cell has 50,000 plants. The map
+    // with few pixels has pixels larger than the squares of error diffusion, the other map smaller.
     for (const std::uint32_t pixels : {4U, 1200U}) {
         std::vector<std::uint16_t> values;
         for (std::uint32_t row = 0; row < pixels; ++row) {

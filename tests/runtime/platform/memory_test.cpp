@@ -19,7 +19,7 @@ TEST_CASE("reserved memory is aligned, and zero once committed") {
         CHECK(memory[0] == std::byte{0});
         CHECK(memory[kHugePage - 1] == std::byte{0});
         memory[kHugePage - 1] = std::byte{7};
-        // Committed again, and further.
+        // Commits a part of this memory again, and the memory after it.
         REQUIRE(commit_memory(memory + kPage, bytes - kPage));
         CHECK(memory[kHugePage - 1] == std::byte{7});
         CHECK(memory[bytes - 1] == std::byte{0});

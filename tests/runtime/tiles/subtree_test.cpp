@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Implicit tiling: the subtree files list the tiles of the explicit tilesets, with the same boxes
-// and errors. A content is the explicit content below a node with the place of the tile.
+// and errors. The content of a tile is that of the explicit tile below an additional node, whose
+// matrix is the place of the tile.
 #include "runtime/tiles/impl/subtree.h"
 #include "tests/support/tile_forest.h"
 
@@ -45,7 +46,8 @@ glm::dmat4 matrix_of(const Json& numbers) {
     return matrix;
 }
 
-/// Adds the tiles of an explicit tileset and of those that it names; returns the number of all tiles.
+/// Adds the tiles with content of an explicit tileset and of the tilesets that it names. Returns
+/// the number of all tiles, with and without content.
 std::size_t
 add_explicit(const TileForest& forest, const Json& tile, const glm::dmat4& place, SeenTiles& seen) {
     std::string uri = tile.contains("content") ? tile["content"]["uri"].get<std::string>() : "";
@@ -83,7 +85,7 @@ add_explicit(const TileForest& forest, const Json& tile, const glm::dmat4& place
     return count;
 }
 
-/// Reads one subtree and those below it.
+/// Reads the root subtree and all subtrees below it.
 class SubtreeReader {
 public:
     explicit SubtreeReader(const TileForest& forest)
@@ -95,7 +97,8 @@ public:
     SeenTiles seen;
     std::size_t count = 0;
     std::size_t files = 0;
-    std::map<std::string, std::size_t> constants; // by availability: files with a constant
+    /// By name of an availability, the number of files in which it is a constant.
+    std::map<std::string, std::size_t> constants;
 
 private:
     void read(const TileId& root) {
@@ -230,8 +233,8 @@ TEST_CASE("implicit tiling has the tiles of the explicit tilesets") {
         }
         CHECK(glm::distance(other.middle, tile.middle) < 0.01);
     }
-    // A client that ignores the metadata halves the error of the root with each level; no error it
-    // computes is too small.
+    // A client that ignores the metadata halves the error of the root with each level; no error
+    // computed in this way is too small.
     const Json top = Json::parse(forest.tileset({}))["root"];
     CHECK(matrix_of(top["transform"]) == matrix_of(root["transform"]));
     double implied = top["geometricError"].get<double>();

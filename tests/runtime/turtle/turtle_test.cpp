@@ -134,7 +134,7 @@ TEST_CASE("parents, orders and links follow the branches") {
     CHECK(s[1].linked);
     CHECK(s[2].parent == 1);
     CHECK(s[2].order == 2);
-    CHECK(s[3].parent == 1); // the step between them was not drawn
+    CHECK(s[3].parent == 1); // the `f` between segments 1 and 3 is not drawn
     CHECK_FALSE(s[3].linked);
     CHECK(s[4].parent == 0);
     CHECK(s[4].order == 0);

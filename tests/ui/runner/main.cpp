@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // tests_ui [--bless] [-v] [--root FOLDER] [FILTER...]: runs the golden cases whose
-// `feature/fact.lsys` contains a FILTER. tests_ui --codes: lists the diagnostics that no case
-// shows, and fails if there are any.
+// `feature/fact.lsys` or `feature/fact.toml` contains a FILTER. tests_ui --codes: lists the
+// diagnostics that no case shows, and fails if there are any.
 #include "grammar/base/diagnostic.h"
 #include "tests/support/ui_runner.h"
 
@@ -11,7 +11,8 @@
 
 namespace {
 
-/// Prints the codes that no case has an annotation of. Returns the exit status: 1 if there are any.
+/// Prints the codes for which no case has an annotation. Returns the exit status: 1 if there are
+/// any.
 int list_missing_codes(const lsys::tests::UiOutcome& outcome) {
     int missing = 0;
     for (std::uint32_t i = 0; i < lsys::diagnostic_code_count(); ++i) {

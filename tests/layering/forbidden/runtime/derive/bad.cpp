@@ -1,4 +1,4 @@
-// Includes that check_includes.cmake must report; the test checks that it does.
+// check_includes.cmake must report these includes, except the first; a test checks that.
 #include "compiler/bytecode/bytecode.h"
 #include "compiler/compile.h"
 #include "runtime/turtle/turtle.h"
