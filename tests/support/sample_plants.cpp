@@ -22,7 +22,8 @@ Project sample_project() {
 lsys::Plant sample_plant(const std::string& name) {
     const Project project = sample_project();
     PlantOptions options;
-    options.file = std::string(LSYS_SOURCE_DIR) + "/samples/" + name + "/" + name + ".lsys";
+    const std::string last = name.substr(name.rfind('/') + 1);
+    options.file = std::string(LSYS_SOURCE_DIR) + "/samples/" + name + "/" + last + ".lsys";
     Outcome<Grammar> grammar = load_grammar(options.file, {}, project);
     if (!grammar) {
         throw std::runtime_error("a sample does not compile: " + name);

@@ -8,7 +8,7 @@
 
 namespace lsys::test {
 
-/// The plant of samples/NAME/NAME.lsys.
+/// The plant of samples/NAME/LAST.lsys, where LAST is NAME or its part after the last `/`.
 [[nodiscard]] lsys::Plant sample_plant(const std::string& name);
 
 } // namespace lsys::test

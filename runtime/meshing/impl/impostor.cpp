@@ -28,7 +28,8 @@ constexpr int kMinSamples = 256;           // samples of a side of a picture
 constexpr int kMaxSamples = 512;
 constexpr int kSamplesPerTexel = 8; // along each side, within kMinSamples and kMaxSamples
 constexpr int kOpaqueByte = 128;
-constexpr float kTurned = 0.6F; // factor of the sideways part of normals of upright cards
+constexpr float kLookDown = 0.5F; // tangent of the angle at which leaves of upright cards are seen
+constexpr float kTurned = 0.6F;   // factor of the sideways part of normals of upright cards
 constexpr float kHalfRoot3 = 0.8660254F;
 constexpr float kEmptyDepth = -std::numeric_limits<float>::infinity(); // depth of empty samples
 
@@ -60,9 +61,12 @@ int margin_of(int tile) {
 
 /// The normal of a card at a point with this normal of the plant, both with Z towards the eye.
 glm::vec3 normal_on_card(glm::vec3 normal, bool is_upright) {
-    if (normal.z < 0.0F) {
+    // Leaves have two sides. Viewers of tiles and forests look down on upright cards, and see the
+    // upper sides of level leaves.
+    if (normal.z + (is_upright ? kLookDown * normal.y : 0.0F) < 0.0F) {
         normal = -normal;
     }
+    normal.z = std::max(normal.z, 0.0F);
     if (is_upright) {
         // The eye sees cards of three directions, which by themselves spread their normals about
         // the vertical nearly as much as a plant. So each card keeps only a part of its own spread.
@@ -439,29 +443,35 @@ Mesh ImpostorBaker::make(double cover, const glm::vec3& tint) const {
         areas.push_back(static_cast<std::size_t>(
             std::count(opaque.back().begin(), opaque.back().end(), std::uint8_t{1})));
     }
-    const std::vector<std::size_t> trapezoids = trapezoids_of(areas, triangles_ / 2);
+    const std::vector<std::size_t> trapezoids = trapezoids_of(areas, triangles_ / 4);
     for (std::size_t tile = 0; tile < views_.size(); ++tile) {
         if (trapezoids[tile] == 0) {
             continue;
         }
         const View& view = views_[tile];
-        const auto first = static_cast<std::uint32_t>(mesh.positions.size());
         const float depth = 0.5F * (view.low.z + view.high.z);
-        for (const glm::vec2& corner : strip_around(tile_, opaque[tile], trapezoids[tile])) {
-            const glm::vec2 part = corner / static_cast<float>(tile_);
-            const float x = view.low.x + part.x * (view.high.x - view.low.x);
-            const float y = view.high.y - part.y * (view.high.y - view.low.y);
-            mesh.positions.push_back(x * view.right + y * view.up + depth * view.towards);
-            mesh.normals.push_back(view.towards);
-            mesh.tangents.push_back(glm::vec4(view.right, 1.0F));
-            mesh.texture_coordinates.push_back(
-                (part + glm::vec2(tile % columns_, tile / columns_)) / glm::vec2(columns_, rows));
-        }
-        // Corners 0 to 3 of a trapezoid: left and right above, left and right below.
-        for (std::uint32_t k = 0; k < trapezoids[tile]; ++k) {
-            const std::uint32_t corner = first + 2 * k;
-            for (const std::uint32_t to : {0U, 2U, 1U, 1U, 2U, 3U}) {
-                indices.push_back(corner + to);
+        const std::vector<glm::vec2> corners = strip_around(tile_, opaque[tile], trapezoids[tile]);
+        for (const float side : {1.0F, -1.0F}) { // front and back
+            const auto first = static_cast<std::uint32_t>(mesh.positions.size());
+            for (const glm::vec2& corner : corners) {
+                const glm::vec2 part = corner / static_cast<float>(tile_);
+                const float x = view.low.x + part.x * (view.high.x - view.low.x);
+                const float y = view.high.y - part.y * (view.high.y - view.low.y);
+                mesh.positions.push_back(x * view.right + y * view.up + depth * view.towards);
+                mesh.normals.push_back(side * view.towards);
+                mesh.tangents.push_back(glm::vec4(side * view.right, 1.0F));
+                mesh.texture_coordinates.push_back(
+                    (part + glm::vec2(tile % columns_, tile / columns_)) /
+                    glm::vec2(columns_, rows));
+            }
+            // Corners 0 to 3 of a trapezoid: left and right above, left and right below.
+            const std::array<std::uint32_t, 6> order =
+                side > 0.0F ? std::array<std::uint32_t, 6>{0, 2, 1, 1, 2, 3}
+                            : std::array<std::uint32_t, 6>{0, 1, 2, 1, 3, 2};
+            for (std::uint32_t k = 0; k < trapezoids[tile]; ++k) {
+                for (const std::uint32_t corner : order) {
+                    indices.push_back(first + 2 * k + corner);
+                }
             }
         }
     }
@@ -470,7 +480,7 @@ Mesh ImpostorBaker::make(double cover, const glm::vec3& tint) const {
     Material& material = mesh.materials.emplace_back();
     material.name = "impostor";
     material.kind = MaterialKind::Leaf; // pictures do not repeat
-    material.two_sided = true;
+    material.two_sided = false;
     material.cut_out = true;
     material.textured = true;
     material.picture = std::make_shared<const Texture>(std::move(colour));

@@ -7,7 +7,9 @@
 // mean normal would point to the eye wherever a texel shows many leaves, and be lit like none of
 // them. The normal map has the normals in the frame of the card, and as alpha the depth: 1 at the
 // back to 255 at the front of the part of the plant that the card shows, with the card halfway
-// between.
+// between. Front and back of a card are two strips with the same picture. The back has the normals
+// of the front turned about the axis that points up in the picture: reversed normals, as viewers of
+// glTF give to the back of a face, would show the dark undersides of leaves from one of two sides.
 #pragma once
 
 #include "runtime/meshing/mesh.h"
@@ -23,18 +25,18 @@ namespace lsys {
 class LinearTextures;
 
 /// Min triangles of an impostor with three cards per direction.
-inline constexpr std::uint64_t kMinSlabTriangles = 40;
+inline constexpr std::uint64_t kMinSlabTriangles = 48;
 
 class ImpostorBaker {
 public:
     /// Renders the pictures of `mesh`, which has texture coordinates. The pictures are the same on
     /// every machine. `pixels`: size on screen of the plant's largest extent where the impostor is
     /// first shown. Pictures have about as many texels, so that viewers do not start with mipmaps,
-    /// in which thin plants vanish. `triangles`: number of triangles of all cards, at least 2.
+    /// in which thin plants vanish. `triangles`: number of triangles of both sides of all cards, at least 4.
     ImpostorBaker(const Mesh& mesh, float pixels, std::uint64_t triangles);
 
-    /// Makes the cards, which have `triangles` triangles together, or one less if `triangles` is
-    /// odd; an empty card has none. `cover`: area of opaque texels / area of the mesh, in each
+    /// Makes the cards, which have `triangles` triangles together, rounded down to a multiple of 4;
+    /// an empty card has none. `cover`: area of opaque texels / area of the mesh, in each
     /// picture. Thin parts that cover less than a texel are opaque in as many texels as they cover
     /// on average. The mean linear colour of each picture is that of the mesh times `tint`.
     [[nodiscard]] Mesh make(double cover, const glm::vec3& tint) const;
