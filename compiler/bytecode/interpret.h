@@ -66,16 +66,17 @@ struct UnknownDomain {
     static bool take(const Value& /*x*/, const std::uint32_t* /*at*/) { return true; }
 };
 
-/// Upper bound of the stack depth of the verified code at `first`.
+/// Max stack depth of the verified code at `first`.
 [[nodiscard]] inline std::size_t stack_room(std::span<const std::uint32_t> words,
                                             std::uint32_t first) {
-    std::size_t leaves = 0;
-    bool has_choice = false;
+    std::size_t depth = 0;
+    std::size_t room = 0;
     for (const Instruction each : InstructionRange(words, first)) {
-        leaves += pops_of(each.opcode) == 0 ? 1U : 0U;
-        has_choice = has_choice || each.opcode == Opcode::If;
+        const OpcodeInfo& row = info(each.opcode);
+        depth = depth - row.pops + row.pushes;
+        room = std::max(room, depth);
     }
-    return has_choice ? leaves : std::min<std::size_t>(leaves, kUsualStack);
+    return room;
 }
 
 /// Number of slots that the verified code at `first` sets.

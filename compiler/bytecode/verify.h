@@ -11,9 +11,9 @@
 
 namespace lsys {
 
-/// Max stack depth of code without choices. Deep expressions compute the deeper operand first,
-/// which bounds the stack depth by the logarithm of the expression size. Nested choices may need
-/// more (Bytecode::stack_depth).
+/// Max stack depth of code without choices and without mix(). Deep expressions compute the deeper
+/// operand first, which bounds the stack depth by the logarithm of the expression size. Nested
+/// choices and nested calls of mix() may need more (Bytecode::stack_depth).
 inline constexpr std::uint32_t kUsualStack = 256;
 
 /// The first problem, as text for messages, or nothing if the bytecode is valid.

@@ -53,7 +53,7 @@ std::optional<GrowthPowers> GrowthPowers::make(ModuleClasses& classes) {
         return std::nullopt;
     }
     if (bytecode.settings.rewriting == RewritingMode::Cyclic) {
-        powers.period_ = std::max<std::uint32_t>(1, bytecode.rule_count);
+        powers.period_ = std::max<std::uint32_t>(1, bytecode.rewriting_rule_count());
         if (powers.period_ > kMaxClasses) {
             return std::nullopt;
         }

@@ -403,6 +403,7 @@ void GrowthWalk::load(std::uint32_t age, std::span<const Count> low, std::span<c
     }
     present_.clear();
     by_symbol_.clear();
+    probabilities_known_ = false;
     reserve();
     age_ = age;
     for (std::size_t i = 0; i < high.size(); ++i) {

@@ -106,13 +106,16 @@ TEST_CASE("a domain can stop the walk before an instruction, at a range and at a
     CHECK_FALSE(run({encode(Opcode::Formal, 0), encode(Opcode::Test, 0)}).finished);
 }
 
-TEST_CASE("code needs stack for its leaves, and never more than the verified depth") {
-    CHECK(stack_room(compiled({"x * 2 - y / c"}), 0) == 5); // End takes one stack slot too
+TEST_CASE("the stack of code has room for its deepest expression") {
+    CHECK(stack_room(compiled({"x * 2 - y / c"}), 0) == 3);
     std::string sum = "x";
-    for (std::uint32_t i = 0; i < 2 * kUsualStack; ++i) {
+    std::string mixed = "x";
+    for (std::uint32_t i = 0; i < kUsualStack; ++i) {
         sum += " + x";
+        mixed = "mix(x, y, " + mixed + ")";
     }
-    CHECK(stack_room(compiled({sum}), 0) == kUsualStack);
+    CHECK(stack_room(compiled({sum}), 0) == 2);
+    CHECK(stack_room(compiled({mixed}), 0) == 2 * kUsualStack + 1);
 }
 
 TEST_CASE("every value is unknown in UnknownDomain") {
