@@ -59,20 +59,24 @@ std::vector<std::string_view> items_of(std::string_view list) {
     return items;
 }
 
-/// Whether Accept-Encoding allows gzip (RFC 9110, 12.5.3).
+/// Whether Accept-Encoding allows gzip; `*` stands for codings that it does not name
+/// (RFC 9110, 12.5.3).
 bool accepts_gzip(std::string_view accept_encoding) {
+    bool others = false;
     for (const std::string_view item : items_of(accept_encoding)) {
         const std::size_t semicolon = item.find(';');
         const std::string_view coding = without_blanks(item.substr(0, semicolon));
         const std::string_view weight = semicolon == std::string_view::npos
                                             ? "q=1"
                                             : without_blanks(item.substr(semicolon + 1));
-        if (coding == "gzip" || coding == "*") {
-            return !(weight.starts_with("q=0") &&
-                     weight.find_first_not_of("0.", 2) == std::string_view::npos);
+        const bool is_allowed = !weight.starts_with("q=0") ||
+                                weight.find_first_not_of("0.", 2) != std::string_view::npos;
+        if (coding == "gzip") {
+            return is_allowed;
         }
+        others = coding == "*" ? is_allowed : others;
     }
-    return false;
+    return others;
 }
 
 /// Whether If-None-Match has the tag, compared weakly (RFC 9110, 8.8.3.2).
@@ -428,7 +432,7 @@ std::string TileService::metrics() const {
     text += fmt::format("lsc_make_seconds_bucket{{le=\"+Inf\"}} {0}\nlsc_make_seconds_sum {1}\n"
                         "lsc_make_seconds_count {0}\n",
                         made, static_cast<double>(counts_.microseconds.load()) * 1e-6);
-    add("lsc_cache_hits_total", "counter", "Tiles and tilesets answered from the cache.");
+    add("lsc_cache_hits_total", "counter", "Files answered from the cache.");
     text += fmt::format("lsc_cache_hits_total {}\n", counts_.hits.load());
     std::uint64_t entries = 0;
     std::uint64_t used = 0;
@@ -437,7 +441,7 @@ std::string TileService::metrics() const {
         entries = cache_.size();
         used = used_bytes_;
     }
-    add("lsc_cache_files", "gauge", "Tiles and tilesets in the cache.");
+    add("lsc_cache_files", "gauge", "Files in the cache.");
     text += fmt::format("lsc_cache_files {}\n", entries);
     add("lsc_cache_bytes", "gauge", "Memory of the cache.");
     text += fmt::format("lsc_cache_bytes {}\n", used);

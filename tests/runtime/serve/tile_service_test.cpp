@@ -166,7 +166,8 @@ TEST_CASE("tiles are sent in gzip to clients that accept it") {
     TileRequest request = get("/0/0/0.glb");
     const std::string plain = body_of(service.respond(request));
     const std::string tag = field_of(service.respond(request), "ETag");
-    for (const char* const accept : {"gzip", "br, gzip;q=0.5", "deflate,gzip", "*"}) {
+    for (const char* const accept :
+         {"gzip", "br, gzip;q=0.5", "deflate,gzip", "*", "*;q=0, gzip"}) {
         request.accept_encoding = accept;
         const TileResponse response = service.respond(request);
         CHECK(field_of(response, "Content-Encoding") == "gzip");
@@ -175,7 +176,7 @@ TEST_CASE("tiles are sent in gzip to clients that accept it") {
         CHECK(body_of(response).size() < plain.size());
         CHECK(unpacked(body_of(response)) == plain);
     }
-    for (const char* const accept : {"br", "gzip;q=0", "gzip; q=0.000", "x-gzip"}) {
+    for (const char* const accept : {"br", "gzip;q=0", "gzip; q=0.000", "x-gzip", "*, gzip;q=0"}) {
         request.accept_encoding = accept;
         CHECK(body_of(service.respond(request)) == plain);
     }
