@@ -208,6 +208,33 @@ ExitStatus write_stages(const ForestOutput& run, GrownForest& grown) {
     return ExitStatus::Ok;
 }
 
+/// Lets the trees compete up to `year` and writes the forest of that year to `path`.
+ExitStatus write_year(const ForestOutput& run,
+                      std::uint32_t year,
+                      const std::string& path,
+                      Domination& domination,
+                      GrownForest& grown) {
+    while (domination.year() < year) {
+        if (run.context.console.interrupted()) {
+            return ExitStatus::Interrupted;
+        }
+        if (const Result<void> done = domination.step(); !done) {
+            return report_error(
+                Error{fmt::format("year {}: {}", domination.year() + 1, done.error().message)},
+                run.context.console);
+        }
+    }
+    grown.forest.trees = domination.trees();
+    if (const ExitStatus sized =
+            run.context.console.take(size_forest(run.scene, run.context.project, grown));
+        sized != ExitStatus::Ok) {
+        return sized;
+    }
+    apply_painting(run.scene.painting, run.scene.placement.region, *grown.terrain,
+                   grown.forest.trees);
+    return write_at(run, grown, path);
+}
+
 /// Writes the forest at `frames` evenly spaced years, the last of which is the last year.
 ExitStatus write_years(const ForestOutput& run, GrownForest& grown) {
     PlacementOptions options = run.scene.placement;
@@ -217,29 +244,11 @@ ExitStatus write_years(const ForestOutput& run, GrownForest& grown) {
         return report_error(Error{fmt::format("placement: {}", begun.error().message)},
                             run.context.console);
     }
-    Domination& domination = begun.value();
     for (std::uint32_t frame = 1; frame <= run.options.frames; ++frame) {
         const auto year =
             static_cast<std::uint32_t>(std::uint64_t{options.years} * frame / run.options.frames);
-        while (domination.year() < year) {
-            if (run.context.console.interrupted()) {
-                return ExitStatus::Interrupted;
-            }
-            if (const Result<void> done = domination.step(); !done) {
-                return report_error(
-                    Error{fmt::format("year {}: {}", domination.year() + 1, done.error().message)},
-                    run.context.console);
-            }
-        }
-        grown.forest.trees = domination.trees();
-        if (const ExitStatus sized =
-                run.context.console.take(size_forest(run.scene, run.context.project, grown));
-            sized != ExitStatus::Ok) {
-            return sized;
-        }
-        apply_painting(run.scene.painting, options.region, *grown.terrain, grown.forest.trees);
         const std::string path = numbered_path(run.options.output, frame);
-        const ExitStatus status = write_at(run, grown, path);
+        const ExitStatus status = write_year(run, year, path, begun.value(), grown);
         if (status != ExitStatus::Ok) {
             report_complete_frames(run.options.output, frame - 1, run.options.frames,
                                    run.context.console);

@@ -243,7 +243,7 @@ def _forest_init(self, scene, *, defines=None, settings=None, generations=None, 
 
     defines, settings, generations: of all grammars, as for compile(). options: options of
     `lsc forest`, with underscores, that replace values of the scene, as in `count=500`,
-    `placement="poisson"`, `rho=0`, and the options of all calls.
+    `placement="poisson-disk"`, `rho=0`, and the options of all calls.
     """
     files = [os.fspath(scene)] if isinstance(scene, (str, os.PathLike)) else [
         os.fspath(path) for path in scene]
