@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "viewer/app/controls.h"
 
+#include "grammar/base/paths.h"
+
 #include <glm/geometric.hpp>
 
 #include <algorithm>
@@ -61,6 +63,11 @@ void zoom(Camera& camera, float wheel) {
 
 } // namespace
 
+void show_open_dialog(const View& view, PanelState& panels) {
+    panels.browser.show(std::string(folder_of_path(view.file())));
+    panels.dialog = OpenDialog::File;
+}
+
 void next_seed(PlantView& view) {
     const std::uint64_t shown = view.document() == nullptr ? 0 : view.document()->plant.seed;
     view.settings.seed = view.settings.seed.value_or(shown) + 1;
@@ -88,16 +95,11 @@ void Controls::apply(const WindowInput& input,
     for (const std::string& file : input.dropped) {
         switcher.open(file);
     }
-    const ForestView* const shown = switcher.forest();
-    if (!panels.flies && (shown == nullptr || shown->settings.tool == PaintTool::None)) {
-        click(input, area, switcher.current());
-    } else {
+    if (use_pages(input, switcher, panels)) {
         pressed_.reset();
-    }
-    if (ForestView* const forest = switcher.forest()) {
-        apply(input, seconds, area, *forest, panels);
-    } else if (PlantView* const plant = switcher.plant()) {
-        apply(input, seconds, static_cast<float>(area.height), *plant, panels);
+        is_moving_ = false;
+    } else {
+        apply_to_view(input, seconds, area, switcher, panels);
     }
     if (input.close_requested || panels.quits) {
         panels.quits = !switcher.current().is_unsaved() || panels.asked_to_quit;
@@ -108,6 +110,115 @@ void Controls::apply(const WindowInput& input,
         }
     } else if (!input.presses.empty()) {
         panels.asked_to_quit = false;
+    }
+}
+
+void Controls::apply_to_view(const WindowInput& input,
+                             double seconds,
+                             const PixelArea& area,
+                             ViewSwitcher& switcher,
+                             PanelState& panels) {
+    WindowInput rest = input;
+    rest.presses.clear();
+    for (const KeyPress& press : input.presses) {
+        if (press.alt) {
+            press_with_alt(press.key, switcher, panels);
+        } else {
+            rest.presses.push_back(press);
+        }
+    }
+    const ForestView* const shown = switcher.forest();
+    if (!panels.flies && (shown == nullptr || shown->settings.tool == PaintTool::None)) {
+        click(rest, area, switcher.current());
+    } else {
+        pressed_.reset();
+    }
+    if (ForestView* const forest = switcher.forest()) {
+        apply(rest, seconds, area, *forest, panels);
+    } else if (PlantView* const plant = switcher.plant()) {
+        apply(rest, seconds, static_cast<float>(area.height), *plant, panels);
+    }
+}
+
+void Controls::press_with_alt(Key key, ViewSwitcher& switcher, PanelState& /*panels*/) {
+    if (key == Key::Left || key == Key::Right) {
+        switcher.open_neighbour(key == Key::Right ? 1 : -1);
+    }
+}
+
+bool Controls::use_pages(const WindowInput& input, ViewSwitcher& switcher, PanelState& panels) {
+    const bool is_start = switcher.current().file().empty();
+    if (!is_start && panels.dialog == OpenDialog::None) {
+        return false;
+    }
+    std::string chosen;
+    FileBrowser& browser = panels.browser;
+    if (panels.dialog == OpenDialog::File && !input.text.empty()) {
+        browser.set_text(browser.text() + input.text);
+    }
+    for (const KeyPress& press : input.presses) {
+        if (press.control) {
+            panels.quits = panels.quits || press.key == Key::Q;
+            if (press.key == Key::O) {
+                show_open_dialog(switcher.current(), panels);
+            }
+        } else if (panels.dialog == OpenDialog::File) {
+            press_in_browser(press, panels, chosen);
+        } else if (press.key == Key::Enter) {
+            chosen = panels.start.selected_file();
+        } else {
+            const auto axis = [&press](Key less, Key more) {
+                return static_cast<int>(press.key == more) - static_cast<int>(press.key == less);
+            };
+            const int right = axis(Key::Left, Key::Right);
+            const int down = axis(Key::Up, Key::Down);
+            if (right != 0 || down != 0) {
+                panels.start.move(right, down);
+            }
+        }
+    }
+    if (!chosen.empty()) {
+        panels.dialog = OpenDialog::None;
+        switcher.open(chosen);
+    }
+    return true;
+}
+
+void Controls::press_in_browser(const KeyPress& press, PanelState& panels, std::string& chosen) {
+    FileBrowser& browser = panels.browser;
+    constexpr int kPage = 10; // entries
+    switch (press.key) {
+    case Key::Escape:
+        panels.dialog = OpenDialog::None;
+        break;
+    case Key::Enter:
+        chosen = browser.accept();
+        break;
+    case Key::Up:
+        press.alt ? browser.go_up() : browser.move(-1);
+        break;
+    case Key::Down:
+        browser.move(1);
+        break;
+    case Key::PageUp:
+        browser.move(-kPage);
+        break;
+    case Key::PageDown:
+        browser.move(kPage);
+        break;
+    case Key::Backspace:
+        browser.erase_character();
+        break;
+    case Key::Tab:
+        browser.complete();
+        break;
+    case Key::Home:
+        if (press.alt) {
+            browser.go_home();
+        }
+        break;
+    default:
+        break;
     }
 }
 
@@ -215,6 +326,9 @@ bool Controls::press_common(const KeyPress& press, View& view, PanelState& panel
         switch (press.key) {
         case Key::Q:
             panels.quits = true;
+            return true;
+        case Key::O:
+            show_open_dialog(view, panels);
             return true;
         case Key::Z:
             press.shift ? view.redo() : view.undo();

@@ -2,6 +2,7 @@
 // Controls: mouse and keyboard input to changes of a view.
 #pragma once
 
+#include "viewer/app/start_page.h"
 #include "viewer/app/view_switcher.h"
 #include "viewer/gl/window.h"
 
@@ -10,6 +11,9 @@
 #include <string>
 
 namespace lsys::view {
+
+/// The dialog that receives all keys.
+enum class OpenDialog : std::uint8_t { None, File };
 
 /// Open overlays, and modes of the window.
 struct PanelState {
@@ -22,6 +26,11 @@ struct PanelState {
     std::string closed_messages;
     // The user was warned of unsaved changes; the next request closes the window.
     bool asked_to_quit = false;
+    std::string state_folder; // of files kept between runs; empty: none are kept
+    OpenDialog dialog = OpenDialog::None;
+    FileBrowser browser;
+    StartPage start;
+    AddImage add_image; // empty: pictures are not shown
 };
 
 /// A row of the list of keys.
@@ -29,7 +38,7 @@ struct KeyHelp {
     const char* keys;
     const char* what;
 };
-inline constexpr std::array<KeyHelp, 30> kPlantKeys = {{
+inline constexpr std::array<KeyHelp, 32> kPlantKeys = {{
     {"Left drag", "Orbit"},
     {"Click", "Describe the module and the production that wrote it"},
     {"T", "Trace of the module: why written, next step, back to the axiom"},
@@ -59,10 +68,12 @@ inline constexpr std::array<KeyHelp, 30> kPlantKeys = {{
     {"F1", "Keys"},
     {"Esc", "Cancel what is being made; close the keys, stop flying"},
     {"Ctrl+Q", "Quit"},
+    {"Ctrl+O", "Open a file"},
+    {"Alt+Left, Alt+Right", "Previous, next file of the folder"},
     {"Drop a file", "Open it"},
 }};
 
-inline constexpr std::array<KeyHelp, 30> kForestKeys = {{
+inline constexpr std::array<KeyHelp, 32> kForestKeys = {{
     {"Left drag", "Orbit; with a tool: paint, Shift: erase"},
     {"Click", "Without a tool: describe the branch and its production"},
     {"Right drag", "Pan; with a tool: orbit"},
@@ -92,6 +103,8 @@ inline constexpr std::array<KeyHelp, 30> kForestKeys = {{
     {"F1", "Keys"},
     {"Esc", "Cancel what is being made; put the tool away, close the keys, stop flying"},
     {"Ctrl+Q", "Quit"},
+    {"Ctrl+O", "Open a file"},
+    {"Alt+Left, Alt+Right", "Previous, next file of the folder"},
     {"Drop a file", "Open it: a scene or a grammar"},
 }};
 
@@ -120,6 +133,16 @@ public:
     [[nodiscard]] bool is_moving() const { return is_moving_; }
 
 private:
+    /// Gives input to the dialog or the start page that is shown; returns whether one is.
+    [[nodiscard]] static bool
+    use_pages(const WindowInput& input, ViewSwitcher& switcher, PanelState& panels);
+    static void press_in_browser(const KeyPress& press, PanelState& panels, std::string& chosen);
+    static void press_with_alt(Key key, ViewSwitcher& switcher, PanelState& panels);
+    void apply_to_view(const WindowInput& input,
+                       double seconds,
+                       const PixelArea& area,
+                       ViewSwitcher& switcher,
+                       PanelState& panels);
     void press(const KeyPress& press, PlantView& view, PanelState& panels);
     void press(const KeyPress& press, ForestView& view, PanelState& panels);
     /// Handles a key that has one meaning in all views; returns whether `press` was such a key.
@@ -135,6 +158,8 @@ private:
     std::optional<glm::vec2> pressed_;
 };
 
+/// Opens the dialog for a file, in the folder of the file shown.
+void show_open_dialog(const View& view, PanelState& panels);
 /// Increments the plant's seed.
 void next_seed(PlantView& view);
 /// Shows the next generation if `step` is above 0, else the previous one; pauses growth.

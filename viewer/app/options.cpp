@@ -248,9 +248,10 @@ constexpr const char* kTitle =
     "Shows plants and forests of L-systems, live in a window or as pictures.";
 
 void add_all(CLI::App& app, ViewOptions& options) {
-    app.add_option("FILE", options.files,
-                   "A grammar or a .lsb file; a scene (.toml), or the grammars of a forest")
-        ->required();
+    app.add_option(
+        "FILE", options.files,
+        "A grammar or a .lsb file; a scene (.toml), or the grammars of a forest. Without "
+        "one, a window opens with samples and recent files");
     add_picture(app, options);
     add_grammar(app, options.grammar, options.run);
     add_base(app, options.run);
@@ -300,6 +301,17 @@ ParsedOptions parse_options(std::span<const std::string> arguments) {
     }
     if (const auto mistake = apply_base(options.run, options.files)) {
         return *mistake;
+    }
+    if (options.files.empty()) {
+        const bool is_about_a_file =
+            options.grammar != GrammarOptions{} || options.seed || options.plant_height ||
+            options.overrides != SceneOverrides{} || !options.camera.empty();
+        if (is_about_a_file || !options.screenshot.empty()) {
+            return UsageError{is_about_a_file ? "options of a plant or forest need a FILE"
+                                              : "--screenshot needs a FILE",
+                              "name a grammar or a scene"};
+        }
+        return options;
     }
     options.file = options.files.front();
     const std::optional<float> season = std::exchange(options.overrides.season, std::nullopt);

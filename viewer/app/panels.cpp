@@ -383,48 +383,50 @@ void draw_making(View& view, const Area& area) {
     ImGui::End();
 }
 
-} // namespace
-
-float panel_width(float scale) {
-    return kPanelWidth * scale;
+/// Draws the panel on the left; returns the file that it wants to open.
+std::string draw_side_panel(ViewSwitcher& switcher, PanelState& panels, const Area& area) {
+    std::string wanted;
+    ImGui::SetNextWindowPos({0.0F, 0.0F});
+    ImGui::SetNextWindowSize({area.low.x, area.high.y});
+    if (ImGui::Begin("Panel", nullptr,
+                     ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove |
+                         ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoSavedSettings |
+                         ImGuiWindowFlags_NoTitleBar)) {
+        if (ForestView* const forest = switcher.forest()) {
+            wanted = draw_forest_panel(*forest);
+        } else if (PlantView* const plant = switcher.plant()) {
+            draw_plant_panel(*plant);
+        }
+        ImGui::Separator();
+        ImGui::Checkbox("Statistics", &panels.statistics);
+        ImGui::SameLine();
+        if (ImGui::Button("Keys (F1)")) {
+            panels.help = !panels.help;
+        }
+        ImGui::SameLine();
+        if (ImGui::Button("Frame all")) {
+            switcher.current().frame_all();
+        }
+        ImGui::SameLine();
+        if (ImGui::Button("Open")) {
+            show_open_dialog(switcher.current(), panels);
+        }
+        draw_tooltip("Open a file (Ctrl+O)");
+        draw_standard_views(switcher.current());
+        if (switcher.plant() != nullptr && !switcher.last_scene().empty() &&
+            ImGui::Button("Back to forest")) {
+            wanted = switcher.last_scene();
+        }
+    }
+    ImGui::End();
+    return wanted;
 }
 
-bool is_control_held() {
-    return ImGui::IsAnyItemActive();
-}
-
-void draw_panels(ViewSwitcher& switcher, PanelState& panels, float scale) {
-    const Area area = picture_area(panels, scale);
+/// Draws the panel and overlays of a plant or forest; returns the file that they want to open.
+std::string draw_view_panels(ViewSwitcher& switcher, PanelState& panels, const Area& area) {
     std::string wanted;
     if (panels.panels) {
-        ImGui::SetNextWindowPos({0.0F, 0.0F});
-        ImGui::SetNextWindowSize({area.low.x, area.high.y});
-        if (ImGui::Begin("Panel", nullptr,
-                         ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove |
-                             ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoSavedSettings |
-                             ImGuiWindowFlags_NoTitleBar)) {
-            if (ForestView* const forest = switcher.forest()) {
-                wanted = draw_forest_panel(*forest);
-            } else if (PlantView* const plant = switcher.plant()) {
-                draw_plant_panel(*plant);
-            }
-            ImGui::Separator();
-            ImGui::Checkbox("Statistics", &panels.statistics);
-            ImGui::SameLine();
-            if (ImGui::Button("Keys (F1)")) {
-                panels.help = !panels.help;
-            }
-            ImGui::SameLine();
-            if (ImGui::Button("Frame all")) {
-                switcher.current().frame_all();
-            }
-            draw_standard_views(switcher.current());
-            if (switcher.plant() != nullptr && !switcher.last_scene().empty() &&
-                ImGui::Button("Back to forest")) {
-                wanted = switcher.last_scene();
-            }
-        }
-        ImGui::End();
+        wanted = draw_side_panel(switcher, panels, area);
     }
     if (panels.statistics) {
         draw_statistics(switcher, area);
@@ -438,6 +440,42 @@ void draw_panels(ViewSwitcher& switcher, PanelState& panels, float scale) {
         draw_help(switcher.forest() != nullptr ? std::span<const KeyHelp>(kForestKeys)
                                                : std::span<const KeyHelp>(kPlantKeys),
                   panels, area);
+    }
+    return wanted;
+}
+
+std::string draw_start(const View& view, PanelState& panels) {
+    if (!panels.start.is_loaded) {
+        panels.start.load(panels.state_folder, samples_folder());
+    }
+    bool wants_dialog = false;
+    std::string wanted = draw_start_page(panels.start, panels.add_image, wants_dialog);
+    if (wants_dialog) {
+        show_open_dialog(view, panels);
+    }
+    return wanted;
+}
+
+} // namespace
+
+float panel_width(float scale) {
+    return kPanelWidth * scale;
+}
+
+bool is_control_held() {
+    return ImGui::IsAnyItemActive();
+}
+
+void draw_panels(ViewSwitcher& switcher, PanelState& panels, float scale) {
+    std::string wanted = switcher.current().file().empty()
+                             ? draw_start(switcher.current(), panels)
+                             : draw_view_panels(switcher, panels, picture_area(panels, scale));
+    if (panels.dialog == OpenDialog::File) {
+        bool is_open = true;
+        wanted = draw_open_dialog(panels.browser, is_open);
+        if (!is_open || !wanted.empty()) {
+            panels.dialog = OpenDialog::None;
+        }
     }
     if (!wanted.empty()) {
         switcher.open(wanted);

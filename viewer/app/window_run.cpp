@@ -4,6 +4,7 @@
 #include "runtime/program/files.h"
 #include "viewer/app/controls.h"
 #include "viewer/app/panels.h"
+#include "viewer/app/recent_files.h"
 #include "viewer/app/shader_folder.h"
 #include "viewer/app/view_switcher.h"
 #include "viewer/gl/window.h"
@@ -32,12 +33,22 @@ constexpr double kMaxFlightStep = 0.1;
 constexpr int kPicturesAfterInput = 3;
 
 std::string title_of(const std::string& file) {
+    if (file.empty()) {
+        return "lsview";
+    }
     return std::filesystem::path(file).filename().string() + " - lsview";
 }
 
 class WindowRun {
 public:
-    WindowRun(Window& window, ViewSwitcher& switcher) : window_(window), switcher_(switcher) {}
+    WindowRun(Window& window, ViewSwitcher& switcher, const Console& console)
+        : window_(window), switcher_(switcher), console_(console) {
+        panels_.state_folder = state_folder();
+        panels_.add_image = [this](const Texture& picture) { return window_.add_image(picture); };
+        if (!switcher_.current().file().empty()) {
+            remember_file(panels_.state_folder, switcher_.current().file(), console_);
+        }
+    }
 
     /// Handles input and draws a picture if needed; returns false to quit.
     bool step() {
@@ -78,7 +89,13 @@ public:
         draw();
         if (switcher_.current().file() != file) { // panels open files too
             window_.set_title(title_of(switcher_.current().file()));
+            window_.drop_images(); // of the start page, which is not shown again
+            panels_.start = {};
+            remember_file(panels_.state_folder, switcher_.current().file(), console_);
             pictures_left_ = kPicturesAfterInput;
+        }
+        if (is_loading(panels_.start)) {
+            pictures_left_ = std::max(pictures_left_, 1);
         }
         return true;
     }
@@ -129,6 +146,7 @@ private:
 
     Window& window_;
     ViewSwitcher& switcher_;
+    const Console& console_;
     Controls controls_;
     PanelState panels_;
     Clock::time_point last_ = Clock::now();
@@ -145,15 +163,19 @@ ExitStatus run_window(const ViewOptions& options, const Console& console) {
         return report_error(Error{fmt::format("--camera: {}", camera.error().message)}, console);
     }
     // An unreadable file is a usage error; errors in a readable file are shown in the window.
-    if (const Result<std::string> bytes = read_file(options.file, {kMaxSourceBytes}, console);
-        !bytes) {
-        return report_error(bytes.error(), console);
+    if (!options.file.empty()) {
+        if (const Result<std::string> bytes = read_file(options.file, {kMaxSourceBytes}, console);
+            !bytes) {
+            return report_error(bytes.error(), console);
+        }
     }
     Result<std::unique_ptr<Window>> window =
         Window::make(title_of(options.file), options.width, options.height);
     if (!window) {
         const ExitStatus status = report_error(window.error(), console);
-        console.help("`--screenshot FILE` makes a picture without a window");
+        console.help(options.file.empty()
+                         ? "`lsview FILE --screenshot PICTURE` makes a picture without a window"
+                         : "`--screenshot FILE` makes a picture without a window");
         return status;
     }
     Result<std::unique_ptr<Renderer>> renderer =
@@ -166,7 +188,7 @@ ExitStatus run_window(const ViewOptions& options, const Console& console) {
     ViewSwitcher switcher(options, console, *renderer.value(),
                           [made = window.value().get()] { made->wake(); });
     switcher.current().camera() = camera.value();
-    WindowRun run(*window.value(), switcher);
+    WindowRun run(*window.value(), switcher, console);
     while (run.step()) {
         if (console.interrupted()) {
             return ExitStatus::Interrupted;
