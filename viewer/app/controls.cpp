@@ -3,6 +3,7 @@
 
 #include "grammar/base/paths.h"
 
+#include <fmt/format.h>
 #include <glm/geometric.hpp>
 
 #include <algorithm>
@@ -33,6 +34,13 @@ TraceScope scope_after(TraceScope scope) {
         break;
     }
     return TraceScope::Written;
+}
+
+/// Index of the bookmark that a digit names.
+std::optional<std::size_t> bookmark_of(Key key) {
+    return key >= Key::One && key <= Key::Nine
+               ? std::optional(static_cast<std::size_t>(key) - static_cast<std::size_t>(Key::One))
+               : std::nullopt;
 }
 
 /// Rotates the camera around the target: half a turn per picture height of `drag`.
@@ -66,6 +74,54 @@ void zoom(Camera& camera, float wheel) {
 void show_open_dialog(const View& view, PanelState& panels) {
     panels.browser.show(std::string(folder_of_path(view.file())));
     panels.dialog = OpenDialog::File;
+}
+
+void show_picture_dialog(const View& view, PanelState& panels) {
+    panels.picture.name =
+        unused_picture_name(panels.picture.folder, path_text(path_of(view.file()).stem()));
+    panels.dialog = OpenDialog::Picture;
+}
+
+void take_picture(View& view, PanelState& panels) {
+    PictureSettings settings = panels.picture;
+    settings.width = settings.width == 0 ? view.picture_width() : settings.width;
+    settings.height = settings.height == 0 ? view.picture_height() : settings.height;
+    panels.dialog = OpenDialog::None;
+    if (settings.name.empty() || settings.width == 0) {
+        view.set_note("not written: the picture has no name");
+    } else if (!settings.is_film) {
+        view.write_picture(settings);
+    } else if (view.is_unsaved()) {
+        view.set_note("not written: a film shows saved trees; Ctrl+S saves the painted ones");
+    } else if (settings.kind == FilmKind::Growth && !view.has_growth()) {
+        view.set_note("not written: nothing grows here");
+    } else if (panels.film.is_busy()) {
+        view.set_note("not written: one film at a time");
+    } else {
+        panels.film.begin(view.picture_options(settings.kind), settings, panels.wake);
+    }
+}
+
+void show_sheet(PlantView& view, PanelState& panels) {
+    if (view.document() == nullptr) {
+        view.set_note("There is no plant for a contact sheet");
+        return;
+    }
+    // A cell is a third of the window, and pictures of half its size are sharp enough to choose.
+    const std::uint32_t width = std::max(view.picture_width() / 2, 1U);
+    const std::uint32_t height = std::max(view.picture_height() / 2, 1U);
+    panels.sheet.show(view, width, height, panels.wake);
+    panels.dialog = OpenDialog::Sheet;
+}
+
+void close_sheet(PanelState& panels) {
+    panels.sheet.close();
+    panels.dialog = OpenDialog::None;
+}
+
+void take_from_sheet(std::size_t cell, PlantView& view, PanelState& panels) {
+    take_cell(panels.sheet.cells.at(cell), view.settings);
+    close_sheet(panels);
 }
 
 void next_seed(PlantView& view) {
@@ -118,29 +174,34 @@ void Controls::apply_to_view(const WindowInput& input,
                              const PixelArea& area,
                              ViewSwitcher& switcher,
                              PanelState& panels) {
-    WindowInput rest = input;
-    rest.presses.clear();
     for (const KeyPress& press : input.presses) {
         if (press.alt) {
             press_with_alt(press.key, switcher, panels);
-        } else {
-            rest.presses.push_back(press);
         }
     }
     const ForestView* const shown = switcher.forest();
     if (!panels.flies && (shown == nullptr || shown->settings.tool == PaintTool::None)) {
-        click(rest, area, switcher.current());
+        click(input, area, switcher.current());
     } else {
         pressed_.reset();
     }
     if (ForestView* const forest = switcher.forest()) {
-        apply(rest, seconds, area, *forest, panels);
+        apply(input, seconds, area, *forest, panels);
     } else if (PlantView* const plant = switcher.plant()) {
-        apply(rest, seconds, static_cast<float>(area.height), *plant, panels);
+        apply(input, seconds, static_cast<float>(area.height), *plant, panels);
     }
 }
 
-void Controls::press_with_alt(Key key, ViewSwitcher& switcher, PanelState& /*panels*/) {
+void Controls::press_with_alt(Key key, ViewSwitcher& switcher, PanelState& panels) {
+    View& view = switcher.current();
+    if (const std::optional<std::size_t> index = bookmark_of(key)) {
+        panels.bookmarks.show(panels.state_folder, view.file());
+        if (const std::optional<CameraBookmark>& bookmark = panels.bookmarks.all().at(*index)) {
+            view.camera() = bookmark->camera;
+        } else {
+            view.set_note(fmt::format("There is no camera {0}: Ctrl+{0} sets it", *index + 1));
+        }
+    }
     if (key == Key::Left || key == Key::Right) {
         switcher.open_neighbour(key == Key::Right ? 1 : -1);
     }
@@ -159,12 +220,24 @@ bool Controls::use_pages(const WindowInput& input, ViewSwitcher& switcher, Panel
     for (const KeyPress& press : input.presses) {
         if (press.control) {
             panels.quits = panels.quits || press.key == Key::Q;
-            if (press.key == Key::O) {
+            if (press.key == Key::O && panels.dialog != OpenDialog::Sheet) {
                 show_open_dialog(switcher.current(), panels);
             }
         } else if (panels.dialog == OpenDialog::File) {
             press_in_browser(press, panels, chosen);
+        } else if (panels.dialog == OpenDialog::Picture) {
+            if (press.key == Key::Enter) {
+                take_picture(switcher.current(), panels);
+            } else if (press.key == Key::Escape) {
+                panels.dialog = OpenDialog::None;
+            }
+        } else if (panels.dialog == OpenDialog::Sheet && press.key == Key::Escape) {
+            close_sheet(panels);
         } else if (press.key == Key::Enter) {
+            if (panels.dialog == OpenDialog::Sheet && switcher.plant() != nullptr) {
+                take_from_sheet(panels.sheet.selected, *switcher.plant(), panels);
+                break;
+            }
             chosen = panels.start.selected_file();
         } else {
             const auto axis = [&press](Key less, Key more) {
@@ -172,7 +245,9 @@ bool Controls::use_pages(const WindowInput& input, ViewSwitcher& switcher, Panel
             };
             const int right = axis(Key::Left, Key::Right);
             const int down = axis(Key::Up, Key::Down);
-            if (right != 0 || down != 0) {
+            if (panels.dialog == OpenDialog::Sheet) {
+                panels.sheet.move(right, down);
+            } else if (right != 0 || down != 0) {
                 panels.start.move(right, down);
             }
         }
@@ -322,6 +397,16 @@ void Controls::fly(const WindowInput& input, float seconds, float height, Camera
 }
 
 bool Controls::press_common(const KeyPress& press, View& view, PanelState& panels) {
+    if (press.alt) {
+        return true; // press_with_alt() has handled it
+    }
+    if (const std::optional<std::size_t> index = bookmark_of(press.key);
+        press.control && index && !view.file().empty()) {
+        panels.bookmarks.show(panels.state_folder, view.file());
+        panels.bookmarks.set(*index, view.camera(), view.console());
+        view.set_note(fmt::format("Camera {0} is set: Alt+{0} goes to it", *index + 1));
+        return true;
+    }
     if (press.control) {
         switch (press.key) {
         case Key::Q:
@@ -347,6 +432,11 @@ bool Controls::press_common(const KeyPress& press, View& view, PanelState& panel
     case Key::Escape:
         if (view.making()) {
             view.cancel_making();
+            return true;
+        }
+        if (panels.film.is_busy()) {
+            panels.film.cancel();
+            view.set_note("Cancelled: no film is written");
             return true;
         }
         panels.help = false;
@@ -382,7 +472,11 @@ bool Controls::press_common(const KeyPress& press, View& view, PanelState& panel
         view.reload();
         return true;
     case Key::P:
-        view.write_screenshot();
+        if (press.shift) {
+            view.write_screenshot();
+        } else {
+            show_picture_dialog(view, panels);
+        }
         return true;
     case Key::H:
         panels.panels = !panels.panels;
@@ -525,6 +619,9 @@ void Controls::press(const KeyPress& press, PlantView& view, PanelState& panels)
         break;
     case Key::N:
         next_seed(view);
+        break;
+    case Key::K:
+        show_sheet(view, panels);
         break;
     case Key::T:
         view.trace(view.shows_trace() ? scope_after(view.trace_scope()) : view.trace_scope());

@@ -2,6 +2,9 @@
 // Controls: mouse and keyboard input to changes of a view.
 #pragma once
 
+#include "viewer/app/camera_bookmarks.h"
+#include "viewer/app/contact_sheet.h"
+#include "viewer/app/film_export.h"
 #include "viewer/app/start_page.h"
 #include "viewer/app/view_switcher.h"
 #include "viewer/gl/window.h"
@@ -13,7 +16,7 @@
 namespace lsys::view {
 
 /// The dialog that receives all keys.
-enum class OpenDialog : std::uint8_t { None, File };
+enum class OpenDialog : std::uint8_t { None, File, Picture, Sheet };
 
 /// Open overlays, and modes of the window.
 struct PanelState {
@@ -30,7 +33,12 @@ struct PanelState {
     OpenDialog dialog = OpenDialog::None;
     FileBrowser browser;
     StartPage start;
-    AddImage add_image; // empty: pictures are not shown
+    PictureSettings picture;
+    FilmExport film;
+    CameraBookmarks bookmarks;
+    ContactSheet sheet;
+    std::function<void()> wake; // of the window, on any thread, when `film` has an outcome
+    AddImage add_image;         // empty: pictures are not shown
 };
 
 /// A row of the list of keys.
@@ -38,7 +46,7 @@ struct KeyHelp {
     const char* keys;
     const char* what;
 };
-inline constexpr std::array<KeyHelp, 32> kPlantKeys = {{
+inline constexpr std::array<KeyHelp, 34> kPlantKeys = {{
     {"Left drag", "Orbit"},
     {"Click", "Describe the module and the production that wrote it"},
     {"T", "Trace of the module: why written, next step, back to the axiom"},
@@ -48,6 +56,7 @@ inline constexpr std::array<KeyHelp, 32> kPlantKeys = {{
     {"1, 2, 3", "View from the front, the side, the top"},
     {"Tab", "Fly: look with the mouse, move with W A S D Q E, Shift: faster"},
     {"C", "Copy the camera as text"},
+    {"Ctrl+1 to 9, Alt+1 to 9", "Keep a camera, go to it"},
     {"W", "Wireframe"},
     {"I", "Surfaces"},
     {"L", "Lines: none, skeleton, turtle path"},
@@ -58,10 +67,11 @@ inline constexpr std::array<KeyHelp, 32> kPlantKeys = {{
     {"PageUp", "Next generation"},
     {"PageDown", "Previous generation"},
     {"N", "Next seed"},
+    {"K", "Contact sheet: nine seeds, or values of constants"},
     {"R", "Reload files"},
     {"Ctrl+Z, Ctrl+Y", "Undo, redo a change of settings"},
     {"Ctrl+S", "Write constants, settings and seed to the file"},
-    {"P", "Save a picture (PNG) in the current folder"},
+    {"P, Shift+P", "Picture or film; at once a PNG in the current folder"},
     {"H", "Panels"},
     {"A", "Statistics"},
     {"M", "Close or show the messages"},
@@ -73,7 +83,7 @@ inline constexpr std::array<KeyHelp, 32> kPlantKeys = {{
     {"Drop a file", "Open it"},
 }};
 
-inline constexpr std::array<KeyHelp, 32> kForestKeys = {{
+inline constexpr std::array<KeyHelp, 33> kForestKeys = {{
     {"Left drag", "Orbit; with a tool: paint, Shift: erase"},
     {"Click", "Without a tool: describe the branch and its production"},
     {"Right drag", "Pan; with a tool: orbit"},
@@ -83,6 +93,7 @@ inline constexpr std::array<KeyHelp, 32> kForestKeys = {{
     {"1, 2, 3", "View from the front, the side, the top"},
     {"Tab", "Fly: look with the mouse, move with W A S D Q E, Shift: faster"},
     {"C", "Copy the camera as text"},
+    {"Ctrl+1 to 9, Alt+1 to 9", "Keep a camera, go to it"},
     {"B", "Brush"},
     {"O", "Single tree"},
     {"X", "Eraser"},
@@ -97,7 +108,7 @@ inline constexpr std::array<KeyHelp, 32> kForestKeys = {{
     {"L", "Colours of branches: natural, id, age, hero"},
     {"N", "Next key: another forest"},
     {"R", "Reload files"},
-    {"P", "Save a picture (PNG) in the current folder"},
+    {"P, Shift+P", "Picture or film; at once a PNG in the current folder"},
     {"H, A", "Panels, statistics"},
     {"M", "Close or show the messages"},
     {"F1", "Keys"},
@@ -160,6 +171,15 @@ private:
 
 /// Opens the dialog for a file, in the folder of the file shown.
 void show_open_dialog(const View& view, PanelState& panels);
+/// Opens the dialog for a picture, with a name that no file has.
+void show_picture_dialog(const View& view, PanelState& panels);
+/// Writes the picture of the settings, or begins to write their film; reports why not in a note.
+void take_picture(View& view, PanelState& panels);
+/// Shows the contact sheet of the plant; without a plant reports that in a note.
+void show_sheet(PlantView& view, PanelState& panels);
+void close_sheet(PanelState& panels);
+/// Takes the values of a cell of the sheet and closes it; undo() takes them back.
+void take_from_sheet(std::size_t cell, PlantView& view, PanelState& panels);
 /// Increments the plant's seed.
 void next_seed(PlantView& view);
 /// Shows the next generation if `step` is above 0, else the previous one; pauses growth.

@@ -84,6 +84,9 @@ Outcome<std::shared_ptr<ForestDocument>> make(const ViewOptions& options,
     if (!step.take(load_scene(options.files, overrides, project), loaded)) {
         return step.end();
     }
+    if (const Result<void> applied = apply(options.edits, loaded.scene); !applied) {
+        return step.fail(applied.error());
+    }
     if (edits != nullptr) {
         if (const Result<void> applied = apply(*edits, loaded.scene); !applied) {
             return step.fail(applied.error());

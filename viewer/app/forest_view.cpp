@@ -190,6 +190,27 @@ PickRequest ForestView::request_for(const Picked& picked) const {
     return request;
 }
 
+ViewOptions ForestView::picture_options(FilmKind kind) const {
+    ViewOptions wanted = options_;
+    wanted.edits = settings.edits;
+    if (kind == FilmKind::Growth) {
+        wanted.edits.years.reset();
+    }
+    wanted.camera = to_text(settings.camera);
+    wanted.shadows = settings.shadows;
+    wanted.style = settings.wireframe ? PlantStyle::Wireframe : PlantStyle::Surface;
+    wanted.colours = settings.colours;
+    wanted.light = settings.light;
+    wanted.max_triangles = settings.max_triangles;
+    if (settings.visibility) {
+        wanted.visibility = static_cast<float>(*settings.visibility);
+    }
+    if (settings.windy) {
+        wanted.wind = settings.wind;
+    }
+    return wanted;
+}
+
 void ForestView::request_load() {
     requested_ = settings.edits;
     // After an error, read all files again: the cause may lie in any of them.

@@ -105,6 +105,10 @@ public:
     [[nodiscard]] Camera& camera() override { return settings.camera; }
     [[nodiscard]] bool is_unsaved() const override { return painting_.is_unsaved(); }
 
+    [[nodiscard]] ViewOptions picture_options(FilmKind kind) const override;
+    [[nodiscard]] bool is_forest() const override { return true; }
+    [[nodiscard]] bool has_growth() const override { return default_years() != 0; }
+
     /// Opens another scene and frames it.
     void open(const std::string& file);
     /// Restarts at the first year when all years are shown.

@@ -130,6 +130,9 @@ void add_picture(CLI::App& app, ViewOptions& options) {
         "Pictures per second of a series (default 24)")
         ->type_name("F")
         ->group("Picture");
+    app.add_flag("--transparent", options.transparent,
+                 "Draw a plant without sky and ground; the PNG is transparent around it")
+        ->group("Picture");
     app.add_flag("--turntable", options.turntable, "The series goes once around the plant")
         ->group("Picture");
     app.add_flag("--grow", options.grow,
@@ -328,6 +331,12 @@ ParsedOptions parse_options(std::span<const std::string> arguments) {
     if (options.is_forest && options.mesh.method == MeshMethod::Solid) {
         return UsageError{"--method solid is for a single plant, not a forest", "leave it out"};
     }
+    if (options.transparent && (options.is_forest || options.screenshot.empty())) {
+        return options.is_forest
+                   ? UsageError{"--transparent is for a picture of a plant, not of a forest",
+                                "leave it out"}
+                   : UsageError{"--transparent belongs to pictures", "add `--screenshot FILE`"};
+    }
     if (!options.is_forest && options.visibility) {
         return UsageError{"--air sets the haze of a forest, and this is a plant", "leave it out"};
     }
@@ -411,6 +420,8 @@ void use_other_file(ViewOptions& options, const std::string& file) {
     options.fly_to.clear();
     options.visibility.reset();
     options.light = {};
+    options.edits = {};
+    options.transparent = false;
 }
 
 } // namespace lsys::view

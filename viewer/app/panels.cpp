@@ -2,6 +2,7 @@
 #include "viewer/app/panels.h"
 
 #include "viewer/app/forest_panel.h"
+#include "viewer/app/picture_dialog.h"
 #include "viewer/app/plant_panel.h"
 #include "viewer/app/widgets.h"
 
@@ -363,8 +364,9 @@ void draw_standard_views(View& view) {
 }
 
 /// Draws what is being made, with a button that cancels it.
-void draw_making(View& view, const Area& area) {
-    const std::optional<MakingState> making = view.making();
+void draw_making(View& view, PanelState& panels, const Area& area) {
+    const std::optional<MakingState> of_view = view.making();
+    const std::optional<MakingState> making = of_view ? of_view : panels.film.state();
     if (!making) {
         return;
     }
@@ -377,10 +379,49 @@ void draw_making(View& view, const Area& area) {
             ImGui::ProgressBar(*making->fraction, {kPanelWidth, 0.0F});
         }
         if (ImGui::Button("Cancel (Esc)")) {
-            view.cancel_making();
+            if (of_view) {
+                view.cancel_making();
+            } else {
+                panels.film.cancel();
+                view.set_note("Cancelled: no film is written");
+            }
         }
     }
     ImGui::End();
+}
+
+/// Draws the cameras that are kept for the file, with their names.
+void draw_bookmarks(View& view, PanelState& panels) {
+    panels.bookmarks.show(panels.state_folder, view.file());
+    if (!ImGui::CollapsingHeader("Cameras")) {
+        return;
+    }
+    bool has_any = false;
+    for (std::size_t i = 0; i < kBookmarks; ++i) {
+        const std::optional<CameraBookmark>& bookmark = panels.bookmarks.all().at(i);
+        if (!bookmark) {
+            continue;
+        }
+        has_any = true;
+        ImGui::PushID(static_cast<int>(i));
+        if (ImGui::Button(fmt::format("{}", i + 1).c_str())) {
+            view.camera() = bookmark->camera;
+        }
+        draw_tooltip("Go to this camera (Alt and the number)");
+        ImGui::SameLine();
+        std::string name = bookmark->name;
+        edit_text("##name", name);
+        ImGui::SameLine();
+        if (ImGui::SmallButton("x")) {
+            panels.bookmarks.remove(i, view.console());
+        } else if (name != bookmark->name) {
+            panels.bookmarks.rename(i, name, view.console());
+        }
+        ImGui::PopID();
+    }
+    if (!has_any) {
+        ImGui::TextDisabled("Ctrl+1 to 9 keeps a camera");
+    }
 }
 
 /// Draws the panel on the left; returns the file that it wants to open.
@@ -397,6 +438,7 @@ std::string draw_side_panel(ViewSwitcher& switcher, PanelState& panels, const Ar
         } else if (PlantView* const plant = switcher.plant()) {
             draw_plant_panel(*plant);
         }
+        draw_bookmarks(switcher.current(), panels);
         ImGui::Separator();
         ImGui::Checkbox("Statistics", &panels.statistics);
         ImGui::SameLine();
@@ -412,6 +454,14 @@ std::string draw_side_panel(ViewSwitcher& switcher, PanelState& panels, const Ar
             show_open_dialog(switcher.current(), panels);
         }
         draw_tooltip("Open a file (Ctrl+O)");
+        if (ImGui::Button("Picture or film (P)")) {
+            show_picture_dialog(switcher.current(), panels);
+        }
+        ImGui::SameLine();
+        if (ImGui::Button("Picture (Shift+P)")) {
+            switcher.current().write_screenshot();
+        }
+        draw_tooltip("Writes the picture of the window into the current folder, as NAME-1.png");
         draw_standard_views(switcher.current());
         if (switcher.plant() != nullptr && !switcher.last_scene().empty() &&
             ImGui::Button("Back to forest")) {
@@ -435,13 +485,32 @@ std::string draw_view_panels(ViewSwitcher& switcher, PanelState& panels, const A
     draw_hint(switcher.current(), panels, area);
     draw_picked(switcher.current(), area);
     draw_trace(switcher.current(), area, bottom);
-    draw_making(switcher.current(), area);
+    draw_making(switcher.current(), panels, area);
     if (panels.help) {
         draw_help(switcher.forest() != nullptr ? std::span<const KeyHelp>(kForestKeys)
                                                : std::span<const KeyHelp>(kPlantKeys),
                   panels, area);
     }
     return wanted;
+}
+
+void draw_sheet(ViewSwitcher& switcher, PanelState& panels) {
+    PlantView* const plant = switcher.plant();
+    if (plant == nullptr) { // another file was dropped on the window
+        close_sheet(panels);
+        return;
+    }
+    for (const auto& [cell, picture] : panels.sheet.take()) {
+        panels.sheet.images.at(cell) = panels.add_image ? panels.add_image(picture) : 0;
+    }
+    const SheetAction action = draw_contact_sheet(panels.sheet, *plant);
+    if (action.taken) {
+        take_from_sheet(*action.taken, *plant, panels);
+    } else if (action.closes) {
+        close_sheet(panels);
+    } else if (action.varies) {
+        show_sheet(*plant, panels);
+    }
 }
 
 std::string draw_start(const View& view, PanelState& panels) {
@@ -467,6 +536,10 @@ bool is_control_held() {
 }
 
 void draw_panels(ViewSwitcher& switcher, PanelState& panels, float scale) {
+    if (panels.dialog == OpenDialog::Sheet) {
+        draw_sheet(switcher, panels);
+        return;
+    }
     std::string wanted = switcher.current().file().empty()
                              ? draw_start(switcher.current(), panels)
                              : draw_view_panels(switcher, panels, picture_area(panels, scale));
@@ -474,6 +547,14 @@ void draw_panels(ViewSwitcher& switcher, PanelState& panels, float scale) {
         bool is_open = true;
         wanted = draw_open_dialog(panels.browser, is_open);
         if (!is_open || !wanted.empty()) {
+            panels.dialog = OpenDialog::None;
+        }
+    }
+    if (panels.dialog == OpenDialog::Picture) {
+        bool is_open = true;
+        if (draw_picture_dialog(switcher.current(), panels.picture, is_open)) {
+            take_picture(switcher.current(), panels);
+        } else if (!is_open) {
             panels.dialog = OpenDialog::None;
         }
     }

@@ -101,6 +101,23 @@ ViewOptions PlantView::options_with_settings() const {
     return wanted;
 }
 
+ViewOptions PlantView::picture_options(FilmKind kind) const {
+    ViewOptions wanted = options_with_settings();
+    wanted.files = {settings.file};
+    if (kind == FilmKind::Growth) {
+        wanted.grammar.generations = default_generations();
+    }
+    wanted.camera = to_text(settings.camera);
+    wanted.gravity.reset();
+    wanted.wind.reset();
+    wanted.shadows = settings.shadows;
+    wanted.ground = settings.ground;
+    wanted.style = settings.style;
+    wanted.lines = settings.lines;
+    wanted.light = settings.light;
+    return wanted;
+}
+
 std::uint32_t PlantView::default_generations() const {
     const std::uint32_t of_grammar =
         document_ == nullptr ? 0 : document_->grammar.bytecode.generations.value_or(0);

@@ -93,6 +93,9 @@ public:
     [[nodiscard]] const std::string& file() const override { return settings.file; }
     [[nodiscard]] Camera& camera() override { return settings.camera; }
 
+    [[nodiscard]] ViewOptions picture_options(FilmKind kind) const override;
+    [[nodiscard]] bool has_growth() const override { return default_generations() != 0; }
+
     /// Opens another file and frames it.
     void open(const std::string& file);
     /// Restarts at the axiom when all generations are shown.

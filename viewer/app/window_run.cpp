@@ -44,6 +44,7 @@ public:
     WindowRun(Window& window, ViewSwitcher& switcher, const Console& console)
         : window_(window), switcher_(switcher), console_(console) {
         panels_.state_folder = state_folder();
+        panels_.wake = [this] { window_.wake(); };
         panels_.add_image = [this](const Texture& picture) { return window_.add_image(picture); };
         if (!switcher_.current().file().empty()) {
             remember_file(panels_.state_folder, switcher_.current().file(), console_);
@@ -52,9 +53,11 @@ public:
 
     /// Handles input and draws a picture if needed; returns false to quit.
     bool step() {
-        const double wait = pictures_left_ > 0 || controls_.is_moving() ? 0.0
-                            : switcher_.current().is_busy()             ? kBusy
-                                                                        : kIdle;
+        const double wait =
+            pictures_left_ > 0 || controls_.is_moving() ? 0.0
+            : switcher_.current().is_busy() || panels_.film.is_busy() || panels_.sheet.is_busy()
+                ? kBusy
+                : kIdle;
         const WindowInput input = window_.wait(wait);
         const Clock::time_point now = Clock::now();
         const double passed =
@@ -75,7 +78,15 @@ public:
         if (!is_control_held()) {
             switcher_.current().record_edits();
         }
-        const bool has_news = switcher_.current().update();
+        if (shows_sheet_ && panels_.dialog != OpenDialog::Sheet) {
+            window_.drop_images();
+        }
+        shows_sheet_ = panels_.dialog == OpenDialog::Sheet;
+        const std::optional<std::string> film = panels_.film.take();
+        if (film) {
+            switcher_.current().set_note(*film);
+        }
+        const bool has_news = switcher_.current().update() || film;
         const bool dropped_note = switcher_.current().drop_old_note(now);
         if (dropped_note) {
             // The warning has left the screen, so the next Ctrl+Q must warn again.
@@ -91,10 +102,13 @@ public:
             window_.set_title(title_of(switcher_.current().file()));
             window_.drop_images(); // of the start page, which is not shown again
             panels_.start = {};
+            if (panels_.dialog == OpenDialog::Sheet) {
+                close_sheet(panels_);
+            }
             remember_file(panels_.state_folder, switcher_.current().file(), console_);
             pictures_left_ = kPicturesAfterInput;
         }
-        if (is_loading(panels_.start)) {
+        if (is_loading(panels_.start) || panels_.sheet.has_news()) {
             pictures_left_ = std::max(pictures_left_, 1);
         }
         return true;
@@ -114,7 +128,8 @@ private:
 
     /// Draws while something is being made, and once more when it is done.
     void update_progress(Clock::time_point now) {
-        const bool is_making = switcher_.current().making().has_value();
+        const bool is_making =
+            switcher_.current().making().has_value() || panels_.film.state().has_value();
         if (is_making != shows_progress_ ||
             (is_making && now - last_progress_ >= kProgressInterval)) {
             pictures_left_ = std::max(pictures_left_, 1);
@@ -152,6 +167,7 @@ private:
     Clock::time_point last_ = Clock::now();
     Clock::time_point last_progress_ = last_;
     bool shows_progress_ = false;
+    bool shows_sheet_ = false;
     int pictures_left_ = kPicturesAfterInput;
 };
 

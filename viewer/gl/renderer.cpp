@@ -202,6 +202,10 @@ public:
             draw_shadows(shadow_from_world, stats);
         }
         target_.begin(area.width, area.height, frame.samples);
+        if (frame.transparent) {
+            constexpr std::array<GLfloat, 4> kNothing{};
+            glClearBufferfv(GL_COLOR, 0, kNothing.data());
+        }
         glDepthFunc(GL_GEQUAL); // reversed depth
         glBindTextureUnit(kShadowTexture, shadow_.texture());
         if (is_forest_) {
@@ -217,10 +221,12 @@ public:
         if (frame.ground && !is_forest_ && !bounds().empty) {
             draw_ground(frame, stats);
         }
-        glUseProgram(programs_.sky.name());
-        glDrawArrays(GL_TRIANGLES, 0, 3);
-        ++stats.draws;
-        ++stats.triangles;
+        if (!frame.transparent) { // the sky covers all pixels that are left
+            glUseProgram(programs_.sky.name());
+            glDrawArrays(GL_TRIANGLES, 0, 3);
+            ++stats.draws;
+            ++stats.triangles;
+        }
         glDepthFunc(GL_ALWAYS);
         glUseProgram(programs_.line.name());
         stats.draws += lines_.draw();
