@@ -58,6 +58,14 @@ struct SheetRequest {
     bool is_repeat = false;
 };
 
+/// Size of a picture, pixels.
+struct SheetSize {
+    std::uint32_t width = 1;
+    std::uint32_t height = 1;
+};
+/// Size of the picture of a cell in a window of a size in pixels: a third, less the borders.
+[[nodiscard]] SheetSize sheet_cell_size(std::uint32_t window_width, std::uint32_t window_height);
+
 class ContactSheet {
 public:
     /// Begins to draw the pictures for the plant of `view`; drops those before. `width`, `height`:

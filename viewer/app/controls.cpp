@@ -107,10 +107,8 @@ void show_sheet(PlantView& view, PanelState& panels) {
         view.set_note("There is no plant for a contact sheet");
         return;
     }
-    // A cell is a third of the window, and pictures of half its size are sharp enough to choose.
-    const std::uint32_t width = std::max(view.picture_width() / 2, 1U);
-    const std::uint32_t height = std::max(view.picture_height() / 2, 1U);
-    panels.sheet.show(view, width, height, panels.wake);
+    const SheetSize cell = sheet_cell_size(panels.window_width, panels.window_height);
+    panels.sheet.show(view, cell.width, cell.height, panels.wake);
     panels.dialog = OpenDialog::Sheet;
 }
 
@@ -553,6 +551,9 @@ void Controls::press(const KeyPress& press, ForestView& view, PanelState& panels
     case Key::S:
         settings.shadows = !settings.shadows;
         break;
+    case Key::V:
+        settings.figure = !settings.figure;
+        break;
     case Key::L:
         settings.colours = settings.colours == BranchColours::Natural ? BranchColours::Id
                            : settings.colours == BranchColours::Id    ? BranchColours::Age
@@ -610,6 +611,9 @@ void Controls::press(const KeyPress& press, PlantView& view, PanelState& panels)
         break;
     case Key::S:
         settings.shadows = !settings.shadows;
+        break;
+    case Key::V:
+        settings.figure = !settings.figure;
         break;
     case Key::G:
         settings.ground = !settings.ground;

@@ -37,6 +37,9 @@ struct PanelState {
     FilmExport film;
     CameraBookmarks bookmarks;
     ContactSheet sheet;
+    WindowLook look;
+    std::uint32_t window_width = 0; // pixels
+    std::uint32_t window_height = 0;
     std::function<void()> wake; // of the window, on any thread, when `film` has an outcome
     AddImage add_image;         // empty: pictures are not shown
 };
@@ -46,7 +49,7 @@ struct KeyHelp {
     const char* keys;
     const char* what;
 };
-inline constexpr std::array<KeyHelp, 34> kPlantKeys = {{
+inline constexpr std::array<KeyHelp, 35> kPlantKeys = {{
     {"Left drag", "Orbit"},
     {"Click", "Describe the module and the production that wrote it"},
     {"T", "Trace of the module: why written, next step, back to the axiom"},
@@ -60,6 +63,7 @@ inline constexpr std::array<KeyHelp, 34> kPlantKeys = {{
     {"W", "Wireframe"},
     {"I", "Surfaces"},
     {"L", "Lines: none, skeleton, turtle path"},
+    {"V", "Person of 1.8 m as a scale"},
     {"S", "Shadows"},
     {"G", "Ground"},
     {"B", "Simulate gravity and wind"},
@@ -83,7 +87,7 @@ inline constexpr std::array<KeyHelp, 34> kPlantKeys = {{
     {"Drop a file", "Open it"},
 }};
 
-inline constexpr std::array<KeyHelp, 33> kForestKeys = {{
+inline constexpr std::array<KeyHelp, 34> kForestKeys = {{
     {"Left drag", "Orbit; with a tool: paint, Shift: erase"},
     {"Click", "Without a tool: describe the branch and its production"},
     {"Right drag", "Pan; with a tool: orbit"},
@@ -104,6 +108,7 @@ inline constexpr std::array<KeyHelp, 33> kForestKeys = {{
     {"Ctrl+S", "Save painted trees in the scene file"},
     {"Space", "Play or pause the years"},
     {"W", "Wireframe"},
+    {"V", "Person of 1.8 m as a scale"},
     {"S", "Shadows"},
     {"L", "Colours of branches: natural, id, age, hero"},
     {"N", "Next key: another forest"},

@@ -250,6 +250,13 @@ Outcome<std::shared_ptr<ForestDocument>> make_unpainted_forest(const ViewOptions
     return make(options, &edits, known, project);
 }
 
+glm::dvec3 figure_at(const ForestDocument& document, const Camera& camera) {
+    const glm::dvec3 target = camera.origin + glm::dvec3(camera.target);
+    const float height =
+        document.grown.terrain->height(static_cast<float>(target.x), static_cast<float>(target.z));
+    return {target.x, static_cast<double>(height), target.z};
+}
+
 Camera first_view(const ForestDocument& document, float aspect) {
     if (document.squares != nullptr) {
         return middle_view(document);

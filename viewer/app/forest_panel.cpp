@@ -355,6 +355,9 @@ void draw_look(ForestView& view) {
     ImGui::Checkbox("Antialiasing", &settings.antialiasing);
     ImGui::SameLine();
     ImGui::Checkbox("Wireframe", &settings.wireframe);
+    ImGui::Checkbox("Person", &settings.figure);
+    draw_tooltip("A person of 1.8 m where the camera looks (V): a scale, if trees are in metres");
+    ImGui::SameLine();
     ImGui::Checkbox("Wind", &settings.windy);
     draw_wind(settings.wind);
     if (view.document() != nullptr) {

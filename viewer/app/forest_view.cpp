@@ -30,6 +30,7 @@ constexpr std::uint64_t kMinTriangles = 20'000;
 ForestViewSettings first_forest_settings(const ViewOptions& options) {
     ForestViewSettings settings;
     settings.shadows = options.shadows;
+    settings.figure = options.figure;
     settings.antialiasing = options.samples > 1;
     settings.wireframe = options.style == PlantStyle::Wireframe;
     settings.colours = options.colours;
@@ -198,6 +199,7 @@ ViewOptions ForestView::picture_options(FilmKind kind) const {
     }
     wanted.camera = to_text(settings.camera);
     wanted.shadows = settings.shadows;
+    wanted.figure = settings.figure;
     wanted.style = settings.wireframe ? PlantStyle::Wireframe : PlantStyle::Surface;
     wanted.colours = settings.colours;
     wanted.light = settings.light;
@@ -343,6 +345,9 @@ bool ForestView::draw(std::uint32_t width, std::uint32_t height) {
     }
     if (document_ != nullptr) {
         frame.light = forest_light(*document_, settings.visibility, settings.light);
+        if (settings.figure) {
+            frame.figure = figure_at(*document_, settings.camera);
+        }
     }
     const bool moves = settings.windy || settings.plays || grown_ || used_tool_ ||
                        (frame_ && !(frame_->camera == frame.camera));

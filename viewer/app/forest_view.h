@@ -30,6 +30,7 @@ struct ForestEdits {
     SceneOverrides edits; // applied after command-line options; a change makes a new forest
 
     bool shadows = true;
+    bool figure = false; // a person of 1.8 m where the camera looks
     bool antialiasing = true;
     bool wireframe = false;
     BranchColours colours = BranchColours::Natural;

@@ -133,6 +133,9 @@ void add_picture(CLI::App& app, ViewOptions& options) {
     app.add_flag("--transparent", options.transparent,
                  "Draw a plant without sky and ground; the PNG is transparent around it")
         ->group("Picture");
+    app.add_flag("--figure", options.figure,
+                 "Show a person of 1.8 m beside a plant, or where the camera of a forest looks")
+        ->group("Picture");
     app.add_flag("--turntable", options.turntable, "The series goes once around the plant")
         ->group("Picture");
     app.add_flag("--grow", options.grow,

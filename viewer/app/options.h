@@ -74,6 +74,7 @@ struct ViewOptions {
     std::uint32_t frames = 0; // pictures of a numbered series; 0: a single picture
     float frames_per_second = 24.0F;
     bool transparent = false;         // a plant without sky and ground
+    bool figure = false;              // a person of 1.8 m as a scale
     bool turntable = false;           // the series orbits once
     bool grow = false;                // the series shows growth; in a window, growth starts to play
     std::optional<PicturePixel> pick; // report what this pixel shows

@@ -4,6 +4,7 @@
 #include "viewer/app/forest_panel.h"
 #include "viewer/app/picture_dialog.h"
 #include "viewer/app/plant_panel.h"
+#include "viewer/app/recent_files.h"
 #include "viewer/app/widgets.h"
 
 #include <fmt/format.h>
@@ -122,11 +123,21 @@ void draw_statistics(ViewSwitcher& switcher, const Area& area) {
 const ImVec4 kErrorColour{1.0F, 0.72F, 0.66F, 1.0F};
 const ImVec4 kWarningColour{1.0F, 0.93F, 0.7F, 1.0F};
 
+/// A bright colour of text, made darker and stronger on light panels.
+ImVec4 on_panel(const ImVec4& colour) {
+    if (ImGui::GetStyle().Colors[ImGuiCol_WindowBg].x < 0.5F) {
+        return colour;
+    }
+    const auto darker = [](float x) { return 0.7F * x * x * x; };
+    return {darker(colour.x), darker(colour.y), darker(colour.z), colour.w};
+}
+
 /// A message; a click shows its source lines. `is_open`: whether it shows them at first.
 void draw_message(const ShownMessage& message, int number, bool is_open) {
     ImGui::PushID(number);
-    ImGui::PushStyleColor(ImGuiCol_Text,
-                          message.severity == Severity::Error ? kErrorColour : kWarningColour);
+    ImGui::PushStyleColor(
+        ImGuiCol_Text,
+        on_panel(message.severity == Severity::Error ? kErrorColour : kWarningColour));
     if (message.text.empty()) {
         line(message.head);
     } else {
@@ -233,7 +244,7 @@ void draw_trace_line(const TextLine& text) {
         if (i != 0) {
             ImGui::SameLine(0.0F, 0.0F);
         }
-        ImGui::PushStyleColor(ImGuiCol_Text, colour_of(text[i].colour));
+        ImGui::PushStyleColor(ImGuiCol_Text, on_panel(colour_of(text[i].colour)));
         line(text[i].text);
         ImGui::PopStyleColor();
     }
@@ -424,6 +435,15 @@ void draw_bookmarks(View& view, PanelState& panels) {
     }
 }
 
+void draw_window_look(WindowLook& look) {
+    if (ImGui::CollapsingHeader("Window")) {
+        ImGui::SetNextItemWidth(-kLabelWidth);
+        ImGui::SliderFloat("Text size", &look.text_size, kMinTextSize, kMaxTextSize, "x%.2f",
+                           ImGuiSliderFlags_AlwaysClamp);
+        ImGui::Checkbox("Light panels", &look.is_light);
+    }
+}
+
 /// Draws the panel on the left; returns the file that it wants to open.
 std::string draw_side_panel(ViewSwitcher& switcher, PanelState& panels, const Area& area) {
     std::string wanted;
@@ -439,6 +459,7 @@ std::string draw_side_panel(ViewSwitcher& switcher, PanelState& panels, const Ar
             draw_plant_panel(*plant);
         }
         draw_bookmarks(switcher.current(), panels);
+        draw_window_look(panels.look);
         ImGui::Separator();
         ImGui::Checkbox("Statistics", &panels.statistics);
         ImGui::SameLine();

@@ -297,11 +297,16 @@ void draw_look(PlantViewSettings& settings) {
     if (ImGui::Combo("Lines", &lines, "None\0Skeleton\0Turtle path\0")) {
         settings.lines = static_cast<LineKind>(lines);
     }
+    if (settings.lines != LineKind::None) {
+        ImGui::Checkbox("Dim surfaces", &settings.dims);
+    }
     ImGui::Checkbox("Shadows", &settings.shadows);
     ImGui::SameLine();
     ImGui::Checkbox("Ground", &settings.ground);
     ImGui::SameLine();
     ImGui::Checkbox("Antialiasing", &settings.antialiasing);
+    ImGui::Checkbox("Person", &settings.figure);
+    draw_tooltip("A person of 1.8 m beside the plant (V): a scale, if the plant is in metres");
     draw_sun({}, settings.light);
     draw_camera(settings.camera);
 }

@@ -36,6 +36,8 @@ struct PlantEdits {
     LineKind lines = LineKind::None;
     bool shadows = true;
     bool ground = true;
+    bool dims = true;    // surfaces fade while lines are shown
+    bool figure = false; // a person of 1.8 m beside the plant
     bool antialiasing = true;
     SceneLight light; // values that replace the default daylight
 
@@ -145,6 +147,7 @@ private:
     bool is_new_file_ = true; // at the next swap, take the damping of the grammar
     bool logs_next_frame_ = false;
     PlantViewStats stats_;
+    Bounds rest_bounds_; // of document_
 
     std::optional<PlantViewSettings> requested_; // last request
     EditHistory<PlantEdits> history_;

@@ -2,6 +2,7 @@
 #include "viewer/app/recent_files.h"
 
 #include "grammar/base/paths.h"
+#include "runtime/program/arguments.h"
 #include "runtime/program/files.h"
 
 #include <fmt/format.h>
@@ -80,6 +81,29 @@ void remember_file(const std::string& folder, const std::string& file, const Con
     files.insert(files.begin(), path);
     files.resize(std::min(files.size(), kMaxRecentFiles));
     write_state(folder + "/recent", fmt::format("{}\n", fmt::join(files, "\n")), console);
+}
+
+WindowLook read_look(const std::string& folder) {
+    const Result<std::string> text =
+        folder.empty() ? Result<std::string>(std::string())
+                       : read_bytes(folder + "/look", FileKind::Regular, {kMaxListBytes}, nullptr);
+    WindowLook look;
+    if (text) {
+        const std::string& words = text.value();
+        const std::size_t blank = std::min(words.find(' '), words.size());
+        const Result<float> size = parse_number(words.substr(0, blank), kMinTextSize, kMaxTextSize);
+        look.text_size = size ? size.value() : 1.0F;
+        look.is_light = words.substr(blank) == " light\n";
+    }
+    return look;
+}
+
+void write_look(const std::string& folder, const WindowLook& look, const Console& console) {
+    if (!folder.empty()) {
+        write_state(folder + "/look",
+                    fmt::format("{} {}\n", look.text_size, look.is_light ? "light" : "dark"),
+                    console);
+    }
 }
 
 void write_state(const std::string& path, const std::string& text, const Console& console) {

@@ -44,6 +44,9 @@ public:
     WindowRun(Window& window, ViewSwitcher& switcher, const Console& console)
         : window_(window), switcher_(switcher), console_(console) {
         panels_.state_folder = state_folder();
+        panels_.look = read_look(panels_.state_folder);
+        look_ = panels_.look;
+        window_.set_look(look_);
         panels_.wake = [this] { window_.wake(); };
         panels_.add_image = [this](const Texture& picture) { return window_.add_image(picture); };
         if (!switcher_.current().file().empty()) {
@@ -65,6 +68,8 @@ public:
         last_ = now;
         const bool flew = panels_.flies;
         const std::string file = switcher_.current().file();
+        panels_.window_width = window_.width();
+        panels_.window_height = window_.height();
         controls_.apply(input, passed, picture_area(), switcher_, panels_);
         if (panels_.flies != flew) {
             window_.capture_mouse(panels_.flies);
@@ -154,6 +159,12 @@ private:
         View* const drawn = &switcher_.current();
         draw_panels(switcher_, panels_, window_.scale());
         window_.present();
+        if (panels_.look != look_ && !is_control_held()) {
+            look_ = panels_.look;
+            window_.set_look(look_);
+            write_look(panels_.state_folder, look_, console_);
+            pictures_left_ = kPicturesAfterInput;
+        }
         if (drew && drawn == &switcher_.current()) {
             drawn->picture_shown(std::chrono::duration<double>(Clock::now() - start).count());
         }
@@ -168,6 +179,7 @@ private:
     Clock::time_point last_progress_ = last_;
     bool shows_progress_ = false;
     bool shows_sheet_ = false;
+    WindowLook look_; // of the window
     int pictures_left_ = kPicturesAfterInput;
 };
 

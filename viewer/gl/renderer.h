@@ -74,7 +74,9 @@ struct Frame {
     /// shown. Growth keeps one disc for all its pictures.
     glm::vec4 ground_disc{0.0F};
     PlantStyle style = PlantStyle::Surface;
-    std::uint32_t samples = 4; // per pixel: 1 or 4
+    bool dims = false; // everything but the lines fades towards the sky; not with `transparent`
+    std::uint32_t samples = 4;        // per pixel: 1 or 4
+    std::optional<glm::dvec3> figure; // feet of a person of 1.8 m in the world, m
     // Forests only.
     // Max triangles of branches; with more, trees are drawn coarser.
     std::uint64_t max_triangles = 1'500'000;

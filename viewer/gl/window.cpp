@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: MIT
 #include "viewer/gl/window.h"
 
+#include "runtime/platform/file.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
 #include <backends/imgui_impl_glfw.h>
 #include <backends/imgui_impl_opengl3.h>
+#include <cmath>
 #include <epoxy/gl.h>
 #include <GLFW/glfw3.h>
 #include <imgui.h>
@@ -77,6 +80,19 @@ void append_utf8(std::string& text, unsigned character) {
     put(0x80U | (character & 0x3FU));
 }
 
+/// The file of a scalable font of fixed width; null: none is installed.
+const char* find_font() {
+    // Debian and Ubuntu, Arch, Fedora.
+    for (const char* const path : {"/usr/share/fonts/truetype/dejavu/DejaVuSansMono.ttf",
+                                   "/usr/share/fonts/TTF/DejaVuSansMono.ttf",
+                                   "/usr/share/fonts/dejavu-sans-mono-fonts/DejaVuSansMono.ttf"}) {
+        if (platform::facts_of(path).type == platform::FileType::Regular) {
+            return path;
+        }
+    }
+    return nullptr;
+}
+
 std::string glfw_error() {
     const char* reason = nullptr;
     return glfwGetError(&reason) == GLFW_NO_ERROR || reason == nullptr ? std::string("unknown")
@@ -97,6 +113,9 @@ struct Window::State {
     std::array<bool, 3> held{}; // buttons pressed outside of panels
     std::vector<std::pair<int, Key>> keys;
     std::vector<GLuint> images;
+    WindowLook look;
+    WindowLook drawn_look;    // of the fonts and style of ImGui
+    float drawn_scale = 0.0F; // of the fonts and style of ImGui; 0: not made yet
 
     static State& of(GLFWwindow* window) {
         return *static_cast<State*>(glfwGetWindowUserPointer(window));
@@ -175,6 +194,32 @@ struct Window::State {
         }
         // Outside of text fields Tab starts to fly; ImGui would put the cursor into a field.
         return is_typing || (!mouse_captured && key != Key::Tab);
+    }
+
+    /// Makes fonts and style anew if the scale of the monitor or the look has changed.
+    void update_look(float scale) {
+        if (scale == drawn_scale && look == drawn_look) {
+            return;
+        }
+        drawn_scale = scale;
+        drawn_look = look;
+        ImGuiStyle& style = ImGui::GetStyle();
+        style = ImGuiStyle();
+        (look.is_light ? ImGui::StyleColorsLight : ImGui::StyleColorsDark)(nullptr);
+        style.ScaleAllSizes(scale);
+        ImGuiIO& io = ImGui::GetIO();
+        io.Fonts->Clear();
+        constexpr float kUsualSize = 13.0F; // pixels, of the built-in font
+        const char* const font = scale == 1.0F ? nullptr : find_font();
+        const bool is_scalable =
+            font != nullptr &&
+            io.Fonts->AddFontFromFileTTF(font, std::round(kUsualSize * scale)) != nullptr;
+        if (!is_scalable) {
+            io.Fonts->AddFontDefault();
+        }
+        io.FontGlobalScale = is_scalable ? 1.0F : scale;
+        ImGui_ImplOpenGL3_DestroyFontsTexture();
+        ImGui_ImplOpenGL3_CreateFontsTexture();
     }
 
     /// ImGui chains its own callbacks to these.
@@ -267,9 +312,6 @@ Window::make(const std::string& title, std::uint32_t width, std::uint32_t height
     IMGUI_CHECKVERSION();
     ImGui::CreateContext();
     ImGui::GetIO().IniFilename = nullptr; // no settings file
-    ImGui::StyleColorsDark();
-    ImGui::GetStyle().ScaleAllSizes(made->scale());
-    ImGui::GetIO().FontGlobalScale = made->scale();
     ImGui_ImplGlfw_InitForOpenGL(state.window, true);
     state.install_key_callback();
     ImGui_ImplOpenGL3_Init("#version 450 core");
@@ -317,7 +359,11 @@ std::uint32_t Window::height() const {
 float Window::scale() const {
     float x_scale = 1.0F;
     glfwGetWindowContentScale(state_->window, &x_scale, nullptr);
-    return std::clamp(x_scale, 1.0F, 4.0F);
+    return std::clamp(x_scale, 1.0F, 4.0F) * state_->look.text_size;
+}
+
+void Window::set_look(const WindowLook& look) {
+    state_->look = look;
 }
 
 void Window::set_title(const std::string& title) {
@@ -364,6 +410,7 @@ void Window::drop_images() {
 
 void Window::begin_panels() {
     ImGui_ImplOpenGL3_NewFrame();
+    state_->update_look(scale());
     ImGui_ImplGlfw_NewFrame();
     ImGui::NewFrame();
 }

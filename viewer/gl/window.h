@@ -101,6 +101,14 @@ struct WindowInput {
     bool close_requested = false; // by the window manager
 };
 
+/// Look of the panels.
+struct WindowLook {
+    float text_size = 1.0F; // factor of the size that the monitor asks for
+    bool is_light = false;  // dark text on light panels
+
+    friend bool operator==(const WindowLook&, const WindowLook&) = default;
+};
+
 class Window {
 public:
     /// Error: no display, or its OpenGL is too old.
@@ -120,8 +128,11 @@ public:
     /// Size of the framebuffer in pixels; 0 while minimized.
     [[nodiscard]] std::uint32_t width() const;
     [[nodiscard]] std::uint32_t height() const;
-    /// Scale of text and widgets.
+    /// Scale of text and widgets: that of the monitor times WindowLook::text_size.
     [[nodiscard]] float scale() const;
+    /// Takes effect at the next begin_panels(). Text above its usual size is drawn with DejaVu Sans
+    /// Mono if it is installed, else with enlarged pixels.
+    void set_look(const WindowLook& look);
     void set_title(const std::string& title);
     /// Hides the pointer and reports its motion without limits.
     void capture_mouse(bool captured);

@@ -65,6 +65,8 @@ TEST_CASE("the contact sheet draws plants beside the window, and one is taken by
     Controls controls;
     PanelState panels;
     panels.wake = [] {};
+    panels.window_width = 3 * 32 + 42;
+    panels.window_height = 3 * 24 + 66;
     const auto press = [&](Key key) {
         WindowInput input;
         input.presses = {{key, false, false, false}};

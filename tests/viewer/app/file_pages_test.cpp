@@ -170,6 +170,26 @@ TEST_CASE("recent files are the last twelve that exist, newest first") {
     CHECK(err.str().empty());
 }
 
+TEST_CASE("the look of the window is kept") {
+    const ScratchFolder folder;
+    std::istringstream in;
+    std::ostringstream out;
+    std::ostringstream err;
+    const Console console({in, out, err, false, nullptr, "lsview"}, {});
+    CHECK(read_look(folder.path().string()) == WindowLook{});
+    CHECK(read_look("") == WindowLook{});
+    write_look(folder.path().string(), {1.5F, true}, console);
+    CHECK(read_look(folder.path().string()) == WindowLook{1.5F, true});
+    write_look(folder.path().string(), {2.0F, false}, console);
+    CHECK(read_look(folder.path().string()) == WindowLook{2.0F, false});
+    for (const char* const wrong : {"", "99 dark\n", "big\n"}) {
+        CAPTURE(wrong);
+        write_text(folder / "look", wrong);
+        CHECK(read_look(folder.path().string()) == WindowLook{});
+    }
+    CHECK(err.str().empty());
+}
+
 TEST_CASE("samples have the first sentence of their file as title") {
     CHECK(title_of_text("// A tree, of\n//  two lines. More.\n#n = 1;\n") ==
           "A tree, of two lines");

@@ -67,8 +67,11 @@ void add_limb(const Limb& limb, float side, const glm::vec3& feet, Mesh& mesh) {
         for (std::uint32_t i = 0; i < kSides; ++i) {
             const std::uint32_t low = first + ring * kSides;
             const std::uint32_t next = (i + 1) % kSides;
-            for (const std::uint32_t index : {low + i, low + next, low + kSides + next, low + i,
-                                              low + kSides + next, low + kSides + i}) {
+            // The mirror image of a triangle has its corners in the other order.
+            const std::uint32_t one = side > 0.0F ? low + next : low + kSides + i;
+            const std::uint32_t other = side > 0.0F ? low + kSides + i : low + next;
+            const std::uint32_t opposite = low + kSides + next;
+            for (const std::uint32_t index : {low + i, one, opposite, low + i, opposite, other}) {
                 mesh.indices.push_back(index);
             }
         }
@@ -87,10 +90,9 @@ Mesh make_figure_mesh(const glm::vec3& feet) {
     }
     mesh.texture_coordinates.resize(mesh.positions.size());
     mesh.tangents.resize(mesh.positions.size());
-    Material grey;
-    grey.colour = {0.35F, 0.37F, 0.42F, 1.0F};
-    grey.two_sided = true; // mirrored limbs face inwards
-    mesh.materials = {grey};
+    Material cloth;
+    cloth.colour = {0.30F, 0.05F, 0.03F, 1.0F}; // seen against leaves, ground and sky
+    mesh.materials = {cloth};
     mesh.parts = {{0, 0, mesh.indices.size()}};
     return mesh;
 }

@@ -6,7 +6,7 @@
 
 namespace lsys::view {
 
-/// A person who stands with the feet at `feet`, m, and looks along +Z. One grey material.
+/// A person who stands with the feet at `feet`, m, and looks along +Z. One plain red material.
 [[nodiscard]] Mesh make_figure_mesh(const glm::vec3& feet);
 
 } // namespace lsys::view
