@@ -26,7 +26,7 @@ float value_at(const Constant& param, std::size_t index, std::size_t count) {
 
 /// Draws the plants of a request one after the other; returns false on an error of OpenGL.
 bool draw_plants(const SheetRequest& request, const std::atomic<bool>& cancelled) {
-    const Result<std::unique_ptr<HeadlessContext>> context = HeadlessContext::make();
+    const Result<std::unique_ptr<HeadlessContext>> context = HeadlessContext::make_without_window();
     if (!context) {
         return false;
     }
@@ -99,7 +99,7 @@ bool choose_param(ContactSheet& sheet, const PlantView& view, std::size_t place)
     const char* const none = place == 0 ? "seeds" : "nothing else";
     const std::string shown = place < sheet.varied.size() ? sheet.varied[place] : none;
     const std::vector<std::string> before = sheet.varied;
-    ImGui::SetNextItemWidth(200.0F);
+    ImGui::SetNextItemWidth(scaled(200.0F));
     if (ImGui::BeginCombo(place == 0 ? "##first" : "##second", shown.c_str())) {
         if (ImGui::Selectable(none, place >= sheet.varied.size())) {
             sheet.varied.resize(place);

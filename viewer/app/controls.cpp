@@ -147,6 +147,10 @@ void Controls::apply(const WindowInput& input,
                      ViewSwitcher& switcher,
                      PanelState& panels) {
     for (const std::string& file : input.dropped) {
+        if (panels.dialog == OpenDialog::Sheet) {
+            close_sheet(panels);
+        }
+        panels.dialog = OpenDialog::None;
         switcher.open(file);
     }
     if (use_pages(input, switcher, panels)) {

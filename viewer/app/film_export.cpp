@@ -126,6 +126,7 @@ ExitStatus write_film(const FilmExportRequest& request,
     options.samples = settings.samples;
     options.transparent = settings.transparent && !options.is_forest && !settings.as_mp4;
     options.pictures_done = request.done.get();
+    options.beside_window = true;
     if (!settings.as_mp4) {
         options.screenshot = settings.path();
         options.all_or_none = true;

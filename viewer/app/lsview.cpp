@@ -38,7 +38,8 @@ struct HiddenRenderer {
 };
 
 ExitStatus make_renderer(const ViewOptions& options, const Console& console, HiddenRenderer& made) {
-    Result<std::unique_ptr<HeadlessContext>> context = HeadlessContext::make();
+    Result<std::unique_ptr<HeadlessContext>> context =
+        options.beside_window ? HeadlessContext::make_without_window() : HeadlessContext::make();
     if (!context) {
         return report_error(context.error(), console);
     }

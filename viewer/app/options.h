@@ -80,6 +80,7 @@ struct ViewOptions {
     std::optional<PicturePixel> pick; // report what this pixel shows
     std::optional<TraceScope> why;    // with `pick`: trace the module of a plant
     std::string stats;                // JSON file; `-`: standard output
+    bool beside_window = false;       // pictures are drawn on a thread beside that of a window
     bool all_or_none = false;         // pictures of a series appear when all are complete
     std::atomic<std::uint32_t>* pictures_done = nullptr; // counts written pictures; may be null
 };

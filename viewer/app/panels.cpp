@@ -328,7 +328,7 @@ void draw_picked(const View& view, const Area& area) {
     if (view.picked().lines.empty()) {
         return;
     }
-    ImGui::SetNextWindowPos({area.low.x + 8.0F, 48.0F});
+    ImGui::SetNextWindowPos({area.low.x + 8.0F, scaled(48.0F)});
     ImGui::SetNextWindowBgAlpha(0.7F);
     if (ImGui::Begin("Picked", nullptr,
                      kOverlay | ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoInputs)) {
@@ -381,7 +381,7 @@ void draw_making(View& view, PanelState& panels, const Area& area) {
     if (!making) {
         return;
     }
-    ImGui::SetNextWindowPos({0.5F * (area.low.x + area.high.x), 48.0F}, ImGuiCond_Always,
+    ImGui::SetNextWindowPos({0.5F * (area.low.x + area.high.x), scaled(48.0F)}, ImGuiCond_Always,
                             {0.5F, 0.0F});
     ImGui::SetNextWindowBgAlpha(0.85F);
     if (ImGui::Begin("Making", nullptr, kOverlay | ImGuiWindowFlags_AlwaysAutoResize)) {
@@ -437,7 +437,7 @@ void draw_bookmarks(View& view, PanelState& panels) {
 
 void draw_window_look(WindowLook& look) {
     if (ImGui::CollapsingHeader("Window")) {
-        ImGui::SetNextItemWidth(-kLabelWidth);
+        ImGui::SetNextItemWidth(-label_width());
         ImGui::SliderFloat("Text size", &look.text_size, kMinTextSize, kMaxTextSize, "x%.2f",
                            ImGuiSliderFlags_AlwaysClamp);
         ImGui::Checkbox("Light panels", &look.is_light);

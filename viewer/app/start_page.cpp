@@ -160,7 +160,7 @@ std::string draw_start_page(StartPage& page, const AddImage& add_image, bool& wa
     ImGui::SetNextWindowPos({0.0F, 0.0F});
     ImGui::SetNextWindowSize(size);
     if (ImGui::Begin("Start", nullptr, kFixed | ImGuiWindowFlags_NoBringToFrontOnFocus)) {
-        if (ImGui::BeginChild("Files", {kColumnWidth, 0.0F})) {
+        if (ImGui::BeginChild("Files", {scaled(kColumnWidth), 0.0F})) {
             wants_dialog = ImGui::Button("Open a file (Ctrl+O)");
             ImGui::TextDisabled("or drop it on the window");
             ImGui::Separator();
