@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// CameraBookmarks: nine cameras with names, kept for each plant or scene in the user's state folder.
+// CameraBookmarks: nine cameras with names, kept for each plant or scene in the user's state
+// folder.
 #pragma once
 
 #include "runtime/program/console.h"

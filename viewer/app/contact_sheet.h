@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // ContactSheet: nine pictures of a plant with other seeds, or with other values of one or two
-// `#param`, of which the user takes one. Plants are derived, meshed and drawn one after the other on
-// a thread of its own, so memory is that of one plant.
+// `#param`, of which the user takes one. Plants are derived, meshed and drawn one after the other
+// on a thread of its own, so memory is that of one plant.
 #pragma once
 
 #include "runtime/meshing/texture.h"
@@ -32,8 +32,8 @@ struct SheetCell {
 };
 
 /// The cells of nine seeds from `seed` on, without parameters. Of one parameter: nine values in
-/// equal steps from its minimum to its maximum. Of two: three values of each, the first from left to
-/// right, the second from top to bottom.
+/// equal steps from its minimum to its maximum. Of two: three values of each, the first from left
+/// to right, the second from top to bottom.
 [[nodiscard]] std::array<SheetCell, kSheetCells>
 sheet_cells(std::uint64_t seed, const std::vector<Constant>& params, const Names& names);
 

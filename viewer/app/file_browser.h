@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// FileBrowser: the state of the dialog that opens a file, without the dialog: a folder, its entries,
-// a typed text that filters them or names a path, and a selected entry.
+// FileBrowser: the state of the dialog that opens a file, without the dialog: a folder, its
+// entries, a typed text that filters them or names a path, and a selected entry.
 #pragma once
 
 #include <cstddef>
@@ -41,8 +41,8 @@ public:
 
     [[nodiscard]] const std::string& folder() const { return folder_; }
     /// Entries that the text leaves. A text without `/` leaves names that contain it, in any case
-    /// of ASCII letters. A text with `/` is a path from the folder, from `/` or from `~`: the folder
-    /// before its last `/` is listed, and names that begin with the rest are left.
+    /// of ASCII letters. A text with `/` is a path from the folder, from `/` or from `~`: the
+    /// folder before its last `/` is listed, and names that begin with the rest are left.
     [[nodiscard]] const std::vector<FolderEntry>& entries() const { return entries_; }
     [[nodiscard]] std::size_t selected() const { return selected_; }
     [[nodiscard]] const std::string& text() const { return text_; }

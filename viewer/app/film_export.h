@@ -54,7 +54,8 @@ struct FilmExportRequest {
 };
 
 /// Writes a film: numbered pictures, all or none, or a .mp4 file by ffmpeg. A film that fails or is
-/// cancelled changes no file. Returns "Wrote turn.0001.png to turn.0240.png", or the error in lines.
+/// cancelled changes no file. Returns "Wrote turn.0001.png to turn.0240.png", or the error in
+/// lines.
 [[nodiscard]] std::string export_film(const FilmExportRequest& request,
                                       const std::atomic<bool>& cancelled);
 

@@ -18,8 +18,8 @@ struct GallerySample {
     std::string picture; // PNG; empty: none
 };
 
-/// The folder of the samples: `share/lsc/samples` beside the folder of the running program, `samples`
-/// in a folder around it (a build in the source tree), or `lsc/samples` in a folder of
+/// The folder of the samples: `share/lsc/samples` beside the folder of the running program,
+/// `samples` in a folder around it (a build in the source tree), or `lsc/samples` in a folder of
 /// `$XDG_DATA_DIRS`. Empty if there is none.
 [[nodiscard]] std::string samples_folder();
 
@@ -28,8 +28,8 @@ struct GallerySample {
 /// empty path or a folder without samples.
 [[nodiscard]] std::vector<GallerySample> find_samples(const std::string& folder);
 
-/// The first sentence of the comment (`//` or `#`) that begins a text, without its final stop; empty
-/// if the text does not begin with a comment.
+/// The first sentence of the comment (`//` or `#`) that begins a text, without its final stop;
+/// empty if the text does not begin with a comment.
 [[nodiscard]] std::string title_of_text(std::string_view text);
 
 /// The picture scaled down by a whole number so that it fits into a square of `side` pixels, by the

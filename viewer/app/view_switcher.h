@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// ViewSwitcher: holds the view of a plant or of a forest, by the kind of the file; without a file, a
-// StartView.
+// ViewSwitcher: holds the view of a plant or of a forest, by the kind of the file; without a file,
+// a StartView.
 #pragma once
 
 #include "viewer/app/forest_view.h"

@@ -67,8 +67,8 @@ struct Frame {
     Wind wind;
     bool shadows = true;
     bool ground = true; // disc under a single plant
-    /// A plant without sky; pixels that nothing covers have opacity 0, and colours are multiplied by
-    /// the opacity.
+    /// A plant without sky; pixels that nothing covers have opacity 0, and colours are multiplied
+    /// by the opacity.
     bool transparent = false;
     /// Centre (xyz) and radius (w) of the ground disc, m; radius 0: ground_disc_of() the plant
     /// shown. Growth keeps one disc for all its pictures.

@@ -137,8 +137,8 @@ public:
     /// Hides the pointer and reports its motion without limits.
     void capture_mouse(bool captured);
 
-    /// Uploads a picture for ImGui::Image(); returns its ImTextureID as a number, which is not 0. The
-    /// window keeps the picture until drop_images(). Empty pictures are 0.
+    /// Uploads a picture for ImGui::Image(); returns its ImTextureID as a number, which is not 0.
+    /// The window keeps the picture until drop_images(). Empty pictures are 0.
     [[nodiscard]] std::uintptr_t add_image(const Texture& picture);
     void drop_images();
 
