@@ -170,7 +170,7 @@ void take_cell(const SheetCell& cell, PlantEdits& edits) {
 void ContactSheet::show(const PlantView& view,
                         std::uint32_t width,
                         std::uint32_t height,
-                        std::function<void()> wake) {
+                        const std::function<void()>& wake) {
     if (view.document() == nullptr) {
         return;
     }

@@ -74,7 +74,7 @@ public:
     void show(const PlantView& view,
               std::uint32_t width,
               std::uint32_t height,
-              std::function<void()> wake);
+              const std::function<void()>& wake);
     /// Stops drawing.
     void close();
     [[nodiscard]] bool is_busy() const { return worker_ != nullptr && worker_->is_busy(); }

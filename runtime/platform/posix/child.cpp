@@ -10,7 +10,8 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-extern char** environ; // POSIX; unistd.h declares it only as an extension
+// POSIX; unistd.h declares it on some systems only.
+extern char** environ; // NOLINT(readability-redundant-declaration)
 
 namespace lsys::platform {
 
@@ -19,7 +20,7 @@ std::string find_program(const std::string& name) {
     std::string_view folders = variable == nullptr ? "" : variable;
     while (!folders.empty()) {
         const std::size_t end = folders.find(':');
-        const std::string path = std::string(folders.substr(0, end)) + '/' + name;
+        std::string path = std::string(folders.substr(0, end)) + '/' + name;
         if (facts_of(path).type == FileType::Regular && ::access(path.c_str(), X_OK) == 0) {
             return path;
         }
