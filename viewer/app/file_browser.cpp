@@ -190,7 +190,7 @@ void FileBrowser::move(int steps) {
 std::string FileBrowser::accept() {
     const std::string folder = listed_folder();
     // A path that names a file exactly is opened, even with another extension.
-    const std::string typed = joined(folder, std::string(name_of_path(text_)));
+    std::string typed = joined(folder, std::string(name_of_path(text_)));
     const platform::FileType type =
         text_.empty() ? platform::FileType::Missing : platform::facts_of(typed).type;
     if (type == platform::FileType::Regular) {

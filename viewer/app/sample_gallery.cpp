@@ -4,6 +4,8 @@
 #include "grammar/base/paths.h"
 #include "runtime/platform/file.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cstdlib>
@@ -41,7 +43,7 @@ void add_samples(const std::string& folder, std::vector<GallerySample>& samples)
     }
     std::sort(names.begin(), names.end());
     for (const std::string& name : names) {
-        const std::string stem = folder + '/' + name + '/' + name;
+        const std::string stem = fmt::format("{0}/{1}/{1}", folder, name);
         for (const char* const extension : {".lsys", ".toml"}) {
             if (is_file(stem + extension)) {
                 GallerySample& sample = samples.emplace_back();
