@@ -50,7 +50,7 @@ if(LSYS_VIEWER)
 edit it, and takes pictures and films without a display.")
   # libepoxy opens these libraries at run time.
   set(CPACK_DEBIAN_LSVIEW_PACKAGE_DEPENDS "libegl1, libgl1")
-  set(CPACK_DEBIAN_LSVIEW_PACKAGE_SUGGESTS "lsc")
+  set(CPACK_DEBIAN_LSVIEW_PACKAGE_SUGGESTS "lsc, fonts-dejavu-core, ffmpeg")
 endif()
 
 if(LSYS_MPI)

@@ -138,6 +138,22 @@ Outcome<Grammar> load_module(std::string_view bytes,
 
 } // namespace
 
+bool has_grammar_extension(std::string_view path) {
+    const std::string_view name = name_of_path(path);
+    const std::size_t dot = name.rfind('.');
+    if (dot == std::string_view::npos) {
+        return false;
+    }
+    const std::string_view extension = name.substr(dot);
+    if (extension == kModuleExtension || extension == ".lsys") {
+        return true;
+    }
+    return std::any_of(dialects().begin(), dialects().end(), [&](const DialectRow& row) {
+        return fmt::format(" {} ", row.extensions).find(fmt::format(" {} ", extension)) !=
+               std::string::npos;
+    });
+}
+
 std::string shown_path(const std::string& path) {
     if (path == "-") {
         return kStandardInput;

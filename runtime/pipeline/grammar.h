@@ -17,6 +17,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace lsys {
@@ -95,6 +96,9 @@ check_system(const std::string& path, Dialect dialect, const GrammarOptions& opt
                                                 const GrammarOptions& options,
                                                 std::uint64_t max_modules,
                                                 const FileLoader& load);
+
+/// Whether the extension of `path` is that of a grammar in any dialect or of a .lsb file.
+[[nodiscard]] bool has_grammar_extension(std::string_view path);
 
 /// Reads and compiles `path`, a grammar or a .lsb file.
 [[nodiscard]] Outcome<Grammar>

@@ -435,7 +435,7 @@ TEST_CASE("lsview ends with a message if it cannot show the file") {
     const ScratchFolder folder;
     write_text(folder / "bad.lsys", "#w : F(;\n");
     const std::vector<Mistake> mistakes = {
-        {{}, 2, "FILE is missing"},
+        {{"--screenshot", "-"}, 2, "--screenshot needs a FILE"},
         {{"none.lsys", "--screenshot", "-"}, 2, "none.lsys"},
         {{folder / "bad.lsys", "--screenshot", "-"}, 1, "bad.lsys:1:"},
         {{sample("abop-1-24a"), "--screenshot", "-", "--size", "16385x2"}, 2, "each 1 to 16384"},

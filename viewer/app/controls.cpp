@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "viewer/app/controls.h"
 
+#include "grammar/base/paths.h"
+
+#include <fmt/format.h>
 #include <glm/geometric.hpp>
 
 #include <algorithm>
@@ -33,6 +36,13 @@ TraceScope scope_after(TraceScope scope) {
     return TraceScope::Written;
 }
 
+/// Index of the bookmark that a digit names.
+std::optional<std::size_t> bookmark_of(Key key) {
+    return key >= Key::One && key <= Key::Nine
+               ? std::optional(static_cast<std::size_t>(key) - static_cast<std::size_t>(Key::One))
+               : std::nullopt;
+}
+
 /// Rotates the camera around the target: half a turn per picture height of `drag`.
 void orbit(Camera& camera, const glm::vec2& drag, float height) {
     const float turn = std::numbers::pi_v<float> / std::max(height, 1.0F);
@@ -61,6 +71,57 @@ void zoom(Camera& camera, float wheel) {
 
 } // namespace
 
+void show_open_dialog(const View& view, PanelState& panels) {
+    panels.browser.show(std::string(folder_of_path(view.file())));
+    panels.dialog = OpenDialog::File;
+}
+
+void show_picture_dialog(const View& view, PanelState& panels) {
+    panels.picture.name =
+        unused_picture_name(panels.picture.folder, path_text(path_of(view.file()).stem()));
+    panels.dialog = OpenDialog::Picture;
+}
+
+void take_picture(View& view, PanelState& panels) {
+    PictureSettings settings = panels.picture;
+    settings.width = settings.width == 0 ? view.picture_width() : settings.width;
+    settings.height = settings.height == 0 ? view.picture_height() : settings.height;
+    panels.dialog = OpenDialog::None;
+    if (settings.name.empty() || settings.width == 0) {
+        view.set_note("not written: the picture has no name");
+    } else if (!settings.is_film) {
+        view.write_picture(settings);
+    } else if (view.is_unsaved()) {
+        view.set_note("not written: a film shows saved trees; Ctrl+S saves the painted ones");
+    } else if (settings.kind == FilmKind::Growth && !view.has_growth()) {
+        view.set_note("not written: nothing grows here");
+    } else if (panels.film.is_busy()) {
+        view.set_note("not written: one film at a time");
+    } else {
+        panels.film.begin(view.picture_options(settings.kind), settings, panels.wake);
+    }
+}
+
+void show_sheet(PlantView& view, PanelState& panels) {
+    if (view.document() == nullptr) {
+        view.set_note("There is no plant for a contact sheet");
+        return;
+    }
+    const SheetSize cell = sheet_cell_size(panels.window_width, panels.window_height);
+    panels.sheet.show(view, cell.width, cell.height, panels.wake);
+    panels.dialog = OpenDialog::Sheet;
+}
+
+void close_sheet(PanelState& panels) {
+    panels.sheet.close();
+    panels.dialog = OpenDialog::None;
+}
+
+void take_from_sheet(std::size_t cell, PlantView& view, PanelState& panels) {
+    take_cell(panels.sheet.cells.at(cell), view.settings);
+    close_sheet(panels);
+}
+
 void next_seed(PlantView& view) {
     const std::uint64_t shown = view.document() == nullptr ? 0 : view.document()->plant.seed;
     view.settings.seed = view.settings.seed.value_or(shown) + 1;
@@ -86,7 +147,39 @@ void Controls::apply(const WindowInput& input,
                      ViewSwitcher& switcher,
                      PanelState& panels) {
     for (const std::string& file : input.dropped) {
+        if (panels.dialog == OpenDialog::Sheet) {
+            close_sheet(panels);
+        }
+        panels.dialog = OpenDialog::None;
         switcher.open(file);
+    }
+    if (use_pages(input, switcher, panels)) {
+        pressed_.reset();
+        is_moving_ = false;
+    } else {
+        apply_to_view(input, seconds, area, switcher, panels);
+    }
+    if (input.close_requested || panels.quits) {
+        panels.quits = !switcher.current().is_unsaved() || panels.asked_to_quit;
+        if (!panels.quits) {
+            panels.asked_to_quit = true;
+            switcher.current().set_note(
+                "painted trees are not saved: Ctrl+S saves them, Ctrl+Q quits without saving");
+        }
+    } else if (!input.presses.empty()) {
+        panels.asked_to_quit = false;
+    }
+}
+
+void Controls::apply_to_view(const WindowInput& input,
+                             double seconds,
+                             const PixelArea& area,
+                             ViewSwitcher& switcher,
+                             PanelState& panels) {
+    for (const KeyPress& press : input.presses) {
+        if (press.alt) {
+            press_with_alt(press.key, switcher, panels);
+        }
     }
     const ForestView* const shown = switcher.forest();
     if (!panels.flies && (shown == nullptr || shown->settings.tool == PaintTool::None)) {
@@ -99,15 +192,110 @@ void Controls::apply(const WindowInput& input,
     } else if (PlantView* const plant = switcher.plant()) {
         apply(input, seconds, static_cast<float>(area.height), *plant, panels);
     }
-    if (input.close_requested || panels.quits) {
-        panels.quits = !switcher.current().is_unsaved() || panels.asked_to_quit;
-        if (!panels.quits) {
-            panels.asked_to_quit = true;
-            switcher.current().set_note(
-                "painted trees are not saved: Ctrl+S saves them, Ctrl+Q quits without saving");
+}
+
+void Controls::press_with_alt(Key key, ViewSwitcher& switcher, PanelState& panels) {
+    View& view = switcher.current();
+    if (const std::optional<std::size_t> index = bookmark_of(key)) {
+        panels.bookmarks.show(panels.state_folder, view.file());
+        if (const std::optional<CameraBookmark>& bookmark = panels.bookmarks.all().at(*index)) {
+            view.camera() = bookmark->camera;
+        } else {
+            view.set_note(fmt::format("There is no camera {0}: Ctrl+{0} sets it", *index + 1));
         }
-    } else if (!input.presses.empty()) {
-        panels.asked_to_quit = false;
+    }
+    if (key == Key::Left || key == Key::Right) {
+        switcher.open_neighbour(key == Key::Right ? 1 : -1);
+    }
+}
+
+bool Controls::use_pages(const WindowInput& input, ViewSwitcher& switcher, PanelState& panels) {
+    const bool is_start = switcher.current().file().empty();
+    if (!is_start && panels.dialog == OpenDialog::None) {
+        return false;
+    }
+    std::string chosen;
+    FileBrowser& browser = panels.browser;
+    if (panels.dialog == OpenDialog::File && !input.text.empty()) {
+        browser.set_text(browser.text() + input.text);
+    }
+    for (const KeyPress& press : input.presses) {
+        if (press.control) {
+            panels.quits = panels.quits || press.key == Key::Q;
+            if (press.key == Key::O && panels.dialog != OpenDialog::Sheet) {
+                show_open_dialog(switcher.current(), panels);
+            }
+        } else if (panels.dialog == OpenDialog::File) {
+            press_in_browser(press, panels, chosen);
+        } else if (panels.dialog == OpenDialog::Picture) {
+            if (press.key == Key::Enter) {
+                take_picture(switcher.current(), panels);
+            } else if (press.key == Key::Escape) {
+                panels.dialog = OpenDialog::None;
+            }
+        } else if (panels.dialog == OpenDialog::Sheet && press.key == Key::Escape) {
+            close_sheet(panels);
+        } else if (press.key == Key::Enter) {
+            if (panels.dialog == OpenDialog::Sheet && switcher.plant() != nullptr) {
+                take_from_sheet(panels.sheet.selected, *switcher.plant(), panels);
+                break;
+            }
+            chosen = panels.start.selected_file();
+        } else {
+            const auto axis = [&press](Key less, Key more) {
+                return static_cast<int>(press.key == more) - static_cast<int>(press.key == less);
+            };
+            const int right = axis(Key::Left, Key::Right);
+            const int down = axis(Key::Up, Key::Down);
+            if (panels.dialog == OpenDialog::Sheet) {
+                panels.sheet.move(right, down);
+            } else if (right != 0 || down != 0) {
+                panels.start.move(right, down);
+            }
+        }
+    }
+    if (!chosen.empty()) {
+        panels.dialog = OpenDialog::None;
+        switcher.open(chosen);
+    }
+    return true;
+}
+
+void Controls::press_in_browser(const KeyPress& press, PanelState& panels, std::string& chosen) {
+    FileBrowser& browser = panels.browser;
+    constexpr int kPage = 10; // entries
+    switch (press.key) {
+    case Key::Escape:
+        panels.dialog = OpenDialog::None;
+        break;
+    case Key::Enter:
+        chosen = browser.accept();
+        break;
+    case Key::Up:
+        press.alt ? browser.go_up() : browser.move(-1);
+        break;
+    case Key::Down:
+        browser.move(1);
+        break;
+    case Key::PageUp:
+        browser.move(-kPage);
+        break;
+    case Key::PageDown:
+        browser.move(kPage);
+        break;
+    case Key::Backspace:
+        browser.erase_character();
+        break;
+    case Key::Tab:
+        browser.complete();
+        break;
+    case Key::Home:
+        if (press.alt) {
+            browser.go_home();
+        }
+        break;
+    default:
+        break;
     }
 }
 
@@ -211,10 +399,23 @@ void Controls::fly(const WindowInput& input, float seconds, float height, Camera
 }
 
 bool Controls::press_common(const KeyPress& press, View& view, PanelState& panels) {
+    if (press.alt) {
+        return true; // press_with_alt() has handled it
+    }
+    if (const std::optional<std::size_t> index = bookmark_of(press.key);
+        press.control && index && !view.file().empty()) {
+        panels.bookmarks.show(panels.state_folder, view.file());
+        panels.bookmarks.set(*index, view.camera(), view.console());
+        view.set_note(fmt::format("Camera {0} is set: Alt+{0} goes to it", *index + 1));
+        return true;
+    }
     if (press.control) {
         switch (press.key) {
         case Key::Q:
             panels.quits = true;
+            return true;
+        case Key::O:
+            show_open_dialog(view, panels);
             return true;
         case Key::Z:
             press.shift ? view.redo() : view.undo();
@@ -233,6 +434,11 @@ bool Controls::press_common(const KeyPress& press, View& view, PanelState& panel
     case Key::Escape:
         if (view.making()) {
             view.cancel_making();
+            return true;
+        }
+        if (panels.film.is_busy()) {
+            panels.film.cancel();
+            view.set_note("Cancelled: no film is written");
             return true;
         }
         panels.help = false;
@@ -268,7 +474,11 @@ bool Controls::press_common(const KeyPress& press, View& view, PanelState& panel
         view.reload();
         return true;
     case Key::P:
-        view.write_screenshot();
+        if (press.shift) {
+            view.write_screenshot();
+        } else {
+            show_picture_dialog(view, panels);
+        }
         return true;
     case Key::H:
         panels.panels = !panels.panels;
@@ -345,6 +555,9 @@ void Controls::press(const KeyPress& press, ForestView& view, PanelState& panels
     case Key::S:
         settings.shadows = !settings.shadows;
         break;
+    case Key::V:
+        settings.figure = !settings.figure;
+        break;
     case Key::L:
         settings.colours = settings.colours == BranchColours::Natural ? BranchColours::Id
                            : settings.colours == BranchColours::Id    ? BranchColours::Age
@@ -403,6 +616,9 @@ void Controls::press(const KeyPress& press, PlantView& view, PanelState& panels)
     case Key::S:
         settings.shadows = !settings.shadows;
         break;
+    case Key::V:
+        settings.figure = !settings.figure;
+        break;
     case Key::G:
         settings.ground = !settings.ground;
         break;
@@ -411,6 +627,9 @@ void Controls::press(const KeyPress& press, PlantView& view, PanelState& panels)
         break;
     case Key::N:
         next_seed(view);
+        break;
+    case Key::K:
+        show_sheet(view, panels);
         break;
     case Key::T:
         view.trace(view.shows_trace() ? scope_after(view.trace_scope()) : view.trace_scope());

@@ -2,6 +2,10 @@
 // Controls: mouse and keyboard input to changes of a view.
 #pragma once
 
+#include "viewer/app/camera_bookmarks.h"
+#include "viewer/app/contact_sheet.h"
+#include "viewer/app/film_export.h"
+#include "viewer/app/start_page.h"
 #include "viewer/app/view_switcher.h"
 #include "viewer/gl/window.h"
 
@@ -10,6 +14,9 @@
 #include <string>
 
 namespace lsys::view {
+
+/// The dialog that receives all keys.
+enum class OpenDialog : std::uint8_t { None, File, Picture, Sheet };
 
 /// Open overlays, and modes of the window.
 struct PanelState {
@@ -22,6 +29,19 @@ struct PanelState {
     std::string closed_messages;
     // The user was warned of unsaved changes; the next request closes the window.
     bool asked_to_quit = false;
+    std::string state_folder; // of files kept between runs; empty: none are kept
+    OpenDialog dialog = OpenDialog::None;
+    FileBrowser browser;
+    StartPage start;
+    PictureSettings picture;
+    FilmExport film;
+    CameraBookmarks bookmarks;
+    ContactSheet sheet;
+    WindowLook look;
+    std::uint32_t window_width = 0; // pixels
+    std::uint32_t window_height = 0;
+    std::function<void()> wake; // of the window, on any thread, when `film` has an outcome
+    AddImage add_image;         // empty: pictures are not shown
 };
 
 /// A row of the list of keys.
@@ -29,7 +49,7 @@ struct KeyHelp {
     const char* keys;
     const char* what;
 };
-inline constexpr std::array<KeyHelp, 30> kPlantKeys = {{
+inline constexpr std::array<KeyHelp, 35> kPlantKeys = {{
     {"Left drag", "Orbit"},
     {"Click", "Describe the module and the production that wrote it"},
     {"T", "Trace of the module: why written, next step, back to the axiom"},
@@ -39,9 +59,11 @@ inline constexpr std::array<KeyHelp, 30> kPlantKeys = {{
     {"1, 2, 3", "View from the front, the side, the top"},
     {"Tab", "Fly: look with the mouse, move with W A S D Q E, Shift: faster"},
     {"C", "Copy the camera as text"},
+    {"Ctrl+1 to 9, Alt+1 to 9", "Keep a camera, go to it"},
     {"W", "Wireframe"},
     {"I", "Surfaces"},
     {"L", "Lines: none, skeleton, turtle path"},
+    {"V", "Person of 1.8 m as a scale"},
     {"S", "Shadows"},
     {"G", "Ground"},
     {"B", "Simulate gravity and wind"},
@@ -49,20 +71,23 @@ inline constexpr std::array<KeyHelp, 30> kPlantKeys = {{
     {"PageUp", "Next generation"},
     {"PageDown", "Previous generation"},
     {"N", "Next seed"},
+    {"K", "Contact sheet: nine seeds, or values of constants"},
     {"R", "Reload files"},
     {"Ctrl+Z, Ctrl+Y", "Undo, redo a change of settings"},
     {"Ctrl+S", "Write constants, settings and seed to the file"},
-    {"P", "Save a picture (PNG) in the current folder"},
+    {"P, Shift+P", "Picture or film; at once a PNG in the current folder"},
     {"H", "Panels"},
     {"A", "Statistics"},
     {"M", "Close or show the messages"},
     {"F1", "Keys"},
     {"Esc", "Cancel what is being made; close the keys, stop flying"},
     {"Ctrl+Q", "Quit"},
+    {"Ctrl+O", "Open a file"},
+    {"Alt+Left, Alt+Right", "Previous, next file of the folder"},
     {"Drop a file", "Open it"},
 }};
 
-inline constexpr std::array<KeyHelp, 30> kForestKeys = {{
+inline constexpr std::array<KeyHelp, 34> kForestKeys = {{
     {"Left drag", "Orbit; with a tool: paint, Shift: erase"},
     {"Click", "Without a tool: describe the branch and its production"},
     {"Right drag", "Pan; with a tool: orbit"},
@@ -72,6 +97,7 @@ inline constexpr std::array<KeyHelp, 30> kForestKeys = {{
     {"1, 2, 3", "View from the front, the side, the top"},
     {"Tab", "Fly: look with the mouse, move with W A S D Q E, Shift: faster"},
     {"C", "Copy the camera as text"},
+    {"Ctrl+1 to 9, Alt+1 to 9", "Keep a camera, go to it"},
     {"B", "Brush"},
     {"O", "Single tree"},
     {"X", "Eraser"},
@@ -82,16 +108,19 @@ inline constexpr std::array<KeyHelp, 30> kForestKeys = {{
     {"Ctrl+S", "Save painted trees in the scene file"},
     {"Space", "Play or pause the years"},
     {"W", "Wireframe"},
+    {"V", "Person of 1.8 m as a scale"},
     {"S", "Shadows"},
     {"L", "Colours of branches: natural, id, age, hero"},
     {"N", "Next key: another forest"},
     {"R", "Reload files"},
-    {"P", "Save a picture (PNG) in the current folder"},
+    {"P, Shift+P", "Picture or film; at once a PNG in the current folder"},
     {"H, A", "Panels, statistics"},
     {"M", "Close or show the messages"},
     {"F1", "Keys"},
     {"Esc", "Cancel what is being made; put the tool away, close the keys, stop flying"},
     {"Ctrl+Q", "Quit"},
+    {"Ctrl+O", "Open a file"},
+    {"Alt+Left, Alt+Right", "Previous, next file of the folder"},
     {"Drop a file", "Open it: a scene or a grammar"},
 }};
 
@@ -120,6 +149,16 @@ public:
     [[nodiscard]] bool is_moving() const { return is_moving_; }
 
 private:
+    /// Gives input to the dialog or the start page that is shown; returns whether one is.
+    [[nodiscard]] static bool
+    use_pages(const WindowInput& input, ViewSwitcher& switcher, PanelState& panels);
+    static void press_in_browser(const KeyPress& press, PanelState& panels, std::string& chosen);
+    static void press_with_alt(Key key, ViewSwitcher& switcher, PanelState& panels);
+    void apply_to_view(const WindowInput& input,
+                       double seconds,
+                       const PixelArea& area,
+                       ViewSwitcher& switcher,
+                       PanelState& panels);
     void press(const KeyPress& press, PlantView& view, PanelState& panels);
     void press(const KeyPress& press, ForestView& view, PanelState& panels);
     /// Handles a key that has one meaning in all views; returns whether `press` was such a key.
@@ -135,6 +174,17 @@ private:
     std::optional<glm::vec2> pressed_;
 };
 
+/// Opens the dialog for a file, in the folder of the file shown.
+void show_open_dialog(const View& view, PanelState& panels);
+/// Opens the dialog for a picture, with a name that no file has.
+void show_picture_dialog(const View& view, PanelState& panels);
+/// Writes the picture of the settings, or begins to write their film; reports why not in a note.
+void take_picture(View& view, PanelState& panels);
+/// Shows the contact sheet of the plant; without a plant reports that in a note.
+void show_sheet(PlantView& view, PanelState& panels);
+void close_sheet(PanelState& panels);
+/// Takes the values of a cell of the sheet and closes it; undo() takes them back.
+void take_from_sheet(std::size_t cell, PlantView& view, PanelState& panels);
 /// Increments the plant's seed.
 void next_seed(PlantView& view);
 /// Shows the next generation if `step` is above 0, else the previous one; pauses growth.

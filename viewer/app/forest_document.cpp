@@ -84,6 +84,9 @@ Outcome<std::shared_ptr<ForestDocument>> make(const ViewOptions& options,
     if (!step.take(load_scene(options.files, overrides, project), loaded)) {
         return step.end();
     }
+    if (const Result<void> applied = apply(options.edits, loaded.scene); !applied) {
+        return step.fail(applied.error());
+    }
     if (edits != nullptr) {
         if (const Result<void> applied = apply(*edits, loaded.scene); !applied) {
             return step.fail(applied.error());
@@ -245,6 +248,13 @@ Outcome<std::shared_ptr<ForestDocument>> make_unpainted_forest(const ViewOptions
                                                                const ForestDocument* known,
                                                                const Project& project) {
     return make(options, &edits, known, project);
+}
+
+glm::dvec3 figure_at(const ForestDocument& document, const Camera& camera) {
+    const glm::dvec3 target = camera.origin + glm::dvec3(camera.target);
+    const float height =
+        document.grown.terrain->height(static_cast<float>(target.x), static_cast<float>(target.z));
+    return {target.x, static_cast<double>(height), target.z};
 }
 
 Camera first_view(const ForestDocument& document, float aspect) {

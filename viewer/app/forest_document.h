@@ -66,4 +66,7 @@ make_unpainted_forest(const ViewOptions& options,
                                  std::optional<double> visibility,
                                  const SceneLight& changes);
 
+/// Place on the ground below or above the target of a camera, in the world, m.
+[[nodiscard]] glm::dvec3 figure_at(const ForestDocument& document, const Camera& camera);
+
 } // namespace lsys::view

@@ -116,7 +116,7 @@ void draw_years(ForestView& view) {
         view.play_or_pause();
     }
     ImGui::SameLine();
-    ImGui::SetNextItemWidth(-kLabelWidth);
+    ImGui::SetNextItemWidth(-label_width());
     ImGui::SliderFloat("Years/s", &settings.years_per_second, 0.5F, 100.0F, "%.1f",
                        ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_AlwaysClamp);
 }
@@ -355,6 +355,9 @@ void draw_look(ForestView& view) {
     ImGui::Checkbox("Antialiasing", &settings.antialiasing);
     ImGui::SameLine();
     ImGui::Checkbox("Wireframe", &settings.wireframe);
+    ImGui::Checkbox("Person", &settings.figure);
+    draw_tooltip("A person of 1.8 m where the camera looks (V): a scale, if trees are in metres");
+    ImGui::SameLine();
     ImGui::Checkbox("Wind", &settings.windy);
     draw_wind(settings.wind);
     if (view.document() != nullptr) {
@@ -382,7 +385,7 @@ void draw_look(ForestView& view) {
 
 std::string draw_forest_panel(ForestView& view) {
     draw_numbers(view);
-    ImGui::PushItemWidth(-kLabelWidth);
+    ImGui::PushItemWidth(-label_width());
     draw_years(view);
     draw_painting(view);
     const std::string wanted = draw_species(view);

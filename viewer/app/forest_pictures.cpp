@@ -218,6 +218,9 @@ ExitStatus take_forest_pictures(const ViewOptions& options,
     };
     Frame frame = frame_of(options, camera);
     frame.light = forest_light(document, options.visibility, options.light);
+    if (options.figure) {
+        frame.figure = figure_at(document, camera);
+    }
     const ExitStatus status =
         take_series(options, frame, renderer, console, prepare, after, series);
     return status != ExitStatus::Ok || options.stats.empty()

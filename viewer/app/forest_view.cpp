@@ -30,6 +30,7 @@ constexpr std::uint64_t kMinTriangles = 20'000;
 ForestViewSettings first_forest_settings(const ViewOptions& options) {
     ForestViewSettings settings;
     settings.shadows = options.shadows;
+    settings.figure = options.figure;
     settings.antialiasing = options.samples > 1;
     settings.wireframe = options.style == PlantStyle::Wireframe;
     settings.colours = options.colours;
@@ -190,6 +191,28 @@ PickRequest ForestView::request_for(const Picked& picked) const {
     return request;
 }
 
+ViewOptions ForestView::picture_options(FilmKind kind) const {
+    ViewOptions wanted = options_;
+    wanted.edits = settings.edits;
+    if (kind == FilmKind::Growth) {
+        wanted.edits.years.reset();
+    }
+    wanted.camera = to_text(settings.camera);
+    wanted.shadows = settings.shadows;
+    wanted.figure = settings.figure;
+    wanted.style = settings.wireframe ? PlantStyle::Wireframe : PlantStyle::Surface;
+    wanted.colours = settings.colours;
+    wanted.light = settings.light;
+    wanted.max_triangles = settings.max_triangles;
+    if (settings.visibility) {
+        wanted.visibility = static_cast<float>(*settings.visibility);
+    }
+    if (settings.windy) {
+        wanted.wind = settings.wind;
+    }
+    return wanted;
+}
+
 void ForestView::request_load() {
     requested_ = settings.edits;
     // After an error, read all files again: the cause may lie in any of them.
@@ -322,6 +345,9 @@ bool ForestView::draw(std::uint32_t width, std::uint32_t height) {
     }
     if (document_ != nullptr) {
         frame.light = forest_light(*document_, settings.visibility, settings.light);
+        if (settings.figure) {
+            frame.figure = figure_at(*document_, settings.camera);
+        }
     }
     const bool moves = settings.windy || settings.plays || grown_ || used_tool_ ||
                        (frame_ && !(frame_->camera == frame.camera));

@@ -30,6 +30,7 @@ struct ForestEdits {
     SceneOverrides edits; // applied after command-line options; a change makes a new forest
 
     bool shadows = true;
+    bool figure = false; // a person of 1.8 m where the camera looks
     bool antialiasing = true;
     bool wireframe = false;
     BranchColours colours = BranchColours::Natural;
@@ -104,6 +105,10 @@ public:
     [[nodiscard]] const std::string& file() const override { return options_.file; }
     [[nodiscard]] Camera& camera() override { return settings.camera; }
     [[nodiscard]] bool is_unsaved() const override { return painting_.is_unsaved(); }
+
+    [[nodiscard]] ViewOptions picture_options(FilmKind kind) const override;
+    [[nodiscard]] bool is_forest() const override { return true; }
+    [[nodiscard]] bool has_growth() const override { return default_years() != 0; }
 
     /// Opens another scene and frames it.
     void open(const std::string& file);

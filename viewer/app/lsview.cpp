@@ -38,7 +38,8 @@ struct HiddenRenderer {
 };
 
 ExitStatus make_renderer(const ViewOptions& options, const Console& console, HiddenRenderer& made) {
-    Result<std::unique_ptr<HeadlessContext>> context = HeadlessContext::make();
+    Result<std::unique_ptr<HeadlessContext>> context =
+        options.beside_window ? HeadlessContext::make_without_window() : HeadlessContext::make();
     if (!context) {
         return report_error(context.error(), console);
     }
@@ -105,18 +106,6 @@ run_plant_pictures(const ViewOptions& options, const Camera& camera, const Conso
     return take_pictures(options, camera, document, renderer, console);
 }
 
-ExitStatus run_pictures(const ViewOptions& options, const Console& console) {
-    const Result<Camera> camera = parse_camera(options.camera, Camera{});
-    if (!camera) {
-        return report_error(Error{fmt::format("--camera: {}", camera.error().message)}, console);
-    }
-    if (const Result<Camera> last = parse_camera(options.fly_to, camera.value()); !last) {
-        return report_error(Error{fmt::format("--fly-to: {}", last.error().message)}, console);
-    }
-    return options.is_forest ? run_forest_pictures(options, console)
-                             : run_plant_pictures(options, camera.value(), console);
-}
-
 std::string describe(const char* revision) {
     std::vector<LibraryVersion> libraries = viewer_libraries();
     for (LibraryVersion& library : common_libraries()) {
@@ -148,6 +137,18 @@ struct Dispatch {
 };
 
 } // namespace
+
+ExitStatus run_pictures(const ViewOptions& options, const Console& console) {
+    const Result<Camera> camera = parse_camera(options.camera, Camera{});
+    if (!camera) {
+        return report_error(Error{fmt::format("--camera: {}", camera.error().message)}, console);
+    }
+    if (const Result<Camera> last = parse_camera(options.fly_to, camera.value()); !last) {
+        return report_error(Error{fmt::format("--fly-to: {}", last.error().message)}, console);
+    }
+    return options.is_forest ? run_forest_pictures(options, console)
+                             : run_plant_pictures(options, camera.value(), console);
+}
 
 int run(std::span<const std::string> arguments, const Io& io) {
     return catch_out_of_memory(

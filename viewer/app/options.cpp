@@ -130,6 +130,12 @@ void add_picture(CLI::App& app, ViewOptions& options) {
         "Pictures per second of a series (default 24)")
         ->type_name("F")
         ->group("Picture");
+    app.add_flag("--transparent", options.transparent,
+                 "Draw a plant without sky and ground; the PNG is transparent around it")
+        ->group("Picture");
+    app.add_flag("--figure", options.figure,
+                 "Show a person of 1.8 m beside a plant, or where the camera of a forest looks")
+        ->group("Picture");
     app.add_flag("--turntable", options.turntable, "The series goes once around the plant")
         ->group("Picture");
     app.add_flag("--grow", options.grow,
@@ -248,9 +254,10 @@ constexpr const char* kTitle =
     "Shows plants and forests of L-systems, live in a window or as pictures.";
 
 void add_all(CLI::App& app, ViewOptions& options) {
-    app.add_option("FILE", options.files,
-                   "A grammar or a .lsb file; a scene (.toml), or the grammars of a forest")
-        ->required();
+    app.add_option(
+        "FILE", options.files,
+        "A grammar or a .lsb file; a scene (.toml), or the grammars of a forest. Without "
+        "one, a window opens with samples and recent files");
     add_picture(app, options);
     add_grammar(app, options.grammar, options.run);
     add_base(app, options.run);
@@ -301,6 +308,17 @@ ParsedOptions parse_options(std::span<const std::string> arguments) {
     if (const auto mistake = apply_base(options.run, options.files)) {
         return *mistake;
     }
+    if (options.files.empty()) {
+        const bool is_about_a_file =
+            options.grammar != GrammarOptions{} || options.seed || options.plant_height ||
+            options.overrides != SceneOverrides{} || !options.camera.empty();
+        if (is_about_a_file || !options.screenshot.empty()) {
+            return UsageError{is_about_a_file ? "options of a plant or forest need a FILE"
+                                              : "--screenshot needs a FILE",
+                              "name a grammar or a scene"};
+        }
+        return options;
+    }
     options.file = options.files.front();
     const std::optional<float> season = std::exchange(options.overrides.season, std::nullopt);
     options.is_forest =
@@ -315,6 +333,12 @@ ParsedOptions parse_options(std::span<const std::string> arguments) {
     }
     if (options.is_forest && options.mesh.method == MeshMethod::Solid) {
         return UsageError{"--method solid is for a single plant, not a forest", "leave it out"};
+    }
+    if (options.transparent && (options.is_forest || options.screenshot.empty())) {
+        return options.is_forest
+                   ? UsageError{"--transparent is for a picture of a plant, not of a forest",
+                                "leave it out"}
+                   : UsageError{"--transparent belongs to pictures", "add `--screenshot FILE`"};
     }
     if (!options.is_forest && options.visibility) {
         return UsageError{"--air sets the haze of a forest, and this is a plant", "leave it out"};
@@ -399,6 +423,8 @@ void use_other_file(ViewOptions& options, const std::string& file) {
     options.fly_to.clear();
     options.visibility.reset();
     options.light = {};
+    options.edits = {};
+    options.transparent = false;
 }
 
 } // namespace lsys::view

@@ -14,6 +14,7 @@
 #include "viewer/scene/branch_colours.h"
 #include "viewer/scene/camera.h"
 
+#include <atomic>
 #include <cstdint>
 #include <functional>
 #include <optional>
@@ -44,6 +45,7 @@ struct ViewOptions {
     bool is_forest = false;            // a scene, several grammars, or options of forests
     // Forests only; its `grammar` and `seed` are unset: the fields above hold them.
     SceneOverrides overrides;
+    SceneOverrides edits; // of the window, applied after `overrides`
     MeshOptions mesh;
     RunOptions run;
 
@@ -71,11 +73,16 @@ struct ViewOptions {
     std::string screenshot;   // picture file; `-`: standard output; empty: opens a window instead
     std::uint32_t frames = 0; // pictures of a numbered series; 0: a single picture
     float frames_per_second = 24.0F;
+    bool transparent = false;         // a plant without sky and ground
+    bool figure = false;              // a person of 1.8 m as a scale
     bool turntable = false;           // the series orbits once
     bool grow = false;                // the series shows growth; in a window, growth starts to play
     std::optional<PicturePixel> pick; // report what this pixel shows
     std::optional<TraceScope> why;    // with `pick`: trace the module of a plant
     std::string stats;                // JSON file; `-`: standard output
+    bool beside_window = false;       // pictures are drawn on a thread beside that of a window
+    bool all_or_none = false;         // pictures of a series appear when all are complete
+    std::atomic<std::uint32_t>* pictures_done = nullptr; // counts written pictures; may be null
 };
 
 /// Sets the file to open. Drops the options for grammars and views, which belong to the files that

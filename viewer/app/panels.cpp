@@ -2,7 +2,9 @@
 #include "viewer/app/panels.h"
 
 #include "viewer/app/forest_panel.h"
+#include "viewer/app/picture_dialog.h"
 #include "viewer/app/plant_panel.h"
+#include "viewer/app/recent_files.h"
 #include "viewer/app/widgets.h"
 
 #include <fmt/format.h>
@@ -121,11 +123,21 @@ void draw_statistics(ViewSwitcher& switcher, const Area& area) {
 const ImVec4 kErrorColour{1.0F, 0.72F, 0.66F, 1.0F};
 const ImVec4 kWarningColour{1.0F, 0.93F, 0.7F, 1.0F};
 
+/// A bright colour of text, made darker and stronger on light panels.
+ImVec4 on_panel(const ImVec4& colour) {
+    if (ImGui::GetStyle().Colors[ImGuiCol_WindowBg].x < 0.5F) {
+        return colour;
+    }
+    const auto darker = [](float x) { return 0.7F * x * x * x; };
+    return {darker(colour.x), darker(colour.y), darker(colour.z), colour.w};
+}
+
 /// A message; a click shows its source lines. `is_open`: whether it shows them at first.
 void draw_message(const ShownMessage& message, int number, bool is_open) {
     ImGui::PushID(number);
-    ImGui::PushStyleColor(ImGuiCol_Text,
-                          message.severity == Severity::Error ? kErrorColour : kWarningColour);
+    ImGui::PushStyleColor(
+        ImGuiCol_Text,
+        on_panel(message.severity == Severity::Error ? kErrorColour : kWarningColour));
     if (message.text.empty()) {
         line(message.head);
     } else {
@@ -232,7 +244,7 @@ void draw_trace_line(const TextLine& text) {
         if (i != 0) {
             ImGui::SameLine(0.0F, 0.0F);
         }
-        ImGui::PushStyleColor(ImGuiCol_Text, colour_of(text[i].colour));
+        ImGui::PushStyleColor(ImGuiCol_Text, on_panel(colour_of(text[i].colour)));
         line(text[i].text);
         ImGui::PopStyleColor();
     }
@@ -316,7 +328,7 @@ void draw_picked(const View& view, const Area& area) {
     if (view.picked().lines.empty()) {
         return;
     }
-    ImGui::SetNextWindowPos({area.low.x + 8.0F, 48.0F});
+    ImGui::SetNextWindowPos({area.low.x + 8.0F, scaled(48.0F)});
     ImGui::SetNextWindowBgAlpha(0.7F);
     if (ImGui::Begin("Picked", nullptr,
                      kOverlay | ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoInputs)) {
@@ -363,12 +375,13 @@ void draw_standard_views(View& view) {
 }
 
 /// Draws what is being made, with a button that cancels it.
-void draw_making(View& view, const Area& area) {
-    const std::optional<MakingState> making = view.making();
+void draw_making(View& view, PanelState& panels, const Area& area) {
+    const std::optional<MakingState> of_view = view.making();
+    const std::optional<MakingState> making = of_view ? of_view : panels.film.state();
     if (!making) {
         return;
     }
-    ImGui::SetNextWindowPos({0.5F * (area.low.x + area.high.x), 48.0F}, ImGuiCond_Always,
+    ImGui::SetNextWindowPos({0.5F * (area.low.x + area.high.x), scaled(48.0F)}, ImGuiCond_Always,
                             {0.5F, 0.0F});
     ImGui::SetNextWindowBgAlpha(0.85F);
     if (ImGui::Begin("Making", nullptr, kOverlay | ImGuiWindowFlags_AlwaysAutoResize)) {
@@ -377,10 +390,160 @@ void draw_making(View& view, const Area& area) {
             ImGui::ProgressBar(*making->fraction, {kPanelWidth, 0.0F});
         }
         if (ImGui::Button("Cancel (Esc)")) {
-            view.cancel_making();
+            if (of_view) {
+                view.cancel_making();
+            } else {
+                panels.film.cancel();
+                view.set_note("Cancelled: no film is written");
+            }
         }
     }
     ImGui::End();
+}
+
+/// Draws the cameras that are kept for the file, with their names.
+void draw_bookmarks(View& view, PanelState& panels) {
+    panels.bookmarks.show(panels.state_folder, view.file());
+    if (!ImGui::CollapsingHeader("Cameras")) {
+        return;
+    }
+    bool has_any = false;
+    for (std::size_t i = 0; i < kBookmarks; ++i) {
+        const std::optional<CameraBookmark>& bookmark = panels.bookmarks.all().at(i);
+        if (!bookmark) {
+            continue;
+        }
+        has_any = true;
+        ImGui::PushID(static_cast<int>(i));
+        if (ImGui::Button(fmt::format("{}", i + 1).c_str())) {
+            view.camera() = bookmark->camera;
+        }
+        draw_tooltip("Go to this camera (Alt and the number)");
+        ImGui::SameLine();
+        std::string name = bookmark->name;
+        edit_text("##name", name);
+        ImGui::SameLine();
+        if (ImGui::SmallButton("x")) {
+            panels.bookmarks.remove(i, view.console());
+        } else if (name != bookmark->name) {
+            panels.bookmarks.rename(i, name, view.console());
+        }
+        ImGui::PopID();
+    }
+    if (!has_any) {
+        ImGui::TextDisabled("Ctrl+1 to 9 keeps a camera");
+    }
+}
+
+void draw_window_look(WindowLook& look) {
+    if (ImGui::CollapsingHeader("Window")) {
+        ImGui::SetNextItemWidth(-label_width());
+        ImGui::SliderFloat("Text size", &look.text_size, kMinTextSize, kMaxTextSize, "x%.2f",
+                           ImGuiSliderFlags_AlwaysClamp);
+        ImGui::Checkbox("Light panels", &look.is_light);
+    }
+}
+
+/// Draws the panel on the left; returns the file that it wants to open.
+std::string draw_side_panel(ViewSwitcher& switcher, PanelState& panels, const Area& area) {
+    std::string wanted;
+    ImGui::SetNextWindowPos({0.0F, 0.0F});
+    ImGui::SetNextWindowSize({area.low.x, area.high.y});
+    if (ImGui::Begin("Panel", nullptr,
+                     ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove |
+                         ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoSavedSettings |
+                         ImGuiWindowFlags_NoTitleBar)) {
+        if (ForestView* const forest = switcher.forest()) {
+            wanted = draw_forest_panel(*forest);
+        } else if (PlantView* const plant = switcher.plant()) {
+            draw_plant_panel(*plant);
+        }
+        draw_bookmarks(switcher.current(), panels);
+        draw_window_look(panels.look);
+        ImGui::Separator();
+        ImGui::Checkbox("Statistics", &panels.statistics);
+        ImGui::SameLine();
+        if (ImGui::Button("Keys (F1)")) {
+            panels.help = !panels.help;
+        }
+        ImGui::SameLine();
+        if (ImGui::Button("Frame all")) {
+            switcher.current().frame_all();
+        }
+        ImGui::SameLine();
+        if (ImGui::Button("Open")) {
+            show_open_dialog(switcher.current(), panels);
+        }
+        draw_tooltip("Open a file (Ctrl+O)");
+        if (ImGui::Button("Picture or film (P)")) {
+            show_picture_dialog(switcher.current(), panels);
+        }
+        ImGui::SameLine();
+        if (ImGui::Button("Picture (Shift+P)")) {
+            switcher.current().write_screenshot();
+        }
+        draw_tooltip("Writes the picture of the window into the current folder, as NAME-1.png");
+        draw_standard_views(switcher.current());
+        if (switcher.plant() != nullptr && !switcher.last_scene().empty() &&
+            ImGui::Button("Back to forest")) {
+            wanted = switcher.last_scene();
+        }
+    }
+    ImGui::End();
+    return wanted;
+}
+
+/// Draws the panel and overlays of a plant or forest; returns the file that they want to open.
+std::string draw_view_panels(ViewSwitcher& switcher, PanelState& panels, const Area& area) {
+    std::string wanted;
+    if (panels.panels) {
+        wanted = draw_side_panel(switcher, panels, area);
+    }
+    if (panels.statistics) {
+        draw_statistics(switcher, area);
+    }
+    const float bottom = draw_messages(switcher.current(), panels, area);
+    draw_hint(switcher.current(), panels, area);
+    draw_picked(switcher.current(), area);
+    draw_trace(switcher.current(), area, bottom);
+    draw_making(switcher.current(), panels, area);
+    if (panels.help) {
+        draw_help(switcher.forest() != nullptr ? std::span<const KeyHelp>(kForestKeys)
+                                               : std::span<const KeyHelp>(kPlantKeys),
+                  panels, area);
+    }
+    return wanted;
+}
+
+void draw_sheet(ViewSwitcher& switcher, PanelState& panels) {
+    PlantView* const plant = switcher.plant();
+    if (plant == nullptr) { // another file was dropped on the window
+        close_sheet(panels);
+        return;
+    }
+    for (const auto& [cell, picture] : panels.sheet.take()) {
+        panels.sheet.images.at(cell) = panels.add_image ? panels.add_image(picture) : 0;
+    }
+    const SheetAction action = draw_contact_sheet(panels.sheet, *plant);
+    if (action.taken) {
+        take_from_sheet(*action.taken, *plant, panels);
+    } else if (action.closes) {
+        close_sheet(panels);
+    } else if (action.varies) {
+        show_sheet(*plant, panels);
+    }
+}
+
+std::string draw_start(const View& view, PanelState& panels) {
+    if (!panels.start.is_loaded) {
+        panels.start.load(panels.state_folder, samples_folder());
+    }
+    bool wants_dialog = false;
+    std::string wanted = draw_start_page(panels.start, panels.add_image, wants_dialog);
+    if (wants_dialog) {
+        show_open_dialog(view, panels);
+    }
+    return wanted;
 }
 
 } // namespace
@@ -394,50 +557,27 @@ bool is_control_held() {
 }
 
 void draw_panels(ViewSwitcher& switcher, PanelState& panels, float scale) {
-    const Area area = picture_area(panels, scale);
-    std::string wanted;
-    if (panels.panels) {
-        ImGui::SetNextWindowPos({0.0F, 0.0F});
-        ImGui::SetNextWindowSize({area.low.x, area.high.y});
-        if (ImGui::Begin("Panel", nullptr,
-                         ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove |
-                             ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoSavedSettings |
-                             ImGuiWindowFlags_NoTitleBar)) {
-            if (ForestView* const forest = switcher.forest()) {
-                wanted = draw_forest_panel(*forest);
-            } else if (PlantView* const plant = switcher.plant()) {
-                draw_plant_panel(*plant);
-            }
-            ImGui::Separator();
-            ImGui::Checkbox("Statistics", &panels.statistics);
-            ImGui::SameLine();
-            if (ImGui::Button("Keys (F1)")) {
-                panels.help = !panels.help;
-            }
-            ImGui::SameLine();
-            if (ImGui::Button("Frame all")) {
-                switcher.current().frame_all();
-            }
-            draw_standard_views(switcher.current());
-            if (switcher.plant() != nullptr && !switcher.last_scene().empty() &&
-                ImGui::Button("Back to forest")) {
-                wanted = switcher.last_scene();
-            }
+    if (panels.dialog == OpenDialog::Sheet) {
+        draw_sheet(switcher, panels);
+        return;
+    }
+    std::string wanted = switcher.current().file().empty()
+                             ? draw_start(switcher.current(), panels)
+                             : draw_view_panels(switcher, panels, picture_area(panels, scale));
+    if (panels.dialog == OpenDialog::File) {
+        bool is_open = true;
+        wanted = draw_open_dialog(panels.browser, is_open);
+        if (!is_open || !wanted.empty()) {
+            panels.dialog = OpenDialog::None;
         }
-        ImGui::End();
     }
-    if (panels.statistics) {
-        draw_statistics(switcher, area);
-    }
-    const float bottom = draw_messages(switcher.current(), panels, area);
-    draw_hint(switcher.current(), panels, area);
-    draw_picked(switcher.current(), area);
-    draw_trace(switcher.current(), area, bottom);
-    draw_making(switcher.current(), area);
-    if (panels.help) {
-        draw_help(switcher.forest() != nullptr ? std::span<const KeyHelp>(kForestKeys)
-                                               : std::span<const KeyHelp>(kPlantKeys),
-                  panels, area);
+    if (panels.dialog == OpenDialog::Picture) {
+        bool is_open = true;
+        if (draw_picture_dialog(switcher.current(), panels.picture, is_open)) {
+            take_picture(switcher.current(), panels);
+        } else if (!is_open) {
+            panels.dialog = OpenDialog::None;
+        }
     }
     if (!wanted.empty()) {
         switcher.open(wanted);

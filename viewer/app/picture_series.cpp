@@ -27,7 +27,37 @@ double milliseconds_since(Clock::time_point start) {
 // Max pixels per draw; larger pictures are drawn in stripes.
 constexpr std::uint64_t kStripePixels = std::uint64_t{1} << 22;
 
-/// Draws a picture in stripes.
+/// Divides colours by the opacity: pixels at edges are means with transparent black.
+void divide_by_opacity(std::vector<std::uint8_t>& texels) {
+    constexpr unsigned kOpaque = 255;
+    for (std::size_t at = 0; at + 3 < texels.size(); at += 4) {
+        const unsigned opacity = texels[at + 3];
+        if (opacity == 0 || opacity == kOpaque) {
+            continue;
+        }
+        for (std::size_t channel = at; channel < at + 3; ++channel) {
+            texels[channel] = static_cast<std::uint8_t>(
+                std::min((texels[channel] * kOpaque + opacity / 2) / opacity, kOpaque));
+        }
+    }
+}
+
+/// Writes a file that appears under its name when all `outputs` do.
+Result<void> write_part(const std::string& path,
+                        const std::string& bytes,
+                        const Console& console,
+                        std::vector<Output>& outputs) {
+    Result<Output> output = Output::open(path, console);
+    if (!output) {
+        return output.error();
+    }
+    outputs.push_back(std::move(output.value()));
+    const Result<void> written = outputs.back().write(bytes);
+    return written ? outputs.back().finish() : written;
+}
+
+} // namespace
+
 Texture
 draw_picture(const Frame& frame, Renderer& renderer, FrameStats& stats, double& read_milliseconds) {
     Texture picture;
@@ -52,10 +82,11 @@ draw_picture(const Frame& frame, Renderer& renderer, FrameStats& stats, double& 
             picture.texels.insert(picture.texels.end(), stripe.begin(), stripe.end());
         }
     }
+    if (frame.transparent) {
+        divide_by_opacity(picture.texels);
+    }
     return picture;
 }
-
-} // namespace
 
 double median(std::vector<double> values) {
     if (values.empty()) {
@@ -72,7 +103,8 @@ Frame frame_of(const ViewOptions& options, const Camera& camera) {
     frame.width = options.width;
     frame.height = options.height;
     frame.shadows = options.shadows;
-    frame.ground = options.ground;
+    frame.ground = options.ground && !options.transparent;
+    frame.transparent = options.transparent;
     frame.style = options.style;
     frame.wind = options.wind.value_or(Wind{});
     frame.samples = options.samples;
@@ -96,6 +128,7 @@ ExitStatus take_series(const ViewOptions& options,
     const Camera camera = frame.camera;
     const std::uint32_t count = std::max(options.frames, 1U);
     const Camera last = with_parts(options.fly_to, camera);
+    std::vector<Output> outputs; // with options.all_or_none
     for (std::uint32_t i = 0; i < count; ++i) {
         if (console.interrupted()) {
             return ExitStatus::Interrupted;
@@ -134,8 +167,14 @@ ExitStatus take_series(const ViewOptions& options,
         }
         const std::string path =
             options.frames == 0 ? options.screenshot : numbered_path(options.screenshot, i + 1);
-        if (const Result<void> written = write_file(path, bytes, console); !written) {
+        if (const Result<void> written = options.all_or_none
+                                             ? write_part(path, bytes, console, outputs)
+                                             : write_file(path, bytes, console);
+            !written) {
             return report_error(written.error(), console);
+        }
+        if (options.pictures_done != nullptr) {
+            ++*options.pictures_done;
         }
         series.write.push_back(milliseconds_since(start));
         if (after) {
@@ -144,9 +183,10 @@ ExitStatus take_series(const ViewOptions& options,
             }
         }
     }
-    return renderer.errors().empty()
-               ? ExitStatus::Ok
-               : report_error(Error{fmt::format("OpenGL: {}", renderer.errors().front())}, console);
+    if (!renderer.errors().empty()) {
+        return report_error(Error{fmt::format("OpenGL: {}", renderer.errors().front())}, console);
+    }
+    return report_result(commit_all(outputs), console);
 }
 
 ExitStatus write_picked(const ViewOptions& options,

@@ -2,6 +2,7 @@
 // PictureSeries: pictures written by a run, one or a numbered series, with their times.
 #pragma once
 
+#include "runtime/meshing/texture.h"
 #include "runtime/program/console.h"
 #include "viewer/app/options.h"
 #include "viewer/app/picking.h"
@@ -31,6 +32,11 @@ struct PictureSeries {
 
 /// A frame with the camera and the values of the options.
 [[nodiscard]] Frame frame_of(const ViewOptions& options, const Camera& camera);
+
+/// Draws a picture in stripes. Adds to `stats` and `read_milliseconds`. With Frame::transparent
+/// colours are not multiplied by the opacity, as PNG wants.
+[[nodiscard]] Texture
+draw_picture(const Frame& frame, Renderer& renderer, FrameStats& stats, double& read_milliseconds);
 
 /// Draws and writes the pictures of the options, starting with `frame`. `prepare`, which may be
 /// empty, is called before each picture with its frame, and `after` after each picture; a status

@@ -8,6 +8,7 @@
 #include "runtime/program/weight_report.h"
 #include "viewer/app/picking.h"
 #include "viewer/app/picture_series.h"
+#include "viewer/scene/figure.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -228,7 +229,8 @@ ExitStatus take_pictures(const ViewOptions& options,
         return status;
     }
     const float aspect = static_cast<float>(options.width) / static_cast<float>(options.height);
-    const Camera from = with_parts(options.camera, first_view(camera, renderer.bounds(), aspect));
+    const Bounds seen = options.figure ? with_figure(renderer.bounds()) : renderer.bounds();
+    const Camera from = with_parts(options.camera, first_view(camera, seen, aspect));
     if (motion.moves()) {
         prepare = [&](const Frame& frame) {
             motion.go_to(frame.time);
@@ -256,6 +258,9 @@ ExitStatus take_pictures(const ViewOptions& options,
         };
     }
     Frame frame = frame_of(options, from);
+    if (options.figure) {
+        frame.figure = figure_beside(renderer.bounds());
+    }
     if (options.grow && !renderer.bounds().empty) {
         // Disc under the plant of the last generation, the same in all pictures.
         frame.ground_disc = ground_disc_of(renderer.bounds());

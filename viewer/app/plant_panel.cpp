@@ -65,12 +65,12 @@ void draw_growth(PlantView& view) {
         step_generations(view, 1);
     }
     ImGui::SameLine();
-    ImGui::SetNextItemWidth(-kLabelWidth);
+    ImGui::SetNextItemWidth(-label_width());
     ImGui::SliderFloat("Generations/s", &settings.generations_per_second, 0.25F, 20.0F, "%.2f",
                        ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_AlwaysClamp);
     std::uint64_t seed =
         settings.seed.value_or(view.document() == nullptr ? 0 : view.document()->plant.seed);
-    ImGui::SetNextItemWidth(-kLabelWidth - 50.0F);
+    ImGui::SetNextItemWidth(-label_width() - scaled(50.0F));
     if (ImGui::InputScalar("##seed", ImGuiDataType_U64, &seed, nullptr, nullptr, nullptr,
                            ImGuiInputTextFlags_EnterReturnsTrue)) {
         settings.seed = seed;
@@ -297,11 +297,16 @@ void draw_look(PlantViewSettings& settings) {
     if (ImGui::Combo("Lines", &lines, "None\0Skeleton\0Turtle path\0")) {
         settings.lines = static_cast<LineKind>(lines);
     }
+    if (settings.lines != LineKind::None) {
+        ImGui::Checkbox("Dim surfaces", &settings.dims);
+    }
     ImGui::Checkbox("Shadows", &settings.shadows);
     ImGui::SameLine();
     ImGui::Checkbox("Ground", &settings.ground);
     ImGui::SameLine();
     ImGui::Checkbox("Antialiasing", &settings.antialiasing);
+    ImGui::Checkbox("Person", &settings.figure);
+    draw_tooltip("A person of 1.8 m beside the plant (V): a scale, if the plant is in metres");
     draw_sun({}, settings.light);
     draw_camera(settings.camera);
 }
@@ -369,7 +374,7 @@ void draw_bending(PlantViewSettings& settings) {
 
 void draw_plant_panel(PlantView& view) {
     draw_numbers(view);
-    ImGui::PushItemWidth(-kLabelWidth);
+    ImGui::PushItemWidth(-label_width());
     draw_growth(view);
     draw_constants(view);
     draw_settings(view);

@@ -5,6 +5,7 @@
 #include "runtime/program/files.h"
 #include "runtime/program/host.h"
 #include "viewer/app/daylight.h"
+#include "viewer/scene/figure.h"
 
 #include <fmt/format.h>
 
@@ -46,6 +47,7 @@ PlantViewSettings first_plant_settings(const ViewOptions& options) {
     settings.lines = options.lines;
     settings.shadows = options.shadows;
     settings.ground = options.ground;
+    settings.figure = options.figure;
     settings.antialiasing = options.samples > 1;
     settings.light = options.light;
     settings.simulates = options.gravity || options.wind;
@@ -63,7 +65,8 @@ PlantViewSettings first_plant_settings(const ViewOptions& options) {
 bool operator==(const PlantEdits& a, const PlantEdits& b) {
     return makes_same_plant(a, b) && a.style == b.style && a.lines == b.lines &&
            a.shadows == b.shadows && a.ground == b.ground && a.antialiasing == b.antialiasing &&
-           a.light == b.light && a.simulates == b.simulates && is_same(a.bending, b.bending);
+           a.light == b.light && a.figure == b.figure && a.dims == b.dims &&
+           a.simulates == b.simulates && is_same(a.bending, b.bending);
 }
 
 PlantView::PlantView(const ViewOptions& options,
@@ -98,6 +101,24 @@ ViewOptions PlantView::options_with_settings() const {
     wanted.grammar.generations = settings.generations;
     wanted.seed = settings.seed;
     wanted.mesh = settings.mesh;
+    return wanted;
+}
+
+ViewOptions PlantView::picture_options(FilmKind kind) const {
+    ViewOptions wanted = options_with_settings();
+    wanted.files = {settings.file};
+    if (kind == FilmKind::Growth) {
+        wanted.grammar.generations = default_generations();
+    }
+    wanted.camera = to_text(settings.camera);
+    wanted.gravity.reset();
+    wanted.wind.reset();
+    wanted.shadows = settings.shadows;
+    wanted.ground = settings.ground;
+    wanted.figure = settings.figure;
+    wanted.style = settings.style;
+    wanted.lines = settings.lines;
+    wanted.light = settings.light;
     return wanted;
 }
 
@@ -198,12 +219,15 @@ void PlantView::swap(LoadOutcome outcome) {
     renderer_->show_plant(document_->mesh);
     widen_film_ground();
     show_lines();
+    rest_bounds_ = renderer_->bounds();
     if (std::exchange(plays_next_, false)) {
         settings.plays = true;
     }
     if (std::exchange(frame_next_, false)) {
-        settings.camera =
-            with_parts(options_.camera, first_view(settings.camera, renderer_->bounds(), aspect_));
+        settings.camera = with_parts(
+            options_.camera,
+            first_view(settings.camera, settings.figure ? with_figure(rest_bounds_) : rest_bounds_,
+                       aspect_));
     }
     settings.bending.forces.load = document_->grammar.bytecode.settings.load;
     if (std::exchange(is_new_file_, false)) {
@@ -539,9 +563,14 @@ bool PlantView::draw(std::uint32_t width, std::uint32_t height) {
     frame.ground = settings.ground;
     frame.samples = settings.antialiasing ? 4 : 1;
     frame.style = settings.style;
+    frame.dims =
+        settings.dims && settings.lines != LineKind::None && settings.style == PlantStyle::Surface;
     frame.light = daylight_of(settings.light, Light{});
     if (shows_growth_) {
         frame.ground_disc = film_ground_;
+    }
+    if (settings.figure) {
+        frame.figure = figure_beside(rest_bounds_);
     }
     if (!draw_frame(frame)) {
         return false;
@@ -591,7 +620,9 @@ void PlantView::reload() {
 }
 
 void PlantView::frame_all() {
-    settings.camera = framing(settings.camera, renderer_->bounds(), aspect_);
+    settings.camera =
+        framing(settings.camera,
+                settings.figure ? with_figure(renderer_->bounds()) : renderer_->bounds(), aspect_);
 }
 
 void PlantView::export_shown() {

@@ -36,6 +36,8 @@ struct PlantEdits {
     LineKind lines = LineKind::None;
     bool shadows = true;
     bool ground = true;
+    bool dims = true;    // surfaces fade while lines are shown
+    bool figure = false; // a person of 1.8 m beside the plant
     bool antialiasing = true;
     SceneLight light; // values that replace the default daylight
 
@@ -93,6 +95,9 @@ public:
     [[nodiscard]] const std::string& file() const override { return settings.file; }
     [[nodiscard]] Camera& camera() override { return settings.camera; }
 
+    [[nodiscard]] ViewOptions picture_options(FilmKind kind) const override;
+    [[nodiscard]] bool has_growth() const override { return default_generations() != 0; }
+
     /// Opens another file and frames it.
     void open(const std::string& file);
     /// Restarts at the axiom when all generations are shown.
@@ -142,6 +147,7 @@ private:
     bool is_new_file_ = true; // at the next swap, take the damping of the grammar
     bool logs_next_frame_ = false;
     PlantViewStats stats_;
+    Bounds rest_bounds_; // of document_
 
     std::optional<PlantViewSettings> requested_; // last request
     EditHistory<PlantEdits> history_;

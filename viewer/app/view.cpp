@@ -3,13 +3,14 @@
 
 #include "runtime/meshing/texture.h"
 #include "runtime/program/files.h"
+#include "viewer/app/picture_series.h"
 #include "viewer/app/shader_folder.h"
 
 #include <fmt/format.h>
 
 #include <filesystem>
+#include <limits>
 #include <ostream>
-#include <system_error>
 #include <utility>
 
 namespace lsys::view {
@@ -200,17 +201,35 @@ void View::write_screenshot() {
         return;
     }
     const std::string stem = std::filesystem::path(file()).stem().string();
-    std::string name;
-    std::error_code error;
-    for (std::uint32_t number = 1; name.empty() || std::filesystem::exists(name, error); ++number) {
-        name = fmt::format("{}-{}.png", stem, number);
-    }
+    const std::string name = unused_picture_name({}, stem) + ".png";
     Texture picture;
     picture.width = frame_->width;
     picture.height = frame_->height;
     renderer_->read(picture.texels);
     const Result<void> written = write_file(name, encode_png(picture), console_);
     set_note(written ? fmt::format("wrote {}", name) : written.error().message);
+}
+
+void View::write_picture(const PictureSettings& settings) {
+    if (!frame_) {
+        return;
+    }
+    Frame frame = *frame_;
+    frame.width = settings.width == 0 ? frame.width : settings.width;
+    frame.height = settings.height == 0 ? frame.height : settings.height;
+    frame.samples = settings.samples;
+    frame.max_expansions = ~0U;
+    frame.max_triangles = options_.max_triangles;
+    frame.transparent = settings.transparent && !is_forest();
+    frame.ground = frame.ground && !frame.transparent;
+    static_cast<void>(renderer_->bake_impostors(std::numeric_limits<double>::infinity()));
+    FrameStats stats;
+    double read_milliseconds = 0.0;
+    const std::string bytes = encode_png(draw_picture(frame, *renderer_, stats, read_milliseconds));
+    const Result<void> written = bytes.empty() ? Error{"not enough memory for the picture"}
+                                               : write_file(settings.path(), bytes, console_);
+    set_note(written ? fmt::format("wrote {}", settings.path()) : written.error().message);
+    changed_ = true;
 }
 
 void View::set_note(const std::string& note) {

@@ -6,6 +6,7 @@
 #include "grammar/base/outcome.h"
 #include "runtime/pipeline/stopwatch.h"
 #include "runtime/program/console.h"
+#include "viewer/app/film_export.h"
 #include "viewer/app/making_progress.h"
 #include "viewer/app/options.h"
 #include "viewer/app/picking.h"
@@ -77,6 +78,10 @@ public:
     }
     [[nodiscard]] virtual const std::string& file() const = 0;
     [[nodiscard]] virtual Camera& camera() = 0;
+    /// Whether a forest is shown.
+    [[nodiscard]] virtual bool is_forest() const { return false; }
+    /// Whether the plant or forest grows, so that a film can show its growth.
+    [[nodiscard]] virtual bool has_growth() const { return false; }
     /// Whether there are unsaved changes.
     [[nodiscard]] virtual bool is_unsaved() const { return false; }
 
@@ -99,8 +104,18 @@ public:
 
     /// Copies the last picture to a part of the window whose context is current.
     void present(const PixelArea& area) { renderer_->present(area); }
-    /// Writes the last picture to a new file and reports its name.
+    /// Writes the last picture to a new file in the current folder and reports its name.
     void write_screenshot();
+    /// Draws what the last picture shows with the size and samples of `settings`, writes it to
+    /// their file, and reports the result in a note. The next draw() draws the window's picture
+    /// again.
+    void write_picture(const PictureSettings& settings);
+    /// Options of lsview with which run_pictures() draws pictures of what is shown, at rest, with
+    /// the camera of the window. `frames` of growth end at the last generation or year.
+    [[nodiscard]] virtual ViewOptions picture_options(FilmKind kind) const = 0;
+    /// Width and height of the last picture, pixels; 0 before the first one.
+    [[nodiscard]] std::uint32_t picture_width() const { return frame_ ? frame_->width : 0; }
+    [[nodiscard]] std::uint32_t picture_height() const { return frame_ ? frame_->height : 0; }
     void set_note(const std::string& note);
     /// Removes the note once it was shown for kNoteTime. Returns whether it did.
     bool drop_old_note(SteadyClock::time_point now);
@@ -116,6 +131,7 @@ public:
     [[nodiscard]] const std::string& shader_message() const { return shader_message_; }
     /// Last note, for example "wrote plant-1.png"; empty if it is old.
     [[nodiscard]] const std::string& note() const { return note_; }
+    [[nodiscard]] const Console& console() const { return console_; }
     [[nodiscard]] const Renderer& renderer() const { return *renderer_; }
 
 protected:

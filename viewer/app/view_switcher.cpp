@@ -2,6 +2,7 @@
 #include "viewer/app/view_switcher.h"
 
 #include "runtime/pipeline/forest.h"
+#include "viewer/app/file_browser.h"
 
 #include <utility>
 
@@ -20,7 +21,9 @@ void ViewSwitcher::make(const ViewOptions& options) {
     forest_ = nullptr;
     // Destroy the old view before the new one is made: both watch files and use the renderer.
     current_.reset();
-    if (options.is_forest) {
+    if (options.file.empty()) {
+        current_ = std::make_unique<StartView>(options, console_, *renderer_, wake_);
+    } else if (options.is_forest) {
         auto forest = std::make_unique<ForestView>(options, console_, *renderer_, wake_);
         forest_ = forest.get();
         current_ = std::move(forest);
@@ -28,6 +31,18 @@ void ViewSwitcher::make(const ViewOptions& options) {
         auto plant = std::make_unique<PlantView>(options, console_, *renderer_, wake_);
         plant_ = plant.get();
         current_ = std::move(plant);
+    }
+}
+
+void ViewSwitcher::open_neighbour(int step) {
+    if (current_->file().empty()) {
+        return;
+    }
+    const std::string file = neighbour_file(current_->file(), step);
+    if (file.empty()) {
+        current_->set_note("There is no other file in this folder");
+    } else {
+        open(file);
     }
 }
 

@@ -14,6 +14,16 @@
 
 namespace lsys::view {
 
+float scaled(float pixels) {
+    constexpr float kUsualSize = 13.0F; // of text, pixels
+    return pixels * ImGui::GetFontSize() / kUsualSize;
+}
+
+float label_width() {
+    constexpr float kUsualWidth = 110.0F;
+    return scaled(kUsualWidth);
+}
+
 void line(const std::string& text) {
     ImGui::TextUnformatted(text.data(), text.data() + text.size());
 }

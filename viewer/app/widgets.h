@@ -11,7 +11,10 @@
 
 namespace lsys::view {
 
-inline constexpr float kLabelWidth = 110.0F;
+/// Length of `pixels` of the usual text, scaled with the size of text.
+[[nodiscard]] float scaled(float pixels);
+/// Room for the label of a widget, pixels.
+[[nodiscard]] float label_width();
 
 /// Draws a line of text.
 void line(const std::string& text);

@@ -4,6 +4,7 @@
 #include "runtime/program/files.h"
 #include "viewer/app/controls.h"
 #include "viewer/app/panels.h"
+#include "viewer/app/recent_files.h"
 #include "viewer/app/shader_folder.h"
 #include "viewer/app/view_switcher.h"
 #include "viewer/gl/window.h"
@@ -32,18 +33,34 @@ constexpr double kMaxFlightStep = 0.1;
 constexpr int kPicturesAfterInput = 3;
 
 std::string title_of(const std::string& file) {
+    if (file.empty()) {
+        return "lsview";
+    }
     return std::filesystem::path(file).filename().string() + " - lsview";
 }
 
 class WindowRun {
 public:
-    WindowRun(Window& window, ViewSwitcher& switcher) : window_(window), switcher_(switcher) {}
+    WindowRun(Window& window, ViewSwitcher& switcher, const Console& console)
+        : window_(window), switcher_(switcher), console_(console) {
+        panels_.state_folder = state_folder();
+        panels_.look = read_look(panels_.state_folder);
+        look_ = panels_.look;
+        window_.set_look(look_);
+        panels_.wake = [this] { window_.wake(); };
+        panels_.add_image = [this](const Texture& picture) { return window_.add_image(picture); };
+        if (!switcher_.current().file().empty()) {
+            remember_file(panels_.state_folder, switcher_.current().file(), console_);
+        }
+    }
 
     /// Handles input and draws a picture if needed; returns false to quit.
     bool step() {
-        const double wait = pictures_left_ > 0 || controls_.is_moving() ? 0.0
-                            : switcher_.current().is_busy()             ? kBusy
-                                                                        : kIdle;
+        const double wait =
+            pictures_left_ > 0 || controls_.is_moving() ? 0.0
+            : switcher_.current().is_busy() || panels_.film.is_busy() || panels_.sheet.is_busy()
+                ? kBusy
+                : kIdle;
         const WindowInput input = window_.wait(wait);
         const Clock::time_point now = Clock::now();
         const double passed =
@@ -51,6 +68,8 @@ public:
         last_ = now;
         const bool flew = panels_.flies;
         const std::string file = switcher_.current().file();
+        panels_.window_width = window_.width();
+        panels_.window_height = window_.height();
         controls_.apply(input, passed, picture_area(), switcher_, panels_);
         if (panels_.flies != flew) {
             window_.capture_mouse(panels_.flies);
@@ -64,7 +83,15 @@ public:
         if (!is_control_held()) {
             switcher_.current().record_edits();
         }
-        const bool has_news = switcher_.current().update();
+        if (shows_sheet_ && panels_.dialog != OpenDialog::Sheet) {
+            window_.drop_images();
+        }
+        shows_sheet_ = panels_.dialog == OpenDialog::Sheet;
+        const std::optional<std::string> film = panels_.film.take();
+        if (film) {
+            switcher_.current().set_note(*film);
+        }
+        const bool has_news = switcher_.current().update() || film;
         const bool dropped_note = switcher_.current().drop_old_note(now);
         if (dropped_note) {
             // The warning has left the screen, so the next Ctrl+Q must warn again.
@@ -78,7 +105,16 @@ public:
         draw();
         if (switcher_.current().file() != file) { // panels open files too
             window_.set_title(title_of(switcher_.current().file()));
+            window_.drop_images(); // of the start page, which is not shown again
+            panels_.start = {};
+            if (panels_.dialog == OpenDialog::Sheet) {
+                close_sheet(panels_);
+            }
+            remember_file(panels_.state_folder, switcher_.current().file(), console_);
             pictures_left_ = kPicturesAfterInput;
+        }
+        if (is_loading(panels_.start) || panels_.sheet.has_news()) {
+            pictures_left_ = std::max(pictures_left_, 1);
         }
         return true;
     }
@@ -97,7 +133,8 @@ private:
 
     /// Draws while something is being made, and once more when it is done.
     void update_progress(Clock::time_point now) {
-        const bool is_making = switcher_.current().making().has_value();
+        const bool is_making =
+            switcher_.current().making().has_value() || panels_.film.state().has_value();
         if (is_making != shows_progress_ ||
             (is_making && now - last_progress_ >= kProgressInterval)) {
             pictures_left_ = std::max(pictures_left_, 1);
@@ -122,6 +159,12 @@ private:
         View* const drawn = &switcher_.current();
         draw_panels(switcher_, panels_, window_.scale());
         window_.present();
+        if (panels_.look != look_ && !is_control_held()) {
+            look_ = panels_.look;
+            window_.set_look(look_);
+            write_look(panels_.state_folder, look_, console_);
+            pictures_left_ = kPicturesAfterInput;
+        }
         if (drew && drawn == &switcher_.current()) {
             drawn->picture_shown(std::chrono::duration<double>(Clock::now() - start).count());
         }
@@ -129,11 +172,14 @@ private:
 
     Window& window_;
     ViewSwitcher& switcher_;
+    const Console& console_;
     Controls controls_;
     PanelState panels_;
     Clock::time_point last_ = Clock::now();
     Clock::time_point last_progress_ = last_;
     bool shows_progress_ = false;
+    bool shows_sheet_ = false;
+    WindowLook look_; // of the window
     int pictures_left_ = kPicturesAfterInput;
 };
 
@@ -145,15 +191,19 @@ ExitStatus run_window(const ViewOptions& options, const Console& console) {
         return report_error(Error{fmt::format("--camera: {}", camera.error().message)}, console);
     }
     // An unreadable file is a usage error; errors in a readable file are shown in the window.
-    if (const Result<std::string> bytes = read_file(options.file, {kMaxSourceBytes}, console);
-        !bytes) {
-        return report_error(bytes.error(), console);
+    if (!options.file.empty()) {
+        if (const Result<std::string> bytes = read_file(options.file, {kMaxSourceBytes}, console);
+            !bytes) {
+            return report_error(bytes.error(), console);
+        }
     }
     Result<std::unique_ptr<Window>> window =
         Window::make(title_of(options.file), options.width, options.height);
     if (!window) {
         const ExitStatus status = report_error(window.error(), console);
-        console.help("`--screenshot FILE` makes a picture without a window");
+        console.help(options.file.empty()
+                         ? "`lsview FILE --screenshot PICTURE` makes a picture without a window"
+                         : "`--screenshot FILE` makes a picture without a window");
         return status;
     }
     Result<std::unique_ptr<Renderer>> renderer =
@@ -166,7 +216,7 @@ ExitStatus run_window(const ViewOptions& options, const Console& console) {
     ViewSwitcher switcher(options, console, *renderer.value(),
                           [made = window.value().get()] { made->wake(); });
     switcher.current().camera() = camera.value();
-    WindowRun run(*window.value(), switcher);
+    WindowRun run(*window.value(), switcher, console);
     while (run.step()) {
         if (console.interrupted()) {
             return ExitStatus::Interrupted;

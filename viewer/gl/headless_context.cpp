@@ -148,6 +148,14 @@ HeadlessContext::~HeadlessContext() {
 }
 
 Result<std::unique_ptr<HeadlessContext>> HeadlessContext::make() {
+    return make(true);
+}
+
+Result<std::unique_ptr<HeadlessContext>> HeadlessContext::make_without_window() {
+    return make(false);
+}
+
+Result<std::unique_ptr<HeadlessContext>> HeadlessContext::make(bool may_use_window) {
     std::unique_ptr<HeadlessContext> context(new HeadlessContext());
     struct Method {
         const char* name;
@@ -158,6 +166,9 @@ Result<std::unique_ptr<HeadlessContext>> HeadlessContext::make() {
                                                  {"a hidden window", &State::use_window}}};
     std::string reasons;
     for (const Method& method : kMethods) {
+        if (method.use == &State::use_window && !may_use_window) {
+            continue;
+        }
         const std::string reason = (context->state_.get()->*method.use)();
         if (reason.empty()) {
             context->description_ = method.name;

@@ -14,6 +14,9 @@ class HeadlessContext {
 public:
     /// Makes a context and makes it current on this thread. Error: the reason of each failure.
     [[nodiscard]] static Result<std::unique_ptr<HeadlessContext>> make();
+    /// As make(), but tries no hidden window: required on threads other than the main one, and
+    /// while a Window exists.
+    [[nodiscard]] static Result<std::unique_ptr<HeadlessContext>> make_without_window();
     HeadlessContext(const HeadlessContext&) = delete;
     HeadlessContext& operator=(const HeadlessContext&) = delete;
     ~HeadlessContext();
@@ -23,6 +26,7 @@ public:
 
 private:
     struct State;
+    [[nodiscard]] static Result<std::unique_ptr<HeadlessContext>> make(bool may_use_window);
     HeadlessContext();
     std::unique_ptr<State> state_;
     std::string description_;

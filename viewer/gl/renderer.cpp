@@ -2,6 +2,7 @@
 #include "viewer/gl/renderer.h"
 
 #include "runtime/platform/cpu_time.h"
+#include "viewer/gl/impl/figure_mesh.h"
 #include "viewer/gl/impl/forest_culling.h"
 #include "viewer/gl/impl/forest_pass.h"
 #include "viewer/gl/impl/frame_block.h"
@@ -177,6 +178,7 @@ public:
         FrameStats stats;
         forest_stats_ = {};
         const Frame frame = localised(world_frame);
+        place_figure(frame);
         const Bounds lit = is_forest_              ? forest_.shadow_bounds(frame)
                            : plant_.bounds().empty ? Bounds{}
                                                    : shadow_bounds(plant_.bounds());
@@ -202,6 +204,10 @@ public:
             draw_shadows(shadow_from_world, stats);
         }
         target_.begin(area.width, area.height, frame.samples);
+        if (frame.transparent) {
+            constexpr std::array<GLfloat, 4> kNothing{};
+            glClearBufferfv(GL_COLOR, 0, kNothing.data());
+        }
         glDepthFunc(GL_GEQUAL); // reversed depth
         glBindTextureUnit(kShadowTexture, shadow_.texture());
         if (is_forest_) {
@@ -212,16 +218,35 @@ public:
         } else if (frame.style != PlantStyle::None) {
             draw_plant(frame.style, stats);
         }
+        if (frame.figure) {
+            glUseProgram(programs_.mesh.name());
+            stats.draws += figure_->draw(textures_, PlantMesh::Pass::Colour);
+            stats.triangles += figure_->triangles();
+        }
         glDisable(GL_CULL_FACE);
         glBindVertexArray(empty_.name());
         if (frame.ground && !is_forest_ && !bounds().empty) {
             draw_ground(frame, stats);
         }
-        glUseProgram(programs_.sky.name());
-        glDrawArrays(GL_TRIANGLES, 0, 3);
-        ++stats.draws;
-        ++stats.triangles;
+        if (!frame.transparent) { // the sky covers all pixels that are left
+            glUseProgram(programs_.sky.name());
+            glDrawArrays(GL_TRIANGLES, 0, 3);
+            ++stats.draws;
+            ++stats.triangles;
+        }
         glDepthFunc(GL_ALWAYS);
+        if (frame.dims && !frame.transparent) {
+            // The sky once more, over all, as a veil.
+            constexpr GLfloat kVeil = 0.6F;
+            glEnable(GL_BLEND);
+            glBlendColor(0.0F, 0.0F, 0.0F, kVeil);
+            glBlendFunc(GL_CONSTANT_ALPHA, GL_ONE_MINUS_CONSTANT_ALPHA);
+            glUseProgram(programs_.sky.name());
+            glDrawArrays(GL_TRIANGLES, 0, 3);
+            glDisable(GL_BLEND);
+            ++stats.draws;
+            ++stats.triangles;
+        }
         glUseProgram(programs_.line.name());
         stats.draws += lines_.draw();
         target_.resolve();
@@ -314,6 +339,26 @@ private:
         return local;
     }
 
+    /// Moves the person to the place of `frame`, whose coordinates are local.
+    void place_figure(const Frame& frame) {
+        const std::optional<glm::vec3> place =
+            frame.figure ? std::optional(glm::vec3(*frame.figure - frame.camera.origin))
+                         : std::nullopt;
+        if (place == figure_place_) {
+            return;
+        }
+        figure_place_ = place;
+        if (!is_forest_) {
+            shadow_.invalidate();
+        }
+        if (place) {
+            if (figure_ == nullptr) {
+                figure_ = std::make_unique<PlantMesh>(device_);
+            }
+            figure_->upload(make_figure_mesh(*place), textures_);
+        }
+    }
+
     /// Decides where the trees of the next forest are chosen.
     Result<void> choose_culling() {
         if (culling_ == Culling::Cpu || (culling_ == Culling::Auto && device_.is_software())) {
@@ -346,6 +391,9 @@ private:
             glUseProgram(programs_.shadow.name());
             stats.draws += plant_.draw(textures_, PlantMesh::Pass::Shadow);
             stats.triangles += plant_.triangles();
+            if (figure_place_) {
+                stats.draws += figure_->draw(textures_, PlantMesh::Pass::Shadow);
+            }
         }
         glDisable(GL_DEPTH_CLAMP);
         glDisable(GL_POLYGON_OFFSET_FILL);
@@ -401,6 +449,8 @@ private:
     ShadowMap shadow_;
     MaterialTextures textures_;
     PlantMesh plant_;
+    std::unique_ptr<PlantMesh> figure_;     // made when a person is first shown
+    std::optional<glm::vec3> figure_place_; // of the person in figure_; empty: none is shown
     LineSet lines_;
     ForestPass forest_;
     ForestFrameStats forest_stats_;

@@ -67,11 +67,16 @@ struct Frame {
     Wind wind;
     bool shadows = true;
     bool ground = true; // disc under a single plant
+    /// A plant without sky; pixels that nothing covers have opacity 0, and colours are multiplied
+    /// by the opacity.
+    bool transparent = false;
     /// Centre (xyz) and radius (w) of the ground disc, m; radius 0: ground_disc_of() the plant
     /// shown. Growth keeps one disc for all its pictures.
     glm::vec4 ground_disc{0.0F};
     PlantStyle style = PlantStyle::Surface;
-    std::uint32_t samples = 4; // per pixel: 1 or 4
+    bool dims = false; // everything but the lines fades towards the sky; not with `transparent`
+    std::uint32_t samples = 4;        // per pixel: 1 or 4
+    std::optional<glm::dvec3> figure; // feet of a person of 1.8 m in the world, m
     // Forests only.
     // Max triangles of branches; with more, trees are drawn coarser.
     std::uint64_t max_triangles = 1'500'000;

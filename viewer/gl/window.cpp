@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: MIT
 #include "viewer/gl/window.h"
 
+#include "runtime/platform/file.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
 #include <backends/imgui_impl_glfw.h>
 #include <backends/imgui_impl_opengl3.h>
+#include <cmath>
 #include <epoxy/gl.h>
 #include <GLFW/glfw3.h>
 #include <imgui.h>
@@ -20,14 +23,22 @@ struct NamedKey {
     int code;
     Key key;
 };
-constexpr std::array<NamedKey, 8> kNamedKeys = {{{GLFW_KEY_ESCAPE, Key::Escape},
-                                                 {GLFW_KEY_TAB, Key::Tab},
-                                                 {GLFW_KEY_PAGE_UP, Key::PageUp},
-                                                 {GLFW_KEY_PAGE_DOWN, Key::PageDown},
-                                                 {GLFW_KEY_LEFT_SHIFT, Key::Shift},
-                                                 {GLFW_KEY_RIGHT_SHIFT, Key::Shift},
-                                                 {GLFW_KEY_F1, Key::F1},
-                                                 {GLFW_KEY_SPACE, Key::Space}}};
+constexpr std::array<NamedKey, 16> kNamedKeys = {{{GLFW_KEY_ESCAPE, Key::Escape},
+                                                  {GLFW_KEY_TAB, Key::Tab},
+                                                  {GLFW_KEY_PAGE_UP, Key::PageUp},
+                                                  {GLFW_KEY_PAGE_DOWN, Key::PageDown},
+                                                  {GLFW_KEY_LEFT_SHIFT, Key::Shift},
+                                                  {GLFW_KEY_RIGHT_SHIFT, Key::Shift},
+                                                  {GLFW_KEY_F1, Key::F1},
+                                                  {GLFW_KEY_SPACE, Key::Space},
+                                                  {GLFW_KEY_LEFT, Key::Left},
+                                                  {GLFW_KEY_RIGHT, Key::Right},
+                                                  {GLFW_KEY_UP, Key::Up},
+                                                  {GLFW_KEY_DOWN, Key::Down},
+                                                  {GLFW_KEY_ENTER, Key::Enter},
+                                                  {GLFW_KEY_KP_ENTER, Key::Enter},
+                                                  {GLFW_KEY_BACKSPACE, Key::Backspace},
+                                                  {GLFW_KEY_HOME, Key::Home}}};
 
 /// The key of a GLFW key code. Letters follow the keyboard layout, digits are the keys above them.
 Key key_of(int code, int scan_code) {
@@ -37,7 +48,7 @@ Key key_of(int code, int scan_code) {
     if (named != kNamedKeys.end()) {
         return named->key;
     }
-    if (code >= GLFW_KEY_1 && code <= GLFW_KEY_3) {
+    if (code >= GLFW_KEY_1 && code <= GLFW_KEY_9) {
         return static_cast<Key>(code);
     }
     const char* const name = glfwGetKeyName(code, scan_code);
@@ -45,6 +56,41 @@ Key key_of(int code, int scan_code) {
         return static_cast<Key>(name[0] - 'a' + 'A');
     }
     return code >= GLFW_KEY_A && code <= GLFW_KEY_Z ? static_cast<Key>(code) : Key::None;
+}
+
+void append_utf8(std::string& text, unsigned character) {
+    constexpr unsigned kOneByte = 0x80;
+    constexpr unsigned kTwoBytes = 0x800;
+    constexpr unsigned kThreeBytes = 0x1'0000;
+    const auto put = [&text](unsigned byte) { text += static_cast<char>(byte); };
+    if (character < kOneByte) {
+        put(character);
+        return;
+    }
+    if (character < kTwoBytes) {
+        put(0xC0U | character >> 6U);
+    } else if (character < kThreeBytes) {
+        put(0xE0U | character >> 12U);
+        put(0x80U | (character >> 6U & 0x3FU));
+    } else {
+        put(0xF0U | character >> 18U);
+        put(0x80U | (character >> 12U & 0x3FU));
+        put(0x80U | (character >> 6U & 0x3FU));
+    }
+    put(0x80U | (character & 0x3FU));
+}
+
+/// The file of a scalable font of fixed width; null: none is installed.
+const char* find_font() {
+    // Debian and Ubuntu, Arch, Fedora.
+    for (const char* const path : {"/usr/share/fonts/truetype/dejavu/DejaVuSansMono.ttf",
+                                   "/usr/share/fonts/TTF/DejaVuSansMono.ttf",
+                                   "/usr/share/fonts/dejavu-sans-mono-fonts/DejaVuSansMono.ttf"}) {
+        if (platform::facts_of(path).type == platform::FileType::Regular) {
+            return path;
+        }
+    }
+    return nullptr;
 }
 
 std::string glfw_error() {
@@ -66,6 +112,10 @@ struct Window::State {
     bool shift = false;         // at the last press or release of the left button
     std::array<bool, 3> held{}; // buttons pressed outside of panels
     std::vector<std::pair<int, Key>> keys;
+    std::vector<GLuint> images;
+    WindowLook look;
+    WindowLook drawn_look;    // of the fonts and style of ImGui
+    float drawn_scale = 0.0F; // of the fonts and style of ImGui; 0: not made yet
 
     static State& of(GLFWwindow* window) {
         return *static_cast<State*>(glfwGetWindowUserPointer(window));
@@ -135,14 +185,41 @@ struct Window::State {
             return true;
         }
         if (key != Key::None && !is_typing) {
-            input.presses.push_back(
-                {key, (modifiers & GLFW_MOD_CONTROL) != 0, (modifiers & GLFW_MOD_SHIFT) != 0});
+            input.presses.push_back({key, (modifiers & GLFW_MOD_CONTROL) != 0,
+                                     (modifiers & GLFW_MOD_SHIFT) != 0,
+                                     (modifiers & GLFW_MOD_ALT) != 0});
             if (action == GLFW_PRESS) {
                 keys.emplace_back(code, key);
             }
         }
         // Outside of text fields Tab starts to fly; ImGui would put the cursor into a field.
         return is_typing || (!mouse_captured && key != Key::Tab);
+    }
+
+    /// Makes fonts and style anew if the scale of the monitor or the look has changed.
+    void update_look(float scale) {
+        if (scale == drawn_scale && look == drawn_look) {
+            return;
+        }
+        drawn_scale = scale;
+        drawn_look = look;
+        ImGuiStyle& style = ImGui::GetStyle();
+        style = ImGuiStyle();
+        (look.is_light ? ImGui::StyleColorsLight : ImGui::StyleColorsDark)(nullptr);
+        style.ScaleAllSizes(scale);
+        ImGuiIO& io = ImGui::GetIO();
+        io.Fonts->Clear();
+        constexpr float kUsualSize = 13.0F; // pixels, of the built-in font
+        const char* const font = scale == 1.0F ? nullptr : find_font();
+        const bool is_scalable =
+            font != nullptr &&
+            io.Fonts->AddFontFromFileTTF(font, std::round(kUsualSize * scale)) != nullptr;
+        if (!is_scalable) {
+            io.Fonts->AddFontDefault();
+        }
+        io.FontGlobalScale = is_scalable ? 1.0F : scale;
+        ImGui_ImplOpenGL3_DestroyFontsTexture();
+        ImGui_ImplOpenGL3_CreateFontsTexture();
     }
 
     /// ImGui chains its own callbacks to these.
@@ -162,8 +239,13 @@ struct Window::State {
                 state.input.wheel += static_cast<float>(y);
             }
         });
-        glfwSetCharCallback(window,
-                            [](GLFWwindow* from, unsigned /*c*/) { of(from).input.any = true; });
+        glfwSetCharCallback(window, [](GLFWwindow* from, unsigned character) {
+            State& state = of(from);
+            state.input.any = true;
+            if (!state.mouse_captured && !ImGui::GetIO().WantTextInput) {
+                append_utf8(state.input.text, character);
+            }
+        });
         glfwSetDropCallback(window, [](GLFWwindow* from, int count, const char** paths) {
             State& state = of(from);
             state.input.any = true;
@@ -195,6 +277,7 @@ Window::Window() : state_(std::make_unique<State>()) {}
 
 Window::~Window() {
     if (state_->has_panels) {
+        drop_images();
         ImGui_ImplOpenGL3_Shutdown();
         ImGui_ImplGlfw_Shutdown();
         ImGui::DestroyContext();
@@ -229,9 +312,6 @@ Window::make(const std::string& title, std::uint32_t width, std::uint32_t height
     IMGUI_CHECKVERSION();
     ImGui::CreateContext();
     ImGui::GetIO().IniFilename = nullptr; // no settings file
-    ImGui::StyleColorsDark();
-    ImGui::GetStyle().ScaleAllSizes(made->scale());
-    ImGui::GetIO().FontGlobalScale = made->scale();
     ImGui_ImplGlfw_InitForOpenGL(state.window, true);
     state.install_key_callback();
     ImGui_ImplOpenGL3_Init("#version 450 core");
@@ -279,7 +359,11 @@ std::uint32_t Window::height() const {
 float Window::scale() const {
     float x_scale = 1.0F;
     glfwGetWindowContentScale(state_->window, &x_scale, nullptr);
-    return std::clamp(x_scale, 1.0F, 4.0F);
+    return std::clamp(x_scale, 1.0F, 4.0F) * state_->look.text_size;
+}
+
+void Window::set_look(const WindowLook& look) {
+    state_->look = look;
 }
 
 void Window::set_title(const std::string& title) {
@@ -300,8 +384,33 @@ void Window::capture_mouse(bool captured) {
     }
 }
 
+std::uintptr_t Window::add_image(const Texture& picture) {
+    if (picture.texels.empty()) {
+        return 0;
+    }
+    GLuint name = 0;
+    glCreateTextures(GL_TEXTURE_2D, 1, &name);
+    const auto width = static_cast<GLsizei>(picture.width);
+    const auto height = static_cast<GLsizei>(picture.height);
+    glTextureStorage2D(name, 1, GL_RGBA8, width, height);
+    glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
+    glTextureSubImage2D(name, 0, 0, 0, width, height, GL_RGBA, GL_UNSIGNED_BYTE,
+                        picture.texels.data());
+    glTextureParameteri(name, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
+    glTextureParameteri(name, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
+    glTextureParameteri(name, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+    state_->images.push_back(name);
+    return name;
+}
+
+void Window::drop_images() {
+    glDeleteTextures(static_cast<GLsizei>(state_->images.size()), state_->images.data());
+    state_->images.clear();
+}
+
 void Window::begin_panels() {
     ImGui_ImplOpenGL3_NewFrame();
+    state_->update_look(scale());
     ImGui_ImplGlfw_NewFrame();
     ImGui::NewFrame();
 }

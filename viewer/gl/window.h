@@ -4,6 +4,7 @@
 #pragma once
 
 #include "grammar/base/result.h"
+#include "runtime/meshing/texture.h"
 #include "viewer/gl/renderer.h"
 
 #include <glm/vec2.hpp>
@@ -24,10 +25,23 @@ enum class Key : std::uint8_t {
     PageDown,
     Shift,
     F1,
+    Left,
+    Right,
+    Up,
+    Down,
+    Enter,
+    Backspace,
+    Home,
     Space = ' ',
     One = '1',
     Two = '2',
     Three = '3',
+    Four = '4',
+    Five = '5',
+    Six = '6',
+    Seven = '7',
+    Eight = '8',
+    Nine = '9',
     A = 'A',
     B = 'B',
     C = 'C',
@@ -37,6 +51,7 @@ enum class Key : std::uint8_t {
     G = 'G',
     H = 'H',
     I = 'I',
+    K = 'K',
     L = 'L',
     M = 'M',
     N = 'N',
@@ -46,6 +61,7 @@ enum class Key : std::uint8_t {
     R = 'R',
     S = 'S',
     T = 'T',
+    V = 'V',
     W = 'W',
     X = 'X',
     Y = 'Y',
@@ -56,6 +72,7 @@ struct KeyPress {
     Key key = Key::None;
     bool control = false;
     bool shift = false;
+    bool alt = false;
 };
 
 /// Event of the left button over the picture.
@@ -70,6 +87,7 @@ struct PointerEvent {
 struct WindowInput {
     std::vector<KeyPress> presses;
     std::vector<Key> held;
+    std::string text;          // typed outside of text fields of panels, UTF-8
     glm::vec2 left_drag{0.0F}; // pixels, to the right and down
     glm::vec2 right_drag{0.0F};
     glm::vec2 middle_drag{0.0F};
@@ -81,6 +99,14 @@ struct WindowInput {
     std::vector<std::string> dropped;
     bool any = false;             // any event, also of panels
     bool close_requested = false; // by the window manager
+};
+
+/// Look of the panels.
+struct WindowLook {
+    float text_size = 1.0F; // factor of the size that the monitor asks for
+    bool is_light = false;  // dark text on light panels
+
+    friend bool operator==(const WindowLook&, const WindowLook&) = default;
 };
 
 class Window {
@@ -102,11 +128,19 @@ public:
     /// Size of the framebuffer in pixels; 0 while minimized.
     [[nodiscard]] std::uint32_t width() const;
     [[nodiscard]] std::uint32_t height() const;
-    /// Scale of text and widgets.
+    /// Scale of text and widgets: that of the monitor times WindowLook::text_size.
     [[nodiscard]] float scale() const;
+    /// Takes effect at the next begin_panels(). Text above its usual size is drawn with DejaVu Sans
+    /// Mono if it is installed, else with enlarged pixels.
+    void set_look(const WindowLook& look);
     void set_title(const std::string& title);
     /// Hides the pointer and reports its motion without limits.
     void capture_mouse(bool captured);
+
+    /// Uploads a picture for ImGui::Image(); returns its ImTextureID as a number, which is not 0.
+    /// The window keeps the picture until drop_images(). Empty pictures are 0.
+    [[nodiscard]] std::uintptr_t add_image(const Texture& picture);
+    void drop_images();
 
     /// Draw ImGui windows between these two calls; present() draws them and shows the picture.
     void begin_panels();

@@ -37,6 +37,17 @@ TEST_CASE("the option --version --verbose of lsview adds how it was built") {
     CHECK(parsed<PrintText>({"-v", "--version"}).with_build);
 }
 
+TEST_CASE("without a file options of plants, forests and pictures are refused") {
+    CHECK(parsed<ViewOptions>({}).file.empty());
+    CHECK(parsed<ViewOptions>({"--samples", "1", "--size", "640x480"}).samples == 1);
+    CHECK(parsed<UsageError>({"--screenshot", "a.png"}).message == "--screenshot needs a FILE");
+    for (const char* const option :
+         {"--seed=3", "-n3", "--count=10", "--season=0.5", "--height=3"}) {
+        CAPTURE(option);
+        CHECK(parsed<UsageError>({option}).message == "options of a plant or forest need a FILE");
+    }
+}
+
 TEST_CASE("options switch shadows and the ground off") {
     const ViewOptions usual = parsed<ViewOptions>({"tree.lsys"});
     CHECK(usual.shadows);

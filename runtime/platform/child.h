@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: MIT
+// Other programs, run without a shell.
+#pragma once
+
+#include "runtime/platform/file.h"
+
+#include <atomic>
+#include <string>
+#include <vector>
+
+namespace lsys::platform {
+
+/// The path of a program in the folders of PATH; empty if there is none, and on Windows and the web,
+/// where run_program() runs nothing.
+[[nodiscard]] std::string find_program(const std::string& name);
+
+/// Runs `arguments`[0], the path of a program, with all `arguments`, and waits for its end. Its
+/// standard input is empty and its standard output is dropped; its standard error is written to the
+/// file `messages`. Ends the program if `cancelled` becomes true. `status`: its exit status, or -1
+/// if a signal ended it. Returns ENOSYS on systems without it.
+[[nodiscard]] Reason run_program(const std::vector<std::string>& arguments,
+                                 const std::string& messages,
+                                 const std::atomic<bool>& cancelled,
+                                 int& status);
+
+} // namespace lsys::platform

@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: MIT
+// ContactSheet: nine pictures of a plant with other seeds, or with other values of one or two
+// `#param`, of which the user takes one. Plants are derived, meshed and drawn one after the other
+// on a thread of its own, so memory is that of one plant.
+#pragma once
+
+#include "runtime/meshing/texture.h"
+#include "viewer/app/latest_request_worker.h"
+#include "viewer/app/plant_view.h"
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace lsys::view {
+
+inline constexpr std::size_t kSheetSide = 3;
+inline constexpr std::size_t kSheetCells = kSheetSide * kSheetSide;
+
+/// A plant of the sheet: values that it replaces in the settings of the view.
+struct SheetCell {
+    std::optional<std::uint64_t> seed;
+    std::vector<Definition> definitions; // replace those of the same names
+    std::string label;                   // "seed 4", "angle 30, width 0.2"
+};
+
+/// The cells of nine seeds from `seed` on, without parameters. Of one parameter: nine values in
+/// equal steps from its minimum to its maximum. Of two: three values of each, the first from left
+/// to right, the second from top to bottom.
+[[nodiscard]] std::array<SheetCell, kSheetCells>
+sheet_cells(std::uint64_t seed, const std::vector<Constant>& params, const Names& names);
+
+/// Sets the values of a cell in the settings of a plant.
+void take_cell(const SheetCell& cell, PlantEdits& edits);
+
+/// Pictures that the thread has drawn and the window has not taken.
+struct SheetPictures {
+    std::mutex mutex;
+    std::vector<std::pair<std::size_t, Texture>> drawn; // by cell; no texels: no plant
+};
+
+/// Work for another thread.
+struct SheetRequest {
+    ViewOptions options;                       // of the plants, except those of `edits`
+    std::array<PlantEdits, kSheetCells> edits; // constants and seeds of the plants
+    std::uint32_t width = 0;                   // of a picture, pixels
+    std::uint32_t height = 0;
+    std::shared_ptr<SheetPictures> pictures;
+    std::function<void()> wake; // called after each picture
+    SteadyClock::time_point changed_at;
+    bool is_repeat = false;
+};
+
+/// Size of a picture, pixels.
+struct SheetSize {
+    std::uint32_t width = 1;
+    std::uint32_t height = 1;
+};
+/// Size of the picture of a cell in a window of a size in pixels: a third, less the borders.
+[[nodiscard]] SheetSize sheet_cell_size(std::uint32_t window_width, std::uint32_t window_height);
+
+class ContactSheet {
+public:
+    /// Begins to draw the pictures for the plant of `view`; drops those before. `width`, `height`:
+    /// of a picture, pixels. `wake`: called on any thread when take() has pictures. Without a plant
+    /// does nothing.
+    void show(const PlantView& view,
+              std::uint32_t width,
+              std::uint32_t height,
+              const std::function<void()>& wake);
+    /// Stops drawing.
+    void close();
+    [[nodiscard]] bool is_busy() const { return worker_ != nullptr && worker_->is_busy(); }
+    /// Whether take() has pictures.
+    [[nodiscard]] bool has_news() const;
+    /// Takes new pictures by the number of their cell.
+    [[nodiscard]] std::vector<std::pair<std::size_t, Texture>> take();
+
+    /// Names of the `#param` that are varied, at most two; empty: seeds. A change takes effect at
+    /// the next show().
+    std::vector<std::string> varied;
+    std::size_t selected = 0;                         // cell
+    std::array<SheetCell, kSheetCells> cells;         // of the last show()
+    std::array<std::uintptr_t, kSheetCells> images{}; // 0: not drawn yet
+    std::array<bool, kSheetCells> done{};
+
+    /// Moves the selection; stops at the edges.
+    void move(int right, int down);
+
+private:
+    std::shared_ptr<SheetPictures> pictures_;
+    std::unique_ptr<LatestRequestWorker<SheetRequest, bool>> worker_;
+};
+
+/// What the user did in draw_contact_sheet().
+struct SheetAction {
+    std::optional<std::size_t> taken; // cell clicked
+    bool closes = false;
+    bool varies = false; // ContactSheet::varied has changed
+};
+/// Draws the sheet over the whole window.
+[[nodiscard]] SheetAction draw_contact_sheet(ContactSheet& sheet, const PlantView& view);
+
+} // namespace lsys::view

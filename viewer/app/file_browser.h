@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: MIT
+// FileBrowser: the state of the dialog that opens a file, without the dialog: a folder, its
+// entries, a typed text that filters them or names a path, and a selected entry.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace lsys::view {
+
+struct FolderEntry {
+    std::string name;
+    bool is_folder = false;
+
+    friend bool operator==(const FolderEntry&, const FolderEntry&) = default;
+};
+
+/// Whether lsview shows files with the extension of `path`: grammars of all dialects, compiled
+/// grammars, scenes.
+[[nodiscard]] bool can_open(std::string_view path);
+
+/// Folders, then files that lsview can open, each in alphabetical order; without hidden ones. Empty
+/// if the folder cannot be read.
+[[nodiscard]] std::vector<FolderEntry> list_folder(const std::string& folder);
+
+/// The file that lsview can open `step` places after `file` in its folder, in alphabetical order;
+/// the first follows the last. Empty if the folder has no other file.
+[[nodiscard]] std::string neighbour_file(const std::string& file, int step);
+
+class FileBrowser {
+public:
+    /// Shows a folder, which becomes absolute; empty: the current folder.
+    void show(const std::string& folder);
+    /// Shows the home folder of the user; the root folder if there is none.
+    void go_home() { show(home_folder()); }
+    /// Shows the folder around the current one and selects the folder left.
+    void go_up();
+
+    [[nodiscard]] const std::string& folder() const { return folder_; }
+    /// Entries that the text leaves. A text without `/` leaves names that contain it, in any case
+    /// of ASCII letters. A text with `/` is a path from the folder, from `/` or from `~`: the
+    /// folder before its last `/` is listed, and names that begin with the rest are left.
+    [[nodiscard]] const std::vector<FolderEntry>& entries() const { return entries_; }
+    [[nodiscard]] std::size_t selected() const { return selected_; }
+    [[nodiscard]] const std::string& text() const { return text_; }
+    /// Why accept() opened nothing; empty after a change.
+    [[nodiscard]] const std::string& mistake() const { return mistake_; }
+
+    void set_text(const std::string& text);
+    /// Removes the last character of the text, in UTF-8; without a text goes up.
+    void erase_character();
+    /// Completes the text as far as all entries that begin with its last name agree, and to the
+    /// whole name of a single entry.
+    void complete();
+    /// Moves the selection; stops at both ends.
+    void move(int steps);
+    void select(std::size_t entry) { selected_ = entry; }
+    /// Whether the list is to be scrolled to the selection; only once after each change by keys.
+    [[nodiscard]] bool take_follows() { return std::exchange(follows_, false); }
+    /// Enters the selected folder and returns an empty path, or returns the path of the selected
+    /// file, or of the file that the text names. Without either sets mistake().
+    [[nodiscard]] std::string accept();
+
+private:
+    [[nodiscard]] static std::string home_folder();
+    /// The folder that the text names.
+    [[nodiscard]] std::string listed_folder() const;
+    void filter();
+
+    std::string folder_;
+    std::string text_;
+    std::string mistake_;
+    std::string read_folder_; // the folder of all_
+    std::vector<FolderEntry> all_;
+    std::vector<FolderEntry> entries_;
+    std::size_t selected_ = 0;
+    bool follows_ = false;
+};
+
+} // namespace lsys::view

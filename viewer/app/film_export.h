@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: MIT
+// Pictures and films that the window writes: their settings, and films written on a thread of their
+// own, in an OpenGL context of their own.
+#pragma once
+
+#include "viewer/app/latest_request_worker.h"
+#include "viewer/app/making_progress.h"
+#include "viewer/app/options.h"
+
+#include <atomic>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+
+namespace lsys::view {
+
+/// Motion of a film.
+enum class FilmKind : std::uint8_t { Turntable, Growth };
+
+/// Choices of the user.
+struct PictureSettings {
+    std::uint32_t width = 0; // pixels; 0: those of the window
+    std::uint32_t height = 0;
+    std::uint32_t samples = 4;
+    bool transparent = false; // plants only
+    std::string folder;       // empty: the current folder
+    std::string name;         // without extension
+    bool is_film = false;
+    FilmKind kind = FilmKind::Turntable;
+    float seconds = 10.0F;
+    float frames_per_second = 24.0F;
+    bool as_mp4 = false;     // else numbered PNG
+    bool has_ffmpeg = false; // ffmpeg was found when the dialog opened
+
+    /// The picture or film, with its folder and extension.
+    [[nodiscard]] std::string path() const;
+    /// Pictures of the film, at least 2.
+    [[nodiscard]] std::uint32_t frames() const;
+};
+
+/// `stem`-1.png, `stem`-2.png, ...: the first name without extension that `folder` does not have.
+[[nodiscard]] std::string unused_picture_name(const std::string& folder, const std::string& stem);
+
+/// Work for another thread.
+struct FilmExportRequest {
+    // Of the film's pictures, except those that `settings` have.
+    std::shared_ptr<const ViewOptions> options;
+    PictureSettings settings;
+    std::shared_ptr<std::atomic<std::uint32_t>> done; // count of pictures
+    SteadyClock::time_point changed_at;
+    bool is_repeat = false;
+};
+
+/// Writes a film: numbered pictures, all or none, or a .mp4 file by ffmpeg. A film that fails or is
+/// cancelled changes no file. Returns "Wrote turn.0001.png to turn.0240.png", or the error in
+/// lines.
+[[nodiscard]] std::string export_film(const FilmExportRequest& request,
+                                      const std::atomic<bool>& cancelled);
+
+/// At most one film at a time.
+class FilmExport {
+public:
+    /// Begins to write a film. `wake` is called on any thread when take() has an outcome.
+    /// Precondition: !is_busy().
+    void
+    begin(const ViewOptions& options, const PictureSettings& settings, std::function<void()> wake);
+    /// Takes the text of export_film().
+    [[nodiscard]] std::optional<std::string> take();
+    [[nodiscard]] bool is_busy() const { return worker_ != nullptr && worker_->is_busy(); }
+    /// Count of pictures written; empty if no film is written.
+    [[nodiscard]] std::optional<MakingState> state() const;
+    /// Stops the film; no outcome follows.
+    void cancel();
+
+private:
+    PictureSettings settings_;
+    std::shared_ptr<std::atomic<std::uint32_t>> done_;
+    std::unique_ptr<LatestRequestWorker<FilmExportRequest, std::string>> worker_;
+};
+
+} // namespace lsys::view
