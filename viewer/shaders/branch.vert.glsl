@@ -15,7 +15,7 @@ layout(location = 0) in vec3 position;  // in the box of the heroes, -1 to 1
 layout(location = 1) in uint material_index;
 layout(location = 2) in vec2 normal;    // octahedral
 layout(location = 3) in vec2 texture_coordinate;
-layout(location = 4) in uint branch;    // index in branches; upper 8 bits: weight of blending
+layout(location = 4) in uint branch;    // index in branches; from bit 24 on: BranchEntry
 #ifdef PICK
 flat out uint item;
 #endif
@@ -47,7 +47,8 @@ out vec3 from_eye;
 void main() {
     Branch at = branches[branch & 0xFFFFFFu];
 #ifdef BLENDS
-    blend_range = vec2(0.0, float(branch >> 24) / 255.0);
+    float weight = float(branch >> 24 & 127u) / 127.0;
+    blend_range = (branch >> 31) != 0u ? vec2(weight, 1.0) : vec2(0.0, weight);
 #endif
 #ifdef PICK
     item = branch & 0xFFFFFFu;

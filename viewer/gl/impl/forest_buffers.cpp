@@ -477,9 +477,9 @@ ForestBuffers::command_templates(const std::vector<std::uint32_t>& first_keys) c
             range.first = static_cast<std::uint32_t>(templates.commands.size());
             // Finer levels first, as in ForestLod::list_runs().
             for (std::uint32_t group = blends ? kTreeLevels : 0;
-                 group < (blends ? kTreeLevels + 1 : kTreeLevels); ++group) {
+                 group < (blends ? 2 * kTreeLevels : kTreeLevels); ++group) {
                 for (std::size_t f = 0; f < form_levels_.size(); ++f) {
-                    const FormLevel& level = form_levels_[f][std::min(group, kTreeLevels - 1)];
+                    const FormLevel& level = form_levels_[f][group % kTreeLevels];
                     const auto instances =
                         static_cast<std::uint32_t>(level.ranges.size() / class_count());
                     for (std::uint32_t i = 0; i < instances; ++i) {

@@ -504,7 +504,8 @@ void ForestPass::collect_device_stats(ForestFrameStats& stats) {
     }
     stats.trees_of_level = state->level_counts;
     stats.far_trees = state->impostor_count(false) - state->branch_blended;
-    stats.blended_trees = std::uint64_t{state->cluster_blended} + state->branch_blended;
+    stats.blended_trees =
+        std::uint64_t{state->cluster_blended} + state->branch_blended + state->level_blended;
     stats.occluded_trees = state->occluded;
     stats.clustered_trees = state->clustered;
     stats.clusters = state->impostor_count(true);
