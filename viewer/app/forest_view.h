@@ -31,6 +31,7 @@ struct ForestEdits {
 
     bool shadows = true;
     bool antialiasing = true;
+    Quality quality = Quality::Auto;
     bool wireframe = false;
     BranchColours colours = BranchColours::Natural;
     bool windy = false; // wind is on

@@ -302,6 +302,7 @@ void draw_look(PlantViewSettings& settings) {
     ImGui::Checkbox("Ground", &settings.ground);
     ImGui::SameLine();
     ImGui::Checkbox("Antialiasing", &settings.antialiasing);
+    draw_quality(settings.quality);
     draw_sun({}, settings.light);
     draw_camera(settings.camera);
 }

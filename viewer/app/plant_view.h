@@ -37,6 +37,7 @@ struct PlantEdits {
     bool shadows = true;
     bool ground = true;
     bool antialiasing = true;
+    Quality quality = Quality::Auto;
     SceneLight light; // values that replace the default daylight
 
     bool simulates = false; // gravity and wind move the plant

@@ -128,6 +128,8 @@ protected:
         return (picker_ != nullptr && picker_->is_busy()) ||
                (tracer_ != nullptr && tracer_->is_busy());
     }
+    /// Sets the quality of the next pictures. An error is a note; the old quality stays.
+    void use_quality(Quality quality);
     /// Draws `frame` if something has changed. Returns whether it drew.
     bool draw_frame(const Frame& frame);
     /// Stores the messages of a request; prints them if they differ from the last ones.
@@ -148,7 +150,8 @@ protected:
     std::optional<Frame> frame_;
     FrameStats drawn_;
     float aspect_ = 1.0F;
-    bool changed_ = true; // the next picture is drawn even if its frame equals frame_
+    std::optional<Quality> quality_; // the last one that use_quality() set
+    bool changed_ = true;            // the next picture is drawn even if its frame equals frame_
 
 private:
     std::string text_;

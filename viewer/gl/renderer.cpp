@@ -30,6 +30,13 @@ namespace {
 constexpr std::uint32_t kShadowTexels = 2048;
 constexpr GLuint kFrameBinding = 0;
 constexpr GLuint kShadowTexture = 0;
+constexpr GLuint kNearShadowTextures = 7; // in light.glsl; of kNearMaps
+/// Shadow maps around the eye in a forest.
+struct NearMap {
+    float radius;        // m
+    std::uint32_t level; // of the branches that cast shadows
+};
+constexpr std::array<NearMap, 2> kNearMaps = {{{8.0F, 0}, {30.0F, 2}}};
 // Uniform locations of ground.*.glsl.
 constexpr GLint kDisc = 0;
 constexpr GLint kGridStep = 1;
@@ -39,6 +46,7 @@ constexpr float kDiscInRadii = 14.0F; // radius of the ground disc, in radii of 
 struct Programs {
     ProgramObject sky;
     ProgramObject mesh;
+    ProgramObject glossy_mesh;
     ProgramObject shadow;
     ProgramObject ground;
     ProgramObject line;
@@ -50,15 +58,18 @@ Result<Programs> make_programs(Device& device, const ShaderSource& shaders) {
         ProgramObject Programs::*program;
         const char* vertex;
         const char* fragment;
+        const char* defines;
     };
-    const std::array<ProgramSpec, 5> wanted = {
-        {{&Programs::sky, "sky.vert.glsl", "sky.frag.glsl"},
-         {&Programs::mesh, "mesh.vert.glsl", "mesh.frag.glsl"},
-         {&Programs::shadow, "shadow.vert.glsl", "shadow.frag.glsl"},
-         {&Programs::ground, "ground.vert.glsl", "ground.frag.glsl"},
-         {&Programs::line, "line.vert.glsl", "line.frag.glsl"}}};
+    const std::array<ProgramSpec, 6> wanted = {
+        {{&Programs::sky, "sky.vert.glsl", "sky.frag.glsl", ""},
+         {&Programs::mesh, "mesh.vert.glsl", "mesh.frag.glsl", ""},
+         {&Programs::glossy_mesh, "mesh.vert.glsl", "mesh.frag.glsl", "#define GLOSSY\n"},
+         {&Programs::shadow, "shadow.vert.glsl", "shadow.frag.glsl", ""},
+         {&Programs::ground, "ground.vert.glsl", "ground.frag.glsl", ""},
+         {&Programs::line, "line.vert.glsl", "line.frag.glsl", ""}}};
     for (const ProgramSpec& one : wanted) {
-        Result<ProgramObject> made = make_program(device, shaders, one.vertex, one.fragment);
+        Result<ProgramObject> made =
+            make_program(device, shaders, one.vertex, one.fragment, one.defines);
         if (!made) {
             return made.error();
         }
@@ -95,12 +106,14 @@ class GlRenderer final : public Renderer {
 public:
     GlRenderer()
         : timer_(device_), target_(device_), shadow_(device_, kShadowTexels), textures_(device_),
-          plant_(device_), lines_(device_), forest_(device_), frame_(device_),
-          empty_(make_vertex_array(device_)) {}
+          plant_(device_), lines_(device_), forest_(device_), frame_(device_), near_frame_(device_),
+          empty_(make_vertex_array(device_)) {
+        device_.set_quality(tier_of(Quality::Auto));
+    }
 
     void show_plant(const Mesh& mesh) override {
         plant_.upload(mesh, textures_);
-        shadow_.invalidate();
+        invalidate_shadows();
         is_forest_ = false;
     }
     Result<void> show_forest(ForestModel model) override {
@@ -114,15 +127,33 @@ public:
             return done;
         }
         forest_.show(std::move(model), textures_);
-        shadow_.invalidate();
+        invalidate_shadows();
         is_forest_ = true;
         return {};
+    }
+    Result<void> set_quality(Quality quality) override {
+        const Quality before = std::exchange(quality_, quality);
+        const std::uint32_t tier = tier_of(quality);
+        if (tier == device_.quality()) {
+            return {};
+        }
+        const std::uint32_t tier_before = device_.quality();
+        device_.set_quality(tier);
+        Result<void> done = reload(shaders_);
+        if (!done) {
+            quality_ = before;
+            device_.set_quality(tier_before);
+        }
+        return done;
+    }
+    Quality quality() const override {
+        return static_cast<Quality>(device_.quality() + static_cast<std::uint32_t>(Quality::Low));
     }
     void set_culling(Culling culling) override { culling_ = culling; }
     void update_trees() override {
         if (is_forest_) {
             forest_.update_trees();
-            shadow_.invalidate();
+            invalidate_shadows();
         }
     }
     bool has_stand_ins() const override { return forest_.has_stand_ins(); }
@@ -131,17 +162,17 @@ public:
             return true;
         }
         const bool all = forest_.bake_impostors(seconds, textures_);
-        shadow_.invalidate();
+        invalidate_shadows();
         return all;
     }
     void change_tree(std::uint32_t index, const Tree& tree, bool alive) override {
         forest_.change_tree(index, tree, alive);
-        shadow_.invalidate();
+        invalidate_shadows();
     }
     void change_squares(const SquareChanges& changes) override {
         const Bounds changed = forest_.change_squares(changes);
         if (!changed.empty && overlaps(changed, casters_)) {
-            shadow_.invalidate();
+            invalidate_shadows();
         }
     }
     const Bounds& bounds() const override {
@@ -151,7 +182,7 @@ public:
     }
     void colour_branches(BranchColours by) override {
         forest_.set_colours(by);
-        shadow_.invalidate();
+        invalidate_shadows();
     }
     void show_lines(std::span<const LineVertex> lines) override { lines_.upload(lines); }
 
@@ -189,8 +220,6 @@ public:
         if (frame.style == PlantStyle::None || lit.empty) {
             block.to_sun.w = 0.0F;
         }
-        frame_.fill(std::span<const FrameBlock>(&block, 1));
-        glBindBufferBase(GL_UNIFORM_BUFFER, kFrameBinding, frame_.name());
         glClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
         glEnable(GL_DEPTH_TEST);
         glDisable(GL_BLEND);
@@ -198,6 +227,11 @@ public:
         if (is_forest_) {
             forest_.prepare(frame);
         }
+        if (is_forest_ && block.to_sun.w != 0.0F && device_.quality() > 0) {
+            draw_near_shadows(frame, block);
+        }
+        frame_.fill(std::span<const FrameBlock>(&block, 1));
+        glBindBufferBase(GL_UNIFORM_BUFFER, kFrameBinding, frame_.name());
         if (block.to_sun.w != 0.0F && shadow_.is_stale(shadow_from_world)) {
             draw_shadows(shadow_from_world, stats);
         }
@@ -259,7 +293,7 @@ public:
         } else if (frame.style != PlantStyle::None) {
             glUseProgram(pick_plant_.name());
             glUniform1ui(kPickedContent, static_cast<GLuint>(PickedKind::Plant));
-            plant_.draw(textures_, PlantMesh::Pass::Pick);
+            plant_.draw(textures_, PlantMesh::Pass::Pick, {});
         }
         glDisable(GL_CULL_FACE);
         const PickTarget::Content content = target.read();
@@ -299,6 +333,12 @@ public:
     const std::vector<std::string>& errors() const override { return device_.errors(); }
 
 private:
+    /// QUALITY of shaders.
+    [[nodiscard]] std::uint32_t tier_of(Quality quality) const {
+        return quality == Quality::Auto
+                   ? (device_.is_software() ? 0 : 1)
+                   : static_cast<std::uint32_t>(quality) - static_cast<std::uint32_t>(Quality::Low);
+    }
     /// The frame with a camera relative to the origin of what is shown.
     Frame localised(const Frame& frame) {
         if (!is_forest_) {
@@ -309,7 +349,7 @@ private:
         bool moved = false;
         const Frame local = forest_.localised(frame, moved);
         if (moved) {
-            shadow_.invalidate();
+            invalidate_shadows();
         }
         return local;
     }
@@ -334,17 +374,64 @@ private:
         }
     }
 
-    void draw_shadows(const glm::mat4& matrix, FrameStats& stats) {
-        shadow_.begin(matrix);
+    void invalidate_shadows() {
+        shadow_.invalidate();
+        for (ShadowMap& map : near_shadows_) {
+            map.invalidate();
+        }
+    }
+
+    static void begin_casters(ShadowMap& map, const glm::mat4& matrix) {
+        map.begin(matrix);
         glDepthFunc(GL_LEQUAL);
         glEnable(GL_POLYGON_OFFSET_FILL);
         glPolygonOffset(1.5F, 2.0F);
         glEnable(GL_DEPTH_CLAMP);
+    }
+
+    /// Draws the shadow maps around the eye, and sets the fields of the block that describe them.
+    void draw_near_shadows(const Frame& frame, FrameBlock& block) {
+        for (std::size_t i = 0; i < kNearMaps.size(); ++i) {
+            if (near_shadows_.size() == i) {
+                near_shadows_.emplace_back(device_, kShadowTexels);
+            }
+            ShadowMap& map = near_shadows_[i];
+            // A sphere ahead of the eye, moved in large steps.
+            const float radius = kNearMaps[i].radius;
+            const float step = 0.125F * radius;
+            const glm::vec3 middle =
+                glm::round((frame.camera.eye + 0.6F * radius * forward_of(frame.camera)) / step) *
+                step;
+            const glm::vec3 half(radius / std::sqrt(3.0F));
+            const glm::mat4 matrix = shadow_matrix({middle - half, middle + half, false},
+                                                   frame.light.to_sun, kShadowTexels);
+            block.near_from_world[i] = matrix;
+            block.near_maps[static_cast<int>(i)] =
+                2.0F * radius / static_cast<float>(kShadowTexels);
+            block.near_maps.z = 1.0F;
+            glBindTextureUnit(kNearShadowTextures + static_cast<GLuint>(i), map.texture());
+            if (map.is_stale(matrix) || frame.wind != near_wind_ || frame.time != near_time_) {
+                FrameBlock casters = block;
+                casters.view_projection = matrix;
+                near_frame_.fill(std::span<const FrameBlock>(&casters, 1));
+                glBindBufferBase(GL_UNIFORM_BUFFER, kFrameBinding, near_frame_.name());
+                begin_casters(map, matrix);
+                forest_.draw_near_shadows(matrix, kNearMaps[i].level, textures_);
+                glDisable(GL_DEPTH_CLAMP);
+                glDisable(GL_POLYGON_OFFSET_FILL);
+            }
+        }
+        near_wind_ = frame.wind;
+        near_time_ = frame.time;
+    }
+
+    void draw_shadows(const glm::mat4& matrix, FrameStats& stats) {
+        begin_casters(shadow_, matrix);
         if (is_forest_) {
             forest_.draw_shadows(matrix, forest_stats_);
         } else {
             glUseProgram(programs_.shadow.name());
-            stats.draws += plant_.draw(textures_, PlantMesh::Pass::Shadow);
+            stats.draws += plant_.draw(textures_, PlantMesh::Pass::Shadow, {});
             stats.triangles += plant_.triangles();
         }
         glDisable(GL_DEPTH_CLAMP);
@@ -368,11 +455,12 @@ private:
     }
 
     void draw_plant(PlantStyle style, FrameStats& stats) {
-        glUseProgram(programs_.mesh.name());
         if (style == PlantStyle::Wireframe) {
             glPolygonMode(GL_FRONT_AND_BACK, GL_LINE);
         }
-        stats.draws += plant_.draw(textures_, PlantMesh::Pass::Colour);
+        stats.draws += plant_.draw(
+            textures_, PlantMesh::Pass::Colour,
+            {programs_.mesh.name(), programs_.glossy_mesh.name(), device_.quality() > 0});
         stats.triangles += plant_.triangles();
         glPolygonMode(GL_FRONT_AND_BACK, GL_FILL);
     }
@@ -397,8 +485,12 @@ private:
     GpuTimer timer_;
     FrameTimes times_;
     Culling culling_ = Culling::Auto;
+    Quality quality_ = Quality::Auto;
     RenderTarget target_;
     ShadowMap shadow_;
+    std::vector<ShadowMap> near_shadows_; // of kNearMaps; made when first needed
+    Wind near_wind_;                      // of the last near shadows
+    double near_time_ = 0.0;
     MaterialTextures textures_;
     PlantMesh plant_;
     LineSet lines_;
@@ -409,10 +501,16 @@ private:
     ShaderSource shaders_;   // forest shaders are compiled on first use
     bool has_forest_shaders_ = false;
     Buffer frame_;
+    Buffer near_frame_; // while near_shadows_ are drawn
     VertexArray empty_;
 };
 
 } // namespace
+
+const char* name_of(Quality quality) {
+    constexpr std::array<const char*, 4> kNames = {"auto", "low", "medium", "high"};
+    return kNames[static_cast<std::size_t>(quality)];
+}
 
 glm::vec4 ground_disc_of(const Bounds& plant) {
     const glm::vec3 size = plant.high - plant.low;

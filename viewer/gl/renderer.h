@@ -99,6 +99,17 @@ enum class Culling : std::uint8_t {
     Gpu,
 };
 
+/// Looks and cost of pictures. Shaders have it as QUALITY: 0, 1, 2.
+enum class Quality : std::uint8_t {
+    Auto, // Low for a software renderer, else Medium
+    Low,
+    Medium,
+    High,
+};
+
+/// The word of `--quality`.
+[[nodiscard]] const char* name_of(Quality quality);
+
 /// Times of the last picture, ms.
 struct FrameTimes {
     double cpu = 0.0; // processor time of the thread that called draw()
@@ -175,6 +186,11 @@ public:
     virtual void show_plant(const Mesh& mesh) = 0;
     /// Replaces the lines drawn over everything.
     virtual void show_lines(std::span<const LineVertex> lines) = 0;
+    /// Sets the quality of later pictures; Auto at first. Error: a shader does not compile; the old
+    /// quality stays.
+    [[nodiscard]] virtual Result<void> set_quality(Quality quality) = 0;
+    /// Low, Medium or High.
+    [[nodiscard]] virtual Quality quality() const = 0;
     /// Sets where the trees of later forests are chosen; Auto at first.
     virtual void set_culling(Culling culling) = 0;
     /// Shows a forest in place of the plant or forest before. Forest and terrain of the model must

@@ -58,7 +58,7 @@ void main() {
     vec3 albedo = mix(grass, earth, bare) * (0.7 + 0.6 * fine);
     vec3 normal = normalize(up + 0.4 * vec3(fine - 0.5, 0.0, small_noise.g - 0.5));
 #endif
-    float lit = sunlight_at(shadow_position, 1.0);
+    float lit = sunlight_near(world_position, up, sunlight_at(shadow_position, 1.0));
     vec3 light = shade(albedo, normal, world_position, lit, 0.0);
     if (canopy_range.y > 0.0) {
         // Crowns seen from afar: part of their surface is in the shade of others.

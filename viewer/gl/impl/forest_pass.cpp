@@ -33,6 +33,7 @@ constexpr GLuint kNormalMapTexture = 5;
 constexpr GLint kPickedContent = 20; // in pick.frag.glsl
 // Half side of the shadow map near the ground, and its max, m.
 constexpr float kMinShadowRange = 45.0F;
+constexpr float kMinFarShadowRange = 120.0F;
 constexpr float kMaxShadowRange = 400.0F;
 constexpr float kGroundBeyond = 3000.0F; // m, range of the ground beyond the forest
 
@@ -242,7 +243,8 @@ Bounds ForestPass::shadow_bounds(const Frame& frame) {
     const float ground =
         model_.terrain->height(static_cast<float>(eye.x), static_cast<float>(eye.z));
     const float above = std::max(camera.eye.y - ground, 0.0F);
-    float half = kMinShadowRange;
+    // From QUALITY 1 on other maps show the shadows near the eye.
+    float half = device_->quality() > 0 ? kMinFarShadowRange : kMinShadowRange;
     while (half < kMaxShadowRange && half < 1.2F * above) {
         half *= 1.5F;
     }
@@ -288,6 +290,7 @@ void ForestPass::prepare(const Frame& frame) {
     options.tree_range = frame.tree_range;
     constexpr float kStill = 1e-4F; // m/s
     is_windy_ = glm::length(frame.wind.velocity) >= kStill;
+    wind_ = frame.wind;
     has_old_clusters_ = has_old_clusters_ && !impostors_.is_done();
     options.cluster_pixels = has_clusters_ && !has_old_clusters_ ? options.cluster_pixels : 0.0F;
     terrain_.prepare(frustum_, frame.tree_range);
@@ -422,6 +425,47 @@ void ForestPass::draw_shadows(const glm::mat4& shadow_from_world, ForestFrameSta
     }
 }
 
+void ForestPass::draw_near_shadows(const glm::mat4& shadow_from_world,
+                                   std::uint32_t level,
+                                   MaterialTextures& textures) {
+    std::vector<std::uint32_t> found;
+    const Bounds& all = bounds();
+    const bool is_streamed = model_.streamed != nullptr;
+    lod_->find_within(casters_of(shadow_from_world, is_streamed ? caster_altitudes_[0] : all.low.y,
+                                 is_streamed ? caster_altitudes_[1] : all.high.y),
+                      found);
+    const float per_metre = glm::length(
+        glm::vec3(shadow_from_world[0].x, shadow_from_world[1].x, shadow_from_world[2].x));
+    const Sway sway = sway_in(wind_);
+    std::erase_if(found, [&](std::uint32_t number) {
+        const LodTree& tree = lod_->lod_tree(number);
+        const Sphere sphere = lod_->bounding_sphere(tree, lod_->tree_of(number).yaw);
+        const glm::vec3 at(shadow_from_world * glm::vec4(sphere.centre, 1.0F));
+        const float reach =
+            1.0F + per_metre * (sphere.radius +
+                                sway.displacement(2.0F * sphere.radius, 2.0F * sphere.radius));
+        return std::abs(at.x) > reach || std::abs(at.y) > reach || at.z > reach;
+    });
+    std::vector<PoolBranch> branches;
+    DrawLists lists;
+    lod_->list_whole_trees(found, level, branches, lists);
+    buffers_.use(BufferSet::Shadow);
+    buffers_.set_branches(branches);
+    buffers_.upload_commands(lists);
+    buffers_.bind_storage();
+    glUseProgram(programs().caster.name());
+    for (const BranchClass kind :
+         {BranchClass::OneSided, BranchClass::TwoSided, BranchClass::Plain}) {
+        buffers_.draw(kind);
+    }
+    glBindTextureUnit(kLeafTexture, textures.base_colour(MaterialKind::Leaf));
+    glUseProgram(programs().cut_out_caster.name());
+    buffers_.draw(BranchClass::CutOut);
+    buffers_.draw_pictures(programs().caster.name(), programs().cut_out_caster.name(),
+                           programs().cut_out_caster.name(), false);
+    buffers_.use(BufferSet::Forest);
+}
+
 void ForestPass::draw_branches(const BranchPrograms& programs, bool blends, FrameStats& stats) {
     glUseProgram(programs.solid.name());
     stats.draws += buffers_.draw(BranchClass::OneSided, blends);
@@ -430,7 +474,9 @@ void ForestPass::draw_branches(const BranchPrograms& programs, bool blends, Fram
     stats.draws += buffers_.draw(BranchClass::Plain, blends);
     glUseProgram(programs.cut_out.name());
     stats.draws += buffers_.draw(BranchClass::CutOut, blends);
-    stats.draws += buffers_.draw_pictures(programs.solid.name(), programs.cut_out.name(), blends);
+    stats.draws += buffers_.draw_pictures(
+        programs.solid.name(), programs.cut_out.name(),
+        (programs.bumpy_cut_out ? programs.bumpy_cut_out : programs.cut_out).name(), blends);
 }
 
 void ForestPass::draw(MaterialTextures& textures, ForestFrameStats& stats) {
@@ -558,8 +604,9 @@ void ForestPass::draw_picked(MaterialTextures& textures) {
         }
         use(blends ? picks.blending_cut_out : picks.cut_out, PickedKind::Branch);
         buffers_.draw(BranchClass::CutOut, blends);
-        buffers_.draw_pictures((blends ? picks.blending_branch : picks.branch).name(),
-                               (blends ? picks.blending_cut_out : picks.cut_out).name(), blends);
+        const GLuint cut_out = (blends ? picks.blending_cut_out : picks.cut_out).name();
+        buffers_.draw_pictures((blends ? picks.blending_branch : picks.branch).name(), cut_out,
+                               cut_out, blends);
     }
     glDisable(GL_CULL_FACE);
     const auto draw_impostors = [&](std::span<const ImpostorEntry> entries, PickedKind kind) {

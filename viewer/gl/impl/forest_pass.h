@@ -69,6 +69,11 @@ public:
     void prepare(const Frame& frame);
     /// Draws all casters into the bound shadow map.
     void draw_shadows(const glm::mat4& shadow_from_world, ForestFrameStats& stats);
+    /// Draws the trees of a shadow map as branches of a level into the bound one, moved by the wind
+    /// of the prepared frame. The uniforms of the frame must have `shadow_from_world` as the view.
+    void draw_near_shadows(const glm::mat4& shadow_from_world,
+                           std::uint32_t level,
+                           MaterialTextures& textures);
     /// Draws into the bound framebuffer. Texture unit 0 must hold the shadow map.
     void draw(MaterialTextures& textures, ForestFrameStats& stats);
 
@@ -119,6 +124,7 @@ private:
     std::optional<PickPrograms> pick_programs_;
     BranchColours colours_ = BranchColours::Natural;
     bool is_windy_ = false;
+    Wind wind_; // of the prepared frame
     ForestModel model_;
     std::unique_ptr<ForestLod> lod_;
     ForestBuffers buffers_;

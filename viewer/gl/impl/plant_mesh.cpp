@@ -71,7 +71,8 @@ void PlantMesh::upload(const Mesh& mesh, const MaterialTextures& textures) {
     }
 }
 
-std::uint64_t PlantMesh::draw(MaterialTextures& textures, Pass pass) const {
+std::uint64_t
+PlantMesh::draw(MaterialTextures& textures, Pass pass, const PlantPrograms& programs) const {
     const bool shaded = pass == Pass::Colour;
     glBindVertexArray(array_.name());
     std::uint64_t draws = 0;
@@ -85,8 +86,10 @@ std::uint64_t PlantMesh::draw(MaterialTextures& textures, Pass pass) const {
                              (picture && material.two_sided);
         const int translucency = translucency_step(material, is_thin);
         if (shaded) {
+            const bool is_glossy = programs.all_glossy || material.roughness.has_value();
+            glUseProgram(is_glossy ? programs.glossy : programs.matt);
             glUniform4f(kColour, material.colour.r, material.colour.g, material.colour.b,
-                        material.colour.a);
+                        roughness_of(material));
         }
         glUniform4i(kKind, material.textured ? 1 : 0, bumpy ? 1 : 0, material.cut_out ? 1 : 0,
                     translucency);
