@@ -265,6 +265,37 @@ TEST_CASE("from medium quality on, shadows near the eye move with the wind") {
     CHECK(difference_of(at("0", "low"), at("0", "medium")).mean < 20.0);
 }
 
+TEST_CASE("from medium quality on, the ground is darker under a crown and at the foot of a trunk") {
+    // Two boughs make a crown of 3 m; the ground has one colour.
+    const SurfaceScene files(kPictured, "#n = 0;\n#w : !(0.1) F(2)[+(90)F(3)][-(90)F(3)];\n");
+    write_text(files.folder / "ground.png", encode_png(halves(kRed, kRed)));
+    const auto red_at = [&](float x, const char* quality) {
+        const std::string place = std::to_string(x) + ",0,20.3";
+        const Picture picture =
+            files.picture("eye " + std::to_string(x) + ",1,20.301 target " + place + " fov 10",
+                          {"--no-shadows", "--sun", "90,3", "--quality", quality});
+        return texel(picture, 32, 32)[0];
+    };
+    CHECK(red_at(20.3F, "medium") + 5 < red_at(21.5F, "medium"));
+    CHECK(red_at(21.5F, "medium") + 5 < red_at(30.0F, "medium"));
+    CHECK(std::abs(red_at(20.3F, "low") - red_at(30.0F, "low")) <= 1);
+    CHECK(std::abs(red_at(30.0F, "medium") - red_at(30.0F, "low")) <= 1);
+}
+
+TEST_CASE("from medium quality on, grass stands near the eye alone") {
+    const SurfaceScene files("");
+    const auto seen = [&](const char* camera, const char* quality) {
+        return files.picture(camera, {"--no-shadows", "--quality", quality}, "160x120");
+    };
+    const char* const low = "eye 6,0.6,34 target 10,0,31 fov 50";
+    const PictureDifference near = difference_of(seen(low, "low"), seen(low, "medium"));
+    CHECK(near.far > 0.005);
+    const char* const high = "eye 8,60,32.1 target 8,0,32 fov 10";
+    CHECK(difference_of(seen(high, "low"), seen(high, "medium")).mean < 0.1);
+    CHECK(seen(low, "medium").texels == seen(low, "medium").texels);
+    CHECK(difference_of(seen(low, "medium"), seen(low, "high")).mean > 0.0);
+}
+
 TEST_CASE("a picture of the ground needs no draw call, and no picture changes nothing") {
     const SurfaceScene plain("");
     const SurfaceScene pictured(kPictured);

@@ -36,7 +36,7 @@ struct NearMap {
     float radius;        // m
     std::uint32_t level; // of the branches that cast shadows
 };
-constexpr std::array<NearMap, 2> kNearMaps = {{{8.0F, 0}, {30.0F, 2}}};
+constexpr std::array<NearMap, kNearMaps> kNearMapSpecs = {{{8.0F, 0}, {30.0F, 2}}};
 // Uniform locations of ground.*.glsl.
 constexpr GLint kDisc = 0;
 constexpr GLint kGridStep = 1;
@@ -230,6 +230,9 @@ public:
         if (is_forest_ && block.to_sun.w != 0.0F && device_.quality() > 0) {
             draw_near_shadows(frame, block);
         }
+        if (is_forest_ && device_.quality() > 0) {
+            block.crowns = forest_.draw_crowns(frame.camera.eye);
+        }
         frame_.fill(std::span<const FrameBlock>(&block, 1));
         glBindBufferBase(GL_UNIFORM_BUFFER, kFrameBinding, frame_.name());
         if (block.to_sun.w != 0.0F && shadow_.is_stale(shadow_from_world)) {
@@ -391,13 +394,13 @@ private:
 
     /// Draws the shadow maps around the eye, and sets the fields of the block that describe them.
     void draw_near_shadows(const Frame& frame, FrameBlock& block) {
-        for (std::size_t i = 0; i < kNearMaps.size(); ++i) {
+        for (std::size_t i = 0; i < kNearMaps; ++i) {
             if (near_shadows_.size() == i) {
                 near_shadows_.emplace_back(device_, kShadowTexels);
             }
             ShadowMap& map = near_shadows_[i];
             // A sphere ahead of the eye, moved in large steps.
-            const float radius = kNearMaps[i].radius;
+            const float radius = kNearMapSpecs[i].radius;
             const float step = 0.125F * radius;
             const glm::vec3 middle =
                 glm::round((frame.camera.eye + 0.6F * radius * forward_of(frame.camera)) / step) *
@@ -416,7 +419,7 @@ private:
                 near_frame_.fill(std::span<const FrameBlock>(&casters, 1));
                 glBindBufferBase(GL_UNIFORM_BUFFER, kFrameBinding, near_frame_.name());
                 begin_casters(map, matrix);
-                forest_.draw_near_shadows(matrix, kNearMaps[i].level, textures_);
+                forest_.draw_near_shadows(i, matrix, kNearMapSpecs[i].level, textures_);
                 glDisable(GL_DEPTH_CLAMP);
                 glDisable(GL_POLYGON_OFFSET_FILL);
             }

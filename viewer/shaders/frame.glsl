@@ -13,5 +13,6 @@ layout(std140, binding = 0) uniform FrameBlock {
     vec4 wind;      // xyz: velocity, m/s; w: fraction that varies in gusts
     mat4 near_from_world[2]; // of the shadow maps near the eye, the nearest first
     vec4 near_maps; // xy: sides of their texels, m; z: 1 if they are drawn, else 0
+    vec4 crowns;    // xy: middle of the map of crowns, m; z: half its side, m; w: 1 if it is drawn
     vec4 viewport;  // xy: corner of the drawn area, zw: size of the whole picture; pixels
 } frame;

@@ -64,7 +64,7 @@ float sunlight_of_map(sampler2DShadow map, int which, vec3 place, vec3 offset, f
     float sum = 0.0;
     for (int y = -1; y <= 1; ++y) {
         for (int x = -1; x <= 1; ++x) {
-            vec2 aside = (1.5 * frame.ground.w) * vec2(x, y);
+            vec2 aside = ((which == 0 ? 2.5 : 1.5) * frame.ground.w) * vec2(x, y);
             sum += texture(map, vec3(at.xy * 0.5 + 0.5 + aside, at.z));
         }
     }
