@@ -134,3 +134,58 @@ TEST_CASE("shadows near the eye are a function of the frame alone") {
     tree.frame.shadows = false;
     CHECK(difference_of(first, tree.draw(300.0F, 0.3F)).mean > 0.1);
 }
+
+TEST_CASE("refined pictures are smoother, and a new picture begins anew") {
+    LoneTree tree(Quality::Low);
+    tree.frame.width = 100;
+    tree.frame.height = 150;
+    tree.frame.samples = 4;
+    const Picture plain = tree.draw(130.0F, 0.3F);
+    const auto shown = [&] {
+        Picture picture{tree.frame.width, tree.frame.height, {}};
+        tree.renderer->read_shown(picture.texels);
+        return picture;
+    };
+    CHECK(shown().texels == plain.texels);
+    int refinements = 0;
+    while (tree.renderer->refine()) {
+        ++refinements;
+        REQUIRE(refinements <= 16);
+    }
+    CHECK(refinements == 16);
+    const Picture refined = shown();
+    CHECK(tree.renderer->errors().empty());
+    // The mean of 64 times as many pixels is the limit that samples approach.
+    const auto with_pixels = [&](std::uint32_t factor) {
+        tree.frame.width *= factor;
+        tree.frame.height *= factor;
+        const Picture large = tree.draw(130.0F * static_cast<float>(factor), 0.3F);
+        tree.frame.width /= factor;
+        tree.frame.height /= factor;
+        Picture mean{tree.frame.width, tree.frame.height, {}};
+        for (std::size_t y = 0; y < mean.height; ++y) {
+            for (std::size_t x = 0; x < std::size_t{4} * mean.width; ++x) {
+                std::size_t sum = 0;
+                for (std::size_t k = 0; k < std::size_t{factor} * factor; ++k) {
+                    const std::size_t row = y * factor + k / factor;
+                    const std::size_t column = x / 4 * factor + k % factor;
+                    sum += large.texels[4 * (row * large.width + column) + x % 4];
+                }
+                mean.texels.push_back(static_cast<std::uint8_t>(sum / (factor * factor)));
+            }
+        }
+        return mean;
+    };
+    const Picture limit = with_pixels(4);
+    CAPTURE(difference_of(plain, limit).mean, difference_of(refined, limit).mean);
+    CHECK(difference_of(refined, limit).mean < difference_of(plain, limit).mean);
+    CHECK(shown().texels != refined.texels); // draw() has begun a new picture
+    // read() has no refinement.
+    const Picture again = tree.draw(130.0F, 0.3F);
+    CHECK(tree.renderer->refine());
+    Picture read{tree.frame.width, tree.frame.height, {}};
+    tree.renderer->read(read.texels);
+    CHECK(read.texels == plain.texels);
+    CHECK(again.texels == plain.texels);
+    CHECK(shown().texels == plain.texels);
+}

@@ -97,6 +97,11 @@ public:
     [[nodiscard]] bool shows_trace() const { return wants_trace_; }
     void forget_trace();
 
+    /// Adds samples to the last picture, which must be up to date: draw() has just returned false.
+    /// Returns whether it drew.
+    [[nodiscard]] bool refine() {
+        return frame_ && frame_->samples > 1 && !changed_ && renderer_->refine();
+    }
     /// Copies the last picture to a part of the window whose context is current.
     void present(const PixelArea& area) { renderer_->present(area); }
     /// Writes the last picture to a new file and reports its name.

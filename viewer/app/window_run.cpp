@@ -28,6 +28,8 @@ constexpr double kBusy = 0.02;
 constexpr std::chrono::milliseconds kProgressInterval{100};
 // Max time step of a flying camera, s, so that a slow picture does not make it jump.
 constexpr double kMaxFlightStep = 0.1;
+/// Time without a change after which pictures are refined.
+constexpr std::chrono::milliseconds kRest{300};
 /// Count of pictures that ImGui needs to settle after input.
 constexpr int kPicturesAfterInput = 3;
 
@@ -41,9 +43,9 @@ public:
 
     /// Handles input and draws a picture if needed; returns false to quit.
     bool step() {
-        const double wait = pictures_left_ > 0 || controls_.is_moving() ? 0.0
-                            : switcher_.current().is_busy()             ? kBusy
-                                                                        : kIdle;
+        const double wait = pictures_left_ > 0 || refines_ || controls_.is_moving() ? 0.0
+                            : switcher_.current().is_busy()                         ? kBusy
+                                                                                    : kIdle;
         const WindowInput input = window_.wait(wait);
         const Clock::time_point now = Clock::now();
         const double passed =
@@ -113,10 +115,16 @@ private:
         }
         const Clock::time_point start = Clock::now();
         const bool drew = switcher_.current().draw(area.width, area.height);
-        if (!drew && pictures_left_ == 0) {
+        if (drew) {
+            last_drawn_ = start;
+        }
+        // At rest, refine the picture by one sample at a time, so that input is handled between them.
+        refines_ = start - last_drawn_ >= kRest && !controls_.is_moving() &&
+                   !switcher_.current().is_busy() && switcher_.current().refine();
+        if (!drew && !refines_ && pictures_left_ == 0) {
             return;
         }
-        pictures_left_ = drew ? std::max(pictures_left_, 1) : pictures_left_ - 1;
+        pictures_left_ = drew ? std::max(pictures_left_, 1) : std::max(pictures_left_ - 1, 0);
         switcher_.current().present(area);
         window_.begin_panels();
         View* const drawn = &switcher_.current();
@@ -134,6 +142,8 @@ private:
     Clock::time_point last_ = Clock::now();
     Clock::time_point last_progress_ = last_;
     bool shows_progress_ = false;
+    Clock::time_point last_drawn_ = last_;
+    bool refines_ = false;
     int pictures_left_ = kPicturesAfterInput;
 };
 

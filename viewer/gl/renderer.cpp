@@ -102,6 +102,33 @@ bool overlaps(const Bounds& a, const Bounds& b) {
     return a.low.x <= b.high.x && b.low.x <= a.high.x && a.low.z <= b.high.z && b.low.z <= a.high.z;
 }
 
+/// Term of the sequence of Halton (1964) to a base, 0 to 1.
+float halton(std::uint32_t index, std::uint32_t base) {
+    float sum = 0.0F;
+    for (float part = 1.0F; index != 0; index /= base) {
+        part /= static_cast<float>(base);
+        sum += part * static_cast<float>(index % base);
+    }
+    return sum;
+}
+
+/// Shifts a picture by a part of a pixel, and its dither by whole pixels. `index` 0: not at all.
+void shift(FrameBlock& block, std::uint32_t index, const PixelArea& area) {
+    if (index == 0) {
+        return;
+    }
+    const glm::vec2 by = (2.0F * glm::vec2(halton(index, 2), halton(index, 3)) - 1.0F) /
+                         glm::vec2(area.width, area.height);
+    for (int column = 0; column < 4; ++column) {
+        glm::vec4& of = block.view_projection[column];
+        of.x += by.x * of.w;
+        of.y += by.y * of.w;
+    }
+    block.clip_to_world = glm::inverse(block.view_projection);
+    block.viewport.x += 7.0F * static_cast<float>(index);
+    block.viewport.y += 3.0F * static_cast<float>(index);
+}
+
 class GlRenderer final : public Renderer {
 public:
     GlRenderer()
@@ -199,10 +226,115 @@ public:
         shaders_ = shaders;
         programs_ = std::move(made.value());
         pick_plant_ = {};
+        copy_ = {};
         return {};
     }
 
-    FrameStats draw(const Frame& world_frame, const PixelArea& area) override {
+    FrameStats draw(const Frame& frame, const PixelArea& area) override {
+        shown_frame_ = frame;
+        shown_area_ = area;
+        refinements_ = 0;
+        return draw_sample();
+    }
+    bool refine() override {
+        constexpr std::uint32_t kMax = 16;
+        if (!shown_frame_ || refinements_ >= kMax) {
+            return false;
+        }
+        if (!copy_) {
+            Result<ProgramObject> made =
+                make_program(device_, shaders_, "copy.vert.glsl", "copy.frag.glsl");
+            if (!made) {
+                return false; // pictures stay as they are
+            }
+            copy_ = std::move(made.value());
+        }
+        const auto add = [&] {
+            glBindVertexArray(empty_.name());
+            target_.accumulate(copy_, 1.0F / static_cast<float>(refinements_ + 1));
+        };
+        if (refinements_ == 0) {
+            add();
+        }
+        ++refinements_;
+        static_cast<void>(draw_sample());
+        add();
+        return true;
+    }
+    Result<Picked> pick(const Frame& world_frame, std::uint32_t x, std::uint32_t y) override {
+        if (Result<void> made = compile_pick_programs(); !made) {
+            return made.error();
+        }
+        const Frame frame = localised(world_frame);
+        const FrameBlock block =
+            make_frame_block(frame, {x, y, 1, 1}, glm::mat4(1.0F), kShadowTexels);
+        frame_.fill(std::span<const FrameBlock>(&block, 1));
+        glBindBufferBase(GL_UNIFORM_BUFFER, kFrameBinding, frame_.name());
+        glClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
+        glEnable(GL_DEPTH_TEST);
+        glDisable(GL_BLEND);
+        glFrontFace(GL_CCW);
+        if (is_forest_) {
+            forest_.prepare(frame);
+        }
+        PickTarget target(device_);
+        target.begin();
+        glDepthFunc(GL_GEQUAL); // reversed depth
+        if (is_forest_) {
+            forest_.draw_picked(textures_);
+        } else if (frame.style != PlantStyle::None) {
+            glUseProgram(pick_plant_.name());
+            glUniform1ui(kPickedContent, static_cast<GLuint>(PickedKind::Plant));
+            plant_.draw(textures_, PlantMesh::Pass::Pick, {});
+        }
+        glDisable(GL_CULL_FACE);
+        const PickTarget::Content content = target.read();
+        const auto kind = static_cast<PickedKind>(content.kind);
+        Picked picked;
+        if (kind == PickedKind::Plant) {
+            picked.triangle = content.item;
+        } else if (is_forest_) {
+            picked = forest_.picked(kind, content.item);
+        }
+        picked.kind = kind;
+        const glm::vec4 place = block.clip_to_world * glm::vec4(0.0F, 0.0F, content.depth, 1.0F);
+        const glm::dvec3 origin = frame.camera.origin;
+        picked.place = kind == PickedKind::Nothing
+                           ? glm::vec3(0.0F)
+                           : glm::vec3(origin + glm::dvec3(glm::vec3(place) / place.w));
+        return picked;
+    }
+    std::vector<std::uint32_t> trees_of(std::uint32_t form) const override {
+        return is_forest_ ? forest_.trees_of(form) : std::vector<std::uint32_t>{};
+    }
+    const ForestFrameStats& forest_stats() const override { return forest_stats_; }
+    ForestSizes forest_sizes() const override {
+        return is_forest_ ? forest_.sizes() : ForestSizes{};
+    }
+    FrameTimes frame_times() const override { return times_; }
+    void read_shown(std::vector<std::uint8_t>& pixels) override {
+        target_.read(pixels, refinements_ != 0);
+    }
+    void read(std::vector<std::uint8_t>& pixels) override {
+        if (refinements_ != 0) {
+            static_cast<void>(draw(*shown_frame_, shown_area_));
+        }
+        target_.read(pixels, false);
+        glFinish(); // reading waits for the texels only, not for the queries after them
+        collect_device_stats();
+    }
+    void present(const PixelArea& area) override { target_.present(area, refinements_ != 0); }
+
+    std::string device_name() const override { return device_.renderer(); }
+    std::uint64_t live_objects() const override { return device_.live_objects(); }
+    std::uint64_t uploaded_bytes() const override { return device_.uploaded_bytes(); }
+    const std::vector<std::string>& errors() const override { return device_.errors(); }
+
+private:
+    /// Draws the shown frame, shifted by a part of a pixel for a refinement.
+    FrameStats draw_sample() {
+        const Frame& world_frame = *shown_frame_;
+        const PixelArea& area = shown_area_;
         const double cpu_start = platform::thread_cpu_seconds();
         timer_.begin();
         FrameStats stats;
@@ -217,6 +349,7 @@ public:
             shadow_from_world = shadow_matrix(lit, frame.light.to_sun, kShadowTexels);
         }
         FrameBlock block = make_frame_block(frame, area, shadow_from_world, kShadowTexels);
+        shift(block, refinements_, area);
         if (frame.style == PlantStyle::None || lit.empty) {
             block.to_sun.w = 0.0F;
         }
@@ -272,70 +405,6 @@ public:
         times_.cpu = 1e3 * (platform::thread_cpu_seconds() - cpu_start);
         return stats;
     }
-    Result<Picked> pick(const Frame& world_frame, std::uint32_t x, std::uint32_t y) override {
-        if (Result<void> made = compile_pick_programs(); !made) {
-            return made.error();
-        }
-        const Frame frame = localised(world_frame);
-        const FrameBlock block =
-            make_frame_block(frame, {x, y, 1, 1}, glm::mat4(1.0F), kShadowTexels);
-        frame_.fill(std::span<const FrameBlock>(&block, 1));
-        glBindBufferBase(GL_UNIFORM_BUFFER, kFrameBinding, frame_.name());
-        glClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
-        glEnable(GL_DEPTH_TEST);
-        glDisable(GL_BLEND);
-        glFrontFace(GL_CCW);
-        if (is_forest_) {
-            forest_.prepare(frame);
-        }
-        PickTarget target(device_);
-        target.begin();
-        glDepthFunc(GL_GEQUAL); // reversed depth
-        if (is_forest_) {
-            forest_.draw_picked(textures_);
-        } else if (frame.style != PlantStyle::None) {
-            glUseProgram(pick_plant_.name());
-            glUniform1ui(kPickedContent, static_cast<GLuint>(PickedKind::Plant));
-            plant_.draw(textures_, PlantMesh::Pass::Pick, {});
-        }
-        glDisable(GL_CULL_FACE);
-        const PickTarget::Content content = target.read();
-        const auto kind = static_cast<PickedKind>(content.kind);
-        Picked picked;
-        if (kind == PickedKind::Plant) {
-            picked.triangle = content.item;
-        } else if (is_forest_) {
-            picked = forest_.picked(kind, content.item);
-        }
-        picked.kind = kind;
-        const glm::vec4 place = block.clip_to_world * glm::vec4(0.0F, 0.0F, content.depth, 1.0F);
-        const glm::dvec3 origin = frame.camera.origin;
-        picked.place = kind == PickedKind::Nothing
-                           ? glm::vec3(0.0F)
-                           : glm::vec3(origin + glm::dvec3(glm::vec3(place) / place.w));
-        return picked;
-    }
-    std::vector<std::uint32_t> trees_of(std::uint32_t form) const override {
-        return is_forest_ ? forest_.trees_of(form) : std::vector<std::uint32_t>{};
-    }
-    const ForestFrameStats& forest_stats() const override { return forest_stats_; }
-    ForestSizes forest_sizes() const override {
-        return is_forest_ ? forest_.sizes() : ForestSizes{};
-    }
-    FrameTimes frame_times() const override { return times_; }
-    void read(std::vector<std::uint8_t>& pixels) override {
-        target_.read(pixels);
-        glFinish(); // reading waits for the texels only, not for the queries after them
-        collect_device_stats();
-    }
-    void present(const PixelArea& area) override { target_.present(area); }
-
-    std::string device_name() const override { return device_.renderer(); }
-    std::uint64_t live_objects() const override { return device_.live_objects(); }
-    std::uint64_t uploaded_bytes() const override { return device_.uploaded_bytes(); }
-    const std::vector<std::string>& errors() const override { return device_.errors(); }
-
-private:
     /// QUALITY of shaders.
     [[nodiscard]] std::uint32_t tier_of(Quality quality) const {
         return quality == Quality::Auto
@@ -503,6 +572,10 @@ private:
     Bounds casters_;         // box of the casters of the last shadow map
     ShaderSource shaders_;   // forest shaders are compiled on first use
     bool has_forest_shaders_ = false;
+    std::optional<Frame> shown_frame_; // of the last draw()
+    PixelArea shown_area_;
+    std::uint32_t refinements_ = 0;
+    ProgramObject copy_; // compiled on first use
     Buffer frame_;
     Buffer near_frame_; // while near_shadows_ are drawn
     VertexArray empty_;

@@ -230,9 +230,15 @@ public:
     [[nodiscard]] virtual const ForestFrameStats& forest_stats() const = 0;
     [[nodiscard]] virtual ForestSizes forest_sizes() const = 0;
     [[nodiscard]] virtual FrameTimes frame_times() const = 0;
-    /// Rows of the last picture from top to bottom, RGBA.
+    /// Adds a sample per sample of the last picture, shifted by a part of a pixel, to the mean that
+    /// present() shows until the next draw(). What is shown must be unchanged since draw(). Returns
+    /// false, and draws nothing, once the mean has 17 pictures.
+    [[nodiscard]] virtual bool refine() = 0;
+    /// Rows of the picture that present() shows, from top to bottom, RGBA.
+    virtual void read_shown(std::vector<std::uint8_t>& pixels) = 0;
+    /// Rows of the picture of the last draw(), without refinement, from top to bottom, RGBA.
     virtual void read(std::vector<std::uint8_t>& pixels) = 0;
-    /// Copies the last picture to a part of the window whose context is current.
+    /// Copies the last picture, refined or not, to a part of the window whose context is current.
     virtual void present(const PixelArea& area) = 0;
 
     /// Device and version of OpenGL, for example
