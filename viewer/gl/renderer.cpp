@@ -46,7 +46,6 @@ constexpr float kDiscInRadii = 14.0F; // radius of the ground disc, in radii of 
 struct Programs {
     ProgramObject sky;
     ProgramObject mesh;
-    ProgramObject glossy_mesh;
     ProgramObject shadow;
     ProgramObject ground;
     ProgramObject line;
@@ -58,18 +57,15 @@ Result<Programs> make_programs(Device& device, const ShaderSource& shaders) {
         ProgramObject Programs::*program;
         const char* vertex;
         const char* fragment;
-        const char* defines;
     };
-    const std::array<ProgramSpec, 6> wanted = {
-        {{&Programs::sky, "sky.vert.glsl", "sky.frag.glsl", ""},
-         {&Programs::mesh, "mesh.vert.glsl", "mesh.frag.glsl", ""},
-         {&Programs::glossy_mesh, "mesh.vert.glsl", "mesh.frag.glsl", "#define GLOSSY\n"},
-         {&Programs::shadow, "shadow.vert.glsl", "shadow.frag.glsl", ""},
-         {&Programs::ground, "ground.vert.glsl", "ground.frag.glsl", ""},
-         {&Programs::line, "line.vert.glsl", "line.frag.glsl", ""}}};
+    const std::array<ProgramSpec, 5> wanted = {
+        {{&Programs::sky, "sky.vert.glsl", "sky.frag.glsl"},
+         {&Programs::mesh, "mesh.vert.glsl", "mesh.frag.glsl"},
+         {&Programs::shadow, "shadow.vert.glsl", "shadow.frag.glsl"},
+         {&Programs::ground, "ground.vert.glsl", "ground.frag.glsl"},
+         {&Programs::line, "line.vert.glsl", "line.frag.glsl"}}};
     for (const ProgramSpec& one : wanted) {
-        Result<ProgramObject> made =
-            make_program(device, shaders, one.vertex, one.fragment, one.defines);
+        Result<ProgramObject> made = make_program(device, shaders, one.vertex, one.fragment);
         if (!made) {
             return made.error();
         }
@@ -285,7 +281,7 @@ public:
         } else if (frame.style != PlantStyle::None) {
             glUseProgram(pick_plant_.name());
             glUniform1ui(kPickedContent, static_cast<GLuint>(PickedKind::Plant));
-            plant_.draw(textures_, PlantMesh::Pass::Pick, {});
+            plant_.draw(textures_, PlantMesh::Pass::Pick);
         }
         glDisable(GL_CULL_FACE);
         const PickTarget::Content content = target.read();
@@ -503,7 +499,7 @@ private:
             forest_.draw_shadows(matrix, forest_stats_);
         } else {
             glUseProgram(programs_.shadow.name());
-            stats.draws += plant_.draw(textures_, PlantMesh::Pass::Shadow, {});
+            stats.draws += plant_.draw(textures_, PlantMesh::Pass::Shadow);
             stats.triangles += plant_.triangles();
         }
         glDisable(GL_DEPTH_CLAMP);
@@ -527,12 +523,11 @@ private:
     }
 
     void draw_plant(PlantStyle style, FrameStats& stats) {
+        glUseProgram(programs_.mesh.name());
         if (style == PlantStyle::Wireframe) {
             glPolygonMode(GL_FRONT_AND_BACK, GL_LINE);
         }
-        stats.draws += plant_.draw(
-            textures_, PlantMesh::Pass::Colour,
-            {programs_.mesh.name(), programs_.glossy_mesh.name(), device_.quality() > 0});
+        stats.draws += plant_.draw(textures_, PlantMesh::Pass::Colour);
         stats.triangles += plant_.triangles();
         glPolygonMode(GL_FRONT_AND_BACK, GL_FILL);
     }

@@ -36,7 +36,7 @@ void main() {
     bool is_lit_from_behind = translucency > 0.0 && dot(geometric, frame.to_sun.xyz) < 0.0;
     float lit = sunlight(world_position, is_lit_from_behind ? -geometric : geometric, 1.0);
     vec3 radiance = shade(albedo, normal, world_position, lit, translucency);
-#ifdef GLOSSY
+#if QUALITY > 0
     vec3 to_eye = normalize(frame.eye_time.xyz - world_position);
     radiance += gloss(normal, to_eye, base_colour.w, lit, 1.0);
 #endif

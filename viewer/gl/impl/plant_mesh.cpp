@@ -71,8 +71,7 @@ void PlantMesh::upload(const Mesh& mesh, const MaterialTextures& textures) {
     }
 }
 
-std::uint64_t
-PlantMesh::draw(MaterialTextures& textures, Pass pass, const PlantPrograms& programs) const {
+std::uint64_t PlantMesh::draw(MaterialTextures& textures, Pass pass) const {
     const bool shaded = pass == Pass::Colour;
     glBindVertexArray(array_.name());
     std::uint64_t draws = 0;
@@ -86,8 +85,6 @@ PlantMesh::draw(MaterialTextures& textures, Pass pass, const PlantPrograms& prog
                              (picture && material.two_sided);
         const int translucency = translucency_step(material, is_thin);
         if (shaded) {
-            const bool is_glossy = programs.all_glossy || material.roughness.has_value();
-            glUseProgram(is_glossy ? programs.glossy : programs.matt);
             glUniform4f(kColour, material.colour.r, material.colour.g, material.colour.b,
                         roughness_of(material));
         }

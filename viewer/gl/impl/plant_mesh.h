@@ -11,13 +11,6 @@
 
 namespace lsys::view {
 
-/// Programs of shaders/mesh for the materials of a plant.
-struct PlantPrograms {
-    GLuint matt = 0;
-    GLuint glossy = 0;
-    bool all_glossy = false; // else only materials with a roughness of their own
-};
-
 class PlantMesh {
 public:
     explicit PlantMesh(Device& device);
@@ -25,9 +18,9 @@ public:
     /// Reuses buffers that are large enough.
     void upload(const Mesh& mesh, const MaterialTextures& textures);
     enum class Pass : std::uint8_t { Colour, Shadow, Pick };
-    /// Draws with `programs`, or shadows and picks with the bound program; returns the count of draw
+    /// Draws with the bound program of shaders/mesh, shadow or pick; returns the count of draw
     /// calls.
-    std::uint64_t draw(MaterialTextures& textures, Pass pass, const PlantPrograms& programs) const;
+    std::uint64_t draw(MaterialTextures& textures, Pass pass) const;
 
     [[nodiscard]] std::uint64_t triangles() const { return triangles_; }
     [[nodiscard]] const Bounds& bounds() const { return bounds_; }
