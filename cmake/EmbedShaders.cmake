@@ -6,6 +6,9 @@ string(APPEND text "std::optional<std::string> built_in_shader(std::string_view 
 foreach(shader ${SHADERS})
   get_filename_component(name "${shader}" NAME)
   file(READ "${shader}" content)
+  # Lines keep their numbers for messages. Comments and indentation would only make the program larger.
+  string(REGEX REPLACE "[ \t]*//[^\n]*" "" content "${content}")
+  string(REGEX REPLACE "\n[ \t]+" "\n" content "${content}")
   string(APPEND text "    if (name == \"${name}\") {\n        return std::string(R\"glsl(${content})glsl\");\n    }\n")
 endforeach()
 string(APPEND text "    return std::nullopt;\n}\n\n} // namespace lsys::view\n")

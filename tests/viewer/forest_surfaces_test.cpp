@@ -193,6 +193,108 @@ TEST_CASE("the relief of a mesh of a forest changes its shading") {
     CHECK(seen("norm slopes.png\n") > seen("") + 10);
 }
 
+TEST_CASE("the relief of a picture with holes changes its shading from medium quality on") {
+    const SurfaceScene files("", "#n = 1;\n#object L \"card.obj\";\n#w : L(1);\n");
+    write_text(files.folder / "card.obj",
+               "mtllib card.mtl\nusemtl card\nv -1 0 0\nv 1 0 0\nv 1 2 0\nv -1 2 0\n"
+               "vt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\nf 1/1 2/2 3/3 4/4\n");
+    const auto seen = [&](const std::string& normal_map, const std::string& quality) {
+        write_text(files.folder / "card.mtl", "newmtl card\nmap_Kd holes.png\n" + normal_map);
+        const Picture picture = files.picture("eye 20,1,25 target 20,1,20 fov 30",
+                                              {"--no-shadows", "--quality", quality}, "320x320");
+        CHECK_FALSE(is_red(texel(picture, 240, 160))); // a hole
+        return brightness(texel(picture, 80, 160));
+    };
+    write_text(files.folder / "other.png", encode_png(halves({218, 128, 218, 255}, kNothing)));
+    const std::string one = "norm slopes.png\n";
+    const std::string other = "norm other.png\n";
+    CHECK(std::abs(seen(one, "medium") - seen(other, "medium")) > 10);
+    CHECK(seen(one, "low") == seen(other, "low"));
+}
+
+TEST_CASE("smooth materials shine from medium quality on") {
+    // A dark post in front of the sun.
+    const auto grammar = [](const char* roughness) {
+        return std::string("#n = 0;\n#material 0 colour 0.1 0.1 0.1") + roughness +
+               ";\n#w : !(0.6) F(2);\n";
+    };
+    const auto brightest = [](const Picture& picture) {
+        int most = 0;
+        for (std::uint32_t x = picture.width / 4; x < picture.width - picture.width / 4; ++x) {
+            most = std::max(most, brightness(texel(picture, x, picture.height / 2)));
+        }
+        return most;
+    };
+    const ScratchFolder folder;
+    const auto plant = [&](const char* roughness, const char* quality) {
+        write_text(folder / "post.lsys", grammar(roughness));
+        const LscRun run = run_lsview({folder / "post.lsys", "--screenshot", "-", "--size", "64x64",
+                                       "--no-ground", "--no-shadows", "--quality", quality,
+                                       "--camera", "eye 1,1.2,4 target 0,1,0 fov 14"});
+        CAPTURE(run.err);
+        REQUIRE(run.status == 0);
+        return brightest(decode_picture(run.out));
+    };
+    CHECK(plant(" roughness 0.4", "medium") > plant(" roughness 1", "medium") + 30);
+    CHECK(plant(" roughness 0.4", "low") == plant(" roughness 1", "low"));
+    const auto tree = [&](const char* roughness, const char* quality) {
+        const SurfaceScene files("", grammar(roughness));
+        return brightest(files.picture("eye 21,1.2,24 target 20,1,20 fov 14",
+                                       {"--no-shadows", "--quality", quality}, "128x128"));
+    };
+    CHECK(tree(" roughness 0.4", "medium") > tree(" roughness 1", "medium") + 30);
+    CHECK(tree(" roughness 0.4", "low") == tree(" roughness 1", "low"));
+}
+
+TEST_CASE("from medium quality on, shadows near the eye move with the wind") {
+    // The camera sees the ground alone, with the shadow of a tree beside it.
+    const SurfaceScene files("", "#n = 0;\n#w : !(0.3) F(3)[+(60)F(1)][-(60)F(1)];\n");
+    const auto at = [&](const char* time, const char* quality) {
+        return files.picture(
+            "eye 20,8,16 target 20.01,0,16 fov 20",
+            {"--sun", "180,40", "--wind", "14,0,0,0.5", "--time", time, "--quality", quality});
+    };
+    const auto change = [&](const char* quality) {
+        const PictureDifference difference = difference_of(at("0", quality), at("1.2", quality));
+        return difference.mean;
+    };
+    CHECK(change("low") == 0.0);
+    CHECK(change("medium") > 0.5);
+    // The lit ground is the same in both qualities, and the shadows lie at the same place.
+    CHECK(difference_of(at("0", "low"), at("0", "medium")).mean < 20.0);
+}
+
+TEST_CASE("from medium quality on, the ground is darker under a crown and at the foot of a trunk") {
+    // Two boughs make a crown of 3 m; the ground has one colour.
+    const SurfaceScene files(kPictured, "#n = 0;\n#w : !(0.1) F(2)[+(90)F(3)][-(90)F(3)];\n");
+    write_text(files.folder / "ground.png", encode_png(halves(kRed, kRed)));
+    const auto red_at = [&](float x, const char* quality) {
+        const std::string place = std::to_string(x) + ",0,20.3";
+        const Picture picture =
+            files.picture("eye " + std::to_string(x) + ",1,20.301 target " + place + " fov 10",
+                          {"--no-shadows", "--sun", "90,3", "--quality", quality});
+        return texel(picture, 32, 32)[0];
+    };
+    CHECK(red_at(20.3F, "medium") + 5 < red_at(21.5F, "medium"));
+    CHECK(red_at(21.5F, "medium") + 5 < red_at(30.0F, "medium"));
+    CHECK(std::abs(red_at(20.3F, "low") - red_at(30.0F, "low")) <= 1);
+    CHECK(std::abs(red_at(30.0F, "medium") - red_at(30.0F, "low")) <= 1);
+}
+
+TEST_CASE("from medium quality on, grass stands near the eye alone") {
+    const SurfaceScene files("");
+    const auto seen = [&](const char* camera, const char* quality) {
+        return files.picture(camera, {"--no-shadows", "--quality", quality}, "160x120");
+    };
+    const char* const low = "eye 6,0.6,34 target 10,0,31 fov 50";
+    const PictureDifference near = difference_of(seen(low, "low"), seen(low, "medium"));
+    CHECK(near.far > 0.005);
+    const char* const high = "eye 8,60,32.1 target 8,0,32 fov 10";
+    CHECK(difference_of(seen(high, "low"), seen(high, "medium")).mean < 0.1);
+    CHECK(seen(low, "medium").texels == seen(low, "medium").texels);
+    CHECK(difference_of(seen(low, "medium"), seen(low, "high")).mean > 0.0);
+}
+
 TEST_CASE("a picture of the ground needs no draw call, and no picture changes nothing") {
     const SurfaceScene plain("");
     const SurfaceScene pictured(kPictured);

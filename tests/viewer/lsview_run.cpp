@@ -3,6 +3,7 @@
 
 #include "viewer/app/lsview.h"
 
+#include <algorithm>
 #include <sstream>
 #include <utility>
 
@@ -13,7 +14,14 @@ LscRun run_lsview(const std::vector<std::string>& arguments) {
     std::ostringstream out;
     std::ostringstream err;
     LscRun run;
-    run.status = view::run(arguments, {in, out, err, false, nullptr, "lsview"});
+    std::vector<std::string> with_quality = arguments;
+    const auto has = [&](const char* option) {
+        return std::find(arguments.begin(), arguments.end(), option) != arguments.end();
+    };
+    if (has("--screenshot") && !has("--quality")) {
+        with_quality.insert(with_quality.begin(), {"--quality", "low"});
+    }
+    run.status = view::run(with_quality, {in, out, err, false, nullptr, "lsview"});
     run.out = std::move(out).str();
     run.err = std::move(err).str();
     return run;

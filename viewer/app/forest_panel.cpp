@@ -353,6 +353,7 @@ void draw_look(ForestView& view) {
     ImGui::Checkbox("Shadows", &settings.shadows);
     ImGui::SameLine();
     ImGui::Checkbox("Antialiasing", &settings.antialiasing);
+    draw_quality(settings.quality);
     ImGui::SameLine();
     ImGui::Checkbox("Wireframe", &settings.wireframe);
     ImGui::Checkbox("Person", &settings.figure);

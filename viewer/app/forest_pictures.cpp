@@ -71,6 +71,7 @@ std::string stats_text(const ViewOptions& options,
     stats["width"] = options.width;
     stats["height"] = options.height;
     stats["samples"] = options.samples;
+    stats["quality"] = name_of(renderer.quality());
     stats["camera"] = to_text(camera);
     stats["air_km"] = options.visibility ? static_cast<double>(*options.visibility)
                                          : default_visibility(document);

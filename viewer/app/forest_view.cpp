@@ -32,6 +32,7 @@ ForestViewSettings first_forest_settings(const ViewOptions& options) {
     settings.shadows = options.shadows;
     settings.figure = options.figure;
     settings.antialiasing = options.samples > 1;
+    settings.quality = options.quality;
     settings.wireframe = options.style == PlantStyle::Wireframe;
     settings.colours = options.colours;
     settings.windy = options.wind.has_value();
@@ -330,6 +331,7 @@ bool ForestView::refuses_painting() {
 }
 
 bool ForestView::draw(std::uint32_t width, std::uint32_t height) {
+    use_quality(settings.quality);
     Frame frame;
     frame.camera = settings.camera;
     frame.width = width;

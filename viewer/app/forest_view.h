@@ -32,6 +32,7 @@ struct ForestEdits {
     bool shadows = true;
     bool figure = false; // a person of 1.8 m where the camera looks
     bool antialiasing = true;
+    Quality quality = Quality::Auto;
     bool wireframe = false;
     BranchColours colours = BranchColours::Natural;
     bool windy = false; // wind is on

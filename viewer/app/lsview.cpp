@@ -51,6 +51,9 @@ ExitStatus make_renderer(const ViewOptions& options, const Console& console, Hid
     }
     made.renderer = std::move(renderer.value());
     made.renderer->set_culling(options.culling);
+    if (const Result<void> set = made.renderer->set_quality(options.quality); !set) {
+        return report_error(set.error(), console);
+    }
     console.detail(fmt::format("drawing by {}: {}", made.context->description(),
                                made.renderer->device_name()));
     return ExitStatus::Ok;

@@ -229,6 +229,15 @@ void add_picture(CLI::App& app, ViewOptions& options) {
         "shaders; the pictures are the same (default auto: gpu with a graphics card, cpu with a "
         "software renderer)")
         ->group("Picture");
+    add_choice<Quality>(
+        app, "--quality", options.quality,
+        {{"auto", Quality::Auto},
+         {"low", Quality::Low},
+         {"medium", Quality::Medium},
+         {"high", Quality::High}},
+        "Looks and cost of pictures (default auto: medium with a graphics card, low with a "
+        "software renderer)")
+        ->group("Picture");
     app.add_option("--shaders", options.shaders,
                    "Read shaders from this folder instead of the built-in ones")
         ->type_name("FOLDER")

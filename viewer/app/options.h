@@ -66,6 +66,7 @@ struct ViewOptions {
     std::uint64_t max_triangles = 1'500'000;               // budget of branches in a forest
     std::uint64_t stream_bytes = std::uint64_t{128} << 20; // budget of trees of a streamed forest
     Culling culling = Culling::Auto;                       // forests only
+    Quality quality = Quality::Auto;
     std::string fly_to; // camera at the end of a series; empty: the camera stays
     // Folder of shaders that replace the built-in ones; empty: none.
     std::string shaders;

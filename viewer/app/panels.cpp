@@ -112,6 +112,7 @@ void draw_statistics(ViewSwitcher& switcher, const Area& area) {
             draw_plant_times(*plant);
         }
         const Renderer& renderer = switcher.current().renderer();
+        line(fmt::format("Quality: {}", name_of(renderer.quality())));
         time_row("Frame CPU", 1e-3 * renderer.frame_times().cpu);
         time_row("Frame GPU", 1e-3 * renderer.frame_times().gpu);
         count_row("GL objects", renderer.live_objects());

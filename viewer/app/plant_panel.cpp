@@ -305,6 +305,7 @@ void draw_look(PlantViewSettings& settings) {
     ImGui::Checkbox("Ground", &settings.ground);
     ImGui::SameLine();
     ImGui::Checkbox("Antialiasing", &settings.antialiasing);
+    draw_quality(settings.quality);
     ImGui::Checkbox("Person", &settings.figure);
     draw_tooltip("A person of 1.8 m beside the plant (V): a scale, if the plant is in metres");
     draw_sun({}, settings.light);

@@ -49,6 +49,7 @@ PlantViewSettings first_plant_settings(const ViewOptions& options) {
     settings.ground = options.ground;
     settings.figure = options.figure;
     settings.antialiasing = options.samples > 1;
+    settings.quality = options.quality;
     settings.light = options.light;
     settings.simulates = options.gravity || options.wind;
     if (settings.simulates) {
@@ -555,6 +556,7 @@ PickRequest PlantView::request_for(const Picked& picked) const {
 }
 
 bool PlantView::draw(std::uint32_t width, std::uint32_t height) {
+    use_quality(settings.quality);
     Frame frame;
     frame.camera = settings.camera;
     frame.width = width;

@@ -39,6 +39,7 @@ struct PlantEdits {
     bool dims = true;    // surfaces fade while lines are shown
     bool figure = false; // a person of 1.8 m beside the plant
     bool antialiasing = true;
+    Quality quality = Quality::Auto;
     SceneLight light; // values that replace the default daylight
 
     bool simulates = false; // gravity and wind move the plant

@@ -98,6 +98,16 @@ std::vector<std::string> View::with_shader_files(std::vector<std::string> files)
     return files;
 }
 
+void View::use_quality(Quality quality) {
+    if (std::exchange(quality_, quality) == quality) {
+        return;
+    }
+    if (const Result<void> done = renderer_->set_quality(quality); !done) {
+        set_note(done.error().message);
+    }
+    changed_ = true;
+}
+
 bool View::draw_frame(const Frame& frame) {
     aspect_ = static_cast<float>(frame.width) / static_cast<float>(frame.height);
     if (!changed_ && frame_ == frame) {

@@ -102,6 +102,11 @@ public:
     [[nodiscard]] bool shows_trace() const { return wants_trace_; }
     void forget_trace();
 
+    /// Adds samples to the last picture, which must be up to date: draw() has just returned false.
+    /// Returns whether it drew.
+    [[nodiscard]] bool refine() {
+        return frame_ && frame_->samples > 1 && !changed_ && renderer_->refine();
+    }
     /// Copies the last picture to a part of the window whose context is current.
     void present(const PixelArea& area) { renderer_->present(area); }
     /// Writes the last picture to a new file in the current folder and reports its name.
@@ -144,6 +149,8 @@ protected:
         return (picker_ != nullptr && picker_->is_busy()) ||
                (tracer_ != nullptr && tracer_->is_busy());
     }
+    /// Sets the quality of the next pictures. An error is a note; the old quality stays.
+    void use_quality(Quality quality);
     /// Draws `frame` if something has changed. Returns whether it drew.
     bool draw_frame(const Frame& frame);
     /// Stores the messages of a request; prints them if they differ from the last ones.
@@ -164,7 +171,8 @@ protected:
     std::optional<Frame> frame_;
     FrameStats drawn_;
     float aspect_ = 1.0F;
-    bool changed_ = true; // the next picture is drawn even if its frame equals frame_
+    std::optional<Quality> quality_; // the last one that use_quality() set
+    bool changed_ = true;            // the next picture is drawn even if its frame equals frame_
 
 private:
     std::string text_;

@@ -55,6 +55,13 @@ std::string grouped(std::uint64_t number) {
     return digits;
 }
 
+void draw_quality(Quality& quality) {
+    int chosen = static_cast<int>(quality);
+    if (ImGui::Combo("Quality", &chosen, "Auto\0Low\0Medium\0High\0")) {
+        quality = static_cast<Quality>(chosen);
+    }
+}
+
 /// Edits a wind by its speed and by the direction it blows to, degrees from +X towards +Z.
 void draw_wind(Wind& wind) {
     constexpr float kDegrees = 180.0F / std::numbers::pi_v<float>;

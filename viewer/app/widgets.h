@@ -4,6 +4,7 @@
 
 #include "runtime/physics/physics.h"
 #include "runtime/scene/scene.h"
+#include "viewer/gl/renderer.h"
 #include "viewer/scene/camera.h"
 
 #include <cstdint>
@@ -27,6 +28,7 @@ void edit_text(const char* label, std::string& text);
 /// Digits in groups: 1,234,567.
 [[nodiscard]] std::string grouped(std::uint64_t number);
 void draw_wind(Wind& wind);
+void draw_quality(Quality& quality);
 /// Draws the sun and the turbidity. `own`: light of the scene, which `light` replaces.
 void draw_sun(const SceneLight& own, SceneLight& light);
 /// Draws the camera as an editable line of text with a button that copies it.

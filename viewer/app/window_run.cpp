@@ -29,6 +29,8 @@ constexpr double kBusy = 0.02;
 constexpr std::chrono::milliseconds kProgressInterval{100};
 // Max time step of a flying camera, s, so that a slow picture does not make it jump.
 constexpr double kMaxFlightStep = 0.1;
+/// Time without a change after which pictures are refined.
+constexpr std::chrono::milliseconds kRest{300};
 /// Count of pictures that ImGui needs to settle after input.
 constexpr int kPicturesAfterInput = 3;
 
@@ -57,7 +59,7 @@ public:
     /// Handles input and draws a picture if needed; returns false to quit.
     bool step() {
         const double wait =
-            pictures_left_ > 0 || controls_.is_moving() ? 0.0
+            pictures_left_ > 0 || refines_ || controls_.is_moving() ? 0.0
             : switcher_.current().is_busy() || panels_.film.is_busy() || panels_.sheet.is_busy()
                 ? kBusy
                 : kIdle;
@@ -150,10 +152,16 @@ private:
         }
         const Clock::time_point start = Clock::now();
         const bool drew = switcher_.current().draw(area.width, area.height);
-        if (!drew && pictures_left_ == 0) {
+        if (drew) {
+            last_drawn_ = start;
+        }
+        // At rest, refine the picture by one sample at a time, so that input is handled between them.
+        refines_ = start - last_drawn_ >= kRest && !controls_.is_moving() &&
+                   !switcher_.current().is_busy() && switcher_.current().refine();
+        if (!drew && !refines_ && pictures_left_ == 0) {
             return;
         }
-        pictures_left_ = drew ? std::max(pictures_left_, 1) : pictures_left_ - 1;
+        pictures_left_ = drew ? std::max(pictures_left_, 1) : std::max(pictures_left_ - 1, 0);
         switcher_.current().present(area);
         window_.begin_panels();
         View* const drawn = &switcher_.current();
@@ -180,6 +188,8 @@ private:
     bool shows_progress_ = false;
     bool shows_sheet_ = false;
     WindowLook look_; // of the window
+    Clock::time_point last_drawn_ = last_;
+    bool refines_ = false;
     int pictures_left_ = kPicturesAfterInput;
 };
 

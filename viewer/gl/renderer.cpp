@@ -31,6 +31,13 @@ namespace {
 constexpr std::uint32_t kShadowTexels = 2048;
 constexpr GLuint kFrameBinding = 0;
 constexpr GLuint kShadowTexture = 0;
+constexpr GLuint kNearShadowTextures = 7; // in light.glsl; of kNearMaps
+/// Shadow maps around the eye in a forest.
+struct NearMap {
+    float radius;        // m
+    std::uint32_t level; // of the branches that cast shadows
+};
+constexpr std::array<NearMap, kNearMaps> kNearMapSpecs = {{{8.0F, 0}, {30.0F, 2}}};
 // Uniform locations of ground.*.glsl.
 constexpr GLint kDisc = 0;
 constexpr GLint kGridStep = 1;
@@ -92,16 +99,45 @@ bool overlaps(const Bounds& a, const Bounds& b) {
     return a.low.x <= b.high.x && b.low.x <= a.high.x && a.low.z <= b.high.z && b.low.z <= a.high.z;
 }
 
+/// Term of the sequence of Halton (1964) to a base, 0 to 1.
+float halton(std::uint32_t index, std::uint32_t base) {
+    float sum = 0.0F;
+    for (float part = 1.0F; index != 0; index /= base) {
+        part /= static_cast<float>(base);
+        sum += part * static_cast<float>(index % base);
+    }
+    return sum;
+}
+
+/// Shifts a picture by a part of a pixel, and its dither by whole pixels. `index` 0: not at all.
+void shift(FrameBlock& block, std::uint32_t index, const PixelArea& area) {
+    if (index == 0) {
+        return;
+    }
+    const glm::vec2 by = (2.0F * glm::vec2(halton(index, 2), halton(index, 3)) - 1.0F) /
+                         glm::vec2(area.width, area.height);
+    for (int column = 0; column < 4; ++column) {
+        glm::vec4& of = block.view_projection[column];
+        of.x += by.x * of.w;
+        of.y += by.y * of.w;
+    }
+    block.clip_to_world = glm::inverse(block.view_projection);
+    block.viewport.x += 7.0F * static_cast<float>(index);
+    block.viewport.y += 3.0F * static_cast<float>(index);
+}
+
 class GlRenderer final : public Renderer {
 public:
     GlRenderer()
         : timer_(device_), target_(device_), shadow_(device_, kShadowTexels), textures_(device_),
-          plant_(device_), lines_(device_), forest_(device_), frame_(device_),
-          empty_(make_vertex_array(device_)) {}
+          plant_(device_), lines_(device_), forest_(device_), frame_(device_), near_frame_(device_),
+          empty_(make_vertex_array(device_)) {
+        device_.set_quality(tier_of(Quality::Auto));
+    }
 
     void show_plant(const Mesh& mesh) override {
         plant_.upload(mesh, textures_);
-        shadow_.invalidate();
+        invalidate_shadows();
         is_forest_ = false;
     }
     Result<void> show_forest(ForestModel model) override {
@@ -115,15 +151,33 @@ public:
             return done;
         }
         forest_.show(std::move(model), textures_);
-        shadow_.invalidate();
+        invalidate_shadows();
         is_forest_ = true;
         return {};
+    }
+    Result<void> set_quality(Quality quality) override {
+        const Quality before = std::exchange(quality_, quality);
+        const std::uint32_t tier = tier_of(quality);
+        if (tier == device_.quality()) {
+            return {};
+        }
+        const std::uint32_t tier_before = device_.quality();
+        device_.set_quality(tier);
+        Result<void> done = reload(shaders_);
+        if (!done) {
+            quality_ = before;
+            device_.set_quality(tier_before);
+        }
+        return done;
+    }
+    Quality quality() const override {
+        return static_cast<Quality>(device_.quality() + static_cast<std::uint32_t>(Quality::Low));
     }
     void set_culling(Culling culling) override { culling_ = culling; }
     void update_trees() override {
         if (is_forest_) {
             forest_.update_trees();
-            shadow_.invalidate();
+            invalidate_shadows();
         }
     }
     bool has_stand_ins() const override { return forest_.has_stand_ins(); }
@@ -132,17 +186,17 @@ public:
             return true;
         }
         const bool all = forest_.bake_impostors(seconds, textures_);
-        shadow_.invalidate();
+        invalidate_shadows();
         return all;
     }
     void change_tree(std::uint32_t index, const Tree& tree, bool alive) override {
         forest_.change_tree(index, tree, alive);
-        shadow_.invalidate();
+        invalidate_shadows();
     }
     void change_squares(const SquareChanges& changes) override {
         const Bounds changed = forest_.change_squares(changes);
         if (!changed.empty && overlaps(changed, casters_)) {
-            shadow_.invalidate();
+            invalidate_shadows();
         }
     }
     const Bounds& bounds() const override {
@@ -152,7 +206,7 @@ public:
     }
     void colour_branches(BranchColours by) override {
         forest_.set_colours(by);
-        shadow_.invalidate();
+        invalidate_shadows();
     }
     void show_lines(std::span<const LineVertex> lines) override { lines_.upload(lines); }
 
@@ -169,10 +223,115 @@ public:
         shaders_ = shaders;
         programs_ = std::move(made.value());
         pick_plant_ = {};
+        copy_ = {};
         return {};
     }
 
-    FrameStats draw(const Frame& world_frame, const PixelArea& area) override {
+    FrameStats draw(const Frame& frame, const PixelArea& area) override {
+        shown_frame_ = frame;
+        shown_area_ = area;
+        refinements_ = 0;
+        return draw_sample();
+    }
+    bool refine() override {
+        constexpr std::uint32_t kMax = 16;
+        if (!shown_frame_ || refinements_ >= kMax) {
+            return false;
+        }
+        if (!copy_) {
+            Result<ProgramObject> made =
+                make_program(device_, shaders_, "copy.vert.glsl", "copy.frag.glsl");
+            if (!made) {
+                return false; // pictures stay as they are
+            }
+            copy_ = std::move(made.value());
+        }
+        const auto add = [&] {
+            glBindVertexArray(empty_.name());
+            target_.accumulate(copy_, 1.0F / static_cast<float>(refinements_ + 1));
+        };
+        if (refinements_ == 0) {
+            add();
+        }
+        ++refinements_;
+        static_cast<void>(draw_sample());
+        add();
+        return true;
+    }
+    Result<Picked> pick(const Frame& world_frame, std::uint32_t x, std::uint32_t y) override {
+        if (Result<void> made = compile_pick_programs(); !made) {
+            return made.error();
+        }
+        const Frame frame = localised(world_frame);
+        const FrameBlock block =
+            make_frame_block(frame, {x, y, 1, 1}, glm::mat4(1.0F), kShadowTexels);
+        frame_.fill(std::span<const FrameBlock>(&block, 1));
+        glBindBufferBase(GL_UNIFORM_BUFFER, kFrameBinding, frame_.name());
+        glClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
+        glEnable(GL_DEPTH_TEST);
+        glDisable(GL_BLEND);
+        glFrontFace(GL_CCW);
+        if (is_forest_) {
+            forest_.prepare(frame);
+        }
+        PickTarget target(device_);
+        target.begin();
+        glDepthFunc(GL_GEQUAL); // reversed depth
+        if (is_forest_) {
+            forest_.draw_picked(textures_);
+        } else if (frame.style != PlantStyle::None) {
+            glUseProgram(pick_plant_.name());
+            glUniform1ui(kPickedContent, static_cast<GLuint>(PickedKind::Plant));
+            plant_.draw(textures_, PlantMesh::Pass::Pick);
+        }
+        glDisable(GL_CULL_FACE);
+        const PickTarget::Content content = target.read();
+        const auto kind = static_cast<PickedKind>(content.kind);
+        Picked picked;
+        if (kind == PickedKind::Plant) {
+            picked.triangle = content.item;
+        } else if (is_forest_) {
+            picked = forest_.picked(kind, content.item);
+        }
+        picked.kind = kind;
+        const glm::vec4 place = block.clip_to_world * glm::vec4(0.0F, 0.0F, content.depth, 1.0F);
+        const glm::dvec3 origin = frame.camera.origin;
+        picked.place = kind == PickedKind::Nothing
+                           ? glm::vec3(0.0F)
+                           : glm::vec3(origin + glm::dvec3(glm::vec3(place) / place.w));
+        return picked;
+    }
+    std::vector<std::uint32_t> trees_of(std::uint32_t form) const override {
+        return is_forest_ ? forest_.trees_of(form) : std::vector<std::uint32_t>{};
+    }
+    const ForestFrameStats& forest_stats() const override { return forest_stats_; }
+    ForestSizes forest_sizes() const override {
+        return is_forest_ ? forest_.sizes() : ForestSizes{};
+    }
+    FrameTimes frame_times() const override { return times_; }
+    void read_shown(std::vector<std::uint8_t>& pixels) override {
+        target_.read(pixels, refinements_ != 0);
+    }
+    void read(std::vector<std::uint8_t>& pixels) override {
+        if (refinements_ != 0) {
+            static_cast<void>(draw(*shown_frame_, shown_area_));
+        }
+        target_.read(pixels, false);
+        glFinish(); // reading waits for the texels only, not for the queries after them
+        collect_device_stats();
+    }
+    void present(const PixelArea& area) override { target_.present(area, refinements_ != 0); }
+
+    std::string device_name() const override { return device_.renderer(); }
+    std::uint64_t live_objects() const override { return device_.live_objects(); }
+    std::uint64_t uploaded_bytes() const override { return device_.uploaded_bytes(); }
+    const std::vector<std::string>& errors() const override { return device_.errors(); }
+
+private:
+    /// Draws the shown frame, shifted by a part of a pixel for a refinement.
+    FrameStats draw_sample() {
+        const Frame& world_frame = *shown_frame_;
+        const PixelArea& area = shown_area_;
         const double cpu_start = platform::thread_cpu_seconds();
         timer_.begin();
         FrameStats stats;
@@ -188,11 +347,10 @@ public:
             shadow_from_world = shadow_matrix(lit, frame.light.to_sun, kShadowTexels);
         }
         FrameBlock block = make_frame_block(frame, area, shadow_from_world, kShadowTexels);
+        shift(block, refinements_, area);
         if (frame.style == PlantStyle::None || lit.empty) {
             block.to_sun.w = 0.0F;
         }
-        frame_.fill(std::span<const FrameBlock>(&block, 1));
-        glBindBufferBase(GL_UNIFORM_BUFFER, kFrameBinding, frame_.name());
         glClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
         glEnable(GL_DEPTH_TEST);
         glDisable(GL_BLEND);
@@ -200,6 +358,14 @@ public:
         if (is_forest_) {
             forest_.prepare(frame);
         }
+        if (is_forest_ && block.to_sun.w != 0.0F && device_.quality() > 0) {
+            draw_near_shadows(frame, block);
+        }
+        if (is_forest_ && device_.quality() > 0) {
+            block.crowns = forest_.draw_crowns(frame.camera.eye);
+        }
+        frame_.fill(std::span<const FrameBlock>(&block, 1));
+        glBindBufferBase(GL_UNIFORM_BUFFER, kFrameBinding, frame_.name());
         if (block.to_sun.w != 0.0F && shadow_.is_stale(shadow_from_world)) {
             draw_shadows(shadow_from_world, stats);
         }
@@ -260,70 +426,12 @@ public:
         times_.cpu = 1e3 * (platform::thread_cpu_seconds() - cpu_start);
         return stats;
     }
-    Result<Picked> pick(const Frame& world_frame, std::uint32_t x, std::uint32_t y) override {
-        if (Result<void> made = compile_pick_programs(); !made) {
-            return made.error();
-        }
-        const Frame frame = localised(world_frame);
-        const FrameBlock block =
-            make_frame_block(frame, {x, y, 1, 1}, glm::mat4(1.0F), kShadowTexels);
-        frame_.fill(std::span<const FrameBlock>(&block, 1));
-        glBindBufferBase(GL_UNIFORM_BUFFER, kFrameBinding, frame_.name());
-        glClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
-        glEnable(GL_DEPTH_TEST);
-        glDisable(GL_BLEND);
-        glFrontFace(GL_CCW);
-        if (is_forest_) {
-            forest_.prepare(frame);
-        }
-        PickTarget target(device_);
-        target.begin();
-        glDepthFunc(GL_GEQUAL); // reversed depth
-        if (is_forest_) {
-            forest_.draw_picked(textures_);
-        } else if (frame.style != PlantStyle::None) {
-            glUseProgram(pick_plant_.name());
-            glUniform1ui(kPickedContent, static_cast<GLuint>(PickedKind::Plant));
-            plant_.draw(textures_, PlantMesh::Pass::Pick);
-        }
-        glDisable(GL_CULL_FACE);
-        const PickTarget::Content content = target.read();
-        const auto kind = static_cast<PickedKind>(content.kind);
-        Picked picked;
-        if (kind == PickedKind::Plant) {
-            picked.triangle = content.item;
-        } else if (is_forest_) {
-            picked = forest_.picked(kind, content.item);
-        }
-        picked.kind = kind;
-        const glm::vec4 place = block.clip_to_world * glm::vec4(0.0F, 0.0F, content.depth, 1.0F);
-        const glm::dvec3 origin = frame.camera.origin;
-        picked.place = kind == PickedKind::Nothing
-                           ? glm::vec3(0.0F)
-                           : glm::vec3(origin + glm::dvec3(glm::vec3(place) / place.w));
-        return picked;
+    /// QUALITY of shaders.
+    [[nodiscard]] std::uint32_t tier_of(Quality quality) const {
+        return quality == Quality::Auto
+                   ? (device_.is_software() ? 0 : 1)
+                   : static_cast<std::uint32_t>(quality) - static_cast<std::uint32_t>(Quality::Low);
     }
-    std::vector<std::uint32_t> trees_of(std::uint32_t form) const override {
-        return is_forest_ ? forest_.trees_of(form) : std::vector<std::uint32_t>{};
-    }
-    const ForestFrameStats& forest_stats() const override { return forest_stats_; }
-    ForestSizes forest_sizes() const override {
-        return is_forest_ ? forest_.sizes() : ForestSizes{};
-    }
-    FrameTimes frame_times() const override { return times_; }
-    void read(std::vector<std::uint8_t>& pixels) override {
-        target_.read(pixels);
-        glFinish(); // reading waits for the texels only, not for the queries after them
-        collect_device_stats();
-    }
-    void present(const PixelArea& area) override { target_.present(area); }
-
-    std::string device_name() const override { return device_.renderer(); }
-    std::uint64_t live_objects() const override { return device_.live_objects(); }
-    std::uint64_t uploaded_bytes() const override { return device_.uploaded_bytes(); }
-    const std::vector<std::string>& errors() const override { return device_.errors(); }
-
-private:
     /// The frame with a camera relative to the origin of what is shown.
     Frame localised(const Frame& frame) {
         if (!is_forest_) {
@@ -334,7 +442,7 @@ private:
         bool moved = false;
         const Frame local = forest_.localised(frame, moved);
         if (moved) {
-            shadow_.invalidate();
+            invalidate_shadows();
         }
         return local;
     }
@@ -379,12 +487,59 @@ private:
         }
     }
 
-    void draw_shadows(const glm::mat4& matrix, FrameStats& stats) {
-        shadow_.begin(matrix);
+    void invalidate_shadows() {
+        shadow_.invalidate();
+        for (ShadowMap& map : near_shadows_) {
+            map.invalidate();
+        }
+    }
+
+    static void begin_casters(ShadowMap& map, const glm::mat4& matrix) {
+        map.begin(matrix);
         glDepthFunc(GL_LEQUAL);
         glEnable(GL_POLYGON_OFFSET_FILL);
         glPolygonOffset(1.5F, 2.0F);
         glEnable(GL_DEPTH_CLAMP);
+    }
+
+    /// Draws the shadow maps around the eye, and sets the fields of the block that describe them.
+    void draw_near_shadows(const Frame& frame, FrameBlock& block) {
+        for (std::size_t i = 0; i < kNearMaps; ++i) {
+            if (near_shadows_.size() == i) {
+                near_shadows_.emplace_back(device_, kShadowTexels);
+            }
+            ShadowMap& map = near_shadows_[i];
+            // A sphere ahead of the eye, moved in large steps.
+            const float radius = kNearMapSpecs[i].radius;
+            const float step = 0.125F * radius;
+            const glm::vec3 middle =
+                glm::round((frame.camera.eye + 0.6F * radius * forward_of(frame.camera)) / step) *
+                step;
+            const glm::vec3 half(radius / std::sqrt(3.0F));
+            const glm::mat4 matrix = shadow_matrix({middle - half, middle + half, false},
+                                                   frame.light.to_sun, kShadowTexels);
+            block.near_from_world[i] = matrix;
+            block.near_maps[static_cast<int>(i)] =
+                2.0F * radius / static_cast<float>(kShadowTexels);
+            block.near_maps.z = 1.0F;
+            glBindTextureUnit(kNearShadowTextures + static_cast<GLuint>(i), map.texture());
+            if (map.is_stale(matrix) || frame.wind != near_wind_ || frame.time != near_time_) {
+                FrameBlock casters = block;
+                casters.view_projection = matrix;
+                near_frame_.fill(std::span<const FrameBlock>(&casters, 1));
+                glBindBufferBase(GL_UNIFORM_BUFFER, kFrameBinding, near_frame_.name());
+                begin_casters(map, matrix);
+                forest_.draw_near_shadows(i, matrix, kNearMapSpecs[i].level, textures_);
+                glDisable(GL_DEPTH_CLAMP);
+                glDisable(GL_POLYGON_OFFSET_FILL);
+            }
+        }
+        near_wind_ = frame.wind;
+        near_time_ = frame.time;
+    }
+
+    void draw_shadows(const glm::mat4& matrix, FrameStats& stats) {
+        begin_casters(shadow_, matrix);
         if (is_forest_) {
             forest_.draw_shadows(matrix, forest_stats_);
         } else {
@@ -445,8 +600,12 @@ private:
     GpuTimer timer_;
     FrameTimes times_;
     Culling culling_ = Culling::Auto;
+    Quality quality_ = Quality::Auto;
     RenderTarget target_;
     ShadowMap shadow_;
+    std::vector<ShadowMap> near_shadows_; // of kNearMaps; made when first needed
+    Wind near_wind_;                      // of the last near shadows
+    double near_time_ = 0.0;
     MaterialTextures textures_;
     PlantMesh plant_;
     std::unique_ptr<PlantMesh> figure_;     // made when a person is first shown
@@ -458,11 +617,21 @@ private:
     Bounds casters_;         // box of the casters of the last shadow map
     ShaderSource shaders_;   // forest shaders are compiled on first use
     bool has_forest_shaders_ = false;
+    std::optional<Frame> shown_frame_; // of the last draw()
+    PixelArea shown_area_;
+    std::uint32_t refinements_ = 0;
+    ProgramObject copy_; // compiled on first use
     Buffer frame_;
+    Buffer near_frame_; // while near_shadows_ are drawn
     VertexArray empty_;
 };
 
 } // namespace
+
+const char* name_of(Quality quality) {
+    constexpr std::array<const char*, 4> kNames = {"auto", "low", "medium", "high"};
+    return kNames[static_cast<std::size_t>(quality)];
+}
 
 glm::vec4 ground_disc_of(const Bounds& plant) {
     const glm::vec3 size = plant.high - plant.low;

@@ -104,6 +104,17 @@ enum class Culling : std::uint8_t {
     Gpu,
 };
 
+/// Looks and cost of pictures. Shaders have it as QUALITY: 0, 1, 2.
+enum class Quality : std::uint8_t {
+    Auto, // Low for a software renderer, else Medium
+    Low,
+    Medium,
+    High,
+};
+
+/// The word of `--quality`.
+[[nodiscard]] const char* name_of(Quality quality);
+
 /// Times of the last picture, ms.
 struct FrameTimes {
     double cpu = 0.0; // processor time of the thread that called draw()
@@ -180,6 +191,11 @@ public:
     virtual void show_plant(const Mesh& mesh) = 0;
     /// Replaces the lines drawn over everything.
     virtual void show_lines(std::span<const LineVertex> lines) = 0;
+    /// Sets the quality of later pictures; Auto at first. Error: a shader does not compile; the old
+    /// quality stays.
+    [[nodiscard]] virtual Result<void> set_quality(Quality quality) = 0;
+    /// Low, Medium or High.
+    [[nodiscard]] virtual Quality quality() const = 0;
     /// Sets where the trees of later forests are chosen; Auto at first.
     virtual void set_culling(Culling culling) = 0;
     /// Shows a forest in place of the plant or forest before. Forest and terrain of the model must
@@ -220,9 +236,15 @@ public:
     [[nodiscard]] virtual const ForestFrameStats& forest_stats() const = 0;
     [[nodiscard]] virtual ForestSizes forest_sizes() const = 0;
     [[nodiscard]] virtual FrameTimes frame_times() const = 0;
-    /// Rows of the last picture from top to bottom, RGBA.
+    /// Adds a sample per sample of the last picture, shifted by a part of a pixel, to the mean that
+    /// present() shows until the next draw(). What is shown must be unchanged since draw(). Returns
+    /// false, and draws nothing, once the mean has 17 pictures.
+    [[nodiscard]] virtual bool refine() = 0;
+    /// Rows of the picture that present() shows, from top to bottom, RGBA.
+    virtual void read_shown(std::vector<std::uint8_t>& pixels) = 0;
+    /// Rows of the picture of the last draw(), without refinement, from top to bottom, RGBA.
     virtual void read(std::vector<std::uint8_t>& pixels) = 0;
-    /// Copies the last picture to a part of the window whose context is current.
+    /// Copies the last picture, refined or not, to a part of the window whose context is current.
     virtual void present(const PixelArea& area) = 0;
 
     /// Device and version of OpenGL, for example

@@ -8,6 +8,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
+#include <utility>
 
 namespace lsys::view {
 
@@ -22,7 +24,7 @@ ForestLod::ForestLod(const ForestModel& model) : model_(model), added_(model.ter
     for (const TreeForm& form : model_.forms) {
         expanders_.emplace_back(*form.cache, model_.forest->key);
         first_mesh_.push_back(meshes);
-        meshes += (kBlending + 1) * static_cast<std::uint32_t>(form.cache->instances.size());
+        meshes += kGroups * static_cast<std::uint32_t>(form.cache->instances.size());
     }
     mesh_counts_.resize(meshes);
     if (model_.streamed != nullptr) {
@@ -152,6 +154,40 @@ void ForestLod::find_within(const Bounds& box, std::vector<std::uint32_t>& trees
                    cell.low.z <= box.high.z && cell.high.z >= box.low.z;
         },
         [&](std::uint32_t slot) { trees.push_back(first_added() + slot); });
+}
+
+void ForestLod::list_whole_trees(std::span<const std::uint32_t> trees,
+                                 std::uint32_t level,
+                                 std::vector<PoolBranch>& branches,
+                                 DrawLists& lists) {
+    branches.clear();
+    lists.branches.clear();
+    lists.runs.clear();
+    for (const std::uint32_t number : trees) {
+        const std::uint32_t form = lod_tree(number).form;
+        const InstanceCache& cache = *model_.forms[form].cache;
+        expanders_[form].expand(tree_of(number), [&](const BranchInstance& branch) {
+            branches.push_back(pool_branch(branch, cache.instances[branch.instance], number));
+        });
+    }
+    const auto mesh_of = [&](std::uint32_t slot) {
+        const PoolBranch& branch = branches[slot];
+        return std::pair(lod_tree(branch.tree).form, branch.mesh);
+    };
+    std::vector<std::uint32_t> slots(branches.size());
+    std::iota(slots.begin(), slots.end(), 0U);
+    std::stable_sort(slots.begin(), slots.end(),
+                     [&](std::uint32_t a, std::uint32_t b) { return mesh_of(a) < mesh_of(b); });
+    for (const std::uint32_t slot : slots) {
+        const auto [form, mesh] = mesh_of(slot);
+        const auto at = static_cast<std::uint32_t>(lists.branches.size());
+        if (lists.runs.empty() || lists.runs.back().form != form ||
+            lists.runs.back().instance != mesh) {
+            lists.runs.push_back({form, level, mesh, at, 0, false});
+        }
+        ++lists.runs.back().count;
+        lists.branches.emplace_back(slot);
+    }
 }
 
 std::uint32_t ForestLod::change_tree(std::uint32_t index, const Tree& tree, bool alive) {

@@ -35,6 +35,8 @@ struct LodOptions {
     /// From the limit of a coarser band up to this multiple of it, both bands are drawn, each in a
     /// part of the pixels, so that nothing pops.
     float blend = 1.25F;
+    /// The same multiple between two levels of branches, whose forms differ less.
+    float level_blend = 1.04F;
     /// Max triangles of branches; with more, the heights of all trees in pixels are multiplied by
     /// DrawLists::detail, below 1.
     std::uint64_t max_triangles = 1'500'000;
@@ -78,23 +80,28 @@ struct ImpostorEntry {
     friend bool operator==(const ImpostorEntry&, const ImpostorEntry&) = default;
 };
 
-/// A branch: slot in the pool and weight of blending, packed as shaders/branch.vert.glsl reads
-/// them.
+/// A branch: slot in the pool and the pixels that it draws while its tree blends, packed as
+/// shaders/branch.vert.glsl reads them.
 class BranchEntry {
 public:
     static constexpr std::uint32_t kSlotBits = 24;
-    static constexpr std::uint32_t kBlendSteps = 255;
+    static constexpr std::uint32_t kBlendSteps = 127;
 
     BranchEntry() = default;
-    /// `steps`: weight in 1/kBlendSteps; pixels with lower dither thresholds are drawn.
-    explicit BranchEntry(std::uint32_t slot, std::uint32_t steps = kBlendSteps)
-        : bits_(steps << kSlotBits | slot) {}
+    /// `steps`: weight of the finer band in 1/kBlendSteps. The finer band draws the pixels with
+    /// lower dither thresholds, a coarser level of branches the others.
+    explicit BranchEntry(std::uint32_t slot,
+                         std::uint32_t steps = kBlendSteps,
+                         bool is_coarser = false)
+        : bits_((is_coarser ? kCoarser : 0U) | steps << kSlotBits | slot) {}
     [[nodiscard]] std::uint32_t slot() const { return bits_ & ((1U << kSlotBits) - 1); }
-    [[nodiscard]] std::uint32_t steps() const { return bits_ >> kSlotBits; }
+    [[nodiscard]] std::uint32_t steps() const { return bits_ >> kSlotBits & kBlendSteps; }
+    [[nodiscard]] bool is_coarser() const { return (bits_ & kCoarser) != 0; }
 
     friend bool operator==(const BranchEntry&, const BranchEntry&) = default;
 
 private:
+    static constexpr std::uint32_t kCoarser = 1U << 31U;
     std::uint32_t bits_ = 0;
 };
 static_assert(sizeof(BranchEntry) == 4);
@@ -107,7 +114,7 @@ struct BranchRun {
     std::uint32_t instance = 0;
     std::uint32_t first = 0; // index in DrawLists::branches
     std::uint32_t count = 0;
-    bool blends = false; // with impostors of the same trees
+    bool blends = false; // with another LOD band of the same trees
 };
 
 struct DrawLists {
@@ -224,6 +231,12 @@ public:
     [[nodiscard]] double cell_size() const { return cell_size_; } // m
     [[nodiscard]] BranchPool& pool() { return pool_; }
     [[nodiscard]] const BranchPool& pool() const { return pool_; }
+    /// Lists all branches of trees in one level. Replaces `branches`, which the entries of `lists`
+    /// number, and branches and runs of `lists`.
+    void list_whole_trees(std::span<const std::uint32_t> trees,
+                          std::uint32_t level,
+                          std::vector<PoolBranch>& branches,
+                          DrawLists& lists);
     /// Appends the trees of all cells that overlap a box seen from above.
     void find_within(const Bounds& box, std::vector<std::uint32_t>& trees) const;
     [[nodiscard]] Sphere bounding_sphere(const LodTree& tree, float yaw) const {
@@ -241,14 +254,14 @@ private:
         float pixels = 0.0F;
     };
 
-    /// A tree with branches in view.
+    /// A tree with branches in view, in one level.
     struct VisibleTree {
         std::uint32_t first = 0; // index in visible_branches_
         std::uint32_t end = 0;
         std::uint32_t first_mesh = 0; // index in mesh_counts_
     };
-    /// Group of mesh_counts_ for blended trees; each level has a group before it.
-    static constexpr std::uint32_t kBlending = kTreeLevels;
+    /// Groups of mesh_counts_: trees of each level, then blended trees of each level.
+    static constexpr std::uint32_t kGroups = 2 * kTreeLevels;
 
     /// A shown square of a streamed forest. The cells of square i begin in cells_ at i times the
     /// count of cells of a square.
@@ -316,6 +329,9 @@ private:
                        float yaw,
                        std::uint32_t blend_steps,
                        const Frustum& frustum);
+    /// Weight of a level of branches against the next LOD band, in 1/BranchEntry::kBlendSteps.
+    [[nodiscard]] static std::uint32_t
+    blend_steps(float pixels, std::uint32_t level, const LodOptions& options);
     /// Level of branches for a height in pixels; kTreeLevels: an impostor.
     [[nodiscard]] static std::uint32_t level_of(float pixels, const LodOptions& options);
     [[nodiscard]] float detail_in_budget(const LodOptions& options) const;

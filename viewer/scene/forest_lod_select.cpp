@@ -249,13 +249,26 @@ std::uint32_t ForestLod::level_of(float pixels, const LodOptions& options) {
     return level;
 }
 
+std::uint32_t ForestLod::blend_steps(float pixels, std::uint32_t level, const LodOptions& options) {
+    const float blend = level + 1 == kTreeLevels ? options.blend : options.level_blend;
+    const float weight = finer_weight(pixels, options.level_pixels[level], blend);
+    return static_cast<std::uint32_t>(
+        std::lround(weight * static_cast<float>(BranchEntry::kBlendSteps)));
+}
+
 float ForestLod::detail_in_budget(const LodOptions& options) const {
     const auto fits = [&](float detail) {
         std::uint64_t triangles = 0;
         for (const Candidate& candidate : candidates_) {
-            const std::uint32_t level = level_of(candidate.pixels * detail, options);
+            const float pixels = candidate.pixels * detail;
+            const std::uint32_t level = level_of(pixels, options);
             if (level < kTreeLevels) {
-                triangles += model_.forms[lod_tree(candidate.tree).form].triangle_count(level);
+                const TreeForm& form = model_.forms[lod_tree(candidate.tree).form];
+                triangles += form.triangle_count(level);
+                if (level + 1 < kTreeLevels &&
+                    blend_steps(pixels, level, options) != BranchEntry::kBlendSteps) {
+                    triangles += form.triangle_count(level + 1);
+                }
             }
         }
         return triangles <= options.max_triangles;
@@ -329,12 +342,7 @@ void ForestLod::list_branches(const Frustum& frustum, const LodOptions& options)
             lists_.waiting += level == kTreeLevels ? 0 : 1;
             continue;
         }
-        std::uint32_t steps = kWholeWeight;
-        if (level + 1 == kTreeLevels) {
-            const float weight = finer_weight(pixels, options.level_pixels.back(), options.blend);
-            steps =
-                static_cast<std::uint32_t>(std::lround(weight * static_cast<float>(kWholeWeight)));
-        }
+        const std::uint32_t steps = blend_steps(pixels, level, options);
         const auto instances =
             static_cast<std::uint32_t>(model_.forms[tree.form].cache->instances.size());
         const auto first = static_cast<std::uint32_t>(visible_branches_.size());
@@ -343,18 +351,29 @@ void ForestLod::list_branches(const Frustum& frustum, const LodOptions& options)
             continue;
         }
         ++lists_.trees_of_level[level];
-        if (steps != kWholeWeight) {
+        const auto end = static_cast<std::uint32_t>(visible_branches_.size());
+        const auto add_level = [&](std::uint32_t begin, std::uint32_t group) {
+            const auto last = static_cast<std::uint32_t>(visible_branches_.size());
+            visible_trees_.push_back({begin, last, first_mesh_[tree.form] + group * instances});
+            for (std::uint32_t i = begin; i < last; ++i) {
+                const std::uint32_t mesh = pool_.branches()[visible_branches_[i].slot()].mesh;
+                ++mesh_counts_[visible_trees_.back().first_mesh + mesh];
+            }
+        };
+        add_level(first, steps == kWholeWeight ? level : kTreeLevels + level);
+        if (steps == kWholeWeight) {
+            continue;
+        }
+        ++lists_.blended;
+        if (level + 1 == kTreeLevels) {
             const float weight = static_cast<float>(steps) / static_cast<float>(kWholeWeight);
             lists_.trees.push_back({candidate.tree, {weight, 1.0F}});
-            ++lists_.blended;
+            continue;
         }
-        visible_trees_.push_back(
-            {first, static_cast<std::uint32_t>(visible_branches_.size()),
-             first_mesh_[tree.form] + (steps == kWholeWeight ? level : kBlending) * instances});
-        for (std::uint32_t i = first; i < visible_branches_.size(); ++i) {
-            const std::uint32_t mesh = pool_.branches()[visible_branches_[i].slot()].mesh;
-            ++mesh_counts_[visible_trees_.back().first_mesh + mesh];
+        for (std::uint32_t i = first; i < end; ++i) {
+            visible_branches_.emplace_back(visible_branches_[i].slot(), steps, true);
         }
+        add_level(end, kTreeLevels + level + 1);
     }
     list_runs();
 }
@@ -362,8 +381,8 @@ void ForestLod::list_branches(const Frustum& frustum, const LodOptions& options)
 void ForestLod::list_runs() {
     // Draw finer levels first: their trees are nearer and occlude the others.
     std::uint32_t first = 0;
-    for (std::uint32_t group = 0; group <= kBlending; ++group) {
-        const std::uint32_t level = std::min(group, kTreeLevels - 1);
+    for (std::uint32_t group = 0; group < kGroups; ++group) {
+        const std::uint32_t level = group % kTreeLevels;
         for (std::uint32_t f = 0; f < model_.forms.size(); ++f) {
             const TreeForm& form = model_.forms[f];
             const auto instances = static_cast<std::uint32_t>(form.cache->instances.size());
@@ -372,7 +391,7 @@ void ForestLod::list_runs() {
                 // `place` becomes the end of the list filled below.
                 const std::uint32_t count = std::exchange(place, first);
                 if (count != 0) {
-                    lists_.runs.push_back({f, level, i, first, count, group == kBlending});
+                    lists_.runs.push_back({f, level, i, first, count, group >= kTreeLevels});
                     lists_.triangles += std::uint64_t{count} * form.mesh_triangles[level][i];
                     first += count;
                 }

@@ -12,7 +12,7 @@ in vec3 world_normal;
 in vec2 uv;
 flat in vec3 tint;
 flat in uint kind; // flags: 1 textured, 2 translucent, 4 bumpy, 8 one colour;
-                      // bits from 8 on: translucency in 1/256
+                      // bits from 8 on: translucency in 1/256; from 20 on: roughness in 1/255
 in vec3 crown_position;
 #ifdef BAKE
 in vec3 world_position;
@@ -91,13 +91,17 @@ void main() {
 #ifdef BAKE
     albedo_out = vec4(sqrt(albedo), 1.0);
     float depth = dot(world_position - centre.xyz, to_eye) / centre.w;
-    normal_out = vec4(projected(normal), 0.5 + 0.5 * depth, min(float(kind >> 8u) / 128.0, 1.0));
+    normal_out = vec4(projected(normal), 0.5 + 0.5 * depth, min(float(kind >> 8u & 0x1FFu) / 128.0, 1.0));
 #else
-    float lit = sunlight_at(shadow_position, crown_sunlight(crown_position));
-    float translucency = float(kind >> 8u) / 256.0;
-    colour =
-        tone_mapped(apply_fog(shade_crown(albedo, normal, lit, translucency,
-                                           ambient_visibility(crown_position)),
-                               fog));
+    float lit = sunlight_near(from_eye + frame.eye_time.xyz, frame.to_sun.xyz,
+                              sunlight_at(shadow_position, crown_sunlight(crown_position)));
+    float translucency = float(kind >> 8u & 0x1FFu) / 256.0;
+    float visibility = ambient_visibility(crown_position);
+    vec3 radiance = shade_crown(albedo, normal, lit, translucency, visibility);
+#if QUALITY > 0
+    radiance += gloss(normal, -normalize(from_eye), float(kind >> 20u) / 255.0,
+                      lit * (0.4 + 0.6 * visibility), visibility);
+#endif
+    colour = tone_mapped(apply_fog(radiance, fog));
 #endif
 }

@@ -15,7 +15,7 @@ layout(location = 0) in vec3 position;  // in the box of the heroes, -1 to 1
 layout(location = 1) in uint material_index;
 layout(location = 2) in vec2 normal;    // octahedral
 layout(location = 3) in vec2 texture_coordinate;
-layout(location = 4) in uint branch;    // index in branches; upper 8 bits: weight of blending
+layout(location = 4) in uint branch;    // index in branches; from bit 24 on: BranchEntry
 #ifdef PICK
 flat out uint item;
 #endif
@@ -47,7 +47,8 @@ out vec3 from_eye;
 void main() {
     Branch at = branches[branch & 0xFFFFFFu];
 #ifdef BLENDS
-    blend_range = vec2(0.0, float(branch >> 24) / 255.0);
+    float weight = float(branch >> 24 & 127u) / 127.0;
+    blend_range = (branch >> 31) != 0u ? vec2(weight, 1.0) : vec2(0.0, weight);
 #endif
 #ifdef PICK
     item = branch & 0xFFFFFFu;
@@ -76,15 +77,23 @@ void main() {
 #ifdef LIT_AT_CORNERS
     float lit =
         sunlight_at(shadow_map_position(unswayed, frame.to_sun.xyz), crown_sunlight(in_crown));
+    lit = sunlight_near(world, frame.to_sun.xyz, lit);
     float visibility = ambient_visibility(in_crown);
     vec2 fog = fog_to(world);
     vec3 fogged_albedo = fog.y * material.colour;
-    float translucency = float(material.kind >> 8u) / 256.0;
+    float translucency = float(material.kind >> 8u & 0x1FFu) / 256.0;
     front = shade_crown(fogged_albedo, leaf_normal(surface, in_crown), lit, translucency,
                         visibility);
     back = shade_crown(fogged_albedo, leaf_normal(-surface, in_crown), lit, translucency,
                        visibility);
     vec3 fog_only = apply_fog(vec3(0.0), fog);
+#if QUALITY > 0
+    // Light that the side towards the eye reflects has the colour of the light.
+    vec3 to_eye = normalize(frame.eye_time.xyz - world);
+    vec3 shown = dot(surface, to_eye) < 0.0 ? -surface : surface;
+    fog_only += fog.y * gloss(shown, to_eye, float(material.kind >> 20u) / 255.0,
+                              lit * (0.4 + 0.6 * visibility), visibility);
+#endif
 #ifdef CUT_OUT
     fog_light = fog_only;
     kind = material.kind;

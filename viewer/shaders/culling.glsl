@@ -7,7 +7,7 @@ layout(std140, binding = 1) uniform Culling {
     vec4 eye_pixels;    // xyz: eye, m; w: height in pixels of an object as high as it is far away
     vec4 level_pixels;  // min height in pixels for each level of branches
     vec4 sway;          // Sway: per m of height, per m of width, m; w: LodOptions::blend
-    vec4 clusters;      // x: LodOptions::cluster_pixels; y: side of a cell, m
+    vec4 clusters;      // x: LodOptions::cluster_pixels; y: side of a cell, m; z: level_blend
     vec4 casters_low;   // box of the casters of shadows, m
     vec4 casters_high;
     uvec4 trees;        // x: cells; y: trees in cells; z: added trees; w: 1 to list shadow casters
@@ -20,6 +20,7 @@ layout(std140, binding = 1) uniform Culling {
 
 const uint kBlock = 256u; // elements of a workgroup of a kernel that makes a list
 const uint kLevels = 4u;
+const uint kBlendSteps = 127u; // BranchEntry::kBlendSteps
 const float kNearest = 0.1; // m: min distance
 
 // The C++ side is CullingState.
@@ -39,7 +40,8 @@ layout(std430, binding = 5) buffer State {
     uint detail;           // bits of the factor of heights
     uint level_counts[4];  // near trees with branches in view, by level
     uint triangles[2];     // of branches, 64 bits
-    uint unused[2];
+    uint coarser_used;     // branches drawn once more, in a coarser level
+    uint level_blended;    // trees drawn in two levels of branches
     uint sums[192];        // of triangles, by step and part of the search: 64 bits each
 } state;
 
@@ -84,14 +86,23 @@ bool is_within_view(vec3 centre, float radius) {
 float displacement(float height, float width) {
     return culling.sway.x * height + culling.sway.y * width + culling.sway.z;
 }
-float finer_weight(float pixels, float limit) {
-    float blend = culling.sway.w;
+float finer_weight(float pixels, float limit, float blend) {
     return blend > 1.0 ? clamp((pixels / limit - 1.0) / (blend - 1.0), 0.0, 1.0) : 1.0;
 }
 // Counts the min heights above `pixels`. A loop over level_pixels with a variable index fails: a
 // driver of NVIDIA (580.159) returned kLevels for every tree lower than the first min height.
 uint level_of(float pixels) {
     return uint(dot(vec4(lessThan(vec4(pixels), culling.level_pixels)), vec4(1.0)));
+}
+// ForestLod::blend_steps().
+uint blend_steps(float pixels, uint level) {
+    float limit = dot(culling.level_pixels, vec4(equal(uvec4(level), uvec4(0u, 1u, 2u, 3u))));
+    float blend = level + 1u == kLevels ? culling.sway.w : culling.clusters.z;
+    return uint(floor(finer_weight(pixels, limit, blend) * float(kBlendSteps) + 0.5));
+}
+// Whether a near tree is drawn in a coarser level too.
+bool has_coarser(uint level, uint steps) {
+    return level + 1u < kLevels && steps != kBlendSteps;
 }
 float factor_of_heights() {
     return uintBitsToFloat(state.detail);

@@ -57,7 +57,7 @@ uvec2 code_of(uint index) {
         vec3 eye = culling.eye_pixels.xyz;
         float away = max(distance(eye, clamp(eye, low.xyz, high)), kNearest);
         float pixels = culling.eye_pixels.w / away * cluster_size(low.w, middle);
-        weight = pixels < culling.clusters.x ? 0.0 : finer_weight(pixels, culling.clusters.x);
+        weight = pixels < culling.clusters.x ? 0.0 : finer_weight(pixels, culling.clusters.x, culling.sway.w);
     }
     if (weight >= 1.0) {
         return all;

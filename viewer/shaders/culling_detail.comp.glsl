@@ -66,8 +66,12 @@ void main() {
         for (uint part = step_number == 0u ? 0u : 1u; part < kParts; ++part) {
             // Part 0 of the first step is factor 1.
             uint units = part == 0u ? 16777216u : factor + (part << (20u - 4u * step_number));
-            uint triangles =
-                triangles_of(form, level_of(uintBitsToFloat(candidate.y) * (float(units) * kUnit)));
+            float pixels = uintBitsToFloat(candidate.y) * (float(units) * kUnit);
+            uint level = level_of(pixels);
+            uint triangles = triangles_of(form, level);
+            if (has_coarser(level, blend_steps(pixels, level))) {
+                triangles += triangles_of(form, level + 1u);
+            }
             uint before = atomicAdd(low_words[part], triangles);
             if (before + triangles < before) {
                 atomicAdd(high_words[part], 1u);

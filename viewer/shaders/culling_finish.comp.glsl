@@ -19,7 +19,9 @@ void main() {
         bool exists = number < near_count;
         bool waits = exists && near_trees[number].count == 0u;
         bool is_drawn = exists && near_trees[number].is_drawn != 0u;
-        bool is_blended = is_drawn && near_trees[number].steps != 255u;
+        uint code = exists ? near_trees[number].level_steps : 0u;
+        uint level = code >> 8, steps = code & 0xFFu;
+        bool is_blended = is_drawn && level + 1u == kLevels && steps != kBlendSteps;
         uvec4 total;
         uvec4 places = sum_before(uvec4(waits, is_blended, 0u, 0u), total);
         barrier();
@@ -28,10 +30,13 @@ void main() {
         }
         if (is_blended) {
             write_entry(culling.key.z - 1u - blended - places.y, near_trees[number].tree,
-                        float(near_trees[number].steps) / 255.0, 1.0);
+                        float(steps) / float(kBlendSteps), 1.0);
         }
         if (is_drawn) {
-            atomicAdd(state.level_counts[near_trees[number].level], 1u);
+            atomicAdd(state.level_counts[level], 1u);
+            if (has_coarser(level, steps)) {
+                atomicAdd(state.level_blended, 1u);
+            }
         }
         whole += total.x;
         blended += total.y;

@@ -7,7 +7,6 @@ layout(local_size_x = 256) in;
 layout(std430, binding = 11) readonly buffer Candidates { uvec2 candidates[]; };
 layout(std430, binding = 1) readonly buffer Trees { uvec2 trees[]; };
 layout(std430, binding = 3) buffer Identities { uint identities[]; };
-const uint kBlendSteps = 255u;
 #ifdef LIST
 #include "culling_entries.glsl"
 #include "culling_near.glsl"
@@ -38,11 +37,7 @@ void main() {
         float pixels = uintBitsToFloat(candidate.y) * factor_of_heights();
         uint level = level_of(pixels);
         if (level < kLevels) {
-            uint steps = kBlendSteps;
-            if (level + 1u == kLevels) {
-                float weight = finer_weight(pixels, culling.level_pixels[kLevels - 1u]);
-                steps = uint(floor(weight * float(kBlendSteps) + 0.5));
-            }
+            uint steps = blend_steps(pixels, level);
             uint form = trees[3u * candidate.x + 2u].y & 0xFFFFu;
             code = uvec2(level << 8 | steps, branches_of(candidate.x, form));
         }
@@ -50,18 +45,20 @@ void main() {
     }
 #endif
     bool is_near = code.y != 0u;
-    uvec4 counts = uvec4(exists && !is_near, is_near, code.y, 0u);
+    uint coarser = has_coarser(code.x >> 8, code.x & 0xFFu) ? code.y : 0u;
+    uvec4 counts = uvec4(exists && !is_near, is_near, code.y, coarser);
 #ifdef LIST
     uvec4 places = places_of(counts);
     if (is_near) {
         bool has_room = places.z + code.y <= culling.limits.z;
         uvec2 first = trees[3u * candidate.x], second = trees[3u * candidate.x + 1u];
         near_trees[places.y] = NearTree(
-            candidate.x, trees[3u * candidate.x + 2u].y & 0xFFFFu, code.x >> 8, code.x & 0xFFu,
+            candidate.x, trees[3u * candidate.x + 2u].y & 0xFFFFu, code.x, places.w,
             places.z, has_room ? code.y : 0u, 0u, uintBitsToFloat(identities[3u * candidate.x]),
             vec4(uintBitsToFloat(first), uintBitsToFloat(second)));
         if (has_room) {
             atomicMax(state.pool_used, places.z + code.y);
+            atomicMax(state.coarser_used, places.w + coarser);
         }
     } else if (exists) {
         write_entry(state.draws[1] + places.x, candidate.x, 0.0, 1.0);

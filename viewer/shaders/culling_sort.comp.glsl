@@ -7,8 +7,11 @@ layout(location = 0) uniform uint shift;
 const uint kDigits = 256u;
 const uint kPart = 2048u; // branches of a workgroup
 layout(std430, binding = 17) buffer Digits { uint digits[]; }; // by digit, then by workgroup
+uint branch_count() {
+    return state.pool_used + state.coarser_used;
+}
 uint part_count() {
-    return (state.pool_used + kPart - 1u) / kPart;
+    return (branch_count() + kPart - 1u) / kPart;
 }
 #ifdef SUM
 layout(local_size_x = 1024) in;
@@ -81,7 +84,7 @@ void main() {
     barrier();
     for (uint row = 0u; row < kPart; row += 256u) {
         uint at = block * kPart + row + index;
-        if (at < state.pool_used) {
+        if (at < branch_count()) {
             atomicAdd(next[(unsorted[at].x >> shift) & 0xFFu], 1u);
         }
     }
@@ -100,7 +103,7 @@ void main() {
     next[index] = block < part_count() ? digits[index * part_count() + block] : 0u;
     for (uint row = 0u; row < kPart; row += 256u) {
         uint at = block * kPart + row + index;
-        bool exists = at < state.pool_used;
+        bool exists = at < branch_count();
         uvec2 branch = exists ? unsorted[at] : uvec2(0u);
         uint digit = (branch.x >> shift) & 0xFFu;
         row_digits[index] = exists ? digit : kDigits;

@@ -68,6 +68,6 @@ void main() {
         uint branches = min(total.z, culling.limits.z);
         set_dispatch(2u, total.y, 64u);
         set_dispatch(3u, branches, kBlock);
-        set_dispatch(4u, branches, 2048u);
+        set_dispatch(4u, branches + min(total.w, culling.limits.z), 2048u);
     }
 }

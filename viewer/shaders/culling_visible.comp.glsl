@@ -37,12 +37,21 @@ void main() {
     vec3 centre = branch.position_scale.xyz + rotate(rotation, scale * table_vec3(at));
     bool seen = radius >= 0.0 && (is_within_view(whole, scale * form.radius + sway) ||
                                   is_in_view(centre, scale * radius + sway));
+    uint level = tree.level_steps >> 8, steps = tree.level_steps & 0xFFu;
     uint key = culling.key.w;
     if (seen) {
-        uint group = tree.steps == 255u ? tree.level : kLevels;
+        uint group = steps == kBlendSteps ? level : kLevels + level;
         key = first_key_of(tree.form) + group * instances_of(tree.form) + instance;
         atomicAdd(keys[2u * key], 1u);
         near_trees[number].is_drawn = 1u;
     }
-    sorted[slot] = uvec2(key, tree.steps << 24 | slot);
+    sorted[slot] = uvec2(key, steps << 24 | slot);
+    if (has_coarser(level, steps)) {
+        uint coarser_key = seen ? key + instances_of(tree.form) : key;
+        if (seen) {
+            atomicAdd(keys[2u * coarser_key], 1u);
+        }
+        sorted[state.pool_used + tree.first_coarser + slot - tree.first] =
+            uvec2(coarser_key, 1u << 31 | steps << 24 | slot);
+    }
 }

@@ -12,6 +12,15 @@ flat out int is_cluster;
 #ifdef PICK
 flat out uint item;
 #endif
+#if QUALITY > 0 && !defined(SHADOW)
+#define TURNS
+// The second nearest view: place of its tile in the atlas, from that of the nearest; range of the
+// dither thresholds of its pixels.
+flat out vec3 next_view;
+#ifndef DEPTH
+flat out mat3 next_world_from_impostor;
+#endif
+#endif
 invariant gl_Position; // the colour pass compares depths
 out vec3 layer_uv;              // uv; layer
 out vec3 plane_shadow_position; // at the middle plane
@@ -22,6 +31,14 @@ out vec3 plane_crown_position;       // at the middle plane, in axes of the crow
 flat out vec3 crown_step;            // per unit of depth
 flat out mat3 world_from_impostor;   // for normals
 #endif
+// Axes of a view, for normals.
+mat3 axes_of(float yaw, int view, int elevation) {
+    float tile_yaw = yaw + float(view) * (6.2831853 / float(kYaws));
+    vec3 from = rotate_y(tile_yaw, vec3(0.0, sin(kElevations[elevation]),
+                                        cos(kElevations[elevation])));
+    vec3 aside = rotate_y(tile_yaw, vec3(1.0, 0.0, 0.0));
+    return mat3(aside, cross(from, aside), from);
+}
 void main() {
 #ifdef BLENDS
     blend_range = range;
@@ -46,12 +63,29 @@ void main() {
     float turns = (atan(to_eye.x, to_eye.z) - tree.yaw) / 6.2831853;
     // Adjacent clusters change views at shifted angles, so that the changes form no visible line.
     float view_shift = is_cluster != 0 ? 0.8 * (tree.phase - 0.5) : 0.0;
-    int view = int(floor(fract(turns) * float(kYaws) + 0.5 + view_shift + float(kYaws))) % kYaws;
+    float views = fract(turns) * float(kYaws) + 0.5 + view_shift + float(kYaws);
+    int view = int(floor(views)) % kYaws;
     vec3 right = normalize(vec3(to_eye.z, 0.0, -to_eye.x) + vec3(1e-6, 0.0, 0.0));
     vec3 up = cross(to_eye, right);
     uint tile = (uint(forms[tree.form].layers.x) + tree.impostor) * uint(3 * kYaws) +
                 uint(elevation * kYaws + view);
-    vec2 at = mix(boxes[tile].xy, boxes[tile].zw, vec2(gl_VertexID & 1, gl_VertexID >> 1));
+    vec4 box = boxes[tile];
+#ifdef TURNS
+    // Near the limit between two views both are drawn, each in a part of the pixels.
+    const float kBlend = 0.1; // of the width of a view, on each side of its limits
+    float from_limit = fract(views + 0.5) - 0.5;
+    int next = (view + (from_limit < 0.0 ? 1 : kYaws - 1)) % kYaws;
+    float share = max(0.5 - 0.5 * abs(from_limit) / kBlend, 0.0);
+    // The view that follows at larger angles has the higher thresholds, so that no pixel changes
+    // where the views change places.
+    next_view = vec3(float(next - view) / float(kYaws),
+                     from_limit < 0.0 ? vec2(1.0 - share, 1.0) : vec2(0.0, share));
+    if (share > 0.0) {
+        vec4 other = boxes[tile + uint(next) - uint(view)];
+        box = vec4(min(box.xy, other.xy), max(box.zw, other.zw));
+    }
+#endif
+    vec2 at = mix(box.xy, box.zw, vec2(gl_VertexID & 1, gl_VertexID >> 1));
     vec3 size = tree.scale * picture_size(tree.form, elevation);
     vec3 world_position = centre + (2.0 * at.x - 1.0) * size.x * right +
                           (2.0 * at.y - 1.0) * size.y * up;
@@ -69,11 +103,10 @@ void main() {
     crown_step = to_eye * size.z / axes;
     plane_shadow_position = shadow_map_position(unswayed, frame.to_sun.xyz);
     fog = fog_to(world_position);
-    float tile_yaw = tree.yaw + float(view) * (6.2831853 / float(kYaws));
-    vec3 from = rotate_y(tile_yaw, vec3(0.0, sin(kElevations[elevation]),
-                                        cos(kElevations[elevation])));
-    vec3 aside = rotate_y(tile_yaw, vec3(1.0, 0.0, 0.0));
-    world_from_impostor = mat3(aside, cross(from, aside), from);
+    world_from_impostor = axes_of(tree.yaw, view, elevation);
+#if defined(TURNS) && !defined(DEPTH)
+    next_world_from_impostor = axes_of(tree.yaw, next, elevation);
+#endif
     gl_Position = frame.view_projection * vec4(world_position, 1.0);
 #endif
 }

@@ -49,6 +49,40 @@ float sunlight_at(vec3 at, float outside) {
     return mix(lit, outside, smoothstep(0.8, 1.0, max(abs(at.x), abs(at.y))));
 }
 
+// Visible fraction of the sun at a place, from the shadow maps near the eye. `offset`: against
+// self-shadowing; `lit`: value of the map of the whole view.
+#if QUALITY > 0
+layout(binding = 7) uniform sampler2DShadow nearest_map;
+layout(binding = 8) uniform sampler2DShadow near_map;
+float sunlight_of_map(sampler2DShadow map, int which, vec3 place, vec3 offset, float lit) {
+    vec3 moved = place + offset * (1.5 * frame.near_maps[which]);
+    vec3 at = (frame.near_from_world[which] * vec4(moved, 1.0)).xyz;
+    float edge = max(abs(at.x), abs(at.y));
+    if (edge >= 1.0 || at.z <= 0.0 || at.z >= 1.0) {
+        return lit;
+    }
+    float sum = 0.0;
+    for (int y = -1; y <= 1; ++y) {
+        for (int x = -1; x <= 1; ++x) {
+            vec2 aside = ((which == 0 ? 2.5 : 1.5) * frame.ground.w) * vec2(x, y);
+            sum += texture(map, vec3(at.xy * 0.5 + 0.5 + aside, at.z));
+        }
+    }
+    return mix(sum / 9.0, lit, smoothstep(0.8, 1.0, edge));
+}
+float sunlight_near(vec3 place, vec3 offset, float lit) {
+    if (frame.near_maps.z == 0.0) {
+        return lit;
+    }
+    return sunlight_of_map(nearest_map, 0, place, offset,
+                           sunlight_of_map(near_map, 1, place, offset, lit));
+}
+#else
+float sunlight_near(vec3 place, vec3 offset, float lit) {
+    return lit;
+}
+#endif
+
 // Visible fraction of the sun at a surface; the position is moved along its normal.
 float sunlight(vec3 world_position, vec3 normal, float outside) {
     return sunlight_at(shadow_map_position(world_position, normal), outside);
@@ -56,6 +90,30 @@ float sunlight(vec3 world_position, vec3 normal, float outside) {
 
 vec3 ambient(vec3 normal) {
     return mix(frame.ground.rgb, mix(frame.horizon.rgb, frame.sky.rgb, 0.6), 0.5 + 0.5 * normal.y);
+}
+
+// Radiance that the surface itself reflects: of the sun by GGX (Walter, Marschner, Li, Torrance
+// 2007), of the sky by a fit of its integral (Karis 2013, "Physically Based Shading on Mobile").
+// `to_eye`: unit vector; `roughness`: 0, a mirror, to 1.
+vec3 gloss(vec3 normal, vec3 to_eye, float roughness, float lit, float visibility) {
+    const float kHeadOn = 0.04; // reflected part of light from straight ahead
+    float n_eye = max(dot(normal, to_eye), 1e-3);
+    float n_sun = max(dot(normal, frame.to_sun.xyz), 0.0);
+    vec3 between = normalize(to_eye + frame.to_sun.xyz + vec3(1e-6));
+    float n_between = max(dot(normal, between), 0.0);
+    float alpha = max(roughness * roughness, 2e-3);
+    float spread = n_between * n_between * (alpha * alpha - 1.0) + 1.0;
+    float grazing = 1.0 - max(dot(to_eye, between), 0.0);
+    float grazing2 = grazing * grazing;
+    float fresnel = kHeadOn + (1.0 - kHeadOn) * grazing2 * grazing2 * grazing;
+    float masking = 0.5 / mix(2.0 * n_sun * n_eye, n_sun + n_eye, alpha);
+    // frame.sun is the irradiance of the sun divided by pi, as in shade().
+    float of_sun = alpha * alpha / (spread * spread) * masking * fresnel * n_sun * lit;
+    vec4 fit = roughness * vec4(-1.0, -0.0275, -0.572, 0.022) + vec4(1.0, 0.0425, 1.04, -0.04);
+    float rim = min(fit.x * fit.x, exp2(-9.28 * n_eye)) * fit.x + fit.y;
+    float of_sky = kHeadOn * (fit.z - 1.04 * rim) + fit.w + 1.04 * rim;
+    return frame.sun.rgb * min(of_sun, 8.0) +
+           ambient(reflect(-to_eye, normal)) * (max(of_sky, 0.0) * visibility);
 }
 
 // Radiance of a surface. `translucency`: fraction of the light from behind that passes through.

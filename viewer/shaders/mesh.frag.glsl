@@ -3,7 +3,7 @@
 #include "blend.glsl"
 layout(binding = 1) uniform sampler2D base_texture;
 layout(binding = 2) uniform sampler2D normal_texture;
-layout(location = 0) uniform vec4 base_colour;
+layout(location = 0) uniform vec4 base_colour; // w: roughness
 layout(location = 1) uniform ivec4 kind; // x: textured, y: bumpy, z: alpha mask, w: translucency in 1/256
 in vec3 world_position;
 in vec3 world_normal;
@@ -35,6 +35,10 @@ void main() {
     // Light that passes through a surface arrives on its other side.
     bool is_lit_from_behind = translucency > 0.0 && dot(geometric, frame.to_sun.xyz) < 0.0;
     float lit = sunlight(world_position, is_lit_from_behind ? -geometric : geometric, 1.0);
-    colour = tone_mapped(
-        fogged(shade(albedo, normal, world_position, lit, translucency), world_position));
+    vec3 radiance = shade(albedo, normal, world_position, lit, translucency);
+#if QUALITY > 0
+    vec3 to_eye = normalize(frame.eye_time.xyz - world_position);
+    radiance += gloss(normal, to_eye, base_colour.w, lit, 1.0);
+#endif
+    colour = tone_mapped(fogged(radiance, world_position));
 }

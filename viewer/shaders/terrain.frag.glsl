@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "light.glsl"
+#include "crowns.glsl"
 #ifdef PICTURE
 layout(binding = 3) uniform sampler2D colours;
 layout(binding = 4) uniform sampler2D normal_map; // normals as in glTF
@@ -7,9 +8,7 @@ layout(location = 16) uniform vec4 tiles;     // a corner of a tile; its sides; 
 layout(location = 17) uniform vec3 mean;      // mean of the colours
 layout(location = 18) uniform int has_normal_map;
 #else
-layout(binding = 2) uniform sampler2D noise; // tileable
-layout(location = 20) uniform vec2 widest_shift;    // place of the origin in the turned noise tile
-layout(location = 21) uniform vec2 noise_shifts[3]; // place of the origin in the other tiles
+#include "ground_look.glsl"
 #endif
 layout(location = 24) uniform vec3 canopy;       // colour of crowns
 layout(location = 25) uniform vec2 canopy_range; // m, where the canopy begins and is complete; y 0: none
@@ -34,32 +33,37 @@ void main() {
         normal = normalize(mix(normal, up, far));
     }
 #else
-// Grass on level ground, earth on steep ground and in bare patches.
 void main() {
     vec3 up = normalize(world_normal);
-    // Noise tiles of 173, 37 and 3.1 m; the two smaller ones fade before their repetition shows. A
-    // tile of 611 m, turned by the angle of a 3-4-5 triangle, hides the repetition of the largest.
-    float away = fog.z;
-    vec4 widest_noise =
-        texture(noise, mat2(0.8, 0.6, -0.6, 0.8) * world_position.xz * (1.0 / 611.0) + widest_shift);
-    vec4 large_noise = texture(noise, world_position.xz * (1.0 / 173.0) + noise_shifts[0]);
-    vec4 medium_noise = mix(vec4(0.5), texture(noise, world_position.zx * (1.0 / 37.0) + noise_shifts[1].yx),
-                       clamp(2.0 - away / 150.0, 0.0, 1.0));
-    vec4 small_noise = mix(vec4(0.5), texture(noise, world_position.xz * (1.0 / 3.1) + noise_shifts[2]),
-                     clamp(2.0 - away / 15.0, 0.0, 1.0));
-    float wide = 0.5 + 0.8 * (large_noise.r - 0.5) + 0.8 * (widest_noise.b - 0.5);
-    float middle = 0.4 * large_noise.g + 0.4 * medium_noise.r + 0.2 * small_noise.r;
-    float fine = 0.5 * (medium_noise.g + small_noise.b);
     float steep = 1.0 - up.y;
-    float patches = 0.55 * wide + 0.35 * middle + 0.25 * fine - 0.1;
-    float bare = smoothstep(0.42, 0.72, patches + 2.0 * steep);
-    vec3 grass = mix(vec3(0.028, 0.056, 0.012), vec3(0.066, 0.086, 0.026), middle);
-    vec3 earth = mix(vec3(0.060, 0.045, 0.030), vec3(0.110, 0.086, 0.058), small_noise.g);
-    vec3 albedo = mix(grass, earth, bare) * (0.7 + 0.6 * fine);
-    vec3 normal = normalize(up + 0.4 * vec3(fine - 0.5, 0.0, small_noise.g - 0.5));
+    GroundLook look = ground_look(world_position.xz, fog.z, steep);
+    vec3 earth = mix(vec3(0.060, 0.045, 0.030), vec3(0.110, 0.086, 0.058), look.small);
+    vec3 albedo = mix(grass_colour(look.middle), earth, look.bare);
+#if QUALITY > 0
+    // Rock on steep ground, litter under crowns.
+    vec3 rock = mix(vec3(0.085, 0.083, 0.078), vec3(0.190, 0.183, 0.170), look.middle);
+    albedo = mix(albedo, rock, smoothstep(0.16, 0.30, steep + 0.2 * (look.coarse - 0.5)));
+    vec4 detail = mix(vec4(0.5), texture(noise, world_position.xz * (1.0 / 0.7)),
+                      clamp(2.0 - fog.z / 8.0, 0.0, 1.0));
+    vec3 litter = mix(vec3(0.034, 0.026, 0.016), vec3(0.084, 0.064, 0.040),
+                      clamp(0.5 * look.small + 1.6 * (detail.r - 0.5) + 0.25, 0.0, 1.0));
+    float shade_of_crowns = 1.0 - openness_at(world_position.xz).x;
+    albedo = mix(albedo, litter,
+                 0.85 * smoothstep(0.2, 0.8, shade_of_crowns + 0.9 * (look.middle - 0.5) +
+                                                 0.3 * (detail.g - 0.5)));
+    albedo *= 0.75 + 0.5 * detail.b;
 #endif
-    float lit = sunlight_at(shadow_position, 1.0);
+    albedo *= 0.7 + 0.6 * look.fine;
+    vec3 normal = normalize(up + 0.4 * vec3(look.fine - 0.5, 0.0, look.small - 0.5));
+#endif
+    float lit = sunlight_near(world_position, up, sunlight_at(shadow_position, 1.0));
+#if QUALITY > 0
+    float left = ambient_left(openness_at(world_position.xz));
+    vec3 light = albedo * (left * ambient(normal) +
+                           frame.sun.rgb * (lit * max(dot(normal, frame.to_sun.xyz), 0.0)));
+#else
     vec3 light = shade(albedo, normal, world_position, lit, 0.0);
+#endif
     if (canopy_range.y > 0.0) {
         // Crowns seen from afar: part of their surface is in the shade of others.
         vec3 crowns = shade_crown(canopy, up, 0.8 * lit, 0.0, 0.9);

@@ -109,6 +109,14 @@ TEST_CASE("the option --air is for forests") {
     }
 }
 
+TEST_CASE("the option --quality sets looks and cost of pictures") {
+    CHECK(parsed<ViewOptions>({"a.lsys"}).quality == Quality::Auto);
+    CHECK(parsed<ViewOptions>({"a.lsys", "--quality", "low"}).quality == Quality::Low);
+    CHECK(parsed<ViewOptions>({"a.lsys", "--quality", "high"}).quality == Quality::High);
+    CHECK(parsed<UsageError>({"a.lsys", "--quality", "best"}).message.find("--quality") !=
+          std::string::npos);
+}
+
 TEST_CASE("the option --culling says where trees are chosen") {
     CHECK(parsed<ViewOptions>({"wood.toml"}).culling == Culling::Auto);
     CHECK(parsed<ViewOptions>({"wood.toml", "--culling", "cpu"}).culling == Culling::Cpu);

@@ -89,14 +89,14 @@ std::map<std::uint32_t, std::pair<long, long>> ranges_of(const std::vector<Impos
     return ranges;
 }
 
-/// Branches that are drawn: tree, instance, weight of blending.
-using DrawnBranches = std::vector<std::tuple<std::uint32_t, std::uint32_t, std::uint32_t>>;
+/// Branches that are drawn: tree, instance, weight of blending, whether in the coarser level.
+using DrawnBranches = std::vector<std::tuple<std::uint32_t, std::uint32_t, std::uint32_t, bool>>;
 template <typename Pool>
 DrawnBranches drawn_of(const std::vector<BranchEntry>& entries, const Pool& pool) {
     DrawnBranches drawn;
     for (const BranchEntry& entry : entries) {
         const PoolBranch& branch = pool[entry.slot()];
-        drawn.emplace_back(branch.tree, branch.mesh, entry.steps());
+        drawn.emplace_back(branch.tree, branch.mesh, entry.steps(), entry.is_coarser());
     }
     std::sort(drawn.begin(), drawn.end());
     return drawn;
@@ -134,7 +134,9 @@ void compare(CulledWood& both, const Camera& camera, const LodOptions& options, 
     CHECK(device.state.triangle_count() == cpu.triangles);
     CHECK(device.state.level_counts == cpu.trees_of_level);
     CHECK(device.state.drawn_branches == cpu.branches.size());
-    CHECK(std::uint64_t{device.state.cluster_blended} + device.state.branch_blended == cpu.blended);
+    CHECK(std::uint64_t{device.state.cluster_blended} + device.state.branch_blended +
+              device.state.level_blended ==
+          cpu.blended);
     const auto gap = [](std::uint64_t a, std::uint64_t b) { return a < b ? b - a : a - b; };
     CHECK(gap(device.state.occluded, cpu.occluded) <= 16 * allowed);
     CHECK(gap(device.state.clustered, cpu.clustered_trees) <= 16 * allowed);

@@ -60,11 +60,12 @@ TEST_CASE("every pixel of a tree in view is drawn by exactly one LOD band") {
     ForestLod lod(wood->model);
     CHECK(lod.trees().size() == 3000);
     std::uint64_t blended = 0;
+    std::uint64_t level_blended = 0;
     for (const Camera& camera : cameras()) {
         const Frustum frustum = make_frustum(camera, 640, 480);
         const DrawLists& lists = lod.select(frustum, wood_lod());
-        std::map<std::uint32_t, float> near; // by tree: weight of its branches
-        std::map<std::uint32_t, std::set<std::uint32_t>> levels;
+        std::map<std::uint32_t, float> near; // by tree: weight of its finer branches
+        std::map<std::uint32_t, std::map<std::uint32_t, BlendRange>> levels; // by tree and level
         for (const BranchRun& run : lists.runs) {
             for (std::uint32_t i = run.first; i < run.first + run.count; ++i) {
                 const BranchEntry branch = lists.branches[i];
@@ -73,17 +74,21 @@ TEST_CASE("every pixel of a tree in view is drawn by exactly one LOD band") {
                                      static_cast<float>(BranchEntry::kBlendSteps);
                 CHECK(run.blends == (weight < 1.0F));
                 CHECK(near.emplace(tree, weight).first->second == weight);
-                levels[tree].insert(run.level);
+                const BlendRange range =
+                    branch.is_coarser() ? BlendRange{weight, 1.0F} : BlendRange{0.0F, weight};
+                CHECK(levels[tree].emplace(run.level, range).first->second == range);
             }
-        }
-        for (const auto& [tree, of_tree] : levels) {
-            CHECK(of_tree.size() == 1);
         }
         CHECK(near.size() == branch_trees(lists));
         std::vector<std::vector<BlendRange>> ranges(lod.trees().size());
-        for (const auto& [tree, weight] : near) {
-            if (weight > 0.0F) {
-                ranges[tree].push_back({0.0F, weight});
+        for (const auto& [tree, of_tree] : levels) {
+            // Two levels of a tree are adjacent; the map begins with the finer one.
+            CHECK(of_tree.rbegin()->first - of_tree.begin()->first == of_tree.size() - 1);
+            level_blended += of_tree.size() == 2 ? 1U : 0U;
+            for (const auto& [level, range] : of_tree) {
+                if (range.low < range.high) {
+                    ranges[tree].push_back(range);
+                }
             }
         }
         for (const ImpostorEntry& tree : lists.trees) {
@@ -134,6 +139,7 @@ TEST_CASE("every pixel of a tree in view is drawn by exactly one LOD band") {
         }
     }
     CHECK(blended > 0);
+    CHECK(level_blended > 0);
 }
 
 TEST_CASE("a tree that comes nearer blends from one LOD band to the next") {
@@ -141,19 +147,28 @@ TEST_CASE("a tree that comes nearer blends from one LOD band to the next") {
     ForestLod lod(wood->model);
     constexpr float kStep = 1.004F;
     const LodOptions options = wood_lod();
-    const float max_change = 1.5F * (kStep - 1.0F) * options.blend / (options.blend - 1.0F) + 0.01F;
-    std::map<std::uint32_t, float> branches_before;
+    const auto max_change = [&](float blend) {
+        return 1.5F * (kStep - 1.0F) * blend / (blend - 1.0F) + 0.01F;
+    };
+    // Level of each tree: between two levels where it blends; kTreeLevels: an impostor.
+    const auto whole = static_cast<float>(kTreeLevels);
+    std::map<std::uint32_t, float> levels_before;
     float horizon_before = 0.0F;
     float largest = 0.0F;
     bool is_first = true;
     for (float away = 2000.0F; away > 20.0F; away /= kStep) {
         const DrawLists& lists = lod.select(
             make_frustum(looking({2.5F, 1, 2.5F + away}, {2.5F, 1, 2.5F}), 640, 480), options);
-        // Weight of the branches of each tree, and fraction of the forest drawn as clusters.
-        std::map<std::uint32_t, float> branches;
-        for (const BranchEntry branch : lists.branches) {
-            branches[lod.pool().branches()[branch.slot()].tree] =
-                static_cast<float>(branch.steps()) / static_cast<float>(BranchEntry::kBlendSteps);
+        // Level of the trees, and fraction of the forest drawn as clusters.
+        std::map<std::uint32_t, float> levels;
+        for (const BranchRun& run : lists.runs) {
+            for (std::uint32_t i = run.first; i < run.first + run.count; ++i) {
+                const BranchEntry branch = lists.branches[i];
+                const float weight = static_cast<float>(branch.steps()) /
+                                     static_cast<float>(BranchEntry::kBlendSteps);
+                levels[lod.pool().branches()[branch.slot()].tree] =
+                    static_cast<float>(run.level) + (branch.is_coarser() ? 0.0F : 1.0F) - weight;
+            }
         }
         float horizon = 0.0F;
         for (const ImpostorEntry& cluster : lists.clusters) {
@@ -161,14 +176,18 @@ TEST_CASE("a tree that comes nearer blends from one LOD band to the next") {
                 (cluster.range.high - cluster.range.low) / static_cast<float>(lod.cells().size());
         }
         for (std::uint32_t tree = 0; tree < lod.trees().size() && !is_first; ++tree) {
-            const float change = std::abs(branches[tree] - branches_before[tree]);
+            const float level = levels.emplace(tree, whole).first->second;
+            const float before = levels_before.emplace(tree, whole).first->second;
+            const float change = std::abs(level - before);
             largest = std::max(largest, change);
-            REQUIRE(change <= max_change);
+            REQUIRE(change <= max_change(std::min(level, before) < whole - 1.0F
+                                             ? options.level_blend
+                                             : options.blend));
         }
         if (!is_first) {
-            REQUIRE(std::abs(horizon - horizon_before) <= max_change);
+            REQUIRE(std::abs(horizon - horizon_before) <= max_change(options.blend));
         }
-        branches_before = std::move(branches);
+        levels_before = std::move(levels);
         horizon_before = horizon;
         is_first = false;
     }

@@ -24,8 +24,8 @@ struct CullingTables {
     std::uint32_t max_branches = 0;
 };
 
-/// Groups of branches: one for each level, and one for blended trees.
-inline constexpr std::uint32_t kBranchGroups = kTreeLevels + 1;
+/// Groups of branches: one for each level, and one for blended trees of each level.
+inline constexpr std::uint32_t kBranchGroups = 2 * kTreeLevels;
 
 /// Nullopt: instances are nested deeper than kMaxWalkDepth.
 [[nodiscard]] std::optional<CullingTables> make_culling_tables(const ForestModel& model);

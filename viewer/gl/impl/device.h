@@ -28,6 +28,10 @@ public:
     /// Whether the processor draws, as llvmpipe does.
     [[nodiscard]] bool is_software() const { return is_software_; }
 
+    /// QUALITY of the shaders compiled later: 0 to 2.
+    [[nodiscard]] std::uint32_t quality() const { return quality_; }
+    void set_quality(std::uint32_t quality) { quality_ = quality; }
+
     void add_object() { ++live_; }
     void remove_object() { --live_; }
     void add_upload(std::uint64_t bytes) { uploaded_ += bytes; }
@@ -41,6 +45,7 @@ public:
 
 private:
     bool is_software_ = false;
+    std::uint32_t quality_ = 0;
     GLsync pass_end_ = nullptr; // end of the last pass
     std::uint64_t live_ = 0;
     std::uint64_t uploaded_ = 0;

@@ -42,13 +42,16 @@ static_assert(sizeof(Vertex) == 16);
 
 struct MaterialRecord {
     glm::vec3 colour{};
-    std::uint32_t kind = 0; // kTextured, kTranslucent, kBumpy; from bit 8 on: translucency in 1/256
+    // kTextured, kTranslucent, kBumpy; from bit 8 on: translucency in 1/256; from bit 20 on:
+    // roughness in 1/255
+    std::uint32_t kind = 0;
 };
 static_assert(sizeof(MaterialRecord) == 16);
 constexpr std::uint32_t kTextured = 1; // bits in branch.frag.glsl
 constexpr std::uint32_t kTranslucent = 2;
 constexpr std::uint32_t kBumpy = 4;
 constexpr unsigned kTranslucencyShift = 8;
+constexpr unsigned kRoughnessShift = 20;
 
 struct FormRecord {
     glm::vec4 cylinder{};
@@ -112,7 +115,9 @@ std::vector<std::uint16_t> add_materials(const std::vector<Material>& materials,
         const bool is_bumpy = material.normal_map != nullptr ||
                               (material.textured && material.kind == MaterialKind::Bark);
         record.kind = (material.textured ? kTextured : 0) | (translucency > 0 ? kTranslucent : 0) |
-                      (is_bumpy ? kBumpy : 0) | translucency << kTranslucencyShift;
+                      (is_bumpy ? kBumpy : 0) | translucency << kTranslucencyShift |
+                      static_cast<std::uint32_t>(std::lround(255.0F * roughness_of(material)))
+                          << kRoughnessShift;
         const auto same =
             std::find_if(records.begin(), records.end(), [&](const MaterialRecord& other) {
                 return other.colour == record.colour && other.kind == record.kind;
@@ -139,7 +144,8 @@ ForestBuffers::DrawBuffers ForestBuffers::make_draw_buffers(Device& device) {
 ForestBuffers::ForestBuffers(Device& device)
     : array_(make_vertex_array(device)), vertices_(device), indices_(device), materials_(device),
       forms_(device), branch_colours_(device), clusters_(device),
-      forest_(make_draw_buffers(device)), impostor_(make_draw_buffers(device)), device_(&device) {
+      forest_(make_draw_buffers(device)), impostor_(make_draw_buffers(device)),
+      shadow_(make_draw_buffers(device)), device_(&device) {
     const GLuint array = array_.name();
     for (GLuint i = 0; i <= kBranchAttribute; ++i) {
         glEnableVertexArrayAttrib(array, i);
@@ -155,7 +161,9 @@ ForestBuffers::ForestBuffers(Device& device)
 }
 
 void ForestBuffers::use(BufferSet set) {
-    current_ = set == BufferSet::Forest ? &forest_ : &impostor_;
+    current_ = set == BufferSet::Forest     ? &forest_
+               : set == BufferSet::Impostor ? &impostor_
+                                            : &shadow_;
 }
 
 std::size_t ForestBuffers::class_of(const Material& material) const {
@@ -211,7 +219,7 @@ void ForestBuffers::upload_pictures(const ForestModel& model, const MaterialText
             }
         }
     }
-    for (DrawBuffers* const buffers : {&forest_, &impostor_}) {
+    for (DrawBuffers* const buffers : {&forest_, &impostor_, &shadow_}) {
         while (buffers->commands.size() < 2 * class_count()) {
             buffers->commands.push_back({Buffer(*device_), 0});
         }
@@ -450,7 +458,6 @@ void ForestBuffers::set_branches(std::span<const PoolBranch> branches) {
 
 void ForestBuffers::upload_commands(const DrawLists& lists) {
     current_->lists.fill(std::span<const BranchEntry>(lists.branches));
-    glVertexArrayVertexBuffer(array_.name(), 1, current_->lists.name(), 0, sizeof(BranchEntry));
     std::vector<std::vector<DrawCommand>> commands(2 * class_count());
     for (const BranchRun& run : lists.runs) {
         const FormLevel& level = form_levels_[run.form][run.level];
@@ -477,9 +484,9 @@ ForestBuffers::command_templates(const std::vector<std::uint32_t>& first_keys) c
             range.first = static_cast<std::uint32_t>(templates.commands.size());
             // Finer levels first, as in ForestLod::list_runs().
             for (std::uint32_t group = blends ? kTreeLevels : 0;
-                 group < (blends ? kTreeLevels + 1 : kTreeLevels); ++group) {
+                 group < (blends ? 2 * kTreeLevels : kTreeLevels); ++group) {
                 for (std::size_t f = 0; f < form_levels_.size(); ++f) {
-                    const FormLevel& level = form_levels_[f][std::min(group, kTreeLevels - 1)];
+                    const FormLevel& level = form_levels_[f][group % kTreeLevels];
                     const auto instances =
                         static_cast<std::uint32_t>(level.ranges.size() / class_count());
                     for (std::uint32_t i = 0; i < instances; ++i) {
@@ -522,11 +529,14 @@ std::uint64_t ForestBuffers::draw(BranchClass kind, bool blends) const {
     return draw(static_cast<std::size_t>(kind), blends);
 }
 
-std::uint64_t ForestBuffers::draw_pictures(GLuint solid, GLuint cut_out, bool blends) const {
+std::uint64_t ForestBuffers::draw_pictures(GLuint solid,
+                                           GLuint cut_out,
+                                           GLuint bumpy_cut_out,
+                                           bool blends) const {
     std::uint64_t draws = 0;
     for (std::size_t i = 0; i < pictures_.size(); ++i) {
         const BranchPicture& picture = pictures_[i];
-        glUseProgram(picture.has_holes ? cut_out : solid);
+        glUseProgram(!picture.has_holes ? solid : picture.normal_map ? bumpy_cut_out : cut_out);
         if (picture.colour) {
             glBindTextureUnit(picture.has_holes ? kLeafTexture : kBarkTexture,
                               picture.colour.name());
@@ -547,9 +557,12 @@ void ForestBuffers::bind_storage() const {
         constexpr GLsizei kPair = 2 * sizeof(std::uint32_t);
         glVertexArrayVertexBuffer(array_.name(), 1, device_draws_->list, sizeof(std::uint32_t),
                                   kPair);
+    } else {
+        glVertexArrayVertexBuffer(array_.name(), 1, current_->lists.name(), 0, sizeof(BranchEntry));
     }
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, kBranches, branches);
-    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, kTrees, current_->trees.name());
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, kTrees,
+                     (current_ == &shadow_ ? forest_ : *current_).trees.name());
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, kForms, forms_.name());
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, kMaterials, materials_.name());
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, kBranchColours, branch_colours_.name());

@@ -30,8 +30,9 @@ enum class BranchClass : std::uint8_t {
 inline constexpr std::size_t kBranchClasses = 4;
 
 /// Buffers that uploads and draws use. Baking of impostors has a set of its own, because it happens
-/// between pictures of the forest.
-enum class BufferSet : std::uint8_t { Forest, Impostor };
+/// between pictures of the forest. Shadow: casters of the shadow maps near the eye, with the trees of
+/// Forest.
+enum class BufferSet : std::uint8_t { Forest, Impostor, Shadow };
 
 struct DrawCommand { // layout of glMultiDrawElementsIndirect
     std::uint32_t count = 0;
@@ -104,9 +105,10 @@ public:
     /// `blends`: runs of blended trees; the program needs BLENDS.
     std::uint64_t draw(BranchClass kind, bool blends = false) const;
     /// Draws the branches whose material has a picture file: with the program `cut_out` if the
-    /// picture has holes, else with `solid`. Binds these programs and textures of bark, leaves and
-    /// normal maps; returns the count of draw calls.
-    std::uint64_t draw_pictures(GLuint solid, GLuint cut_out, bool blends) const;
+    /// picture has holes, `bumpy_cut_out` if it has a normal map too, else with `solid`. Binds these
+    /// programs and textures of bark, leaves and normal maps; returns the count of draw calls.
+    std::uint64_t
+    draw_pictures(GLuint solid, GLuint cut_out, GLuint bumpy_cut_out, bool blends) const;
     void bind_storage() const;
     /// Rebinds storage so that tree indices of later draws mean clusters. Call after
     /// bind_storage().
@@ -180,6 +182,7 @@ private:
     Buffer clusters_;
     DrawBuffers forest_;
     DrawBuffers impostor_;
+    DrawBuffers shadow_;
     DrawBuffers* current_ = &forest_;
     std::vector<float> boxes_;                  // by form: half side of the box of its vertices, m
     std::vector<std::uint64_t> mesh_digests_;   // by form

@@ -259,10 +259,10 @@ bool ForestCulling::show(const ForestLod& lod, ForestBuffers& buffers) {
     nodes_.allocate(std::size_t{max_branches_} * 4 * sizeof(std::uint32_t));
     branches_.allocate(max_branches_ * sizeof(PoolBranch));
     for (Buffer& sorted : sorted_) {
-        sorted.allocate(std::size_t{max_branches_} * 2 * sizeof(std::uint32_t));
+        sorted.allocate(std::size_t{2} * max_branches_ * 2 * sizeof(std::uint32_t));
     }
-    digits_.allocate((std::size_t{max_branches_} / kSortPart + 1) * (std::size_t{1} << kDigitBits) *
-                     sizeof(std::uint32_t));
+    digits_.allocate((std::size_t{2} * max_branches_ / kSortPart + 1) *
+                     (std::size_t{1} << kDigitBits) * sizeof(std::uint32_t));
     keys_.allocate((std::size_t{table_layout_.key_count} + 1) * 2 * sizeof(std::uint32_t));
     sort_passes_ = 1;
     while (sort_passes_ < 4 && table_layout_.key_count >> (sort_passes_ * kDigitBits) != 0) {
@@ -437,7 +437,8 @@ void ForestCulling::select(const ForestLod& lod, const ForestBuffers& buffers, c
     block.level_pixels = glm::make_vec4(view.options.level_pixels.data());
     const Sway sway = sway_in(view.options.wind);
     block.sway = {sway.height_factor, sway.width_factor, sway.flutter, view.options.blend};
-    block.clusters = {view.options.cluster_pixels, static_cast<float>(lod.cell_size()), 0.0F, 0.0F};
+    block.clusters = {view.options.cluster_pixels, static_cast<float>(lod.cell_size()),
+                      view.options.level_blend, 0.0F};
     block.limits = {static_cast<std::uint32_t>(view.options.max_triangles),
                     static_cast<std::uint32_t>(view.options.max_triangles >> 32U), 0, 0};
     // Seen from below, the ground is invisible and occludes nothing.

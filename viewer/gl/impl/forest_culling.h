@@ -53,7 +53,8 @@ struct CullingState {
     float detail = 1.0F;
     std::array<std::uint32_t, kTreeLevels> level_counts{};
     std::array<std::uint32_t, 2> triangles{};
-    std::array<std::uint32_t, 2> unused{};
+    std::uint32_t coarser_used = 0;  // branches drawn once more, in a coarser level
+    std::uint32_t level_blended = 0; // trees drawn in two levels of branches
 
     [[nodiscard]] std::uint64_t triangle_count() const {
         return std::uint64_t{triangles[1]} << 32U | triangles[0];

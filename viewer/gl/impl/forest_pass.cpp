@@ -33,6 +33,7 @@ constexpr GLuint kNormalMapTexture = 5;
 constexpr GLint kPickedContent = 20; // in pick.frag.glsl
 // Half side of the shadow map near the ground, and its max, m.
 constexpr float kMinShadowRange = 45.0F;
+constexpr float kMinFarShadowRange = 120.0F;
 constexpr float kMaxShadowRange = 400.0F;
 constexpr float kGroundBeyond = 3000.0F; // m, range of the ground beyond the forest
 
@@ -94,12 +95,22 @@ Result<void> ForestPass::reload(const ShaderSource& shaders) {
     if (Result<void> done = terrain_.reload(shaders); !done) {
         return done;
     }
+    ProgramObject crown_program;
+    if (device_->quality() > 0) {
+        Result<ProgramObject> made =
+            make_program(*device_, shaders, "crown.vert.glsl", "crown.frag.glsl");
+        if (!made) {
+            return made.error();
+        }
+        crown_program = std::move(made.value());
+    }
     if (culling_ != nullptr) {
         if (Result<void> done = culling_->reload(shaders); !done) {
             return done;
         }
     }
     programs_ = std::move(programs);
+    crown_program_ = std::move(crown_program);
     pick_programs_.reset();
     return {};
 }
@@ -109,6 +120,7 @@ void ForestPass::show(ForestModel model, const MaterialTextures& textures) {
     lists_ = nullptr;
     lod_.reset();
     model_ = std::move(model);
+    forget_near_trees();
     lod_ = std::make_unique<ForestLod>(model_);
     ImpostorPlan plan = plan_impostors(*lod_);
     has_clusters_ = plan.has_clusters;
@@ -138,6 +150,7 @@ void ForestPass::set_colours(BranchColours by) {
 
 void ForestPass::update_trees() {
     lists_ = nullptr;
+    forget_near_trees();
     lod_ = std::make_unique<ForestLod>(model_);
     ImpostorPlan plan = plan_impostors(*lod_);
     has_clusters_ = plan.has_clusters;
@@ -182,6 +195,7 @@ bool ForestPass::bake_impostors(double seconds, MaterialTextures& textures) {
 }
 
 void ForestPass::change_tree(std::uint32_t index, const Tree& tree, bool alive) {
+    forget_near_trees();
     const std::uint32_t number = lod_->change_tree(index, tree, alive);
     if (alive && number >= lod_->trees().size()) {
         buffers_.upload_tree(*lod_, number);
@@ -199,6 +213,7 @@ Bounds ForestPass::change_squares(const SquareChanges& changes) {
         lod_->add_square(square);
     }
     if (!changes.empty()) {
+        forget_near_trees();
         lists_ = nullptr;
     }
     return lod_->take_changed_box();
@@ -209,6 +224,7 @@ Frame ForestPass::localised(const Frame& frame, bool& moved) {
         model_.streamed == nullptr ? glm::dvec3(0.0) : nearest_origin(eye_of(frame.camera));
     moved = origin != lod_->origin();
     if (moved) {
+        forget_near_trees();
         lod_->set_origin(origin);
         terrain_.set_origin(origin);
     }
@@ -242,7 +258,8 @@ Bounds ForestPass::shadow_bounds(const Frame& frame) {
     const float ground =
         model_.terrain->height(static_cast<float>(eye.x), static_cast<float>(eye.z));
     const float above = std::max(camera.eye.y - ground, 0.0F);
-    float half = kMinShadowRange;
+    // From QUALITY 1 on other maps show the shadows near the eye.
+    float half = device_->quality() > 0 ? kMinFarShadowRange : kMinShadowRange;
     while (half < kMaxShadowRange && half < 1.2F * above) {
         half *= 1.5F;
     }
@@ -288,6 +305,7 @@ void ForestPass::prepare(const Frame& frame) {
     options.tree_range = frame.tree_range;
     constexpr float kStill = 1e-4F; // m/s
     is_windy_ = glm::length(frame.wind.velocity) >= kStill;
+    wind_ = frame.wind;
     has_old_clusters_ = has_old_clusters_ && !impostors_.is_done();
     options.cluster_pixels = has_clusters_ && !has_old_clusters_ ? options.cluster_pixels : 0.0F;
     terrain_.prepare(frustum_, frame.tree_range);
@@ -422,6 +440,108 @@ void ForestPass::draw_shadows(const glm::mat4& shadow_from_world, ForestFrameSta
     }
 }
 
+glm::vec4 ForestPass::draw_crowns(const glm::vec3& eye) {
+    constexpr GLsizei kTexels = 1024;
+    constexpr GLuint kCrownMap = 9; // in crowns.glsl
+    constexpr float kHalf = 120.0F; // m, half side of the map
+    constexpr float kStep = 20.0F;  // m
+    if (!crowns_) {
+        crowns_ = make_texture(*device_, GL_TEXTURE_2D);
+        glTextureStorage2D(crowns_.name(), 1, GL_RG8, kTexels, kTexels);
+        glTextureParameteri(crowns_.name(), GL_TEXTURE_MIN_FILTER, GL_LINEAR);
+        glTextureParameteri(crowns_.name(), GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
+        glTextureParameteri(crowns_.name(), GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+        crown_target_ = make_framebuffer(*device_);
+        glNamedFramebufferTexture(crown_target_.name(), GL_COLOR_ATTACHMENT0, crowns_.name(), 0);
+    }
+    glBindTextureUnit(kCrownMap, crowns_.name());
+    const glm::vec4 area(std::round(eye.x / kStep) * kStep, std::round(eye.z / kStep) * kStep,
+                         kHalf, 1.0F);
+    if (area == std::exchange(crown_area_, area)) {
+        return area;
+    }
+    Bounds box;
+    box.add({area.x - kHalf, 0.0F, area.y - kHalf});
+    box.add({area.x + kHalf, 0.0F, area.y + kHalf});
+    std::vector<std::uint32_t> numbers;
+    lod_->find_within(box, numbers);
+    std::vector<ImpostorEntry> trees;
+    for (const std::uint32_t number : numbers) {
+        trees.push_back({number, {}});
+    }
+    glBindFramebuffer(GL_FRAMEBUFFER, crown_target_.name());
+    glViewport(0, 0, kTexels, kTexels);
+    constexpr std::array<GLfloat, 4> kOpen = {1.0F, 1.0F, 1.0F, 1.0F};
+    glClearNamedFramebufferfv(crown_target_.name(), GL_COLOR, 0, kOpen.data());
+    buffers_.bind_storage();
+    quad_trees_.fill(std::span<const ImpostorEntry>(trees));
+    glDisable(GL_DEPTH_TEST);
+    glDisable(GL_CULL_FACE);
+    glEnable(GL_BLEND);
+    glBlendFunc(GL_ZERO, GL_SRC_COLOR);
+    glProgramUniform3f(crown_program_.name(), 0, area.x, area.y, area.z);
+    draw_quads(crown_program_, 0, trees.size());
+    glDisable(GL_BLEND);
+    glEnable(GL_DEPTH_TEST);
+    return area;
+}
+
+void ForestPass::list_casters(const glm::mat4& shadow_from_world,
+                              std::uint32_t level,
+                              NearCasters& casters) {
+    std::vector<std::uint32_t> found;
+    const Bounds& all = bounds();
+    const bool is_streamed = model_.streamed != nullptr;
+    lod_->find_within(casters_of(shadow_from_world, is_streamed ? caster_altitudes_[0] : all.low.y,
+                                 is_streamed ? caster_altitudes_[1] : all.high.y),
+                      found);
+    const float per_metre = glm::length(
+        glm::vec3(shadow_from_world[0].x, shadow_from_world[1].x, shadow_from_world[2].x));
+    const Sway sway = sway_in(wind_);
+    std::erase_if(found, [&](std::uint32_t number) {
+        const LodTree& tree = lod_->lod_tree(number);
+        const Sphere sphere = lod_->bounding_sphere(tree, lod_->tree_of(number).yaw);
+        const glm::vec3 at(shadow_from_world * glm::vec4(sphere.centre, 1.0F));
+        const float reach =
+            1.0F + per_metre * (sphere.radius +
+                                sway.displacement(2.0F * sphere.radius, 2.0F * sphere.radius));
+        return std::abs(at.x) > reach || std::abs(at.y) > reach || at.z > reach;
+    });
+    lod_->list_whole_trees(found, level, casters.branches, casters.lists);
+    casters.shadow_from_world = shadow_from_world;
+    casters.wind = wind_;
+}
+
+void ForestPass::forget_near_trees() {
+    crown_area_ = {};
+    near_casters_ = {};
+}
+
+void ForestPass::draw_near_shadows(std::size_t map,
+                                   const glm::mat4& shadow_from_world,
+                                   std::uint32_t level,
+                                   MaterialTextures& textures) {
+    NearCasters& casters = near_casters_[map];
+    if (casters.shadow_from_world != shadow_from_world || casters.wind != wind_) {
+        list_casters(shadow_from_world, level, casters);
+    }
+    buffers_.use(BufferSet::Shadow);
+    buffers_.set_branches(casters.branches);
+    buffers_.upload_commands(casters.lists);
+    buffers_.bind_storage();
+    glUseProgram(programs().caster.name());
+    for (const BranchClass kind :
+         {BranchClass::OneSided, BranchClass::TwoSided, BranchClass::Plain}) {
+        buffers_.draw(kind);
+    }
+    glBindTextureUnit(kLeafTexture, textures.base_colour(MaterialKind::Leaf));
+    glUseProgram(programs().cut_out_caster.name());
+    buffers_.draw(BranchClass::CutOut);
+    buffers_.draw_pictures(programs().caster.name(), programs().cut_out_caster.name(),
+                           programs().cut_out_caster.name(), false);
+    buffers_.use(BufferSet::Forest);
+}
+
 void ForestPass::draw_branches(const BranchPrograms& programs, bool blends, FrameStats& stats) {
     glUseProgram(programs.solid.name());
     stats.draws += buffers_.draw(BranchClass::OneSided, blends);
@@ -430,7 +550,9 @@ void ForestPass::draw_branches(const BranchPrograms& programs, bool blends, Fram
     stats.draws += buffers_.draw(BranchClass::Plain, blends);
     glUseProgram(programs.cut_out.name());
     stats.draws += buffers_.draw(BranchClass::CutOut, blends);
-    stats.draws += buffers_.draw_pictures(programs.solid.name(), programs.cut_out.name(), blends);
+    stats.draws += buffers_.draw_pictures(
+        programs.solid.name(), programs.cut_out.name(),
+        (programs.bumpy_cut_out ? programs.bumpy_cut_out : programs.cut_out).name(), blends);
 }
 
 void ForestPass::draw(MaterialTextures& textures, ForestFrameStats& stats) {
@@ -504,7 +626,8 @@ void ForestPass::collect_device_stats(ForestFrameStats& stats) {
     }
     stats.trees_of_level = state->level_counts;
     stats.far_trees = state->impostor_count(false) - state->branch_blended;
-    stats.blended_trees = std::uint64_t{state->cluster_blended} + state->branch_blended;
+    stats.blended_trees =
+        std::uint64_t{state->cluster_blended} + state->branch_blended + state->level_blended;
     stats.occluded_trees = state->occluded;
     stats.clustered_trees = state->clustered;
     stats.clusters = state->impostor_count(true);
@@ -557,8 +680,9 @@ void ForestPass::draw_picked(MaterialTextures& textures) {
         }
         use(blends ? picks.blending_cut_out : picks.cut_out, PickedKind::Branch);
         buffers_.draw(BranchClass::CutOut, blends);
-        buffers_.draw_pictures((blends ? picks.blending_branch : picks.branch).name(),
-                               (blends ? picks.blending_cut_out : picks.cut_out).name(), blends);
+        const GLuint cut_out = (blends ? picks.blending_cut_out : picks.cut_out).name();
+        buffers_.draw_pictures((blends ? picks.blending_branch : picks.branch).name(), cut_out,
+                               cut_out, blends);
     }
     glDisable(GL_CULL_FACE);
     const auto draw_impostors = [&](std::span<const ImpostorEntry> entries, PickedKind kind) {

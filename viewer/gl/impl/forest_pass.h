@@ -28,6 +28,9 @@
 
 namespace lsys::view {
 
+/// Count of the shadow maps near the eye.
+inline constexpr std::size_t kNearMaps = 2;
+
 class ForestPass {
 public:
     explicit ForestPass(Device& device);
@@ -69,6 +72,16 @@ public:
     void prepare(const Frame& frame);
     /// Draws all casters into the bound shadow map.
     void draw_shadows(const glm::mat4& shadow_from_world, ForestFrameStats& stats);
+    /// Draws the crowns around the eye, seen from above, into a texture for shaders/crowns.glsl, and
+    /// binds it. Call after prepare(). Returns FrameBlock::crowns.
+    [[nodiscard]] glm::vec4 draw_crowns(const glm::vec3& eye);
+    /// Draws the trees of a shadow map as branches of a level into the bound one, moved by the wind
+    /// of the prepared frame. The uniforms of the frame must have `shadow_from_world` as the view.
+    /// `map`: below kNearMaps.
+    void draw_near_shadows(std::size_t map,
+                           const glm::mat4& shadow_from_world,
+                           std::uint32_t level,
+                           MaterialTextures& textures);
     /// Draws into the bound framebuffer. Texture unit 0 must hold the shadow map.
     void draw(MaterialTextures& textures, ForestFrameStats& stats);
 
@@ -88,6 +101,18 @@ public:
     void collect_device_stats(ForestFrameStats& stats);
 
 private:
+    /// Branches of a shadow map near the eye, kept until map, wind or trees change.
+    struct NearCasters {
+        glm::mat4 shadow_from_world{0.0F};
+        Wind wind;
+        std::vector<PoolBranch> branches;
+        DrawLists lists;
+    };
+
+    void
+    list_casters(const glm::mat4& shadow_from_world, std::uint32_t level, NearCasters& casters);
+    /// Call when trees have changed or moved.
+    void forget_near_trees();
     /// Lowest and highest place of ground and trees near the middle of a shadow map.
     [[nodiscard]] std::array<float, 2> altitudes_near(const glm::vec2& middle, float half) const;
     [[nodiscard]] const ForestPrograms& programs() const { return programs_[is_windy_ ? 1 : 0]; }
@@ -119,6 +144,13 @@ private:
     std::optional<PickPrograms> pick_programs_;
     BranchColours colours_ = BranchColours::Natural;
     bool is_windy_ = false;
+    Wind wind_; // of the prepared frame
+    std::array<NearCasters, kNearMaps> near_casters_;
+    // Map of crowns: made when first needed.
+    ProgramObject crown_program_;
+    TextureObject crowns_;
+    Framebuffer crown_target_;
+    glm::vec4 crown_area_{0.0F}; // of its contents; 0: out of date
     ForestModel model_;
     std::unique_ptr<ForestLod> lod_;
     ForestBuffers buffers_;

@@ -17,10 +17,11 @@ make_forest_programs(Device& device, const ShaderSource& shaders, bool windy) {
         const char* vertex;
         const char* fragment;
         const char* defines;
+        bool is_costly = false; // from QUALITY 1 on
     };
     constexpr const char* kBranch = "branch.vert.glsl";
     constexpr const char* kImpostor = "impostor.vert.glsl";
-    const std::array<ProgramSpec, 10> wanted = {
+    const std::array<ProgramSpec, 14> wanted = {
         {{&programs.branches.solid, kBranch, "branch.frag.glsl", ""},
          {&programs.branches.plain, kBranch, "leaf.frag.glsl", "#define LIT_AT_CORNERS\n"},
          {&programs.branches.cut_out, kBranch, "leaf.frag.glsl",
@@ -30,6 +31,12 @@ make_forest_programs(Device& device, const ShaderSource& shaders, bool windy) {
           "#define LIT_AT_CORNERS\n#define BLENDS\n"},
          {&programs.blending_branches.cut_out, kBranch, "leaf.frag.glsl",
           "#define LIT_AT_CORNERS\n#define CUT_OUT\n#define BLENDS\n"},
+         {&programs.branches.bumpy_cut_out, kBranch, "branch.frag.glsl", "#define CUT_OUT\n", true},
+         {&programs.blending_branches.bumpy_cut_out, kBranch, "branch.frag.glsl",
+          "#define CUT_OUT\n#define BLENDS\n", true},
+         {&programs.caster, kBranch, "pick.frag.glsl", "#define PICK\n", true},
+         {&programs.cut_out_caster, kBranch, "pick.frag.glsl", "#define PICK\n#define CUT_OUT\n",
+          true},
          {&programs.impostor, kImpostor, "impostor.frag.glsl", ""},
          {&programs.impostor_depth, kImpostor, "impostor.frag.glsl", "#define DEPTH\n"},
          {&programs.blending_impostor_depth, kImpostor, "impostor.frag.glsl",
@@ -37,6 +44,9 @@ make_forest_programs(Device& device, const ShaderSource& shaders, bool windy) {
          {&programs.impostor_shadow, kImpostor, "impostor.frag.glsl", "#define SHADOW\n"}}};
     const std::string common = windy ? "#define ONE_TAP\n#define WIND\n" : "#define ONE_TAP\n";
     for (const ProgramSpec& one : wanted) {
+        if (one.is_costly && device.quality() == 0) {
+            continue;
+        }
         Result<ProgramObject> made =
             make_program(device, shaders, one.vertex, one.fragment, common + one.defines);
         if (!made) {

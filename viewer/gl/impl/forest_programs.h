@@ -13,6 +13,7 @@ struct BranchPrograms {
     ProgramObject solid; // one-sided and two-sided
     ProgramObject plain;
     ProgramObject cut_out;
+    ProgramObject bumpy_cut_out; // pictures with holes and a normal map; from QUALITY 1 on
 };
 
 struct ForestPrograms {
@@ -23,6 +24,9 @@ struct ForestPrograms {
     ProgramObject blending_impostor_depth;
     ProgramObject impostor;
     ProgramObject impostor_shadow;
+    // Casters of the shadow maps near the eye; from QUALITY 1 on.
+    ProgramObject caster;
+    ProgramObject cut_out_caster;
 };
 
 /// Programs that write kind and index of the part that a pixel shows: shaders/pick.frag.glsl.

@@ -7,6 +7,8 @@
 #include <glm/mat4x4.hpp>
 #include <glm/vec4.hpp>
 
+#include <array>
+
 namespace lsys::view {
 
 struct FrameBlock {
@@ -20,9 +22,12 @@ struct FrameBlock {
     glm::vec4 horizon{0.0F};
     glm::vec4 ground{0.0F};
     glm::vec4 wind{0.0F};
+    std::array<glm::mat4, 2> near_from_world{glm::mat4(1.0F), glm::mat4(1.0F)};
+    glm::vec4 near_maps{0.0F};
+    glm::vec4 crowns{0.0F};
     glm::vec4 viewport{0.0F};
 };
-static_assert(sizeof(FrameBlock) == 3 * 64 + 8 * 16);
+static_assert(sizeof(FrameBlock) == 5 * 64 + 10 * 16);
 
 /// Uniforms of the part of a picture within `area`. `shadow_texels`: side of the shadow map.
 [[nodiscard]] FrameBlock make_frame_block(const Frame& frame,

@@ -212,7 +212,7 @@ void ImpostorAtlas::draw_elevation(const Cylinder& form,
                 buffers.draw(BranchClass::Plain);
             }
         }
-        buffers.draw_pictures(solid_.name(), cut_out_.name(), false);
+        buffers.draw_pictures(solid_.name(), cut_out_.name(), cut_out_.name(), false);
         device_->end_pass();
     }
 }

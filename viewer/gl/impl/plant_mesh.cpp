@@ -86,7 +86,7 @@ std::uint64_t PlantMesh::draw(MaterialTextures& textures, Pass pass) const {
         const int translucency = translucency_step(material, is_thin);
         if (shaded) {
             glUniform4f(kColour, material.colour.r, material.colour.g, material.colour.b,
-                        material.colour.a);
+                        roughness_of(material));
         }
         glUniform4i(kKind, material.textured ? 1 : 0, bumpy ? 1 : 0, material.cut_out ? 1 : 0,
                     translucency);

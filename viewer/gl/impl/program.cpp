@@ -66,7 +66,8 @@ Result<ShaderObject> compile_shader(Device& device,
                                     GLenum stage,
                                     std::string_view defines) {
     Assembly assembly;
-    assembly.text = fmt::format("#version 450 core\n{}", defines);
+    assembly.text =
+        fmt::format("#version 450 core\n#define QUALITY {}\n{}", device.quality(), defines);
     if (const Result<void> done = assemble(source, name, assembly); !done) {
         return done.error();
     }

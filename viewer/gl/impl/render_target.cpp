@@ -34,6 +34,7 @@ void RenderTarget::begin(std::uint32_t width, std::uint32_t height, std::uint32_
                                        colour_.name());
         glNamedFramebufferRenderbuffer(drawn_.name(), GL_DEPTH_ATTACHMENT, GL_RENDERBUFFER,
                                        depth_.name());
+        mean_ = {};
         resolved_ = {};
         resolved_colour_ = {};
         if (samples > 1) {
@@ -59,10 +60,38 @@ void RenderTarget::resolve() {
     }
 }
 
-void RenderTarget::read(std::vector<std::uint8_t>& pixels) const {
+void RenderTarget::accumulate(const ProgramObject& copy, float weight) {
+    const auto width = static_cast<GLsizei>(width_);
+    const auto height = static_cast<GLsizei>(height_);
+    if (!mean_) {
+        last_ = make_texture(*device_, GL_TEXTURE_2D);
+        glTextureStorage2D(last_.name(), 1, GL_RGBA8, width, height);
+        mean_colour_ = make_storage(*device_, GL_RGBA16F, width_, height_, 1);
+        mean_ = make_framebuffer(*device_);
+        glNamedFramebufferRenderbuffer(mean_.name(), GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER,
+                                       mean_colour_.name());
+    }
+    glBindFramebuffer(GL_READ_FRAMEBUFFER, source(false));
+    glCopyTextureSubImage2D(last_.name(), 0, 0, 0, 0, 0, width, height);
+    glBindFramebuffer(GL_FRAMEBUFFER, mean_.name());
+    glViewport(0, 0, width, height);
+    glDisable(GL_DEPTH_TEST);
+    if (weight < 1.0F) {
+        glEnable(GL_BLEND);
+        glBlendColor(0.0F, 0.0F, 0.0F, weight);
+        glBlendFunc(GL_CONSTANT_ALPHA, GL_ONE_MINUS_CONSTANT_ALPHA);
+    }
+    glUseProgram(copy.name());
+    glBindTextureUnit(1, last_.name());
+    glDrawArrays(GL_TRIANGLES, 0, 3);
+    glDisable(GL_BLEND);
+    glEnable(GL_DEPTH_TEST);
+}
+
+void RenderTarget::read(std::vector<std::uint8_t>& pixels, bool mean) const {
     const std::size_t row = std::size_t{4} * width_;
     pixels.resize(row * height_);
-    glBindFramebuffer(GL_READ_FRAMEBUFFER, resolved_ ? resolved_.name() : drawn_.name());
+    glBindFramebuffer(GL_READ_FRAMEBUFFER, source(mean));
     glPixelStorei(GL_PACK_ALIGNMENT, 1);
     glReadPixels(0, 0, static_cast<GLsizei>(width_), static_cast<GLsizei>(height_), GL_RGBA,
                  GL_UNSIGNED_BYTE, pixels.data());
@@ -75,14 +104,14 @@ void RenderTarget::read(std::vector<std::uint8_t>& pixels) const {
     }
 }
 
-void RenderTarget::present(const PixelArea& area) const {
+void RenderTarget::present(const PixelArea& area, bool mean) const {
     const auto x = static_cast<GLint>(area.x);
     const auto y = static_cast<GLint>(area.y);
     const bool same_size = area.width == width_ && area.height == height_;
-    glBlitNamedFramebuffer(resolved_ ? resolved_.name() : drawn_.name(), 0, 0, 0,
-                           static_cast<GLint>(width_), static_cast<GLint>(height_), x, y,
-                           x + static_cast<GLint>(area.width), y + static_cast<GLint>(area.height),
-                           GL_COLOR_BUFFER_BIT, same_size ? GL_NEAREST : GL_LINEAR);
+    glBlitNamedFramebuffer(source(mean), 0, 0, 0, static_cast<GLint>(width_),
+                           static_cast<GLint>(height_), x, y, x + static_cast<GLint>(area.width),
+                           y + static_cast<GLint>(area.height), GL_COLOR_BUFFER_BIT,
+                           same_size ? GL_NEAREST : GL_LINEAR);
 }
 
 } // namespace lsys::view

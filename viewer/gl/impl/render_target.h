@@ -16,14 +16,21 @@ public:
 
     /// Resizes if needed, binds and clears colour and depth.
     void begin(std::uint32_t width, std::uint32_t height, std::uint32_t samples);
-    /// Resolves samples; required before read() and present().
+    /// Resolves samples; required before the functions below.
     void resolve();
-    /// Rows from top to bottom, RGBA.
-    void read(std::vector<std::uint8_t>& pixels) const;
+    /// Mixes the picture into a mean, with a weight up to 1, which begins a new mean. `copy`: program
+    /// of shaders/copy; an empty vertex array must be bound. Changes the bound framebuffer.
+    void accumulate(const ProgramObject& copy, float weight);
+    /// Rows from top to bottom, RGBA. `mean`: of the mean instead of the last picture.
+    void read(std::vector<std::uint8_t>& pixels, bool mean) const;
     /// Copies to a part of the framebuffer of the window.
-    void present(const PixelArea& area) const;
+    void present(const PixelArea& area, bool mean) const;
 
 private:
+    [[nodiscard]] GLuint source(bool mean) const {
+        return (mean ? mean_ : resolved_ ? resolved_ : drawn_).name();
+    }
+
     Device* device_;
     std::uint32_t width_ = 0;
     std::uint32_t height_ = 0;
@@ -33,6 +40,9 @@ private:
     Framebuffer drawn_;
     Renderbuffer resolved_colour_;
     Framebuffer resolved_;
+    TextureObject last_; // copy of the last picture; made when first needed, like the mean
+    Renderbuffer mean_colour_;
+    Framebuffer mean_;
 };
 
 } // namespace lsys::view

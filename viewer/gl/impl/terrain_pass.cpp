@@ -89,8 +89,8 @@ TextureObject make_noise(Device& device) {
 } // namespace
 
 TerrainPass::TerrainPass(Device& device)
-    : device_(&device), array_(make_vertex_array(device)), corners_(device), indices_(device),
-      patches_(device) {}
+    : device_(&device), array_(make_vertex_array(device)), empty_(make_vertex_array(device)),
+      corners_(device), indices_(device), patches_(device) {}
 
 Result<void> TerrainPass::reload(const ShaderSource& shaders) {
     Result<ProgramObject> made = make_program(*device_, shaders, "terrain.vert.glsl",
@@ -104,6 +104,16 @@ Result<void> TerrainPass::reload(const ShaderSource& shaders) {
     if (!with_picture) {
         return with_picture.error();
     }
+    ProgramObject grass;
+    if (device_->quality() > 0) {
+        Result<ProgramObject> with_grass = make_program(*device_, shaders, "grass.vert.glsl",
+                                                        "leaf.frag.glsl", "#define ONE_TAP\n");
+        if (!with_grass) {
+            return with_grass.error();
+        }
+        grass = std::move(with_grass.value());
+    }
+    grass_program_ = std::move(grass);
     program_ = std::move(made.value());
     picture_program_ = std::move(with_picture.value());
     return {};
@@ -183,6 +193,7 @@ void TerrainPass::set_origin(const glm::dvec3& origin) {
 
 void TerrainPass::prepare(const Frustum& frustum, float tree_range) {
     tree_range_ = tree_range;
+    eye_ = frustum.eye;
     lod_->select(frustum);
     const auto size = static_cast<GLsizei>(kHeightTexels);
     for (const std::uint32_t level : lod_->changed()) {
@@ -196,6 +207,54 @@ void TerrainPass::prepare(const Frustum& frustum, float tree_range) {
             device_->add_upload(covers.size() * sizeof(float));
         }
     }
+}
+
+void TerrainPass::set_noise() const {
+    glBindTextureUnit(kNoise, noise_.name());
+    std::array<GLfloat, 6> shifts{};
+    for (std::size_t i = 0; i < kNoiseTiles.size(); ++i) {
+        shifts[2 * i] = static_cast<GLfloat>(std::fmod(origin_.x / kNoiseTiles[i], 1.0));
+        shifts[2 * i + 1] = static_cast<GLfloat>(std::fmod(origin_.z / kNoiseTiles[i], 1.0));
+    }
+    glUniform2fv(kNoiseShifts, 3, shifts.data());
+    const glm::dvec2 turned(0.8 * origin_.x - 0.6 * origin_.z, 0.6 * origin_.x + 0.8 * origin_.z);
+    glUniform2f(kWidestShift, static_cast<GLfloat>(std::fmod(turned.x / kWidestTile, 1.0)),
+                static_cast<GLfloat>(std::fmod(turned.y / kWidestTile, 1.0)));
+}
+
+void TerrainPass::draw_grass(FrameStats& stats) const {
+    // Uniforms of grass.vert.glsl.
+    constexpr GLint kHeightsOrigin = 0;
+    constexpr GLint kLattice = 1;
+    constexpr GLint kSides = 2;
+    constexpr double kCell = 0.32;                          // m
+    constexpr std::array<GLsizei, 3> kCells = {0, 64, 112}; // along a side, by quality
+    constexpr GLsizei kBlades = 16;                         // per cell
+    const GLsizei cells = kCells[device_->quality()];
+    const auto reach = 0.5F * static_cast<float>(kCell) * static_cast<float>(cells);
+    if (!grass_program_ || lod_->eye_height() > reach) {
+        return;
+    }
+    const auto cell_of = [&](double place) {
+        return static_cast<GLint>(std::floor(place / kCell));
+    };
+    const auto lattice_of = [&](double place) { // wraps
+        return static_cast<GLint>(
+            static_cast<std::uint32_t>(static_cast<std::int64_t>(std::round(place / kCell))));
+    };
+    glUseProgram(grass_program_.name());
+    set_noise();
+    const glm::ivec2& origin = lod_->grid(0).origin;
+    glUniform2i(kHeightsOrigin, origin.x, origin.y);
+    glUniform4i(kLattice, cell_of(static_cast<double>(eye_.x)) - cells / 2,
+                cell_of(static_cast<double>(eye_.z)) - cells / 2, lattice_of(origin_.x),
+                lattice_of(origin_.z));
+    glUniform2i(kSides, cells, kBlades);
+    glBindVertexArray(empty_.name());
+    glDrawArraysInstanced(GL_TRIANGLES, 0, 9 * kBlades, cells * cells);
+    ++stats.draws;
+    stats.triangles += std::uint64_t{3} * static_cast<std::uint64_t>(kBlades) *
+                       static_cast<std::uint64_t>(cells) * static_cast<std::uint64_t>(cells);
 }
 
 FrameStats TerrainPass::draw() {
@@ -214,17 +273,7 @@ FrameStats TerrainPass::draw() {
         glBindTextureUnit(kColour, colour_.name());
         glBindTextureUnit(kNormalMap, normals_ ? normals_.name() : colour_.name());
     } else {
-        glBindTextureUnit(kNoise, noise_.name());
-        std::array<GLfloat, 6> shifts{};
-        for (std::size_t i = 0; i < kNoiseTiles.size(); ++i) {
-            shifts[2 * i] = static_cast<GLfloat>(std::fmod(origin_.x / kNoiseTiles[i], 1.0));
-            shifts[2 * i + 1] = static_cast<GLfloat>(std::fmod(origin_.z / kNoiseTiles[i], 1.0));
-        }
-        glUniform2fv(kNoiseShifts, 3, shifts.data());
-        const glm::dvec2 turned(0.8 * origin_.x - 0.6 * origin_.z,
-                                0.6 * origin_.x + 0.8 * origin_.z);
-        glUniform2f(kWidestShift, static_cast<GLfloat>(std::fmod(turned.x / kWidestTile, 1.0)),
-                    static_cast<GLfloat>(std::fmod(turned.y / kWidestTile, 1.0)));
+        set_noise();
     }
     // The colour of the canopy begins before the trees end, so that no border is visible.
     constexpr float kBegin = 0.45F;
@@ -233,7 +282,11 @@ FrameStats TerrainPass::draw() {
     glUniform3f(kCanopy, canopy_.r, canopy_.g, canopy_.b);
     glUniform2f(kCanopyRange, has_canopy ? kBegin * tree_range_ : 0.0F,
                 has_canopy ? kEnd * tree_range_ : 0.0F);
-    return draw_with(program);
+    FrameStats stats = draw_with(program);
+    if (!colour_) {
+        draw_grass(stats);
+    }
+    return stats;
 }
 
 FrameStats TerrainPass::draw_with(const ProgramObject& program) {

@@ -34,7 +34,7 @@ public:
     void prepare(const Frustum& frustum, float tree_range);
     /// Sets the colour of the canopy, linear RGB.
     void set_canopy(const glm::vec3& colour) { canopy_ = colour; }
-    /// Draws the selected patches.
+    /// Draws the selected patches, and grass near the eye.
     FrameStats draw();
     /// Draws the selected patches with `program`, whose vertex shader is terrain.vert.glsl.
     FrameStats draw_with(const ProgramObject& program);
@@ -47,10 +47,15 @@ public:
     [[nodiscard]] std::vector<float> read_heights(std::uint32_t level) const;
 
 private:
+    void set_noise() const;
+    void draw_grass(FrameStats& stats) const;
+
     Device* device_;
     std::unique_ptr<TerrainLod> lod_;
     ProgramObject program_;
     ProgramObject picture_program_; // with pictures of the ground
+    ProgramObject grass_program_;   // from QUALITY 1 on
+    glm::vec3 eye_{0.0F};           // of the selected patches
     GroundPictures pictures_;
     TextureObject colour_;
     TextureObject normals_;
@@ -62,6 +67,7 @@ private:
     float tree_range_ = 0.0F;
     TextureObject noise_;
     VertexArray array_;
+    VertexArray empty_; // for grass
     Buffer corners_;
     Buffer indices_;
     Buffer patches_;
