@@ -183,15 +183,15 @@ bool AxisReader::read(Run& run) {
                 : open                         ? TubeEnd::Open
                                                : TubeEnd::Flat;
     attached_ = false;
-    if (options_.smooth_joints && bend_edges(joints_, spare_, start)) {
-        rings_final_ = false;
-    }
     if (shape.has_flare() && stands_on_ground(skeleton_.segments[run.first_segment], shape.flare)) {
         base_widening_ = widening_of(shape.flare);
         run.has_roots = shape.flare.roots > 0 && options_.level <= kMaxShapedLevel;
     }
     if (base_widening_.end > 0.0F) {
         widen_base(open);
+    }
+    if (options_.smooth_joints && bend_edges(joints_, spare_, start)) {
+        rings_final_ = false;
     }
     const bool leaves_out = options_.level > 0 || options_.axis_error > 0.0F;
     if (leaves_out) {
@@ -319,7 +319,8 @@ bool AxisReader::fit_into_parent(const Run& run, std::optional<CurveStart>& star
     }
     joints_.front().radius = std::min(joints_.front().radius, hidden);
     if (leaves_along) {
-        start = CurveStart{tangent, joints_.front().radius - own, reach};
+        const float flare = has_wide_collar ? 0.0F : joints_.front().radius - own;
+        start = CurveStart{tangent, flare, reach};
     }
     max_base_radius_ = hidden;
     flare_[0] = std::min(flare_[0], hidden);

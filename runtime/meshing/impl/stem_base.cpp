@@ -4,6 +4,7 @@
 #include "runtime/meshing/impl/axes.h"
 #include "runtime/meshing/impl/grooves.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
@@ -12,8 +13,10 @@ namespace lsys {
 
 namespace {
 
-constexpr float kGroundTolerance = 1e-3F;   // of y at the base of a stem, per height of the flare
-constexpr float kDepth = 0.6F;              // of the ridges at the ground, in radii
+constexpr float kGroundTolerance = 1e-3F; // of y at the base of a stem, per height of the flare
+// Depth of the ridges at the ground in radii, per growth of the radius by the flare, and at most.
+constexpr float kRidgeDepthPerFlare = 0.75F;
+constexpr float kMaxRidgeDepth = 0.6F;
 constexpr float kMeanRidge = 13.0F / 35.0F; // mean of ridge()
 constexpr std::array<float, kMaxRoots> kHeights{1.0F,  0.8F, 1.15F, 0.9F, 1.2F,
                                                 0.75F, 1.1F, 0.85F, 1.05F};
@@ -44,11 +47,13 @@ BaseWidening widening_of(const Flare& flare) {
             .parts = kFlareParts};
 }
 
-Roots::Roots(std::uint32_t count, float reach) : count_(count), reach_(reach), mean_(0.0F) {
-    for (std::uint32_t i = 0; i < count; ++i) {
+Roots::Roots(const Flare& flare)
+    : count_(flare.roots), reach_(flare.height),
+      depth_(std::min(kRidgeDepthPerFlare * (flare.factor - 1.0F), kMaxRidgeDepth)), mean_(0.0F) {
+    for (std::uint32_t i = 0; i < count_; ++i) {
         mean_ += kHeights[i];
     }
-    mean_ *= kMeanRidge / static_cast<float>(count);
+    mean_ *= kMeanRidge / static_cast<float>(count_);
 }
 
 NoiseSample Roots::at(float turn, double arc) const {
@@ -59,10 +64,10 @@ NoiseSample Roots::at(float turn, double arc) const {
     const float x = static_cast<float>(count_) * turn;
     const float height = kHeights[static_cast<std::uint32_t>(x + 0.5F) % count_];
     const float value = height * ridge(x) - mean_;
-    return {.value = kDepth * rest * rest * value,
-            .by_angle = kDepth * rest * rest * height * ridge_slope(x) *
+    return {.value = depth_ * rest * rest * value,
+            .by_angle = depth_ * rest * rest * height * ridge_slope(x) *
                         static_cast<float>(count_) / (2.0F * std::numbers::pi_v<float>),
-            .by_length = -2.0F * kDepth * rest * value / reach_};
+            .by_length = -2.0F * depth_ * rest * value / reach_};
 }
 
 } // namespace lsys

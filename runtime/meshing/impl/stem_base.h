@@ -43,18 +43,19 @@ struct BaseWidening {
 /// the axis is 0; ridges differ in height, and fade out upwards as the flare does.
 class Roots {
 public:
-    /// `count`: kMinRoots to kMaxRoots; `reach`: arc length at which they end, greater than 0.
-    Roots(std::uint32_t count, float reach);
+    /// Precondition: the flare has roots.
+    explicit Roots(const Flare& flare);
 
-    /// The value, -0.25 to 0.6, at `turn` (0 to 1) around the axis and `arc` along it. The ridge
+    /// The value, -0.25 to 0.55, at `turn` (0 to 1) around the axis and `arc` along it. The ridge
     /// number 0 lies at turn 0.
     [[nodiscard]] NoiseSample at(float turn, double arc) const;
     [[nodiscard]] double reach() const { return static_cast<double>(reach_); }
 
 private:
     std::uint32_t count_;
-    float reach_;
-    float mean_; // of all ridges around the axis
+    float reach_; // arc length at which the roots end
+    float depth_; // of the ridges at the ground, in radii
+    float mean_;  // of all ridges around the axis
 };
 
 } // namespace lsys

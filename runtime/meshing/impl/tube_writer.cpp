@@ -143,7 +143,7 @@ void TubeWriter::advance(const Run& run, std::size_t end) {
     std::optional<Grooves> grooves;
     std::optional<Roots> roots;
     if (run.has_roots) {
-        roots.emplace(flare_.roots, flare_.height);
+        roots.emplace(flare_);
     }
     if (seam_ || options_.bark_noise > 0.0F || options_.grooves > 0.0F) {
         v_scale_ = 1.0 / at_.circumference;
