@@ -62,7 +62,7 @@ NoiseSample Roots::at(float turn, double arc) const {
         return {};
     }
     const float x = static_cast<float>(count_) * turn;
-    const float height = kHeights[static_cast<std::uint32_t>(x + 0.5F) % count_];
+    const float height = kHeights[static_cast<std::uint32_t>(std::floor(x + 0.5F)) % count_];
     const float value = height * ridge(x) - mean_;
     return {.value = depth_ * rest * rest * value,
             .by_angle = depth_ * rest * rest * height * ridge_slope(x) *

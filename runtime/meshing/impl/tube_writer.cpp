@@ -317,7 +317,7 @@ void TubeWriter::put_break(const Run& run, Ring& ring) {
         const std::uint64_t first = at_.vertex;
         put_ring(ring);
         for (std::uint32_t column = 0; column < columns; ++column) {
-            const std::uint32_t corner = column % ring.sides;
+            const std::uint32_t corner = column == ring.sides ? 0 : column; // the seam repeats it
             const PhiloxBlock words =
                 draw_block(0, kBreakGeneration, run.first_segment, corner / 4);
             const float height =
