@@ -28,7 +28,8 @@ namespace lsys {
 //   8  Local values and their slots, choices, the depth of the stack; opcodes Local to EndIf.
 //   9  Curves, distributions, weights that are computed, several axioms.
 //  10  Materials of colour indexes; operation SetRgb.
-inline constexpr std::uint32_t kModuleFileVersion = 10;
+//  11  Flare of stems, collars, shapes of tips; taper of the pipe model.
+inline constexpr std::uint32_t kModuleFileVersion = 11;
 
 #define LSYS_VERSION_MATTERS                                                                       \
     "what a .lsb file can hold has changed: raise kModuleFileVersion, add a line to its history, " \
@@ -42,12 +43,14 @@ static_assert(kCountOf<WeightRule> == 2, LSYS_VERSION_MATTERS);
 static_assert(kCountOf<RandomSource> == 2, LSYS_VERSION_MATTERS);
 static_assert(kCountOf<AtDepth> == 2, LSYS_VERSION_MATTERS);
 static_assert(kCountOf<LoadRule> == 2, LSYS_VERSION_MATTERS);
+static_assert(kCountOf<TipShape> == 3, LSYS_VERSION_MATTERS);
 static_assert(kCountOf<SymbolKind> == 5, LSYS_VERSION_MATTERS);
 static_assert(kCountOf<PatternKind> == 3, LSYS_VERSION_MATTERS);
 static_assert(kCountOf<Stage> == 3, LSYS_VERSION_MATTERS);
-static_assert(kFieldCount<Settings> == 30, LSYS_VERSION_MATTERS);
+static_assert(kFieldCount<Settings> == 33, LSYS_VERSION_MATTERS);
 static_assert(kFieldCount<TurtleTraits> == 11, LSYS_VERSION_MATTERS);
-static_assert(kFieldCount<Pipe> == 2, LSYS_VERSION_MATTERS);
+static_assert(kFieldCount<Pipe> == 3, LSYS_VERSION_MATTERS);
+static_assert(kFieldCount<Flare> == 3, LSYS_VERSION_MATTERS);
 static_assert(kFieldCount<BytecodeSymbol> == 6, LSYS_VERSION_MATTERS);
 static_assert(kFieldCount<FoldedModule> == 2, LSYS_VERSION_MATTERS);
 static_assert(kFieldCount<BytecodeGlobal> == 8, LSYS_VERSION_MATTERS);

@@ -23,6 +23,7 @@ constexpr EnumNames<ChoiceScope> kChoiceScopes{"module", "generation"};
 constexpr EnumNames<WeightRule> kWeightRules{"one", "any"};
 constexpr EnumNames<AtDepth> kAtDepths{"error", "stop"};
 constexpr EnumNames<LoadRule> kLoadRules{"carried", "own"};
+constexpr EnumNames<TipShape> kTipShapes{"flat", "round", "broken"};
 constexpr EnumNames<RandomSource> kRandomSources{"philox", "glibc"};
 constexpr EnumNames<TurtleProfile> kTurtleProfiles{
 #define LSYS_TURTLE_PROFILE(identifier, name, ...) name,
@@ -35,7 +36,8 @@ constexpr std::array<TurtleTraits, kCountOf<TurtleProfile>> kTurtleTraits{{
 // An array with too few names ends with an empty entry.
 static_assert(!kRewritingModes.back().empty() && !kChoiceScopes.back().empty() &&
                   !kWeightRules.back().empty() && !kAtDepths.back().empty() &&
-                  !kRandomSources.back().empty() && !kLoadRules.back().empty(),
+                  !kRandomSources.back().empty() && !kLoadRules.back().empty() &&
+                  !kTipShapes.back().empty(),
               "an enumerator has no name");
 
 } // namespace
@@ -57,6 +59,9 @@ std::string_view name_of(AtDepth at) {
 }
 std::string_view name_of(LoadRule load) {
     return name_in(kLoadRules, load);
+}
+std::string_view name_of(TipShape tips) {
+    return name_in(kTipShapes, tips);
 }
 std::string_view name_of(TurtleProfile profile) {
     return name_in(kTurtleProfiles, profile);

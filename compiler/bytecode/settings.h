@@ -27,6 +27,8 @@ LSYS_COUNTED_ENUM(WeightRule, One, Any);
 LSYS_COUNTED_ENUM(AtDepth, Error, Stop);
 /// Weight that bends a joint: of everything beyond the joint, or only of its own segment.
 LSYS_COUNTED_ENUM(LoadRule, Carried, Own);
+/// Ends of tubes: a low cone, a half ball, or a jagged break.
+LSYS_COUNTED_ENUM(TipShape, Flat, Round, Broken);
 /// The set of turtle commands by module name (docs/language.md section 7). The resolver applies it;
 /// later stages may only print its name.
 enum class TurtleProfile : std::uint8_t {
@@ -68,12 +70,25 @@ using Tropism = std::array<float, 4>;
 struct Pipe {
     float exponent = 0.0F;  // 1 to kMaxPipeExponent; 0: the turtle sets the widths
     float tip_width = 0.0F; // m, diameter
+    float taper = 0.0F;     // 0: a segment has one width; 1: it narrows to that of the next one
 
     [[nodiscard]] bool is_set() const { return exponent != 0.0F; }
     friend bool operator==(const Pipe&, const Pipe&) = default;
 };
 inline constexpr float kMinPipeExponent = 1.0F;
 inline constexpr float kMaxPipeExponent = 4.0F;
+
+/// The flare of a stem at the ground, and its buttress roots (docs/language.md section 7.8).
+struct Flare {
+    float factor = 1.0F;     // of the radius at the ground, 1 to kMaxFlare; 1: no flare
+    float height = 0.0F;     // m above 0: where the flare begins
+    std::uint32_t roots = 0; // kMinRoots to kMaxRoots; 0: none
+
+    friend bool operator==(const Flare&, const Flare&) = default;
+};
+inline constexpr float kMaxFlare = 10.0F;
+inline constexpr std::uint32_t kMinRoots = 3;
+inline constexpr std::uint32_t kMaxRoots = 9;
 
 /// The range of `height`, in m.
 inline constexpr float kMinHeight = 1e-6F;
@@ -115,6 +130,7 @@ constexpr void for_each_setting(Values& settings, Function function) {
 [[nodiscard]] std::string_view name_of(WeightRule rule);
 [[nodiscard]] std::string_view name_of(AtDepth at);
 [[nodiscard]] std::string_view name_of(LoadRule load);
+[[nodiscard]] std::string_view name_of(TipShape tips);
 [[nodiscard]] std::string_view name_of(TurtleProfile profile);
 
 } // namespace lsys

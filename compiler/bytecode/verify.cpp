@@ -81,6 +81,17 @@ private:
             return fail("a pipe model of exponent {} and width {}", s.pipe.exponent,
                         s.pipe.tip_width);
         }
+        if (!(s.pipe.taper >= 0.0F && s.pipe.taper <= 1.0F)) {
+            return fail("a pipe model of taper {}", s.pipe.taper);
+        }
+        const auto& [factor, height, roots] = s.flare;
+        if (s.flare != Flare{} && !(factor >= 1.0F && factor <= kMaxFlare && height > 0.0F &&
+                                    (roots == 0 || (roots >= kMinRoots && roots <= kMaxRoots)))) {
+            return fail("a flare of factor {}, height {} and {} roots", factor, height, roots);
+        }
+        if (!(s.collar >= 0.0F)) {
+            return fail("a collar of factor {}", s.collar);
+        }
         if (bytecode_.generations && *bytecode_.generations == kNone) {
             return fail("more generations than there can be");
         }

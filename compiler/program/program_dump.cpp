@@ -74,7 +74,18 @@ private:
             out_ += fmt::format("  height {}\n", s.height);
         }
         if (s.pipe.is_set()) {
-            out_ += fmt::format("  pipe {} {}\n", s.pipe.exponent, s.pipe.tip_width);
+            out_ += fmt::format("  pipe {} {}{}\n", s.pipe.exponent, s.pipe.tip_width,
+                                s.pipe.taper == 0.0F ? "" : fmt::format(" {}", s.pipe.taper));
+        }
+        if (s.flare != Flare{}) {
+            out_ += fmt::format("  flare {} {}{}\n", s.flare.factor, s.flare.height,
+                                s.flare.roots == 0 ? "" : fmt::format(" {}", s.flare.roots));
+        }
+        if (s.collar != 0.0F) {
+            out_ += fmt::format("  collar {}\n", s.collar);
+        }
+        if (s.tips != TipShape::Flat) {
+            out_ += fmt::format("  tips {}\n", name_of(s.tips));
         }
         if (s.has_spring) {
             out_ += fmt::format("  spring {}\n", s.spring);

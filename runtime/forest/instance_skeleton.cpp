@@ -116,6 +116,7 @@ Skeleton skeleton_of(const InstanceCache& cache, const Instance& instance) {
     skeleton.l3d_compatible_surface = cache_skeleton.l3d_compatible_surface;
     skeleton.box_segments = cache_skeleton.box_segments;
     skeleton.leaf_droop = cache_skeleton.leaf_droop;
+    skeleton.tube_shape = cache_skeleton.tube_shape;
     // New number of the first segment of each range, by its number in the cache.
     std::map<std::uint32_t, std::uint32_t> shifts;
     const auto number_of = [&](std::uint32_t parent) {

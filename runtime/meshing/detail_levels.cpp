@@ -144,6 +144,7 @@ public:
         wood_.segments = skeleton.segments;
         wood_.l3d_compatible_surface = skeleton.l3d_compatible_surface;
         wood_.box_segments = skeleton.box_segments;
+        wood_.tube_shape = skeleton.tube_shape;
         wood_.looks = skeleton.looks;
         foliage_ = skeleton;
         foliage_.segments = {};

@@ -418,6 +418,7 @@ void SkeletonGrowth::pose(double part, Skeleton& out) const {
     out.l3d_compatible_surface = state_->after.l3d_compatible_surface;
     out.leaf_droop = state_->after.leaf_droop;
     out.box_segments = state_->after.box_segments;
+    out.tube_shape = state_->after.tube_shape;
     if (part <= 0.0) {
         State::copy_drawing(state_->before, out);
     } else if (part >= 1.0) {

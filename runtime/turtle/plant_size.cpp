@@ -77,6 +77,22 @@ void change_segment(Segment& segment, const StemMaterial& material, const Change
     }
 }
 
+/// Whether the child `i`, which comes before the child `chosen` of the same parent, continues the
+/// parent rather than `chosen`: a child on the axis of the parent comes first, then the one with
+/// more tips, then the first one.
+bool continues_better(const Skeleton& skeleton,
+                      const std::vector<std::uint32_t>& tips,
+                      std::uint32_t i,
+                      std::uint32_t chosen) {
+    if (chosen == kNoSegment) {
+        return true;
+    }
+    const std::uint16_t order = skeleton.segments[skeleton.segments[i].parent].order;
+    const bool own = skeleton.segments[i].order == order;
+    const bool other = skeleton.segments[chosen].order == order;
+    return own != other ? own : tips[i] >= tips[chosen];
+}
+
 } // namespace
 
 float mass_of_cone(double length, double base_radius, double tip_radius, double density) {
@@ -115,13 +131,17 @@ std::optional<Stop> apply_pipe(const Pipe& pipe,
                                std::uint64_t max_bytes,
                                Skeleton& skeleton) {
     const std::size_t count = skeleton.segments.size();
-    if (skeleton.byte_count() + count * sizeof(std::uint32_t) > max_bytes) {
+    const bool tapers = pipe.taper > 0.0F;
+    const std::size_t number_bytes = (tapers ? 2 : 1) * sizeof(std::uint32_t);
+    if (skeleton.byte_count() + count * number_bytes > max_bytes) {
         return Stop::Limit;
     }
     std::vector<std::uint32_t> tips;
+    std::vector<std::uint32_t> next; // the child whose width a tapered segment has at its tip
     const bool has_memory = catch_out_of_memory(
         [&] {
             tips.resize(count, 0);
+            next.resize(tapers ? count : 0, kNoSegment);
             return true;
         },
         [] { return false; });
@@ -142,9 +162,25 @@ std::optional<Stop> apply_pipe(const Pipe& pipe,
         }
         const auto width = static_cast<float>(std::min(
             last_factor * to_double(pipe.tip_width), to_double(std::numeric_limits<float>::max())));
+        float tip_radius = 0.5F * width;
+        if (tapers) {
+            const std::uint32_t child = next[i];
+            if (child != kNoSegment) {
+                const double step =
+                    to_double(skeleton.segments[child].base_radius) - to_double(tip_radius);
+                tip_radius =
+                    static_cast<float>(to_double(tip_radius) + to_double(pipe.taper) * step);
+            }
+            if (segment.parent != kNoSegment) {
+                std::uint32_t& chosen = next[segment.parent];
+                chosen = continues_better(skeleton, tips, static_cast<std::uint32_t>(i), chosen)
+                             ? static_cast<std::uint32_t>(i)
+                             : chosen;
+            }
+        }
         change_segment(segment, material, [&](Segment& each) {
             each.base_radius = 0.5F * width;
-            each.tip_radius = 0.5F * width;
+            each.tip_radius = tip_radius;
         });
     }
     return std::nullopt;
@@ -185,6 +221,7 @@ void scale_plant(double factor, const StemMaterial& material, Skeleton& skeleton
             each.tip_radius = scaled(each.tip_radius);
         });
     }
+    skeleton.tube_shape.flare.height = scaled(skeleton.tube_shape.flare.height);
     for (PlacedObject& object : skeleton.objects) {
         object.position = scaled_point(object.position);
         object.size = scaled(object.size);

@@ -38,7 +38,9 @@ struct StemMaterial {
 [[nodiscard]] double pipe_factor(std::uint32_t count, double exponent);
 
 /// Gives every segment the width pipe.tip_width * tips^(1 / pipe.exponent), rounded to binary32
-/// once; tips: the number of its descendants without children, 1 if it has no children. Masses and
+/// once; tips: the number of its descendants without children, 1 if it has no children. Its tip has
+/// this width plus pipe.taper times the difference to the width of the child that continues it: on
+/// its axis, else the child with most tips, the first of equals; no child: no difference. Masses and
 /// springs that follow from shape and `material` are computed again. Returns Stop::Limit if the
 /// numbers of tips do not fit into `max_bytes` beside the skeleton, or Stop::OutOfMemory; the
 /// skeleton is then unchanged.

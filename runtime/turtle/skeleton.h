@@ -78,6 +78,15 @@ struct Polygon {
     std::uint16_t order = 0;
 };
 
+/// Shapes of tubes that settings add (docs/language.md section 7.8).
+struct TubeShape {
+    Flare flare;         // its height in metres of the drawn plant
+    float collar = 0.0F; // width of a branch where it leaves its parent, by its own width; 0: none
+    TipShape tips = TipShape::Flat;
+
+    [[nodiscard]] bool has_flare() const { return flare.factor > 1.0F; }
+};
+
 struct Skeleton {
     LargeVector<Segment> segments;
     LargeVector<PlacedObject> objects;
@@ -88,6 +97,7 @@ struct Skeleton {
     bool l3d_compatible_surface = false; // drawn by meshing/impl/l3d_shapes.h
     bool box_segments = false;           // MeshMethod::Default draws boxes
     float leaf_droop = 0.0F;             // default of MeshOptions::droop
+    TubeShape tube_shape;
     // Origins of the modules that drew the items (for a polygon, its `{`); empty unless the words
     // had origins.
     LargeVector<Origin> segment_origins;

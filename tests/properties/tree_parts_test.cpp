@@ -4,6 +4,7 @@
 #include "runtime/forest/instance_skeleton.h"
 #include "runtime/forest/tree_bounds.h"
 #include "runtime/forest/tree_heights.h"
+#include "runtime/meshing/mesh.h"
 #include "tests/support/forest.h"
 
 #include <catch2/catch.hpp>
@@ -13,6 +14,7 @@
 #include <cmath>
 #include <limits>
 #include <string>
+#include <utility>
 #include <vector>
 
 using namespace lsys;
@@ -155,6 +157,34 @@ TEST_CASE("stand-ins at the exits of a plant without chance give the plant") {
     CHECK(tree.size() == plain.size());
     CHECK(count_unmatched(tree, plain, 1e-4) == 0);
     CHECK(count_unmatched(plain, tree, 1e-4) == 0);
+}
+
+TEST_CASE("only the instances with the base of a tree flare") {
+    const Planted planted = plant(
+        "#set flare 2 0.5 5; #w : A(1); #p : A(l) : * : F(l) [&(80) A(l*0.8)] [&(40) A(l*0.6)]"
+        "A(l*0.9);",
+        5, 0.6F, heroes(2));
+    const PartSkeletons skeletons(planted.cache);
+    std::size_t flaring = 0;
+    for (std::uint32_t i = 0; i < planted.cache.instances.size(); ++i) {
+        Skeleton part = skeletons.alone(i);
+        const auto widest_base = [&] {
+            Mesh mesh;
+            REQUIRE(make_mesh(part, {}, {.threads = 1}, mesh) == std::nullopt);
+            float most = 0.0F;
+            for (const glm::vec3& p : mesh.positions) {
+                most = std::max(most, std::abs(p.y) < 1e-4F ? std::hypot(p.x, p.z) : 0.0F);
+            }
+            return std::pair(most, mesh.positions.size());
+        };
+        const auto with = widest_base();
+        part.tube_shape = {};
+        const auto without = widest_base();
+        CHECK((with != without) == (planted.cache.instances[i].slot == 0));
+        flaring += with != without ? 1U : 0U;
+    }
+    CHECK(flaring > 0);
+    CHECK(flaring < planted.cache.instances.size());
 }
 
 TEST_CASE("no tree goes beyond the bounds of its cache") {

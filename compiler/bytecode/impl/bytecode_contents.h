@@ -78,9 +78,15 @@ void describe_value(Stream& stream, Value& value) {
     } else if constexpr (std::is_same_v<Type, TurtleTraits>) {
         describe_traits(stream, value);
     } else if constexpr (std::is_same_v<Type, Pipe>) {
-        auto& [exponent, tip_width] = value;
+        auto& [exponent, tip_width, taper] = value;
         stream.real(exponent);
         stream.real(tip_width);
+        stream.real(taper);
+    } else if constexpr (std::is_same_v<Type, Flare>) {
+        auto& [factor, height, roots] = value;
+        stream.real(factor);
+        stream.real(height);
+        stream.number(roots);
     } else {
         for (auto& component : value) {
             describe_value(stream, component);

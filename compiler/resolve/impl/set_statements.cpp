@@ -237,6 +237,8 @@ void SetResolver::read_number(const SetNode& node, ExpressionResolver& expressio
         read_height(node, expressions);
     } else if (key == "pipe") {
         read_pipe(node, expressions);
+    } else if (key == "flare") {
+        read_flare(node, expressions);
     } else if (key == "spring") {
         read_spring(node, expressions);
     }
@@ -315,29 +317,76 @@ void SetResolver::read_height(const SetNode& node, ExpressionResolver& expressio
     }
 }
 
+SourceSpan SetResolver::value_span(const SetNode& node, std::uint32_t index) const {
+    return resolution_.ast.set_values[node.values.first + index].span;
+}
+
+std::optional<std::array<float, 3>> SetResolver::read_two_or_three(
+    const SetNode& node, const char* wanted, ExpressionResolver& expressions) {
+    std::array<float, 3> numbers{};
+    if (node.values.count < 2 || node.values.count > numbers.size()) {
+        report_bad_value(node, node.key_span, wanted);
+        return std::nullopt;
+    }
+    bool all = true;
+    for (std::uint32_t i = 0; i < node.values.count; ++i) {
+        const std::optional<float> number = number_of(node, i, expressions);
+        numbers[i] = number.value_or(0.0F);
+        all = all && number.has_value();
+    }
+    return all ? std::optional(numbers) : std::nullopt;
+}
+
 void SetResolver::read_pipe(const SetNode& node, ExpressionResolver& expressions) {
-    if (node.values.count != 2) {
-        report_bad_value(node, node.key_span,
-                         "takes two numbers: the exponent and the width of a tip");
+    const auto numbers = read_two_or_three(
+        node, "takes two numbers, the exponent and the width of a tip, and perhaps a taper",
+        expressions);
+    if (!numbers) {
         return;
     }
-    const std::optional<float> exponent = number_of(node, 0, expressions);
-    const std::optional<float> width = number_of(node, 1, expressions);
-    if (!exponent || !width) {
-        return;
-    }
-    const auto span_of = [&](std::uint32_t index) {
-        return resolution_.ast.set_values[node.values.first + index].span;
-    };
-    if (!(*exponent >= kMinPipeExponent && *exponent <= kMaxPipeExponent)) {
-        report_bad_value(node, span_of(0),
-                         fmt::format("begins with an exponent from 1 to 4, not {}", *exponent));
-    } else if (!(*width >= 0.0F && std::isfinite(*width))) {
-        report_bad_value(node, span_of(1),
-                         fmt::format("ends with the width of a tip, from 0 on, not {}", *width));
+    const auto [exponent, width, taper] = *numbers;
+    if (!(exponent >= kMinPipeExponent && exponent <= kMaxPipeExponent)) {
+        report_bad_value(node, value_span(node, 0),
+                         fmt::format("begins with an exponent from 1 to 4, not {}", exponent));
+    } else if (!(width >= 0.0F && std::isfinite(width))) {
+        report_bad_value(
+            node, value_span(node, 1),
+            fmt::format("has the width of a tip, from 0 on, as second number, not {}", width));
+    } else if (!(taper >= 0.0F && taper <= 1.0F)) {
+        report_bad_value(node, value_span(node, 2),
+                         fmt::format("ends with a taper from 0 to 1, not {}", taper));
     } else {
-        resolution_.program.settings.pipe = {*exponent, *width};
+        resolution_.program.settings.pipe = {exponent, width, taper};
         resolution_.program.pipe_span = node.key_span;
+    }
+}
+
+void SetResolver::read_flare(const SetNode& node, ExpressionResolver& expressions) {
+    const auto numbers = read_two_or_three(
+        node,
+        "takes two numbers, the factor at the ground and the height where the flare begins, and "
+        "perhaps a number of roots",
+        expressions);
+    if (!numbers) {
+        return;
+    }
+    const auto [factor, height, roots] = *numbers;
+    const bool has_roots = node.values.count == 3;
+    if (!(factor >= 1.0F && factor <= kMaxFlare)) {
+        report_bad_value(node, value_span(node, 0),
+                         fmt::format("begins with a factor from 1 to 10, not {}", factor));
+    } else if (!(height > 0.0F && std::isfinite(height))) {
+        report_bad_value(
+            node, value_span(node, 1),
+            fmt::format("has a height in metres above 0 as second number, not {}", height));
+    } else if (has_roots &&
+               !(roots >= static_cast<float>(kMinRoots) && roots <= static_cast<float>(kMaxRoots) &&
+                 roots == std::floor(roots))) {
+        report_bad_value(
+            node, value_span(node, 2),
+            fmt::format("ends with a whole number of roots from 3 to 9, not {}", roots));
+    } else {
+        resolution_.program.settings.flare = {factor, height, static_cast<std::uint32_t>(roots)};
     }
 }
 

@@ -58,6 +58,11 @@ private:
     void read_tropism(const SetNode& node, ExpressionResolver& expressions);
     void read_height(const SetNode& node, ExpressionResolver& expressions);
     void read_pipe(const SetNode& node, ExpressionResolver& expressions);
+    void read_flare(const SetNode& node, ExpressionResolver& expressions);
+    /// The two or three numbers of a setting, the third one 0 if missing; no value after an error.
+    [[nodiscard]] std::optional<std::array<float, 3>>
+    read_two_or_three(const SetNode& node, const char* wanted, ExpressionResolver& expressions);
+    [[nodiscard]] SourceSpan value_span(const SetNode& node, std::uint32_t index) const;
     void read_spring(const SetNode& node, ExpressionResolver& expressions);
     void read_seed(const SetNode& node, ExpressionResolver& expressions);
 

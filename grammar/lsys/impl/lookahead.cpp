@@ -20,12 +20,13 @@ constexpr std::array<std::string_view, 16> kSpellings{
     "object", "include", "set",    "ignore", "consider", "decompose", "interpret", "w"};
 
 /// The keys of `#set`, which compiler/bytecode/settings.def defines.
-constexpr std::array<std::string_view, 25> kSettings{
+constexpr std::array<std::string_view, 28> kSettings{
     "turtle",          "names",       "rewriting", "choice",   "weights",
     "random",          "angle",       "step",      "width",    "sides",
     "tropism",         "seed",        "spring",    "density",  "angle_scale",
     "step_scale",      "width_scale", "damping",   "at_depth", "decompose_depth",
-    "interpret_depth", "elasticity",  "load",      "height",   "pipe"};
+    "interpret_depth", "elasticity",  "load",      "height",   "pipe",
+    "flare",           "collar",      "tips"};
 
 bool is_blank(char c) {
     return c == ' ' || c == '\t' || c == '\r' || c == '\n';

@@ -32,6 +32,8 @@ constexpr float kThickestBranch = 1.5F; // in radii of the parent; above, the ba
 constexpr float kCollarSlope = 0.13F;   // increase of radius per length towards the base
 constexpr float kMinSine = 0.5F;        // of the angle of a branch, for the length of its collar
 constexpr float kMaxCollar = 0.7F;      // max length of a collar per length of its edge
+constexpr float kCollarReach = 1.5F;    // length of a wide collar outside of the parent, in radii
+constexpr std::array<std::uint32_t, kMaxShapedLevel + 1> kSidesPerRoot{6, 4}; // by level
 constexpr float kMaxParts = 16.0F;      // max pieces into which an edge is cut for noise
 constexpr std::size_t kExtraJoints = 2; // joints beside those of segments: a collar and the tip
 
@@ -121,6 +123,8 @@ bool AxisReader::read(Run& run) {
     stale_ = false;
     rings_final_ = true;
     flare_ = {};
+    base_widening_ = {};
+    run.has_roots = false;
     const Segment* last = nullptr;
     bool pointed = false;
     std::uint32_t at = segment_;
@@ -169,12 +173,23 @@ bool AxisReader::read(Run& run) {
     run.end = joints_.back().radius == 0.0F ? TubeEnd::Point
               : at == kForked               ? TubeEnd::Ball
                                             : TubeEnd::Blunt;
+    const TubeShape& shape = skeleton_.tube_shape;
+    if (shape.tips != TipShape::Flat && run.end == TubeEnd::Blunt && is_shaped(*last)) {
+        run.end = shape.tips == TipShape::Round ? TubeEnd::Round : TubeEnd::Broken;
+    }
     std::optional<CurveStart> start;
     const bool open = attached_ && fit_into_parent(run, start);
     run.begin = joints_.front().radius == 0.0F ? TubeEnd::Point
                 : open                         ? TubeEnd::Open
                                                : TubeEnd::Flat;
     attached_ = false;
+    if (shape.has_flare() && stands_on_ground(skeleton_.segments[run.first_segment], shape.flare)) {
+        base_widening_ = widening_of(shape.flare);
+        run.has_roots = shape.flare.roots > 0 && options_.level <= kMaxShapedLevel;
+    }
+    if (base_widening_.end > 0.0F) {
+        widen_base(open);
+    }
     if (options_.smooth_joints && bend_edges(joints_, spare_, start)) {
         rings_final_ = false;
     }
@@ -193,6 +208,9 @@ bool AxisReader::read(Run& run) {
         joints_.front().radius =
             open ? std::min(joints_.front().radius, max_base_radius_) : joints_.front().radius;
         run.radii = radii_;
+    }
+    if (run.has_roots) {
+        add_root_sides();
     }
     if (!rings_final_ || counts_ || leaves_out || has_normal_map) {
         set_rings();
@@ -287,8 +305,11 @@ bool AxisReader::fit_into_parent(const Run& run, std::optional<CurveStart>& star
     const float own = base.radius;
     const glm::vec3 tangent = tip_tangent(parent, after);
     const bool leaves_along = options_.smooth_joints && can_leave_along(tangent, base.heading);
+    const bool has_wide_collar = set_wide_collar(child, radius);
     float reach = 0.0F;
-    if (leaves_along) {
+    if (has_wide_collar) {
+        // widen_base() adds the collar.
+    } else if (leaves_along) {
         reach = collar_length(parent, radius);
         if (options_.level == 0 && reach < kMaxCollar * base.length && own > 0.0F) {
             joints_.front().radius += kCollarSlope * reach;
@@ -298,7 +319,8 @@ bool AxisReader::fit_into_parent(const Run& run, std::optional<CurveStart>& star
     }
     joints_.front().radius = std::min(joints_.front().radius, hidden);
     if (leaves_along) {
-        start = CurveStart{tangent, joints_.front().radius - own, reach};
+        const float flare = has_wide_collar ? 0.0F : joints_.front().radius - own;
+        start = CurveStart{tangent, flare, reach};
     }
     max_base_radius_ = hidden;
     flare_[0] = std::min(flare_[0], hidden);
@@ -346,6 +368,95 @@ void AxisReader::add_collar(const Segment& parent, float parent_radius) {
     base.length = reach;
     base.radius += kCollarSlope * reach;
     joints_.insert(joints_.begin() + 1, collar);
+}
+
+/// Whether a segment is thick and the level fine enough for a collar or a shaped tip.
+bool AxisReader::is_shaped(const Segment& segment) const {
+    return options_.level <= kMaxShapedLevel &&
+           usable_sides(options_.sides != 0 ? options_.sides : segment.sides) >= kMinShapedSides;
+}
+
+/// Sets the widening of a branch by `#set collar`; returns false if it has none. Its length does
+/// not depend on the angle of the branch, so that the number of joints stays when the plant bends.
+bool AxisReader::set_wide_collar(const Segment& child, float parent_radius) {
+    const float own = joints_.front().radius;
+    const float extra = std::min(skeleton_.tube_shape.collar * own, parent_radius) - own;
+    const float end = (1.0F + kCollarReach) * parent_radius;
+    if (!(extra > 0.0F && own > 0.0F) || !is_shaped(child)) {
+        return false;
+    }
+    float length = 0.0F;
+    for (std::size_t i = 0; i < joints_.size() && length < end; ++i) {
+        length += joints_[i].length;
+    }
+    if (!(length >= end)) {
+        return false;
+    }
+    base_widening_ = {
+        .begin = parent_radius, .end = end, .factor = 0.0F, .radius = extra, .parts = kCollarParts};
+    return true;
+}
+
+/// Applies base_widening_: adds joints where it needs them and widens all joints that it reaches.
+void AxisReader::widen_base(bool open) {
+    const BaseWidening& wide = base_widening_;
+    const float step = (wide.end - wide.begin) / static_cast<float>(wide.parts);
+    std::uint32_t part = wide.begin > 0.0F ? 0 : 1;
+    float arc = 0.0F;
+    spare_.clear();
+    for (std::size_t i = 0; i + 1 < joints_.size(); ++i) {
+        const Joint from = joints_[i];
+        const Joint& to = joints_[i + 1];
+        const auto put = [&](const Joint& joint, float at) {
+            spare_.push_back(joint);
+            float& radius = spare_.back().radius;
+            radius = std::min(radius > 0.0F ? wide.widened(radius, at) : 0.0F, kMaxRadius);
+        };
+        put(from, arc);
+        float begin = 0.0F; // of the last piece, from the beginning of the edge
+        for (; part <= wide.parts; ++part) {
+            const float along = wide.begin + static_cast<float>(part) * step - arc;
+            if (!(along < from.length)) {
+                break;
+            }
+            const float share = along / from.length;
+            Joint joint = from;
+            joint.centre = from.centre + share * (to.centre - from.centre);
+            joint.radius = from.radius + share * (to.radius - from.radius);
+            joint.length = from.length - along;
+            joint.rings = 1;
+            if (along > begin && !coincide(spare_.back().centre, joint.centre, joint.radius) &&
+                !coincide(joint.centre, to.centre, joint.radius) &&
+                drawn_radius(joint.radius, joint.centre, joint.sides) > 0.0F) {
+                spare_.back().length = along - begin;
+                put(joint, arc + along);
+                begin = along;
+            }
+        }
+        arc += from.length;
+    }
+    spare_.push_back(joints_.back());
+    Joint& last = spare_.back();
+    last.radius = std::min(last.radius > 0.0F ? wide.widened(last.radius, arc) : 0.0F, kMaxRadius);
+    joints_.swap(spare_);
+    if (open) {
+        joints_.front().radius = std::min(joints_.front().radius, max_base_radius_);
+    }
+    rings_final_ = false;
+}
+
+/// Gives the rings with roots enough sides to show them.
+void AxisReader::add_root_sides() {
+    const Flare& flare = skeleton_.tube_shape.flare;
+    const std::uint32_t wanted = std::min(kSidesPerRoot[options_.level] * flare.roots, kMaxSides);
+    float arc = 0.0F;
+    for (Joint& joint : joints_) {
+        if (!(arc < flare.height)) {
+            break;
+        }
+        joint.sides = static_cast<std::uint8_t>(std::max<std::uint32_t>(joint.sides, wanted));
+        arc += joint.length;
+    }
 }
 
 /// Cuts edges into pieces about as long as the tube is thick, to get rings that noise can move.

@@ -5,6 +5,7 @@
 
 #include "runtime/meshing/impl/axes.h"
 #include "runtime/meshing/impl/polygon_sides.h"
+#include "runtime/meshing/impl/stem_base.h"
 #include "runtime/meshing/mesh.h"
 
 #include <array>
@@ -27,12 +28,19 @@ struct Joint {
 };
 
 enum class TubeEnd : std::uint8_t {
-    Point, // the radius is 0
-    Flat,  // closed by a disc
-    Blunt, // closed by a low cone
-    Ball,  // closed by a half ball, from which branches begin
-    Open,  // inside of another tube
+    Point,  // the radius is 0
+    Flat,   // closed by a disc
+    Blunt,  // closed by a low cone
+    Ball,   // closed by a half ball, from which branches begin
+    Open,   // inside of another tube
+    Round,  // closed by a half ball
+    Broken, // closed by a jagged break
 };
+
+/// Rings that close a run after the ring of its last joint.
+[[nodiscard]] inline std::uint32_t closing_rings(TubeEnd end) {
+    return end == TubeEnd::Ball ? 1 : end == TubeEnd::Round || end == TubeEnd::Broken ? 2 : 0;
+}
 
 /// At least two joints without a gap between them.
 struct Run {
@@ -43,6 +51,7 @@ struct Run {
     TubeEnd end = TubeEnd::Blunt;
     glm::vec3 side{}; // direction of u = 0; about perpendicular to the first heading
     std::uint32_t first_segment = 0;
+    bool has_roots = false; // the buttress roots of Skeleton::tube_shape
 };
 
 /// Run::side for a run that begins with the segment.
@@ -79,6 +88,10 @@ private:
     [[nodiscard]] glm::vec3 tip_tangent(const Segment& segment, std::uint32_t next) const;
     [[nodiscard]] float collar_length(const Segment& parent, float parent_radius) const;
     void add_collar(const Segment& parent, float parent_radius);
+    bool set_wide_collar(const Segment& child, float parent_radius);
+    void widen_base(bool open);
+    void add_root_sides();
+    [[nodiscard]] bool is_shaped(const Segment& segment) const;
     void subdivide();
     void fit_sides();
     void set_rings();
@@ -94,6 +107,7 @@ private:
     // With a deviation, sides_ and joints have the sides of level 0 until fit_sides().
     std::optional<SideCounts> counts_;
     std::array<std::uint8_t, kMaxSides + 1> max_sides_{}; // at options_.level, by sides of level 0
+    BaseWidening base_widening_;                          // of the run
     float max_base_radius_ = 0.0F; // max radius of the corners of an open base
     std::array<float, 2> flare_{}; // radii at the ends of the longest collar; 0: none
     LargeVector<float> radii_;

@@ -94,8 +94,10 @@ private:
         const std::size_t last = joints.size() - 1;
         places_.assign(joints.size(), kUnknown);
         places_[0] = 0;
-        const std::size_t max_between =
-            options_.smooth_joints ? kMaxBetween * kMaxCurveParts : kMaxBetween;
+        const TubeShape& shape = skeleton_.tube_shape;
+        const bool widens = shape.has_flare() || shape.collar > 0.0F;
+        const std::size_t max_between = kMaxBetween * (widens ? kFlareParts + 1 : 1) *
+                                        (options_.smooth_joints ? kMaxCurveParts : 1);
         std::size_t known = 0;
         std::uint32_t end = 0;
         for (std::uint32_t k = 1; k < chain_.size() && known + 1 < last; ++k) {
@@ -187,9 +189,7 @@ private:
             }
         }
         const std::uint64_t columns = columns_of(joints[last].sides, options_);
-        put(own.run.end == TubeEnd::Ball    ? columns + 1
-            : own.run.end == TubeEnd::Point ? 0
-                                            : 1,
+        put(own.run.end == TubeEnd::Point ? 0 : closing_rings(own.run.end) * columns + 1,
             segments_of_[last]);
     }
 

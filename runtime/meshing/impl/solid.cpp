@@ -2,6 +2,7 @@
 #include "runtime/meshing/impl/solid.h"
 
 #include "runtime/meshing/impl/solid_shapes.h"
+#include "runtime/meshing/impl/stem_base.h"
 #include "runtime/meshing/impl/tetrahedra.h"
 
 #include <glm/common.hpp>
@@ -74,6 +75,80 @@ std::optional<double> ground_of(const Skeleton& skeleton, const Bounds3& bounds)
     return stands ? std::optional(bounds.low.y) : std::nullopt;
 }
 
+/// A piece of a segment.
+struct ConePart {
+    glm::vec3 base{};
+    float base_radius = 0.0F;
+    glm::vec3 tip{};
+    float tip_radius = 0.0F;
+};
+
+/// Cuts the stems that flare at the ground into cones.
+class Flares {
+public:
+    explicit Flares(const Skeleton& skeleton)
+        : skeleton_(skeleton), flare_(skeleton.tube_shape.flare) {
+        if (skeleton.tube_shape.has_flare()) {
+            ends_.resize(skeleton.segments.size(), kFar);
+        }
+    }
+
+    /// Distance of the base of a segment from the ground along its axis, if the axis is a stem
+    /// shorter than the flare so far; else kFar. Call in the order of segments.
+    float arc_of(std::size_t i) {
+        if (ends_.empty()) {
+            return kFar;
+        }
+        const Segment& segment = skeleton_.segments[i];
+        const bool continues = segment.parent < i && segment.linked &&
+                               skeleton_.segments[segment.parent].order == segment.order;
+        const float arc = continues                           ? ends_[segment.parent]
+                          : stands_on_ground(segment, flare_) ? 0.0F
+                                                              : kFar;
+        ends_[i] = arc < flare_.height ? arc + segment.length : kFar;
+        return arc;
+    }
+
+    std::span<const ConePart> parts_of(const Segment& segment, float arc) {
+        parts_.clear();
+        const glm::vec3 end = tip(segment);
+        if (!(arc < flare_.height)) {
+            parts_.push_back({segment.base, segment.base_radius, end, segment.tip_radius});
+            return parts_;
+        }
+        const BaseWidening wide = widening_of(flare_);
+        const auto at = [&](float along) {
+            const float share = segment.length > 0.0F ? along / segment.length : 0.0F;
+            const float radius =
+                segment.base_radius + share * (segment.tip_radius - segment.base_radius);
+            return std::pair(segment.base + share * (end - segment.base),
+                             wide.widened(radius, arc + along));
+        };
+        float begin = 0.0F;
+        for (std::uint32_t k = 1; k <= kFlareParts + 1; ++k) {
+            const float place =
+                k > kFlareParts
+                    ? segment.length
+                    : flare_.height * static_cast<float>(k) / static_cast<float>(kFlareParts) - arc;
+            if (place > begin && place <= segment.length) {
+                const auto [low, low_radius] = at(begin);
+                const auto [high, high_radius] = at(place);
+                parts_.push_back({low, low_radius, high, high_radius});
+                begin = place;
+            }
+        }
+        return parts_;
+    }
+
+private:
+    static constexpr float kFar = std::numeric_limits<float>::max();
+
+    const Skeleton& skeleton_;
+    const Flare& flare_;
+    std::vector<float> ends_; // by segment: distance of its tip from the ground; empty: no flare
+    std::vector<ConePart> parts_;
+};
+
 Solid make_solid(const Skeleton& skeleton, const Mesh& flat, const MeshOptions& options) {
     const Bounds3 bounds = bounds_of(skeleton, flat);
     Solid solid;
@@ -83,16 +158,20 @@ Solid make_solid(const Skeleton& skeleton, const Mesh& flat, const MeshOptions& 
     const double min_width = options.min_width > 0.0F
                                  ? std::max(double{options.min_width}, kFinestWidth * extent)
                                  : kMinWidth * extent;
+    Flares flares(skeleton);
     for (std::size_t i = 0; i < skeleton.segments.size(); ++i) {
         const Segment& segment = skeleton.segments[i];
+        const float arc = flares.arc_of(i);
         if (!is_drawn(segment)) {
             continue;
         }
-        SolidShape& cone = solid.shapes.emplace_back(
-            make_cone(segment.base, std::max(double{segment.base_radius}, 0.5 * min_width),
-                      tip(segment), std::max(double{segment.tip_radius}, 0.5 * min_width)));
-        cone.palette = segment.colour;
-        cone.segment = static_cast<std::uint32_t>(i);
+        for (const ConePart& part : flares.parts_of(segment, arc)) {
+            SolidShape& cone = solid.shapes.emplace_back(
+                make_cone(part.base, std::max(double{part.base_radius}, 0.5 * min_width), part.tip,
+                          std::max(double{part.tip_radius}, 0.5 * min_width)));
+            cone.palette = segment.colour;
+            cone.segment = static_cast<std::uint32_t>(i);
+        }
     }
     TriangleReader corner(flat.indices);
     for (std::uint64_t i = 0; i < flat.indices.size(); i += 3) {

@@ -337,6 +337,7 @@ void thin_skeleton(const Skeleton& skeleton,
     thin.mesh_files = skeleton.mesh_files;
     thin.looks = skeleton.looks;
     thin.leaf_droop = skeleton.leaf_droop;
+    thin.tube_shape = skeleton.tube_shape;
     std::vector<std::uint32_t> places;
     thin_wood(skeleton, order, thinning, places, thin, segments);
     const std::uint64_t kept = std::min<std::uint64_t>(thinning.foliage, order.foliage.size());

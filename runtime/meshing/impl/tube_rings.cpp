@@ -4,6 +4,7 @@
 #include "runtime/meshing/impl/directions.h"
 #include "runtime/meshing/impl/float4.h"
 #include "runtime/meshing/impl/grooves.h"
+#include "runtime/meshing/impl/stem_base.h"
 #include "runtime/meshing/impl/tube_writer.h"
 
 #include <glm/geometric.hpp>
@@ -49,11 +50,17 @@ void put_ellipses(glm::vec3* positions,
 
 } // namespace
 
+/// Whether bark, grooves or roots move the vertices of a ring.
+bool TubeWriter::has_normal_map(const Ring& ring) const {
+    return noise_ != nullptr || grooves_ != nullptr ||
+           (roots_ != nullptr && ring.arc < roots_->reach());
+}
+
 void TubeWriter::put_ring(const Ring& ring) {
     const std::uint64_t first = at_.vertex;
     const std::uint32_t columns = columns_of(ring.sides, options_);
     at_.vertex += columns;
-    if (has_normal_map()) {
+    if (has_normal_map(ring)) {
         put_normal_map(ring, first);
     } else {
         const float part =
@@ -89,7 +96,7 @@ void TubeWriter::put_textured(const Ring& ring, std::uint64_t first) {
     }
     glm::vec4* to = block_.tangents.data() + first;
     const Direction* at = directions(ring.sides);
-    if (!has_normal_map()) {
+    if (!has_normal_map(ring)) {
         const Float4 a = float4(ring.normal);
         const Float4 b = float4(ring.binormal);
         const Float4 sign = float4(glm::vec3(0.0F), 1.0F);
@@ -121,11 +128,16 @@ void TubeWriter::put_normal_map(const Ring& ring, std::uint64_t first) {
             const NoiseSample groove = grooves_->at(turn, ring.arc);
             normal_map = {depth * groove.value, depth * groove.by_angle, depth * groove.by_length};
         }
+        const auto add = [&](float weight, const NoiseSample& sample) {
+            normal_map.value += weight * sample.value;
+            normal_map.by_angle += weight * sample.by_angle;
+            normal_map.by_length += weight * sample.by_length;
+        };
         if (noise_ != nullptr) {
-            const NoiseSample noise = noise_->at(turn, ring.arc);
-            normal_map.value += amount * noise.value;
-            normal_map.by_angle += amount * noise.by_angle;
-            normal_map.by_length += amount * noise.by_length;
+            add(amount, noise_->at(turn, ring.arc));
+        }
+        if (roots_ != nullptr) {
+            add(1.0F, roots_->at(turn, ring.arc));
         }
         const float factor = std::max(1.0F + normal_map.value, kMinFactor);
         const glm::vec3 offset = at[i].cosine * ring.wide_normal + at[i].sine * ring.wide_binormal;

@@ -62,8 +62,12 @@ void TubeTriangles::add(const Run& run) {
     if (run.end == TubeEnd::Point) {
         return;
     }
-    if (run.end == TubeEnd::Ball) {
-        link(*list, joints[last].sides);
+    for (std::uint32_t i = 0; i < closing_rings(run.end); ++i) {
+        if (i == 1 && run.end == TubeEnd::Broken) { // the ring again, with normals of the break
+            last_ = add_ring(joints[last].sides);
+        } else {
+            link(*list, joints[last].sides);
+        }
     }
     list->append_fan(last_, static_cast<std::uint32_t>(vertices_), false, true);
     ++vertices_;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "runtime/meshing/impl/tube_writer.h"
 
+#include "runtime/base/random.h"
 #include "runtime/meshing/impl/bark_noise.h"
 #include "runtime/meshing/impl/grooves.h"
 
@@ -24,6 +25,11 @@ constexpr float kBluntHeight = 0.35F; // in radii
 // half ball, in radii of the tube.
 constexpr float kBallRing = 0.75F;
 constexpr float kBallHeight = 0.62F;
+constexpr float kHalfRoot3 = 0.8660254F;
+// Heights of the corners of a break, in radii of the tube.
+constexpr float kMinSplinter = 0.15F;
+constexpr float kMaxSplinter = 1.1F;
+constexpr std::uint32_t kBreakGeneration = 0xFFFFFFFCu; // docs/language.md section 6.5
 // Weight of the bisector in the first of three tangents of a bend: tan(30 degrees), which is exact
 // for a reversal, whose bisector is 90 degrees away.
 constexpr float kOuterBisectorWeight = 0.57735F;
@@ -84,8 +90,11 @@ float slope_of(const Run& run, std::size_t i) {
 
 } // namespace
 
-TubeWriter::TubeWriter(const MeshBlock& block, const MeshOptions& options, std::uint64_t vertex)
-    : block_(block), options_(options), seam_(columns_of(0, options) != 0) {
+TubeWriter::TubeWriter(const MeshBlock& block,
+                       const MeshOptions& options,
+                       const Flare& flare,
+                       std::uint64_t vertex)
+    : block_(block), options_(options), flare_(flare), seam_(columns_of(0, options) != 0) {
     at_.vertex = vertex;
 }
 
@@ -132,6 +141,10 @@ void TubeWriter::advance(const Run& run, std::size_t end) {
     const std::size_t last = joints.size() - 1;
     std::optional<BarkNoise> noise;
     std::optional<Grooves> grooves;
+    std::optional<Roots> roots;
+    if (run.has_roots) {
+        roots.emplace(flare_);
+    }
     if (seam_ || options_.bark_noise > 0.0F || options_.grooves > 0.0F) {
         v_scale_ = 1.0 / at_.circumference;
         const auto circumference = static_cast<float>(at_.circumference);
@@ -146,6 +159,7 @@ void TubeWriter::advance(const Run& run, std::size_t end) {
     }
     noise_ = noise ? &*noise : nullptr;
     grooves_ = grooves ? &*grooves : nullptr;
+    roots_ = roots ? &*roots : nullptr;
     Ring ring;
     double arc = at_.arc;
     ring.arc = arc;
@@ -296,6 +310,29 @@ void TubeWriter::bend(const Joint& before, const Joint& joint, Ring& ring) {
     put(cosine * part_cosine + sine * part_sine, sine * part_cosine - cosine * part_sine);
 }
 
+/// Writes the two rings of a break: its corners, with normals of the tube and of the break.
+void TubeWriter::put_break(const Run& run, Ring& ring) {
+    const std::uint32_t columns = columns_of(ring.sides, options_);
+    for (int i = 0; i < 2; ++i) {
+        const std::uint64_t first = at_.vertex;
+        put_ring(ring);
+        for (std::uint32_t column = 0; column < columns; ++column) {
+            const std::uint32_t corner = column == ring.sides ? 0 : column; // the seam repeats it
+            const PhiloxBlock words =
+                draw_block(0, kBreakGeneration, run.first_segment, corner / 4);
+            const float height =
+                draw_in_range(kMinSplinter, kMaxSplinter, unit_interval(words[corner % 4]));
+            block_.positions[first + column] += (height * ring.radius) * ring.tangent;
+            if (i == 1) {
+                block_.normals[first + column] = ring.tangent;
+                if (options_.tangents) {
+                    block_.tangents[first + column] = glm::vec4(ring.normal, 1.0F);
+                }
+            }
+        }
+    }
+}
+
 /// Closes the run; `ring` is the last one written.
 void TubeWriter::close(const Run& run, Ring& ring) {
     if (run.end == TubeEnd::Point) {
@@ -305,13 +342,21 @@ void TubeWriter::close(const Run& run, Ring& ring) {
     const glm::vec3 base = ring.centre;
     const double arc = ring.arc;
     float height = kBluntHeight;
-    if (run.end == TubeEnd::Ball) {
+    const auto put_above = [&](float up, float wide, float slope) {
         height = 1.0F;
-        ring.centre = base + (kBallHeight * radius) * ring.tangent;
-        ring.radius = kBallRing * radius;
-        ring.slope = -1.0F;
-        ring.arc = arc + static_cast<double>(kBallHeight * radius);
+        ring.centre = base + (up * radius) * ring.tangent;
+        ring.radius = wide * radius;
+        ring.slope = slope;
+        ring.arc = arc + static_cast<double>(up * radius);
         put_ring(ring);
+    };
+    if (run.end == TubeEnd::Ball) {
+        put_above(kBallHeight, kBallRing, -1.0F);
+    } else if (run.end == TubeEnd::Round) {
+        put_above(0.5F, kHalfRoot3, -kHalfRoot3 / 1.5F); // 30 degrees above the end
+        put_above(kHalfRoot3, 0.5F, -2.0F * kHalfRoot3); // 60 degrees
+    } else if (run.end == TubeEnd::Broken) {
+        put_break(run, ring);
     }
     ring.arc = arc + static_cast<double>(height * radius);
     put_tip(base + (height * radius) * ring.tangent, ring.tangent, ring);

@@ -17,6 +17,7 @@ namespace lsys {
 
 class BarkNoise;
 class Grooves;
+class Roots;
 
 /// Vertices of a ring: one more than sides if there is a seam for texture coordinates.
 [[nodiscard]] inline std::uint32_t columns_of(std::uint32_t sides, const MeshOptions& options) {
@@ -26,7 +27,10 @@ class Grooves;
 class TubeWriter {
 public:
     /// `vertex`: the next vertex to write, within the block.
-    TubeWriter(const MeshBlock& block, const MeshOptions& options, std::uint64_t vertex);
+    TubeWriter(const MeshBlock& block,
+               const MeshOptions& options,
+               const Flare& flare,
+               std::uint64_t vertex);
 
     /// Progress within a run: a place between two joints, and the frame there.
     struct Place {
@@ -73,17 +77,20 @@ private:
     void put_normal_map(const Ring& ring, std::uint64_t first);
     void put_tip(const glm::vec3& position, const glm::vec3& normal, const Ring& ring);
     void close(const Run& run, Ring& ring);
-    [[nodiscard]] bool has_normal_map() const { return noise_ != nullptr || grooves_ != nullptr; }
+    void put_break(const Run& run, Ring& ring);
+    [[nodiscard]] bool has_normal_map(const Ring& ring) const;
     [[nodiscard]] float v_of(double arc) const { return static_cast<float>(-arc * v_scale_); }
 
     MeshBlock block_;
     const MeshOptions& options_;
+    const Flare& flare_;
     bool seam_;
     Place at_;
     // State of the run being written:
     double v_scale_ = 0.0;
     const BarkNoise* noise_ = nullptr;
     const Grooves* grooves_ = nullptr;
+    const Roots* roots_ = nullptr;
 };
 
 } // namespace lsys

@@ -26,12 +26,13 @@ constexpr std::uint64_t kMaxLists = std::uint64_t{1} << 20; // max pieces times 
 constexpr std::size_t kJointsPerSegment = 2;                // estimate, with ends and collars
 constexpr std::size_t kJointsPerPart = 2048;
 constexpr std::size_t kMinLongRun = 4 * kJointsPerPart; // joints of a run that is written in parts
-static_assert(kMinLongRun <= 0xFFFF);
+static_assert(kMinLongRun <= 0x7FFF);
 
 /// A Run without its joints and their radii.
 struct KeptRun {
     std::uint32_t first_segment = 0;
-    std::uint16_t joint_count = 0; // except for long runs
+    std::uint16_t joint_count : 15 = 0; // except for long runs
+    bool has_roots : 1 = false;
     TubeEnd begin = TubeEnd::Flat;
     TubeEnd end = TubeEnd::Blunt;
 };
@@ -109,7 +110,8 @@ private:
         const bool is_long = run.joints.size() >= kMinLongRun;
         piece_.runs.push_back(
             {.first_segment = run.first_segment,
-             .joint_count = static_cast<std::uint16_t>(is_long ? 0 : run.joints.size()),
+             .joint_count = static_cast<std::uint16_t>(is_long ? 0 : run.joints.size() & 0x7FFFU),
+             .has_roots = run.has_roots,
              .begin = run.begin,
              .end = run.end});
         if (!is_long) {
@@ -187,7 +189,7 @@ public:
                bool alone,
                const Task& task)
         : skeleton_(skeleton), alone_(alone), task_(task),
-          writer_(block, options, task.first_vertex) {}
+          writer_(block, options, skeleton.tube_shape.flare, task.first_vertex) {}
 
     void write() {
         if (task_.shared != nullptr) {
@@ -205,7 +207,8 @@ private:
                 .begin = kept.begin,
                 .end = kept.end,
                 .side = side_of(skeleton_, kept.first_segment),
-                .first_segment = kept.first_segment};
+                .first_segment = kept.first_segment,
+                .has_roots = kept.has_roots};
     }
 
     /// Publishes the place of the next part before writing, unless there is no other thread.

@@ -78,6 +78,7 @@ struct Turtle::State {
         skeleton.l3d_compatible_surface = traits.l3d_compatible_surface;
         skeleton.leaf_droop = traits.leaf_droop;
         skeleton.box_segments = traits.box_segments;
+        skeleton.tube_shape = {settings.flare, settings.collar, settings.tips};
         has_second_heading = any_has(bytecode, TurtleInfo::SecondHeading);
         begin();
     }

@@ -47,8 +47,8 @@ TEST_CASE("a module file is read back as it was written") {
 
 TEST_CASE("the bytes of a module file change only with its version") {
     // If this number changes, the format of the file has changed: increase kModuleFileVersion.
-    REQUIRE(kModuleFileVersion == 10);
-    CHECK(checksum(write_module_file(test::small_bytecode())) == 0x4345535125A94214);
+    REQUIRE(kModuleFileVersion == 11);
+    CHECK(checksum(write_module_file(test::small_bytecode())) == 0xCBE3788800A2D5E4);
 }
 
 TEST_CASE("every truncation of a module file is refused") {
@@ -78,11 +78,11 @@ TEST_CASE("foreign, older, newer and longer files have different errors") {
     CHECK(refusal("#w : A;\n") == "not a compiled grammar (.lsb)");
     std::string newer = bytes;
     newer[8] = static_cast<char>(kModuleFileVersion + 1);
-    CHECK(refusal(newer) == "made by a newer lsc (format 11, this one reads 10)");
+    CHECK(refusal(newer) == "made by a newer lsc (format 12, this one reads 11)");
     std::string older = bytes;
     older[8] = 5;
     CHECK(refusal(older) ==
-          "made by an older lsc (format 5, this one reads 10): compile the grammar again");
+          "made by an older lsc (format 5, this one reads 11): compile the grammar again");
     CHECK(refusal(bytes + "x") == "the file is damaged: 1 bytes follow its end");
     std::string damaged = bytes;
     damaged.back() = static_cast<char>(damaged.back() ^ 1);
@@ -131,18 +131,37 @@ TEST_CASE("random bytes after a valid header are refused without a crash") {
 TEST_CASE("sizes of a plant are read back and checked") {
     Bytecode bytecode = test::small_bytecode();
     bytecode.settings.height = 20.5F;
-    bytecode.settings.pipe = {2.5F, 0.01F};
+    bytecode.settings.pipe = {2.5F, 0.01F, 0.5F};
+    bytecode.settings.flare = {1.8F, 1.2F, 5};
+    bytecode.settings.collar = 1.5F;
+    bytecode.settings.tips = TipShape::Broken;
     const std::uint64_t word_digest = digest(test::small_bytecode());
     CHECK(digest(bytecode) == word_digest); // saved words stay valid
     const Result<Bytecode> read = read_module_file(write_module_file(bytecode));
     REQUIRE(read.ok());
     CHECK(read.value().settings.height == 20.5F);
-    CHECK(read.value().settings.pipe == Pipe{2.5F, 0.01F});
+    CHECK(read.value().settings.pipe == Pipe{2.5F, 0.01F, 0.5F});
+    CHECK(read.value().settings.flare == Flare{1.8F, 1.2F, 5});
+    CHECK(read.value().settings.collar == 1.5F);
+    CHECK(read.value().settings.tips == TipShape::Broken);
     bytecode.settings.height = -1.0F;
     CHECK(verify(bytecode) == "a plant -1 m high");
     bytecode.settings.height = 1.0F;
     bytecode.settings.pipe = {5.0F, 0.01F};
     CHECK(verify(bytecode) == "a pipe model of exponent 5 and width 0.01");
+    bytecode.settings.pipe = {2.0F, 0.01F, 1.5F};
+    CHECK(verify(bytecode) == "a pipe model of taper 1.5");
+    bytecode.settings.pipe.taper = 1.0F;
+    CHECK(verify(bytecode) == std::nullopt);
+    for (const Flare& flare : {Flare{0.9F, 1.0F, 0}, Flare{11.0F, 1.0F, 0}, Flare{2.0F, 0.0F, 0},
+                               Flare{2.0F, 1.0F, 2}, Flare{2.0F, 1.0F, 10}}) {
+        bytecode.settings.flare = flare;
+        CHECK(verify(bytecode).has_value());
+    }
+    bytecode.settings.flare = {2.0F, 1.0F, 3};
+    bytecode.settings.collar = -1.0F;
+    CHECK(verify(bytecode) == "a collar of factor -1");
+    bytecode.settings.collar = 0.0F;
     bytecode.settings.pipe = {0.0F, 0.01F};
     CHECK(verify(bytecode).has_value());
 }

@@ -118,9 +118,23 @@ TEST_CASE("a pipe model is an exponent from 1 to 4 and a width") {
     CHECK_FALSE(set("width", "1").outcome.program->settings.pipe.is_set());
     CHECK(set("pipe", "1 0").errors().empty());
     CHECK(set("pipe", "4 1").errors().empty());
-    for (const char* value : {"2", "0.9 1", "4.1 1", "2 -1", "2 1 1", "wide 1"}) {
+    CHECK(set("pipe", "2 1 0.25").outcome.program->settings.pipe == Pipe{2.0F, 1.0F, 0.25F});
+    for (const char* value :
+         {"2", "0.9 1", "4.1 1", "2 -1", "2 1 1.1", "2 1 -0.1", "2 1 1 1", "wide 1"}) {
         CAPTURE(std::string(value));
         CHECK_FALSE(set("pipe", value).errors().empty());
+    }
+}
+
+TEST_CASE("a flare is a factor, a height and perhaps a number of roots") {
+    CHECK(set("flare", "1.8 1.2").outcome.program->settings.flare == Flare{1.8F, 1.2F, 0});
+    CHECK(set("flare", "1 0.1 9").outcome.program->settings.flare == Flare{1.0F, 0.1F, 9});
+    CHECK(set("width", "1").outcome.program->settings.flare == Flare{});
+    for (const char* value : {"2", "0.9 1", "11 1", "2 0", "2 -1", "2 1 2", "2 1 0", "2 1 10",
+                              "2 1 4.5", "2 1 4 4", "wide 1"}) {
+        CAPTURE(std::string(value));
+        CHECK(is_refused("flare", value) == (std::string(value) != "wide 1"));
+        CHECK_FALSE(set("flare", value).errors().empty());
     }
 }
 
@@ -129,13 +143,15 @@ TEST_CASE("the help for an unknown key lists every setting") {
     const Diagnostic* error = c.find(DiagnosticCode::UnknownKey);
     REQUIRE(error != nullptr);
     REQUIRE(error->help.size() == 1);
-    CHECK(error->help[0] ==
-          "the settings are `turtle`, `names`, `rewriting`, `choice`, `weights`, `random`, "
-          "`tropism`, `seed`, `spring`, `load`, `at_depth`, `height`, `pipe`, `angle`, `step`, "
-          "`width`, "
-          "`angle_scale`, `step_scale`, "
-          "`width_scale`, `elasticity`, `density`, `damping`, `sides`, `decompose_depth`, "
-          "`interpret_depth`");
+    CHECK(
+        error->help[0] ==
+        "the settings are `turtle`, `names`, `rewriting`, `choice`, `weights`, `random`, "
+        "`tropism`, `seed`, `spring`, `load`, `at_depth`, `height`, `pipe`, `flare`, "
+        "`tips`, `angle`, `step`, "
+        "`width`, "
+        "`angle_scale`, `step_scale`, "
+        "`width_scale`, `elasticity`, `density`, `damping`, `collar`, `sides`, `decompose_depth`, "
+        "`interpret_depth`");
 }
 
 TEST_CASE("the parser knows every setting, and adds a missing `set`") {

@@ -111,12 +111,58 @@ TEST_CASE("widths of any plant satisfy the pipe model") {
     }
 }
 
+TEST_CASE("tapered pipes narrow to the width of the segment that continues them") {
+    for (const float taper : {0.25F, 1.0F}) {
+        std::mt19937 numbers(11);
+        Skeleton steps = test::random_plant(numbers, 500, 1.0);
+        Skeleton plant = steps;
+        REQUIRE(apply_pipe({2.0F, 0.03F}, kWood, kNoLimit, steps) == std::nullopt);
+        REQUIRE(apply_pipe({2.0F, 0.03F, taper}, kWood, kNoLimit, plant) == std::nullopt);
+        for (std::uint32_t i = 0; i < plant.segments.size(); ++i) {
+            const Segment& own = steps.segments[i];
+            const Segment* next = nullptr; // the child on the axis, else the thickest, the first
+            for (std::uint32_t k = i + 1; k < plant.segments.size(); ++k) {
+                const Segment& child = steps.segments[k];
+                if (child.parent != i) {
+                    continue;
+                }
+                const bool continues = child.order == own.order;
+                const bool is_better = next == nullptr || (continues && next->order != own.order) ||
+                                       (continues == (next->order == own.order) &&
+                                        child.base_radius > next->base_radius);
+                next = is_better ? &child : next;
+            }
+            CHECK(plant.segments[i].base_radius == own.base_radius);
+            const float rest = next == nullptr ? 0.0F : next->base_radius - own.base_radius;
+            CHECK(plant.segments[i].tip_radius == Approx(own.base_radius + taper * rest));
+        }
+    }
+    Skeleton fork; // a trunk that ends in two limbs of one and two tips
+    for (const std::uint32_t parent : {kNoSegment, 0U, 0U, 2U, 2U}) {
+        test::add_segment(fork, parent, test::leaning(0.1F), wood(1.0F, 0.5F));
+    }
+    REQUIRE(apply_pipe({1.0F, 0.5F, 1.0F}, kWood, kNoLimit, fork) == std::nullopt);
+    CHECK(fork.segments[0].base_radius == 0.75F);
+    CHECK(fork.segments[0].tip_radius == 0.5F);
+    CHECK(fork.segments[2].tip_radius == 0.25F);
+    CHECK(fork.segments[4].tip_radius == 0.25F);
+    CHECK(fork.segments[0].mass == mass_of_cone(1.0, 0.75, 0.5, kDensity));
+}
+
+TEST_CASE("the flare of a plant is scaled with it") {
+    Skeleton plant = binary_tree(2);
+    plant.tube_shape.flare = {2.0F, 0.5F, 5};
+    scale_plant(3.0, kWood, plant);
+    CHECK(plant.tube_shape.flare == Flare{2.0F, 1.5F, 5});
+}
+
 TEST_CASE("the pipe model needs room for a count of each segment") {
     Skeleton plant = binary_tree(3);
     const std::uint64_t bytes = plant.byte_count() + 4 * plant.segments.size();
     CHECK(apply_pipe({2.0F, 1.0F}, kWood, bytes - 1, plant) == Stop::Limit);
     CHECK(plant.segments[0].base_radius == 0.5F);
     CHECK(apply_pipe({2.0F, 1.0F}, kWood, bytes, plant) == std::nullopt);
+    CHECK(apply_pipe({2.0F, 1.0F, 1.0F}, kWood, bytes, plant) == Stop::Limit);
 }
 
 TEST_CASE("factors of the pipe model are the roots of the counts") {
