@@ -109,13 +109,17 @@ TEST_CASE("a domain can stop the walk before an instruction, at a range and at a
 TEST_CASE("the stack of code has room for its deepest expression") {
     CHECK(stack_room(compiled({"x * 2 - y / c"}), 0) == 3);
     std::string sum = "x";
-    std::string mixed = "x";
+    std::vector<std::uint32_t> nested; // mix(x, y, mix(x, y, ... x))
     for (std::uint32_t i = 0; i < kUsualStack; ++i) {
         sum += " + x";
-        mixed = "mix(x, y, " + mixed + ")";
+        nested.push_back(encode(Opcode::Formal, 0));
+        nested.push_back(encode(Opcode::Formal, 1));
     }
+    nested.push_back(encode(Opcode::Formal, 0));
+    nested.insert(nested.end(), kUsualStack, encode(Opcode::Mix, 0));
+    nested.push_back(encode(Opcode::End, 0));
     CHECK(stack_room(compiled({sum}), 0) == 2);
-    CHECK(stack_room(compiled({mixed}), 0) == 2 * kUsualStack + 1);
+    CHECK(stack_room(nested, 0) == 2 * kUsualStack + 1);
 }
 
 TEST_CASE("every value is unknown in UnknownDomain") {
