@@ -108,6 +108,7 @@ void show_sheet(PlantView& view, PanelState& panels) {
         return;
     }
     const SheetSize cell = sheet_cell_size(panels.window_width, panels.window_height);
+    panels.sheet.selected = 0;
     panels.sheet.show(view, cell.width, cell.height, panels.wake);
     panels.dialog = OpenDialog::Sheet;
 }
@@ -218,9 +219,16 @@ bool Controls::use_pages(const WindowInput& input, ViewSwitcher& switcher, Panel
     FileBrowser& browser = panels.browser;
     if (panels.dialog == OpenDialog::File && !input.text.empty()) {
         browser.set_text(browser.text() + input.text);
+    } else if (panels.dialog == OpenDialog::None) {
+        panels.start.find(input.text);
     }
     for (const KeyPress& press : input.presses) {
-        if (press.control) {
+        if (panels.dialog == OpenDialog::Sheet && panels.has_open_list) {
+            continue; // the key is meant for the list
+        }
+        if (press.key == Key::F1 && panels.dialog == OpenDialog::None) {
+            panels.help = !panels.help;
+        } else if (press.control) {
             panels.quits = panels.quits || press.key == Key::Q;
             if (press.key == Key::O && panels.dialog != OpenDialog::Sheet) {
                 show_open_dialog(switcher.current(), panels);

@@ -37,6 +37,7 @@ struct PanelState {
     FilmExport film;
     CameraBookmarks bookmarks;
     ContactSheet sheet;
+    bool has_open_list = false; // a list above the contact sheet is open
     WindowLook look;
     std::uint32_t window_width = 0; // pixels
     std::uint32_t window_height = 0;
@@ -49,6 +50,14 @@ struct KeyHelp {
     const char* keys;
     const char* what;
 };
+inline constexpr std::array<KeyHelp, 6> kStartKeys = {{
+    {"Arrows", "Select a sample or a recent file"},
+    {"Letters", "Select a sample by a part of its name"},
+    {"Enter", "Open it"},
+    {"Ctrl+O", "Open another file"},
+    {"F1", "This list"},
+    {"Ctrl+Q", "Quit"},
+}};
 inline constexpr std::array<KeyHelp, 35> kPlantKeys = {{
     {"Left drag", "Orbit"},
     {"Click", "Describe the module and the production that wrote it"},

@@ -314,11 +314,12 @@ void draw_trace(View& view, const Area& area, float bottom) {
 void draw_help(std::span<const KeyHelp> keys, PanelState& panels, const Area& area) {
     ImGui::SetNextWindowPos({0.5F * (area.low.x + area.high.x), 0.5F * area.high.y},
                             ImGuiCond_Always, {0.5F, 0.5F});
+    ImGui::SetNextWindowSizeConstraints({0.0F, 0.0F}, ImGui::GetIO().DisplaySize);
     if (ImGui::Begin("Keys", &panels.help,
-                     ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoCollapse |
-                         ImGuiWindowFlags_NoSavedSettings)) {
+                     ImGuiWindowFlags_HorizontalScrollbar | ImGuiWindowFlags_AlwaysAutoResize |
+                         ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoSavedSettings)) {
         for (const KeyHelp& help : keys) {
-            line(fmt::format("{:<12} {}", help.keys, help.what));
+            line(fmt::format("{:<23} {}", help.keys, help.what));
         }
     }
     ImGui::End();
@@ -343,12 +344,16 @@ void draw_picked(const View& view, const Area& area) {
     ImGui::End();
 }
 
-void draw_hint(const View& view, const PanelState& panels, const Area& area) {
-    std::string text = view.note();
+void draw_hint(ViewSwitcher& switcher, const PanelState& panels, const Area& area) {
+    std::string text = switcher.current().note();
+    const ForestView* const forest = switcher.forest();
     if (panels.flies) {
         text = "Flying: Esc or Tab to stop";
     } else if (!panels.panels && text.empty()) {
         text = "H: panels, F1: keys";
+    } else if (text.empty() && forest != nullptr && forest->document() != nullptr &&
+               !forest->has_all_impostors()) {
+        text = "Drawing the pictures of distant trees ...";
     }
     if (text.empty()) {
         return;
@@ -504,7 +509,7 @@ std::string draw_view_panels(ViewSwitcher& switcher, PanelState& panels, const A
         draw_statistics(switcher, area);
     }
     const float bottom = draw_messages(switcher.current(), panels, area);
-    draw_hint(switcher.current(), panels, area);
+    draw_hint(switcher, panels, area);
     draw_picked(switcher.current(), area);
     draw_trace(switcher.current(), area, bottom);
     draw_making(switcher.current(), panels, area);
@@ -526,6 +531,8 @@ void draw_sheet(ViewSwitcher& switcher, PanelState& panels) {
         panels.sheet.images.at(cell) = panels.add_image ? panels.add_image(picture) : 0;
     }
     const SheetAction action = draw_contact_sheet(panels.sheet, *plant);
+    panels.has_open_list =
+        ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopupId | ImGuiPopupFlags_AnyPopupLevel);
     if (action.taken) {
         take_from_sheet(*action.taken, *plant, panels);
     } else if (action.closes) {
@@ -543,6 +550,9 @@ std::string draw_start(const View& view, PanelState& panels) {
     std::string wanted = draw_start_page(panels.start, panels.add_image, wants_dialog);
     if (wants_dialog) {
         show_open_dialog(view, panels);
+    }
+    if (panels.help) {
+        draw_help(kStartKeys, panels, {{0.0F, 0.0F}, ImGui::GetIO().DisplaySize});
     }
     return wanted;
 }

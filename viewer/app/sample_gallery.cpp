@@ -33,6 +33,17 @@ std::string head_of(const std::string& path) {
     return head;
 }
 
+/// The picture of a sample. NAME.png of a scene may be a map of its trees, so other views come first.
+std::string picture_of(const std::string& stem, const std::string& extension) {
+    std::vector<std::string> pictures{stem + ".png"};
+    if (extension == ".toml") {
+        pictures.insert(pictures.begin(), {stem + "-inside.png", stem + "-above.png"});
+    }
+    const auto found = std::find_if(pictures.begin(), pictures.end(),
+                                    [](const std::string& path) { return is_file(path); });
+    return found == pictures.end() ? std::string() : *found;
+}
+
 /// Appends the samples directly in a folder.
 void add_samples(const std::string& folder, std::vector<GallerySample>& samples) {
     std::error_code error;
@@ -50,7 +61,7 @@ void add_samples(const std::string& folder, std::vector<GallerySample>& samples)
                 sample.name = name;
                 sample.file = stem + extension;
                 sample.title = title_of_text(head_of(sample.file));
-                sample.picture = is_file(stem + ".png") ? stem + ".png" : std::string();
+                sample.picture = picture_of(stem, extension);
                 break;
             }
         }

@@ -87,7 +87,7 @@ bool draw_sample(const GallerySample& sample, std::uintptr_t image, float side, 
                      ImGui::GetColorU32(colour), words.c_str(), nullptr, 0.0F, &clip);
     };
     text(sample.name, 0.0F, ImGuiCol_Text);
-    text(sample.title, 1.0F, ImGuiCol_TextDisabled);
+    text(sample.title, 1.0F, is_selected ? ImGuiCol_Text : ImGuiCol_TextDisabled);
     return is_clicked;
 }
 
@@ -127,6 +127,7 @@ void StartPage::load(const std::string& state, const std::string& folder) {
 
 void StartPage::move(int right, int down) {
     follows = true;
+    letters.clear();
     const bool at_edge = selected % columns == 0;
     if (in_recent ? right > 0 && !samples.empty() : right < 0 && at_edge && !recent.empty()) {
         in_recent = !in_recent;
@@ -139,6 +140,29 @@ void StartPage::move(int right, int down) {
         (in_recent ? down : right + down * static_cast<std::ptrdiff_t>(columns));
     if (wanted >= 0 && wanted < count) {
         selected = static_cast<std::size_t>(wanted);
+    }
+}
+
+void StartPage::find(const std::string& text) {
+    if (text.empty()) {
+        return;
+    }
+    const auto select = [this](const std::string& part, std::size_t first) {
+        for (std::size_t i = 0; i < samples.size(); ++i) {
+            const std::size_t number = (first + i) % samples.size();
+            if (samples[number].name.find(part) != std::string::npos) {
+                selected = number;
+                in_recent = false;
+                follows = true;
+                return true;
+            }
+        }
+        return false;
+    };
+    letters += text;
+    if (!select(letters, 0)) {
+        letters = text;
+        select(letters, in_recent ? 0 : selected + 1);
     }
 }
 
@@ -175,7 +199,7 @@ std::string draw_start_page(StartPage& page, const AddImage& add_image, bool& wa
                                    "share/lsc/samples beside lsview, and in the data folders of "
                                    "the system.");
             } else {
-                line("Samples: arrow keys and Enter, or a click");
+                line("Samples: arrow keys, letters and Enter, or a click (F1: keys)");
                 const std::string sample = draw_gallery(page);
                 chosen = sample.empty() ? chosen : sample;
             }

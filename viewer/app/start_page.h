@@ -28,12 +28,16 @@ struct StartPage {
     std::size_t selected = 0;
     std::size_t columns = 1; // of the gallery
     bool follows = false;    // scroll to the selection
+    std::string letters;     // typed since the selection was last moved
 
     /// Reads the list of recent files in `state`, and the samples of `folder`.
     void load(const std::string& state, const std::string& folder);
     /// Moves the selection: right and down within the gallery, from its first column to the left
     /// into the recent files, and back.
     void move(int right, int down);
+    /// Selects the first sample whose name contains the letters typed since the selection was last
+    /// moved by an arrow; if there is none, the next one that contains `text` alone.
+    void find(const std::string& text);
     /// The file selected; empty if there is none.
     [[nodiscard]] std::string selected_file() const;
 };

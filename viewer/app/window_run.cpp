@@ -31,6 +31,8 @@ constexpr std::chrono::milliseconds kProgressInterval{100};
 constexpr double kMaxFlightStep = 0.1;
 /// Time without a change after which pictures are refined.
 constexpr std::chrono::milliseconds kRest{300};
+/// Pictures that take longer are not refined, because input waits for a sample.
+constexpr double kMaxRefinedSeconds = 0.15;
 /// Count of pictures that ImGui needs to settle after input.
 constexpr int kPicturesAfterInput = 3;
 
@@ -156,8 +158,9 @@ private:
             last_drawn_ = start;
         }
         // At rest, refine the picture by one sample at a time, so that input is handled between them.
-        refines_ = start - last_drawn_ >= kRest && !controls_.is_moving() &&
-                   !switcher_.current().is_busy() && switcher_.current().refine();
+        refines_ = start - last_drawn_ >= kRest && last_seconds_ <= kMaxRefinedSeconds &&
+                   !controls_.is_moving() && !switcher_.current().is_busy() &&
+                   switcher_.current().refine();
         if (!drew && !refines_ && pictures_left_ == 0) {
             return;
         }
@@ -173,8 +176,12 @@ private:
             write_look(panels_.state_folder, look_, console_);
             pictures_left_ = kPicturesAfterInput;
         }
+        const double seconds = std::chrono::duration<double>(Clock::now() - start).count();
+        if (drew || refines_) {
+            last_seconds_ = seconds;
+        }
         if (drew && drawn == &switcher_.current()) {
-            drawn->picture_shown(std::chrono::duration<double>(Clock::now() - start).count());
+            drawn->picture_shown(seconds);
         }
     }
 
@@ -189,6 +196,7 @@ private:
     bool shows_sheet_ = false;
     WindowLook look_; // of the window
     Clock::time_point last_drawn_ = last_;
+    double last_seconds_ = 0.0; // that the last picture or sample took
     bool refines_ = false;
     int pictures_left_ = kPicturesAfterInput;
 };

@@ -206,6 +206,10 @@ struct Window::State {
         ImGuiStyle& style = ImGui::GetStyle();
         style = ImGuiStyle();
         (look.is_light ? ImGui::StyleColorsLight : ImGui::StyleColorsDark)(nullptr);
+        // Numbers are read through the grips of sliders.
+        constexpr float kGrip = 0.45F;
+        style.Colors[ImGuiCol_SliderGrab].w = kGrip;
+        style.Colors[ImGuiCol_SliderGrabActive].w = kGrip;
         style.ScaleAllSizes(scale);
         ImGuiIO& io = ImGui::GetIO();
         io.Fonts->Clear();

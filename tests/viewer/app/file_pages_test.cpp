@@ -209,6 +209,10 @@ TEST_CASE("samples have the first sentence of their file as title") {
     CHECK(std::any_of(samples.begin(), samples.end(), [](const GallerySample& each) {
         return each.name == "mixed-forest" && each.file.ends_with("mixed-forest.toml");
     }));
+    // The picture of a scene is a view of it, and not its map.
+    CHECK(std::any_of(samples.begin(), samples.end(), [](const GallerySample& each) {
+        return each.name == "meadow" && each.picture.ends_with("meadow-inside.png");
+    }));
     const Texture small = thumbnail_of(read_text(samples.front().picture), 100);
     CHECK(std::max(small.width, small.height) <= 100);
     CHECK(std::max(small.width, small.height) > 50);
@@ -238,6 +242,20 @@ TEST_CASE(
     run.apply(presses({pressed(Key::Right), pressed(Key::Down)}));
     CHECK(start.selected_file() == folder / "samples/oak.lsys");
     run.apply(presses({pressed(Key::Left)}));
+    CHECK(start.in_recent);
+    const auto type = [&run](const char* letter) {
+        WindowInput input;
+        input.text = letter;
+        run.apply(input);
+    };
+    type("k");
+    CHECK(start.selected_file() == folder / "samples/oak.lsys");
+    type("b"); // no name contains "kb"
+    CHECK(start.selected_file() == folder / "b.lsys");
+    run.apply(presses({pressed(Key::F1)}));
+    CHECK(run.panels.help);
+    run.apply(presses({pressed(Key::F1), pressed(Key::Left), pressed(Key::Left)}));
+    CHECK_FALSE(run.panels.help);
     CHECK(start.in_recent);
     run.apply(presses({pressed(Key::Right), pressed(Key::Right), pressed(Key::Enter)}));
     REQUIRE(run.switcher.plant() != nullptr);
