@@ -99,7 +99,6 @@ window.draw = async ({ preset, model, sun }) => {
     scene.add(tree);
     const [camera, words] = placeCamera(box);
     renderer.render(scene, camera);
-    renderer.render(scene, camera);
     return { camera: words, triangles: renderer.info.render.triangles };
 };
 window.isReady = true;
