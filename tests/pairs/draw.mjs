@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Draws the pairs of pairs.json: trees of ez-tree, and the sky, ground and shadow for plants of lsview.
 // Usage: node draw.mjs PAIRS FOLDER [NUMBER...]     numbers of pairs, default: all
-//   FOLDER holds NUMBER.glb, the plant of lsc, for each pair. Written: NUMBER-theirs.png, NUMBER-backdrop.png of 2560x1440 pixels, and
-//   NUMBER.camera, the camera for lsview.
+//   FOLDER holds NUMBER.glb, the plant of lsc, for each pair. Written: NUMBER-theirs.png and NUMBER-backdrop.png of
+//   2560x1440 pixels, and NUMBER.camera, the camera for lsview.
 // Modules are found in the working folder, which holds node_modules.
 import { createServer } from 'node:http';
 import { readFile, writeFile } from 'node:fs/promises';
@@ -25,8 +25,8 @@ const script = await esbuild.build({
 });
 const server = createServer(async (request, response) => {
     if (request.url === '/') {
-        response.setHeader('Content-Type', 'text/html')
-            .end('<!doctype html><meta charset="utf-8"><style>body{margin:0}</style><script type="module" src="/page.js"></script>');
+        response.setHeader('Content-Type', 'text/html').end('<!doctype html><meta charset="utf-8">' +
+            '<style>body{margin:0}</style><script type="module" src="/page.js"></script>');
     } else if (request.url === '/page.js') {
         response.setHeader('Content-Type', 'text/javascript').end(script.outputFiles[0].text);
     } else if (/^\/[0-9]+\.glb$/.test(request.url)) {

@@ -66,11 +66,12 @@ function placeCamera(box) {
     const size = box.getSize(new THREE.Vector3());
     const centre = box.getCenter(new THREE.Vector3());
     const across = Math.max(size.y, size.x * height / width);
-    const distance = 0.5 * across / (filled * Math.tan(0.5 * fov * Math.PI / 180)) + 0.25 * size.z;
+    const distance = 0.5 * across / (filled * Math.tan(0.5 * fov * Math.PI / 180)) + 0.5 * size.z;
     const camera = new THREE.PerspectiveCamera(fov, width / height, 0.01 * distance, 20 * distance);
     camera.position.set(centre.x, 0.3 * size.y, distance + centre.z);
     camera.lookAt(centre.x, 0.46 * size.y, centre.z);
-    return [camera, `eye ${camera.position.toArray().join()} target ${centre.x},${0.46 * size.y},${centre.z} fov ${fov}`];
+    const target = [centre.x, 0.46 * size.y, centre.z];
+    return [camera, `eye ${camera.position.toArray().join()} target ${target.join()} fov ${fov}`];
 }
 
 window.draw = async ({ preset, model, sun }) => {

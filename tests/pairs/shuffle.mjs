@@ -3,10 +3,9 @@
 // Usage: node shuffle.mjs PAIRS FOLDER
 //   Reads FOLDER/parts/NUMBER-ours.png and NUMBER-other.png; writes FOLDER/pair-NN-left.png and pair-NN-right.png,
 //   FOLDER/index.html and FOLDER/key.txt.
+import { existsSync, readFileSync } from 'node:fs';
 import { copyFile, writeFile } from 'node:fs/promises';
-import { existsSync } from 'node:fs';
 import { join } from 'node:path';
-import { readFileSync } from 'node:fs';
 
 const [description, folder] = process.argv.slice(2);
 const { seed, pairs } = JSON.parse(readFileSync(description, 'utf8'));
@@ -40,12 +39,19 @@ for (const [place, index] of order.entries()) {
     const isLeft = isOursLeft[place];
     await copyFile(isLeft ? ours : other, join(folder, `pair-${number}-left.png`));
     await copyFile(isLeft ? other : ours, join(folder, `pair-${number}-right.png`));
-    rows.push(`<h2>${number}</h2>\n<div><img src="pair-${number}-left.png" alt="left"><img src="pair-${number}-right.png" alt="right"></div>`);
-    key.push(`pair-${number}: lsview ${species} is ${isLeft ? 'left' : 'right'}, ez-tree ${preset} ${isLeft ? 'right' : 'left'}`);
+    const images = ['left', 'right'].map(side => `<img src="pair-${number}-${side}.png" alt="${side}">`);
+    rows.push(`<h2>${number}</h2>\n<div>${images.join('')}</div>`);
+    const [ourSide, otherSide] = isLeft ? ['left', 'right'] : ['right', 'left'];
+    key.push(`pair-${number}: lsview ${species} is ${ourSide}, ez-tree ${preset} ${otherSide}`);
 }
 await writeFile(join(folder, 'index.html'), `<!doctype html>
 <html lang="en"><meta charset="utf-8"><title>Pairs of trees</title>
-<style>body{margin:1em;font:16px sans-serif}div{display:flex;gap:8px}img{width:50%;min-width:0}h2{margin:1em 0 .3em}</style>
+<style>
+body { margin: 1em; font: 16px sans-serif }
+div { display: flex; gap: 8px }
+img { width: 50%; min-width: 0 }
+h2 { margin: 1em 0 .3em }
+</style>
 <p>Which picture of each pair shows the better tree?</p>
 ${rows.join('\n')}
 </html>
