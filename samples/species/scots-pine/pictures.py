@@ -54,3 +54,7 @@ flake = np.clip((field(512, 14, 18, 64) + 0.5 * field(512, 5, 7, 65)) * 0.5 + 0.
 curl = np.clip(np.abs(field(512, 10, 14, 66)) / 0.25, 0, 1)
 orange = blend((150, 84, 52), (192, 126, 86), flake) * (0.82 + 0.18 * curl + 0.05 * fine)[..., None]
 save_bark("bark.jpg", orange, 0.6 * curl + 0.4 * flake, 2.5)
+# Plates between orange scales, for the trunk between its base and the crown.
+last = np.clip((field(512, 16, 40, 67) + 0.4 * field(512, 6, 9, 68)) * 4 + 0.5, 0, 1)[..., None]
+lower = np.array((52, 36, 29)) * (1 - part) + plates * part
+save_bark("middle.jpg", orange * 0.92 * (1 - last) + lower * last)

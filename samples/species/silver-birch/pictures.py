@@ -79,3 +79,6 @@ rough = field(size, 1.5, 3, 13)
 pale = np.clip((field(size, 24, 18, 15) - 0.75) * 3, 0, 1) * ridge
 base = blend((34, 30, 28), (104, 96, 88), ridge) * (1 + 0.1 * rough)[..., None]
 save_bark("base.jpg", base * (1 - pale)[..., None] + np.array((222, 214, 204)) * pale[..., None], ridge, 5.0)
+# Cracks that end in the white bark, for the trunk above its base.
+gap = np.clip((field(size, 12, 46, 16) + 0.35 * field(size, 5, 9, 17) - 0.15) * 4, 0, 1)[..., None]
+save_bark("middle.jpg", colours * (1 - gap) + base * gap)
