@@ -37,6 +37,10 @@ constexpr std::array kRequests{
     RequestRow{"textDocument/hover", hover},
     RequestRow{"textDocument/completion", complete},
     RequestRow{"textDocument/signatureHelp", signature_help},
+    RequestRow{"textDocument/semanticTokens/full", semantic_tokens},
+    RequestRow{"textDocument/foldingRange", folding_ranges},
+    RequestRow{"textDocument/documentColor", document_colours},
+    RequestRow{"textDocument/colorPresentation", colour_presentations},
 };
 
 Json error_response(const Json& id, RpcError code, const std::string& message) {
@@ -94,6 +98,9 @@ Json server_capabilities(const EditorFeatures& editor) {
         {"documentHighlightProvider", true},
         {"renameProvider", {{"prepareProvider", true}}},
         {"hoverProvider", true},
+        {"semanticTokensProvider", {{"legend", token_legend()}, {"full", true}}},
+        {"foldingRangeProvider", true},
+        {"colorProvider", true},
         {"completionProvider", {{"triggerCharacters", Json::array({"#", " ", "(", ":"})}}},
         {"signatureHelpProvider", {{"triggerCharacters", Json::array({"(", ","})}}},
         {"workspace", {{"workspaceFolders", {{"supported", true}, {"changeNotifications", true}}}}},

@@ -150,5 +150,11 @@ changing_edit(const std::string& path, std::string_view before, std::string_view
 [[nodiscard]] Json hover(Workspace& workspace, const Json& params);
 [[nodiscard]] Json complete(Workspace& workspace, const Json& params);
 [[nodiscard]] Json signature_help(Workspace& workspace, const Json& params);
+[[nodiscard]] Json semantic_tokens(Workspace& workspace, const Json& params);
+[[nodiscard]] Json folding_ranges(Workspace& workspace, const Json& params);
+[[nodiscard]] Json document_colours(Workspace& workspace, const Json& params);
+[[nodiscard]] Json colour_presentations(Workspace& workspace, const Json& params);
+/// The token types of semantic_tokens(), for the capabilities of the server.
+[[nodiscard]] Json token_legend();
 
 } // namespace lsys
