@@ -51,11 +51,11 @@ Json error_response(const Json& id, RpcError code, const std::string& message) {
 
 /// The member of nested objects, or null: `member(capabilities, {"general", "positionEncodings"})`.
 const Json& member(const Json& object, std::initializer_list<const char*> names) {
-    static const Json kNull;
+    static const Json null;
     const Json* found = &object;
     for (const char* name : names) {
         if (!found->is_object() || !found->contains(name)) {
-            return kNull;
+            return null;
         }
         found = &found->at(name);
     }

@@ -24,6 +24,7 @@ struct TextPlace {
     std::uint32_t begin = 0;
     std::uint32_t end = 0;
 
+    // NOLINTNEXTLINE(modernize-use-nullptr): a false alarm
     friend auto operator<=>(const TextPlace&, const TextPlace&) = default;
 };
 
@@ -35,6 +36,7 @@ struct NameUse {
     bool is_definition = false;
     bool is_part = false; // one of several modules that are written as one name
 
+    // NOLINTNEXTLINE(modernize-use-nullptr): a false alarm
     friend auto operator<=>(const NameUse&, const NameUse&) = default;
 };
 
