@@ -4,6 +4,7 @@
 #include "runtime/cli/explanations.h"
 #include "runtime/cli/fixes.h"
 #include "runtime/languageserver/serve_editor.h"
+#include "runtime/platform/input.h"
 #include "runtime/program/host.h"
 
 #include <algorithm>
@@ -89,8 +90,20 @@ ExitStatus run_command(const LspCommand& /*command*/, const Console& console) {
         return done ? std::move(fixed.changed) : std::map<std::string, std::string>();
     };
     LanguageServer server(std::move(host));
-    return serve_editor(server, console.io().in, console.io().out) == 0 ? ExitStatus::Ok
-                                                                        : ExitStatus::AuthorErrors;
+    // A read of the stream goes on after a signal, so the end of the process is awaited before it.
+    const auto wait = [&console] {
+        constexpr int kMilliseconds = 500;
+        const bool is_process = console.io().interrupted != nullptr;
+        while (is_process && !console.interrupted()) {
+            if (platform::wait_for_standard_input(kMilliseconds)) {
+                return true;
+            }
+        }
+        return !is_process;
+    };
+    return serve_editor(server, console.io().in, console.io().out, wait) == 0
+               ? ExitStatus::Ok
+               : ExitStatus::AuthorErrors;
 }
 
 } // namespace lsys::lsc

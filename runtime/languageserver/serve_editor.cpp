@@ -11,10 +11,14 @@
 
 namespace lsys {
 
-int serve_editor(LanguageServer& server, std::istream& in, std::ostream& out) {
+int serve_editor(LanguageServer& server,
+                 std::istream& in,
+                 std::ostream& out,
+                 const std::function<bool()>& wait) {
     MessageReader reader;
     std::string piece;
-    while (!server.has_exited() && in.peek() != std::istream::traits_type::eof()) {
+    while (!server.has_exited() && (in.rdbuf()->in_avail() > 0 || wait()) &&
+           in.peek() != std::istream::traits_type::eof()) {
         // Reads the bytes that are there without waiting for more.
         const std::streamsize available = std::max<std::streamsize>(in.rdbuf()->in_avail(), 1);
         piece.resize(static_cast<std::size_t>(std::min<std::streamsize>(available, 1 << 16)));

@@ -4,12 +4,17 @@
 
 #include "runtime/languageserver/language_server.h"
 
+#include <functional>
 #include <iosfwd>
 
 namespace lsys {
 
-/// Serves until `exit` or the end of `in`. Returns the exit status: 0 if `shutdown` came before
+/// Serves until `exit` or the end of `in`. Calls `wait` before a read that may block; if it returns
+/// false, serving ends. Returns the exit status: 0 if `shutdown` came before
 /// `exit`; otherwise 1, also if `in` ends or `out` fails.
-[[nodiscard]] int serve_editor(LanguageServer& server, std::istream& in, std::ostream& out);
+[[nodiscard]] int serve_editor(LanguageServer& server,
+                               std::istream& in,
+                               std::ostream& out,
+                               const std::function<bool()>& wait);
 
 } // namespace lsys

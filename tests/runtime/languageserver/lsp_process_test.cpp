@@ -6,6 +6,7 @@
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
 
+#include <csignal>
 #include <optional>
 #include <string>
 #include <sys/wait.h>
@@ -108,6 +109,32 @@ TEST_CASE("the program reads messages byte by byte and survives malformed ones")
     CHECK(run.messages[1].at("error").at("code") == -32700);
     CHECK(run.messages[2].at("error").at("code") == -32700);
     CHECK(run.messages[2].at("id").is_null());
+}
+
+TEST_CASE("a signal ends the program while it waits for input") {
+    int to[2];
+    int from[2];
+    REQUIRE(::pipe(to) == 0);
+    REQUIRE(::pipe(from) == 0);
+    const pid_t process = ::fork();
+    if (process == 0) {
+        ::dup2(to[0], STDIN_FILENO);
+        ::dup2(from[1], STDOUT_FILENO);
+        std::signal(SIGTERM, SIG_DFL);
+        ::execl(LSC_EXECUTABLE, LSC_EXECUTABLE, "lsp", nullptr);
+        ::_exit(127);
+    }
+    const std::string bytes = framed(kInitialize);
+    CHECK(::write(to[1], bytes.data(), bytes.size()) == static_cast<ssize_t>(bytes.size()));
+    char first = 0;
+    CHECK(::read(from[0], &first, 1) == 1); // it serves
+    CHECK(::kill(process, SIGTERM) == 0);
+    int status = 0;
+    CHECK(::waitpid(process, &status, 0) == process); // its input is still open
+    CHECK(!(WIFEXITED(status) && WEXITSTATUS(status) == 0));
+    for (const int each : {to[0], to[1], from[0], from[1]}) {
+        ::close(each);
+    }
 }
 
 TEST_CASE("source.fixAll makes the text of lsc check --fix") {
