@@ -377,6 +377,15 @@ void add_format(CLI::App& app, FormatCommand& command) {
                "Example: lsc fmt --check *.lsys");
 }
 
+void add_lsp(CLI::App& app, LspCommand& command) {
+    // Clients of other servers pass this option; standard input and output are used anyway.
+    app.add_flag("--stdio", command.stdio, "Use standard input and output, as always");
+    app.footer("Reads and writes messages of the Language Server Protocol 3.17. Editors start it "
+               "themselves;\n"
+               "docs/editors.md has settings for Neovim, Vim, Emacs, Kate and VS Code.\n"
+               "Example: vim.lsp.start_client({ cmd = { 'lsc', 'lsp' } })");
+}
+
 void add_explain(CLI::App& app, ExplainCommand& command) {
     app.add_option("CODE", command.code,
                    "Code in brackets at the end of a message (default: list all codes)");
@@ -540,6 +549,7 @@ void add_commands(CLI::App& app,
     add("export", "Export one plant as a 3D model or a drawing", add_export);
     add("forest", "Generate a forest of instanced plants", add_forest);
     add("import", "Convert a grammar of another program to .lsys", add_import);
+    add("lsp", "Serve an editor: the language server of grammars", add_lsp);
     add("place", "Place the trees of a forest, for tiles and serve", add_place);
     add("serve", "Serve a forest as 3D Tiles, made on request", add_serve);
     add("stats", "Predict the size of each generation", add_stats);

@@ -14,6 +14,7 @@ namespace lsys::lsc {
 [[nodiscard]] ExitStatus run_command(const ExportCommand& command, const Console& console);
 [[nodiscard]] ExitStatus run_command(const ForestCommand& command, const Console& console);
 [[nodiscard]] ExitStatus run_command(const ImportCommand& command, const Console& console);
+[[nodiscard]] ExitStatus run_command(const LspCommand& command, const Console& console);
 [[nodiscard]] ExitStatus run_command(const PlaceCommand& command, const Console& console);
 [[nodiscard]] ExitStatus run_command(const ServeCommand& command, const Console& console);
 [[nodiscard]] ExitStatus run_command(const StatsCommand& command, const Console& console);

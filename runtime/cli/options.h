@@ -182,6 +182,11 @@ struct FormatCommand {
     bool check = false;
 };
 
+struct LspCommand {
+    MessageOptions messages;
+    bool stdio = false; // no effect: the streams are always used
+};
+
 struct ExplainCommand {
     MessageOptions messages;
     std::string code; // empty: list all codes

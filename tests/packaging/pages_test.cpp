@@ -89,8 +89,8 @@ TEST_CASE("lsc is described with all commands") {
                         [](const OptionText& option) { return option.names.back() == "--help"; }));
     }
     CHECK(names == std::vector<std::string>{"check", "compile", "dump", "export", "forest",
-                                            "import", "place", "serve", "stats", "tiles", "trace",
-                                            "fmt", "explain", "help"});
+                                            "import", "lsp", "place", "serve", "stats", "tiles",
+                                            "trace", "fmt", "explain", "help"});
     CHECK(program.program.name == "lsc");
 }
 

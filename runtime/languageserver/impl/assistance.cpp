@@ -1,0 +1,542 @@
+// SPDX-License-Identifier: MIT
+// Hover, completion and signatures. The statement before the cursor is mostly unfinished and not in
+// the syntax tree, so its part is found by its characters.
+#include "compiler/bytecode/turtle_operation.h"
+#include "compiler/resolve/profiles.h"
+#include "grammar/base/characters.h"
+#include "grammar/base/paths.h"
+#include "runtime/languageserver/impl/vocabulary.h"
+#include "runtime/languageserver/impl/workspace.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <set>
+#include <string>
+#include <utility>
+
+namespace lsys {
+
+namespace {
+
+/// What may stand at the cursor.
+enum class Slot {
+    Nothing,
+    Statement, // `#` and a keyword
+    SettingKey,
+    SettingValue,
+    Object,
+    Modules,
+    Expression,
+};
+
+struct CursorContext {
+    Slot slot = Slot::Nothing;
+    std::string key;                  // of the `#set`
+    std::set<std::string> locals;     // formals and local values of the statement
+    std::string prefix;               // the part of a word before the cursor
+    std::string callee;               // name before the innermost open `(`
+    std::uint32_t argument_index = 0; // commas since this `(`
+    bool is_module_call = false;      // the callee is a module, else a function
+};
+
+/// The text since the last statement ended, without comments; nullopt within a comment or quotes.
+std::optional<std::string> unfinished_statement(std::string_view text) {
+    std::string statement;
+    for (std::size_t i = 0; i < text.size(); ++i) {
+        const std::string_view rest = text.substr(i);
+        const bool is_outside = statement.find('#') == std::string::npos;
+        if (rest.starts_with("/*")) {
+            const std::size_t end = rest.find("*/", 2);
+            if (end == std::string_view::npos) {
+                return std::nullopt;
+            }
+            i += end + 1;
+        } else if (rest.starts_with("//") && is_outside) {
+            const std::size_t end = rest.find('\n');
+            if (end == std::string_view::npos) {
+                return std::nullopt;
+            }
+            i += end;
+        } else if (text[i] == '`' || (text[i] == '"' && rest.find('"', 1) < rest.find('\n'))) {
+            // A single `"` is a module.
+            const std::size_t end = rest.find(text[i], 1);
+            if (end == std::string_view::npos) {
+                return std::nullopt;
+            }
+            statement += rest.substr(0, end + 1);
+            i += end;
+        } else if (text[i] == ';') {
+            statement.clear();
+        } else {
+            statement += text[i];
+        }
+    }
+    statement.erase(0, std::min(statement.find_first_not_of(kWhitespace), statement.size()));
+    return statement;
+}
+
+std::size_t word_begin(std::string_view text, std::size_t end) {
+    while (end > 0 && is_word_character(text[end - 1])) {
+        --end;
+    }
+    return end;
+}
+
+/// Adds the names in the parentheses of a predecessor, or before the `=` of local values.
+void add_locals(std::string_view field, std::set<std::string>& locals) {
+    int depth = 0;
+    for (std::size_t i = 0; i < field.size(); ++i) {
+        depth += field[i] == '(' ? 1 : field[i] == ')' ? -1 : 0;
+        if (depth > 0 && is_letter(field[i])) {
+            const std::size_t begin = i;
+            while (i + 1 < field.size() && is_word_character(field[i + 1])) {
+                ++i;
+            }
+            locals.emplace(field.substr(begin, i + 1 - begin));
+        }
+    }
+}
+void add_local_values(std::string_view field, std::set<std::string>& locals) {
+    for (std::size_t i = field.find('='); i != std::string_view::npos; i = field.find('=', i + 1)) {
+        const std::size_t end = field.find_last_not_of(kWhitespace, i - 1) + 1;
+        const std::size_t begin = i == 0 ? end : word_begin(field, end);
+        if (begin < end) {
+            locals.emplace(field.substr(begin, end - begin));
+        }
+    }
+}
+
+/// Finds the innermost open parenthesis of a field.
+void find_call(std::string_view field, bool is_modules, CursorContext& context) {
+    std::vector<std::pair<std::size_t, std::uint32_t>> open; // place and commas
+    for (std::size_t i = 0; i < field.size(); ++i) {
+        if (field[i] == '(' || field[i] == '{') {
+            open.emplace_back(i, 0);
+        } else if ((field[i] == ')' || field[i] == '}') && !open.empty()) {
+            open.pop_back();
+        } else if (field[i] == ',' && !open.empty()) {
+            ++open.back().second;
+        }
+    }
+    if (open.empty() || field[open.back().first] != '(') {
+        return;
+    }
+    context.argument_index = open.back().second;
+    context.is_module_call = is_modules && open.size() == 1;
+    std::size_t end = open.back().first;
+    end = end == 0 ? 0 : field.find_last_not_of(kWhitespace, end - 1) + 1;
+    const std::size_t begin = word_begin(field, end);
+    context.callee = field.substr(begin, end - begin);
+    if (context.callee.empty() && end > 0 && context.is_module_call) {
+        context.callee = field[end - 1]; // `+(`
+    }
+    if (is_modules) {
+        context.slot = Slot::Expression;
+    }
+}
+
+CursorContext context_at(std::string_view before) {
+    CursorContext context;
+    const std::optional<std::string> statement = unfinished_statement(before);
+    if (!statement || (!statement->empty() && !statement->starts_with('#'))) {
+        return context;
+    }
+    const std::string_view text = *statement;
+    const std::size_t last = word_begin(text, text.size());
+    context.prefix = text.substr(last);
+    std::size_t end = std::min<std::size_t>(1, text.size());
+    while (end < text.size() && is_word_character(text[end])) {
+        ++end;
+    }
+    const std::string_view word = text.substr(0, end);
+    if (end == text.size()) {
+        context.slot = Slot::Statement;
+        context.prefix = text;
+        return context;
+    }
+    std::vector<std::string_view> fields; // the parts between `:`
+    for (std::size_t begin = 0; begin <= text.size();) {
+        const std::size_t colon = std::min(text.find(':', begin), text.size());
+        fields.push_back(text.substr(begin, colon - begin));
+        begin = colon + 1;
+    }
+    const std::string_view field = fields.back();
+    const auto modules = [&] {
+        context.slot = Slot::Modules;
+        find_call(field, true, context);
+    };
+    const auto expression = [&] {
+        context.slot = Slot::Expression;
+        find_call(field, false, context);
+    };
+    if (fields.size() == 1) {
+        // The words after the keyword, without the one at the cursor.
+        std::vector<std::string_view> words;
+        for (std::size_t at = text.find_first_not_of(kWhitespace, end); at < last;) {
+            const std::size_t stop = std::min(text.find_first_of(kWhitespace, at), last);
+            words.push_back(text.substr(at, stop - at));
+            at = std::min(text.find_first_not_of(kWhitespace, stop), text.size());
+        }
+        if (word == "#set" && words.empty()) {
+            context.slot = Slot::SettingKey;
+        } else if (word == "#set") {
+            context.key = words[0];
+            context.slot = Slot::SettingValue;
+        } else if (word == "#object" && !words.empty()) {
+            context.slot = Slot::Object;
+        } else if (word == "#function") {
+            add_locals(text.substr(0, std::min(text.find(')'), text.size())), context.locals);
+            expression();
+            if (text.find(')') == std::string_view::npos) {
+                context = {};
+            }
+        } else if (word == "#n" || word == "#w" ||
+                   ((word == "#define" || word == "#param") && !words.empty())) {
+            expression();
+        }
+        return context;
+    }
+    if (word == "#w" || word == "#ignore" || word == "#consider") {
+        modules();
+        return context;
+    }
+    add_locals(fields[1], context.locals);
+    const bool has_let =
+        fields.size() > 3 &&
+        fields[3]
+            .substr(std::min(fields[3].find_first_not_of(kWhitespace), fields[3].size()))
+            .starts_with("let ");
+    if (has_let) {
+        add_local_values(fields[3], context.locals);
+    }
+    if (fields.size() == 2) {
+        context.slot = Slot::Modules;
+        find_call(field, true, context);
+        if (context.slot == Slot::Expression) {
+            context.slot = Slot::Nothing; // a new formal
+        }
+    } else if (fields.size() == 3 || (fields.size() == 4 && has_let)) {
+        expression();
+    } else {
+        modules();
+    }
+    return context;
+}
+
+std::string code(std::string_view text) {
+    return "`" + std::string(text) + "`";
+}
+
+std::string call_text(std::string_view name, std::string_view parameters) {
+    return parameters.empty() ? std::string(name) : fmt::format("{}({})", name, parameters);
+}
+
+std::string turtle_text(const TurtleCommand& command, TurtleProfile profile) {
+    return fmt::format("`{}`: turtle command {} of the profile `{}`",
+                       call_text(command.name, command.parameters), info(command.operation).name,
+                       name_of(profile));
+}
+
+std::string file_note(const StatementOutline& statement, const std::string& path) {
+    return statement.place.path == path
+               ? std::string()
+               : fmt::format("\n\nin `{}`", name_of_path(statement.place.path));
+}
+
+/// The meaning of a name as Markdown.
+std::string name_text(const NameUse& use, const NameIndex& index, const std::string& path) {
+    std::string text;
+    if (use.kind == NameKind::Formal) {
+        text = fmt::format("{}: parameter or local value of this statement", code(use.name));
+    }
+    if (use.kind == NameKind::Function) {
+        if (const FunctionHelp* const row = find_function_help(use.name)) {
+            text = fmt::format("`{}({})`: {}", row->name, row->parameters, row->meaning);
+        }
+    }
+    std::set<TextPlace> defining;
+    for (const NameUse& each : index.uses) {
+        if (each.is_definition && NameIndex::are_same(each, use)) {
+            defining.insert(each.place);
+        }
+    }
+    std::size_t shown = 0;
+    constexpr std::size_t kMaxShown = 8;
+    std::string notes;
+    for (const StatementOutline& statement : index.statements) {
+        const bool defines =
+            use.kind != NameKind::Formal &&
+            std::any_of(defining.begin(), defining.end(), [&](const TextPlace& place) {
+                return place.path == statement.place.path && statement.place.begin <= place.begin &&
+                       place.end <= statement.place.end;
+            });
+        if (defines && shown < kMaxShown) {
+            ++shown;
+            text += fmt::format("{}```lsys\n{}\n```{}", text.empty() ? "" : "\n\n",
+                                statement.detail, file_note(statement, path));
+        }
+    }
+    const bool is_bound = std::any_of(
+        index.statements.begin(), index.statements.end(), [&](const StatementOutline& statement) {
+            return statement.kind == StatementKind::Object && statement.name == use.name;
+        });
+    if (use.kind == NameKind::Module && !is_bound) {
+        if (const TurtleCommand* const command = find_turtle_command(index.profile, use.name)) {
+            text = turtle_text(*command, index.profile) + (text.empty() ? "" : "\n\n") + text;
+        } else if (text.empty()) {
+            text = code(use.name) + ": module that nothing rewrites and the turtle does not draw";
+        }
+    }
+    return text;
+}
+
+/// Kinds of completion items of LSP.
+enum class ItemKind : int {
+    Function = 3,
+    Variable = 6,
+    Class = 7,
+    Property = 10,
+    Value = 12,
+    Keyword = 14,
+    Constant = 21,
+    Operator = 24,
+};
+
+class Completion {
+public:
+    explicit Completion(Json range) : range_(std::move(range)) {}
+
+    void add(std::string_view label, ItemKind kind, std::string_view detail) {
+        if (!added_.emplace(label).second) {
+            return;
+        }
+        items_.push_back({{"label", label},
+                          {"kind", static_cast<int>(kind)},
+                          {"detail", detail},
+                          {"textEdit", {{"range", range_}, {"newText", label}}}});
+    }
+    /// Adds `documentation` to the last item.
+    void document(std::string_view text) {
+        items_.back()["documentation"] = {{"kind", "markdown"}, {"value", text}};
+    }
+    [[nodiscard]] Json take() { return std::move(items_); }
+
+private:
+    Json range_;
+    Json items_ = Json::array();
+    std::set<std::string> added_;
+};
+
+void add_modules(const NameIndex& index, Completion& items) {
+    for (const StatementOutline& statement : index.statements) {
+        if (statement.kind == StatementKind::Object || statement.kind == StatementKind::Module) {
+            items.add(statement.name, ItemKind::Class, statement.detail);
+        }
+    }
+    for (const NameUse& use : index.uses) {
+        if (use.kind == NameKind::Module && use.is_definition) {
+            const auto rule = std::find_if(index.statements.begin(), index.statements.end(),
+                                           [&](const StatementOutline& statement) {
+                                               return statement.place.path == use.place.path &&
+                                                      statement.place.begin <= use.place.begin &&
+                                                      use.place.end <= statement.place.end;
+                                           });
+            items.add(use.name, ItemKind::Class,
+                      rule != index.statements.end() ? rule->detail : std::string());
+        }
+    }
+    for (const TurtleCommand& command : turtle_commands(index.profile)) {
+        items.add(command.name, ItemKind::Operator,
+                  fmt::format("{}: {}", call_text(command.name, command.parameters),
+                              info(command.operation).name));
+    }
+}
+
+void add_values(const NameIndex& index, const CursorContext& context, Completion& items) {
+    for (const std::string& local : context.locals) {
+        items.add(local, ItemKind::Variable, "parameter or local value");
+    }
+    for (const StatementOutline& statement : index.statements) {
+        if (statement.kind == StatementKind::Define || statement.kind == StatementKind::Param) {
+            items.add(statement.name, ItemKind::Constant, statement.detail);
+        } else if (statement.kind == StatementKind::Function ||
+                   statement.kind == StatementKind::Curve) {
+            items.add(statement.name, ItemKind::Function, statement.detail);
+        }
+    }
+    for (const FunctionHelp& row : function_helps()) {
+        items.add(row.name, ItemKind::Function,
+                  fmt::format("{}({}): {}", row.name, row.parameters, row.meaning));
+    }
+}
+
+/// Whether a range of LSP contains a position.
+bool contains(const Json& range, const Json& position) {
+    const auto key = [](const Json& place) {
+        return std::pair(place.at("line").get<std::uint32_t>(),
+                         place.at("character").get<std::uint32_t>());
+    };
+    return key(range.at("start")) <= key(position) && key(position) <= key(range.at("end"));
+}
+
+Json signature(const std::string& label, std::string_view parameters, std::uint32_t active) {
+    Json list = Json::array();
+    while (!parameters.empty()) {
+        const std::size_t comma = std::min(parameters.find(','), parameters.size());
+        std::string_view parameter = parameters.substr(0, comma);
+        parameter.remove_prefix(
+            std::min(parameter.find_first_not_of(kWhitespace), parameter.size()));
+        list.push_back({{"label", parameter}});
+        parameters.remove_prefix(std::min(comma + 1, parameters.size()));
+    }
+    return {{"signatures", Json::array({Json{{"label", label}, {"parameters", list}}})},
+            {"activeSignature", 0},
+            {"activeParameter", active}};
+}
+
+} // namespace
+
+Json hover(Workspace& workspace, const Json& params) {
+    Document& document = workspace.document(params.at("textDocument").at("uri"));
+    const Json& position = params.at("position");
+    Places at(workspace);
+    const std::uint32_t offset = at.offset(document.path, position);
+    std::vector<std::string> parts;
+    Json range;
+    if (document.is_lsys || document.path.ends_with(".lsys")) {
+        const NameIndex index = workspace.index(workspace.roots_of(document.path), {});
+        if (const NameUse* const use = index.at(document.path, offset)) {
+            range = at.range(use->place);
+            if (std::string text = name_text(*use, index, document.path); !text.empty()) {
+                parts.push_back(std::move(text));
+            }
+        }
+        const std::string& text = at.text(document.path);
+        std::size_t begin = word_begin(text, offset);
+        std::size_t end = offset;
+        while (end < text.size() && is_word_character(text[end])) {
+            ++end;
+        }
+        if (begin > 0 && text[begin - 1] == '#') {
+            const StatementHelp* const row =
+                find_statement_help(std::string_view(text).substr(begin - 1, end - begin + 1));
+            if (row != nullptr && parts.empty()) {
+                parts.push_back(fmt::format("`{}`: {}", row->form, row->meaning));
+            }
+        }
+        for (const StatementOutline& statement : index.statements) {
+            if (statement.kind == StatementKind::Set &&
+                statement.name_place.path == document.path &&
+                statement.name_place.begin <= offset && offset <= statement.name_place.end) {
+                if (const auto setting = find_setting_help(statement.name)) {
+                    parts.push_back(fmt::format("`#set {}`: {}", setting->name, setting->meaning));
+                }
+            }
+        }
+    }
+    std::set<std::string> explained;
+    for (const Json& diagnostic : document_diagnostics(workspace, document)) {
+        if (!diagnostic.contains("code") || !contains(diagnostic.at("range"), position)) {
+            continue;
+        }
+        const auto name = diagnostic.at("code").get<std::string>();
+        const std::string text = workspace.host.explain ? workspace.host.explain(name) : "";
+        if (!text.empty() && explained.insert(name).second) {
+            parts.push_back(fmt::format("**{}**: {}", name, text));
+        }
+    }
+    if (parts.empty()) {
+        return nullptr;
+    }
+    Json result{
+        {"contents",
+         {{"kind", "markdown"}, {"value", fmt::format("{}", fmt::join(parts, "\n\n---\n\n"))}}}};
+    if (!range.is_null()) {
+        result["range"] = range;
+    }
+    return result;
+}
+
+Json complete(Workspace& workspace, const Json& params) {
+    const Document& document = workspace.document(params.at("textDocument").at("uri"));
+    if (!document.is_lsys && !document.path.ends_with(".lsys")) {
+        return Json::array();
+    }
+    Places at(workspace);
+    const std::uint32_t offset = at.offset(document.path, params.at("position"));
+    const CursorContext context =
+        context_at(std::string_view(at.text(document.path)).substr(0, offset));
+    Completion items(at.range(
+        {document.path, offset - static_cast<std::uint32_t>(context.prefix.size()), offset}));
+    if (context.slot == Slot::Modules || context.slot == Slot::Expression ||
+        context.slot == Slot::SettingValue) {
+        const NameIndex index = workspace.index(workspace.roots_of(document.path), {});
+        if (context.slot == Slot::Modules) {
+            add_modules(index, items);
+        } else if (const auto setting = find_setting_help(context.key);
+                   setting && !setting->values.empty()) {
+            for (const std::string& value : setting->values) {
+                items.add(value, ItemKind::Value, setting->name);
+            }
+        } else {
+            add_values(index, context, items);
+        }
+    } else if (context.slot == Slot::Statement) {
+        for (const StatementHelp& row : statement_helps()) {
+            items.add(row.name, ItemKind::Keyword, row.form);
+            items.document(row.meaning);
+        }
+    } else if (context.slot == Slot::SettingKey) {
+        for (const SettingHelp& setting : setting_helps()) {
+            items.add(setting.name, ItemKind::Property, setting.meaning);
+        }
+    } else if (context.slot == Slot::Object) {
+        for (const TurtleObject& object : turtle_objects()) {
+            items.add(object.name, ItemKind::Value, "object");
+        }
+    }
+    return items.take();
+}
+
+Json signature_help(Workspace& workspace, const Json& params) {
+    const Document& document = workspace.document(params.at("textDocument").at("uri"));
+    Places at(workspace);
+    const std::uint32_t offset = at.offset(document.path, params.at("position"));
+    const CursorContext context =
+        context_at(std::string_view(at.text(document.path)).substr(0, offset));
+    if (context.callee.empty() || (!document.is_lsys && !document.path.ends_with(".lsys"))) {
+        return nullptr;
+    }
+    const NameIndex index = workspace.index(workspace.roots_of(document.path), {});
+    for (const StatementOutline& statement : index.statements) {
+        const bool is_callee = context.is_module_call ? statement.kind == StatementKind::Module
+                                                      : statement.kind == StatementKind::Function;
+        if (is_callee && statement.name == context.callee) {
+            const std::string formals = fmt::format("{}", fmt::join(statement.formals, ", "));
+            return signature(fmt::format("{}({})", statement.name, formals), formals,
+                             context.argument_index);
+        }
+        if (!context.is_module_call && statement.kind == StatementKind::Curve &&
+            statement.name == context.callee) {
+            return signature(statement.name + "(x)", "x", context.argument_index);
+        }
+    }
+    if (context.is_module_call) {
+        const TurtleCommand* const command = find_turtle_command(index.profile, context.callee);
+        if (command != nullptr && !command->parameters.empty()) {
+            return signature(call_text(command->name, command->parameters), command->parameters,
+                             context.argument_index);
+        }
+        return nullptr;
+    }
+    if (const FunctionHelp* const row = find_function_help(context.callee)) {
+        Json help = signature(fmt::format("{}({})", row->name, row->parameters), row->parameters,
+                              context.argument_index);
+        help["signatures"][0]["documentation"] = row->meaning;
+        return help;
+    }
+    return nullptr;
+}
+
+} // namespace lsys

@@ -1,0 +1,351 @@
+// SPDX-License-Identifier: MIT
+#include "runtime/languageserver/impl/workspace.h"
+
+#include "grammar/ast/include_chain.h"
+#include "grammar/base/characters.h"
+#include "grammar/base/paths.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace lsys {
+
+namespace {
+
+constexpr std::string_view kFileScheme = "file://";
+constexpr std::string_view kMark = "\xEF\xBB\xBF";
+constexpr std::uint64_t kMaxProjectBytes = std::uint64_t{1} << 20U; // of a file that is not open
+constexpr std::size_t kMaxRootFiles = 64;
+
+int hex_digit(char c) {
+    if (is_digit(c)) {
+        return c - '0';
+    }
+    const char lower = static_cast<char>(c | 0x20);
+    return lower >= 'a' && lower <= 'f' ? lower - 'a' + 10 : -1;
+}
+
+bool has_drive(std::string_view path) {
+    return path.size() > 2 && path[0] == '/' && is_letter(path[1]) && path[2] == ':';
+}
+
+/// The files that a text includes, normalised.
+std::vector<std::string> included_files(const std::string& path, std::string_view text) {
+    constexpr std::string_view kInclude = "#include";
+    std::vector<std::string> files;
+    for (std::size_t at = text.find(kInclude); at != std::string_view::npos;
+         at = text.find(kInclude, at)) {
+        at += kInclude.size();
+        const std::size_t quote = text.find_first_not_of(kWhitespace, at);
+        if (quote == std::string_view::npos || text[quote] != '"') {
+            continue;
+        }
+        const std::size_t end = text.find_first_of("\"\n", quote + 1);
+        if (end != std::string_view::npos && text[end] == '"') {
+            files.push_back(
+                normalised_path(path_beside(path, text.substr(quote + 1, end - quote - 1))));
+        }
+    }
+    return files;
+}
+
+} // namespace
+
+std::string path_of_uri(std::string_view uri) {
+    if (!uri.starts_with(kFileScheme)) {
+        return std::string(uri);
+    }
+    std::string_view encoded = uri.substr(kFileScheme.size());
+    encoded.remove_prefix(std::min(encoded.find('/'), encoded.size())); // the host
+    std::string path;
+    for (std::size_t i = 0; i < encoded.size(); ++i) {
+        const int high =
+            encoded[i] == '%' && i + 2 < encoded.size() ? hex_digit(encoded[i + 1]) : -1;
+        const int low = high >= 0 ? hex_digit(encoded[i + 2]) : -1;
+        if (low >= 0) {
+            path += static_cast<char>(high * 16 + low);
+            i += 2;
+        } else {
+            path += encoded[i];
+        }
+    }
+    return normalised_path(has_drive(path) ? std::string_view(path).substr(1) : path);
+}
+
+std::string Workspace::uri_of(const std::string& path) const {
+    if (const auto open = documents.find(path); open != documents.end()) {
+        return open->second.uri;
+    }
+    constexpr std::string_view kHex = "0123456789ABCDEF";
+    std::string uri(kFileScheme);
+    uri += path.starts_with('/') ? "" : "/";
+    for (const char c : path) {
+        if (is_word_character(c) || std::string_view("/-.~").find(c) != std::string_view::npos) {
+            uri += c;
+        } else {
+            const auto byte = static_cast<unsigned char>(c);
+            uri += '%';
+            uri += kHex[byte >> 4U];
+            uri += kHex[byte & 15U];
+        }
+    }
+    return uri;
+}
+
+Workspace::Workspace(LanguageServerHost own_host) : host(std::move(own_host)) {
+    Host& files = host.project.host;
+    const auto open_first = [this](auto read) {
+        return [this, read](const std::string& path, const ReadLimit& limit) {
+            const auto open = documents.find(normalised_path(path));
+            return open != documents.end() ? Result<std::string>(open->second.text)
+                                           : read(path, limit);
+        };
+    };
+    files.read_file = open_first(files.read_referenced_file);
+    files.read_referenced_file = open_first(files.read_referenced_file);
+    files.file_exists = [this, exists = files.file_exists](const std::string& path) {
+        return documents.contains(normalised_path(path)) || exists(path);
+    };
+}
+
+Document& Workspace::document(const Json& uri) {
+    const auto found = documents.find(path_of_uri(uri.get<std::string>()));
+    if (found == documents.end()) {
+        throw RequestError(RpcError::InvalidParams,
+                           "the document is not open: " + uri.get<std::string>());
+    }
+    return found->second;
+}
+
+std::optional<std::string> Workspace::text_of(const std::string& path) const {
+    Result<std::string> read =
+        host.project.host.read_referenced_file(path, {kMaxSourceBytes, kMaxProjectBytes << 6U});
+    if (!read) {
+        return std::nullopt;
+    }
+    std::string& text = read.value();
+    if (text.starts_with(kMark)) {
+        text.erase(0, kMark.size());
+    }
+    return std::move(text);
+}
+
+std::vector<std::string> Workspace::known_grammars(const std::string& path) const {
+    std::set<std::string> known;
+    for (const auto& [open, document] : documents) {
+        if (document.is_lsys || open.ends_with(".lsys")) {
+            known.insert(open);
+        }
+    }
+    const auto add_folder = [&](const std::string& folder) {
+        for (const std::string& file : host.grammars_below(folder)) {
+            known.insert(normalised_path(file));
+        }
+    };
+    for (const std::string& folder : folders) {
+        add_folder(folder);
+    }
+    if (folders.empty() && is_absolute_path(path)) {
+        add_folder(std::string(folder_of_path(path)));
+    }
+    return {known.begin(), known.end()};
+}
+
+std::vector<std::string> Workspace::roots_of(const std::string& path) const {
+    std::map<std::string, std::vector<std::string>> including; // by included file
+    for (const std::string& file : known_grammars(path)) {
+        const Result<std::string> text =
+            host.project.host.read_referenced_file(file, {kMaxSourceBytes, kMaxProjectBytes});
+        for (const std::string& included :
+             included_files(file, text ? std::string_view(text.value()) : "")) {
+            including[included].push_back(file);
+        }
+    }
+    std::set<std::string> reached{path};
+    std::vector<std::string> left{path};
+    std::set<std::string> roots;
+    while (!left.empty()) {
+        const std::string file = std::move(left.back());
+        left.pop_back();
+        const auto found = including.find(file);
+        if (found == including.end()) {
+            roots.insert(file);
+            continue;
+        }
+        for (const std::string& next : found->second) {
+            if (reached.insert(next).second) {
+                left.push_back(next);
+            }
+        }
+    }
+    if (roots.empty()) {
+        roots.insert(path); // the files include each other
+    }
+    std::vector<std::string> found(roots.begin(), roots.end());
+    found.resize(std::min(found.size(), kMaxRootFiles));
+    return found;
+}
+
+FileLoader Workspace::loader() const {
+    return make_loader(host.project, host.project.limits.max_bytes);
+}
+
+NameIndex Workspace::index(const std::vector<std::string>& roots,
+                           const std::map<std::string, std::string>& changed) const {
+    const FileLoader disk = loader();
+    const FileLoader load = [&](const std::string& path) {
+        const auto found = changed.find(normalised_path(path));
+        return found != changed.end() ? Result<std::string>(found->second) : disk(path);
+    };
+    NameIndex all;
+    for (const std::string& root : roots) {
+        const Result<std::string> text = load(root);
+        if (!text) {
+            continue;
+        }
+        ParsedGrammar parsed;
+        parse_grammar(root, text.value(), load, parsed);
+        NameIndex one = index_names(parsed);
+        all.profile = one.profile;
+        all.merge(std::move(one));
+    }
+    return all;
+}
+
+GrammarText Workspace::grammar_text(const Document& document, std::string& failure) const {
+    GrammarText text;
+    Outcome<GrammarText> read = read_grammar(
+        document.path, document.is_lsys ? std::string("lsys") : std::string(), host.project);
+    if (read) {
+        text = std::move(read.value());
+        return text;
+    }
+    for (const Message& message : read.messages().all()) {
+        failure += message.kind == Message::Kind::Error ? message.text : "";
+    }
+    return text;
+}
+
+GrammarOptions Workspace::options_of(const Document& document) const {
+    GrammarOptions options;
+    const bool is_lsys = document.is_lsys || document.path.ends_with(".lsys");
+    if (is_lsys && document.text.find("#w") == std::string::npos) {
+        const std::vector<std::string> roots = roots_of(document.path);
+        options.part = roots.size() > 1 || roots.front() != document.path;
+    }
+    return options;
+}
+
+CheckedDocument Workspace::check(Document& document, bool offers_doubtful) {
+    CheckedDocument checked;
+    checked.text = grammar_text(document, checked.failure);
+    if (!checked.failure.empty()) {
+        return checked;
+    }
+    const GrammarOptions options = options_of(document);
+    Result<CompiledText> compiled = compile_text(document.path, checked.text, options,
+                                                 host.project.limits.max_modules, loader());
+    if (!compiled) {
+        checked.failure = compiled.error().message;
+        return checked;
+    }
+    checked.compiled = std::move(compiled.value());
+    if (offers_doubtful && host.offer_doubtful) {
+        host.offer_doubtful({document.path, checked.text, options}, host.project, checked.compiled);
+    }
+    checked.compiled.diagnostics.sort_by_place();
+    const SourceMap& sources = *checked.compiled.grammar.sources;
+    document.inputs.clear();
+    for (std::uint32_t i = 0; i < sources.file_count(); ++i) {
+        document.inputs.insert(normalised_path(sources.file(static_cast<FileId>(i)).path()));
+    }
+    return checked;
+}
+
+std::map<std::string, std::string> Workspace::fixed(Document& document) {
+    std::string failure;
+    const GrammarText text = grammar_text(document, failure);
+    if (!failure.empty() || !host.fix) {
+        return {};
+    }
+    return host.fix({document.path, text, options_of(document)}, host.project);
+}
+
+Places::File& Places::file(const std::string& path) {
+    const auto [found, is_new] = files_.try_emplace(path);
+    File& file = found->second;
+    if (is_new) {
+        const auto open = workspace_.documents.find(path);
+        if (open != workspace_.documents.end()) {
+            file.text = open->second.text;
+        } else {
+            file.text = workspace_.text_of(path).value_or(std::string());
+        }
+        file.mark = file.text.starts_with(kMark) ? kMark.size() : 0;
+        file.unmarked = file.text.substr(file.mark);
+        file.positions.emplace(file.text, workspace_.editor.encoding);
+    }
+    return file;
+}
+
+const std::string& Places::text(const std::string& path) {
+    return file(path).unmarked;
+}
+
+Json Places::range(const TextPlace& place) {
+    const File& in = file(place.path);
+    const auto position = [&](std::uint32_t offset) {
+        const TextPosition found = in.positions->position(offset + in.mark);
+        return Json{{"line", found.line}, {"character", found.character}};
+    };
+    return {{"start", position(place.begin)}, {"end", position(place.end)}};
+}
+
+Json Places::location(const TextPlace& place) {
+    return {{"uri", workspace_.uri_of(place.path)}, {"range", range(place)}};
+}
+
+std::uint32_t Places::offset(const std::string& path, const Json& position) {
+    const File& in = file(path);
+    const std::size_t found = in.positions->offset(
+        {position.at("line").get<std::uint32_t>(), position.at("character").get<std::uint32_t>()});
+    return static_cast<std::uint32_t>(std::max(found, in.mark) - in.mark);
+}
+
+Json changing_edit(const std::string& path,
+                   std::string_view before,
+                   std::string_view after,
+                   Places& at) {
+    const auto is_inside = [](std::string_view text, std::size_t offset) {
+        return offset < text.size() && (static_cast<unsigned char>(text[offset]) & 0xC0U) == 0x80U;
+    };
+    const std::size_t shorter = std::min(before.size(), after.size());
+    auto same = static_cast<std::size_t>(
+        std::mismatch(before.begin(), before.begin() + static_cast<std::ptrdiff_t>(shorter),
+                      after.begin())
+            .first -
+        before.begin());
+    while (same > 0 && (is_inside(before, same) || is_inside(after, same))) {
+        --same;
+    }
+    std::size_t tail = 0;
+    while (tail < shorter - same &&
+           before[before.size() - 1 - tail] == after[after.size() - 1 - tail]) {
+        ++tail;
+    }
+    while (tail > 0 && is_inside(before, before.size() - tail)) {
+        --tail;
+    }
+    // A `\r\n` is one line end: no place lies within it.
+    if (same > 0 && before[same - 1] == '\r') {
+        --same;
+    }
+    if (tail > 0 && before[before.size() - tail] == '\n' && before.size() > tail) {
+        --tail;
+    }
+    return {{"range", at.range({path, static_cast<std::uint32_t>(same),
+                                static_cast<std::uint32_t>(before.size() - tail)})},
+            {"newText", std::string(after.substr(same, after.size() - tail - same))}};
+}
+
+} // namespace lsys

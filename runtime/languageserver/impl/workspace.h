@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: MIT
+// Workspace: the open documents, the folders of the editor, and what is computed from them. Texts
+// of open documents replace the files on disk everywhere.
+#pragma once
+
+#include "runtime/languageserver/impl/name_index.h"
+#include "runtime/languageserver/language_server.h"
+#include "runtime/languageserver/text_positions.h"
+
+#include <nlohmann/json.hpp>
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <set>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace lsys {
+
+using Json = nlohmann::json;
+
+/// Error codes of JSON-RPC and LSP.
+enum class RpcError : int {
+    ParseError = -32700,
+    InvalidRequest = -32600,
+    MethodNotFound = -32601,
+    InvalidParams = -32602,
+    ServerNotInitialized = -32002,
+    RequestCancelled = -32800,
+    RequestFailed = -32803,
+};
+
+/// Ends a request with an error response. Does not leave the library.
+struct RequestError : std::runtime_error {
+    RequestError(RpcError own_code, const std::string& message)
+        : std::runtime_error(message), code(own_code) {}
+    RpcError code;
+};
+
+struct Document {
+    std::string uri; // as the editor writes it
+    std::string path;
+    std::string text; // with a byte order mark, if the editor sends one
+    std::int64_t version = 0;
+    bool is_lsys = false;         // the editor calls the language `lsys`
+    bool is_dirty = true;         // the diagnostics are to be computed
+    std::set<std::string> inputs; // files read by the last check
+    Json diagnostics = Json::array();
+};
+
+/// Features of the editor.
+struct EditorFeatures {
+    bool pulls_diagnostics = false;
+    bool related_information = false;
+    bool nested_symbols = false;
+    bool snippets = false;
+    PositionEncoding encoding = PositionEncoding::Utf16;
+};
+
+/// The result of checking a document.
+struct CheckedDocument {
+    GrammarText text;
+    CompiledText compiled;
+    std::string failure; // why the document could not be checked; empty if it was
+};
+
+class Workspace {
+public:
+    explicit Workspace(LanguageServerHost own_host);
+    Workspace(const Workspace&) = delete;
+    Workspace& operator=(const Workspace&) = delete;
+
+    LanguageServerHost host; // `project` reads open documents first
+    EditorFeatures editor;
+    std::vector<std::string> folders;
+    std::map<std::string, Document> documents; // by path
+
+    /// The open document of a URI. Throws RequestError.
+    [[nodiscard]] Document& document(const Json& uri);
+    /// The text of a file, without a byte order mark; nullopt if it cannot be read.
+    [[nodiscard]] std::optional<std::string> text_of(const std::string& path) const;
+    /// The files that belong together with `path`: the grammars that nothing includes and that
+    /// include it directly or through others, or else `path` itself.
+    [[nodiscard]] std::vector<std::string> roots_of(const std::string& path) const;
+    /// All grammars: open documents, files below the folders, or else files beside `path`.
+    [[nodiscard]] std::vector<std::string> known_grammars(const std::string& path) const;
+    /// The names of all grammars with these roots. `changed` replaces texts, by path.
+    [[nodiscard]] NameIndex index(const std::vector<std::string>& roots,
+                                  const std::map<std::string, std::string>& changed) const;
+    /// Checks a document as `lsc check` does. `offers_doubtful`: turns doubtful fixes into offers.
+    [[nodiscard]] CheckedDocument check(Document& document, bool offers_doubtful);
+    /// The bytes that `lsc check --fix` writes, by path.
+    [[nodiscard]] std::map<std::string, std::string> fixed(Document& document);
+
+    [[nodiscard]] std::string uri_of(const std::string& path) const;
+
+private:
+    [[nodiscard]] GrammarText grammar_text(const Document& document, std::string& failure) const;
+    [[nodiscard]] GrammarOptions options_of(const Document& document) const;
+    [[nodiscard]] FileLoader loader() const;
+};
+
+/// The path that a URI names, normalised; the URI itself if it names no file.
+[[nodiscard]] std::string path_of_uri(std::string_view uri);
+
+/// Converts places of files to JSON, and reads each file once.
+class Places {
+public:
+    explicit Places(const Workspace& workspace) : workspace_(workspace) {}
+    [[nodiscard]] Json range(const TextPlace& place);
+    [[nodiscard]] Json location(const TextPlace& place);
+    /// The byte offset of a `Position` in the text without its byte order mark.
+    [[nodiscard]] std::uint32_t offset(const std::string& path, const Json& position);
+    [[nodiscard]] const std::string& text(const std::string& path);
+
+private:
+    struct File {
+        std::string text; // with the byte order mark of an open document
+        std::size_t mark = 0;
+        std::string unmarked;
+        std::optional<TextPositions> positions;
+    };
+    [[nodiscard]] File& file(const std::string& path);
+
+    const Workspace& workspace_;
+    std::map<std::string, File> files_;
+};
+
+/// The edit that turns `before`, the text of `path`, into `after`; replaces only the bytes between
+/// the first and the last difference.
+[[nodiscard]] Json
+changing_edit(const std::string& path, std::string_view before, std::string_view after, Places& at);
+
+// The requests, each with its parameters as in LSP. They throw RequestError, and exceptions of
+// Json for invalid parameters.
+
+[[nodiscard]] Json document_diagnostics(Workspace& workspace, Document& document);
+[[nodiscard]] Json code_actions(Workspace& workspace, const Json& params);
+[[nodiscard]] Json format_document(Workspace& workspace, const Json& params);
+[[nodiscard]] Json document_symbols(Workspace& workspace, const Json& params);
+[[nodiscard]] Json workspace_symbols(Workspace& workspace, const Json& params);
+[[nodiscard]] Json go_to_definition(Workspace& workspace, const Json& params);
+[[nodiscard]] Json find_references(Workspace& workspace, const Json& params);
+[[nodiscard]] Json highlight_name(Workspace& workspace, const Json& params);
+[[nodiscard]] Json prepare_rename(Workspace& workspace, const Json& params);
+[[nodiscard]] Json rename_name(Workspace& workspace, const Json& params);
+[[nodiscard]] Json hover(Workspace& workspace, const Json& params);
+[[nodiscard]] Json complete(Workspace& workspace, const Json& params);
+[[nodiscard]] Json signature_help(Workspace& workspace, const Json& params);
+[[nodiscard]] Json semantic_tokens(Workspace& workspace, const Json& params);
+[[nodiscard]] Json folding_ranges(Workspace& workspace, const Json& params);
+[[nodiscard]] Json document_colours(Workspace& workspace, const Json& params);
+[[nodiscard]] Json colour_presentations(Workspace& workspace, const Json& params);
+/// The token types of semantic_tokens(), for the capabilities of the server.
+[[nodiscard]] Json token_legend();
+
+} // namespace lsys

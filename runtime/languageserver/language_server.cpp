@@ -1,0 +1,368 @@
+// SPDX-License-Identifier: MIT
+#include "runtime/languageserver/language_server.h"
+
+#include "runtime/languageserver/impl/workspace.h"
+
+#include <algorithm>
+#include <array>
+#include <set>
+#include <utility>
+
+namespace lsys {
+
+namespace {
+
+/// A request on documents.
+struct RequestRow {
+    std::string_view method;
+    Json (*answer)(Workspace& workspace, const Json& params);
+};
+
+Json pull_diagnostics(Workspace& workspace, const Json& params) {
+    Document& document = workspace.document(params.at("textDocument").at("uri"));
+    return {{"kind", "full"}, {"items", document_diagnostics(workspace, document)}};
+}
+
+constexpr std::array kRequests{
+    RequestRow{"textDocument/diagnostic", pull_diagnostics},
+    RequestRow{"textDocument/codeAction", code_actions},
+    RequestRow{"textDocument/formatting", format_document},
+    RequestRow{"textDocument/documentSymbol", document_symbols},
+    RequestRow{"workspace/symbol", workspace_symbols},
+    RequestRow{"textDocument/definition", go_to_definition},
+    RequestRow{"textDocument/references", find_references},
+    RequestRow{"textDocument/documentHighlight", highlight_name},
+    RequestRow{"textDocument/prepareRename", prepare_rename},
+    RequestRow{"textDocument/rename", rename_name},
+    RequestRow{"textDocument/hover", hover},
+    RequestRow{"textDocument/completion", complete},
+    RequestRow{"textDocument/signatureHelp", signature_help},
+    RequestRow{"textDocument/semanticTokens/full", semantic_tokens},
+    RequestRow{"textDocument/foldingRange", folding_ranges},
+    RequestRow{"textDocument/documentColor", document_colours},
+    RequestRow{"textDocument/colorPresentation", colour_presentations},
+};
+
+Json error_response(const Json& id, RpcError code, const std::string& message) {
+    return {{"jsonrpc", "2.0"},
+            {"id", id},
+            {"error", {{"code", static_cast<int>(code)}, {"message", message}}}};
+}
+
+/// The member of nested objects, or null: `member(capabilities, {"general", "positionEncodings"})`.
+const Json& member(const Json& object, std::initializer_list<const char*> names) {
+    static const Json null;
+    const Json* found = &object;
+    for (const char* name : names) {
+        if (!found->is_object() || !found->contains(name)) {
+            return null;
+        }
+        found = &found->at(name);
+    }
+    return *found;
+}
+
+bool is_true(const Json& value) {
+    return value.is_boolean() && value.get<bool>();
+}
+
+EditorFeatures features_of(const Json& capabilities) {
+    EditorFeatures features;
+    features.pulls_diagnostics = member(capabilities, {"textDocument", "diagnostic"}).is_object();
+    features.related_information =
+        is_true(member(capabilities, {"textDocument", "publishDiagnostics", "relatedInformation"}));
+    features.nested_symbols = is_true(member(
+        capabilities, {"textDocument", "documentSymbol", "hierarchicalDocumentSymbolSupport"}));
+    features.snippets = is_true(
+        member(capabilities, {"textDocument", "completion", "completionItem", "snippetSupport"}));
+    for (const Json& encoding : member(capabilities, {"general", "positionEncodings"})) {
+        if (encoding == "utf-8") { // offsets of the server are bytes
+            features.encoding = PositionEncoding::Utf8;
+        }
+    }
+    return features;
+}
+
+Json server_capabilities(const EditorFeatures& editor) {
+    return {
+        {"positionEncoding", editor.encoding == PositionEncoding::Utf8 ? "utf-8" : "utf-16"},
+        {"textDocumentSync", {{"openClose", true}, {"change", 2}, {"save", true}}},
+        {"diagnosticProvider",
+         {{"identifier", "lsc"}, {"interFileDependencies", true}, {"workspaceDiagnostics", false}}},
+        {"codeActionProvider", {{"codeActionKinds", Json::array({"quickfix", "source.fixAll"})}}},
+        {"documentFormattingProvider", true},
+        {"documentSymbolProvider", true},
+        {"workspaceSymbolProvider", true},
+        {"definitionProvider", true},
+        {"referencesProvider", true},
+        {"documentHighlightProvider", true},
+        {"renameProvider", {{"prepareProvider", true}}},
+        {"hoverProvider", true},
+        {"semanticTokensProvider", {{"legend", token_legend()}, {"full", true}}},
+        {"foldingRangeProvider", true},
+        {"colorProvider", true},
+        {"completionProvider", {{"triggerCharacters", Json::array({"#", " ", "(", ":"})}}},
+        {"signatureHelpProvider", {{"triggerCharacters", Json::array({"(", ","})}}},
+        {"workspace", {{"workspaceFolders", {{"supported", true}, {"changeNotifications", true}}}}},
+    };
+}
+
+bool is_id(const Json& id) {
+    return id.is_number_integer() || id.is_string();
+}
+
+} // namespace
+
+struct LanguageServer::State {
+    explicit State(LanguageServerHost host) : workspace(std::move(host)) {}
+
+    enum class Phase { Created, Running, ShutDown, Exited };
+
+    Workspace workspace;
+    Phase phase = Phase::Created;
+    bool was_shut_down = false;
+    std::vector<std::string> output;
+
+    void send(const Json& message) {
+        // Paths and texts of an author may hold bytes that are no UTF-8.
+        output.push_back(message.dump(-1, ' ', false, Json::error_handler_t::replace));
+    }
+
+    void receive(const Json& message, const std::set<std::string>& cancelled);
+    [[nodiscard]] Json answer(const std::string& method, const Json& params);
+    void notify(const std::string& method, const Json& params);
+    [[nodiscard]] Json initialize(const Json& params);
+    void open(const Json& params);
+    void change(const Json& params);
+    void close(const Json& params);
+    void change_folders(const Json& params);
+    /// Marks the documents that read the file for a new check; all, if `path` is empty.
+    void mark(const std::string& path);
+    void publish();
+};
+
+void LanguageServer::State::mark(const std::string& path) {
+    for (auto& [open, document] : workspace.documents) {
+        if (path.empty() || open == path || document.inputs.contains(path)) {
+            document.is_dirty = true;
+        }
+    }
+}
+
+void LanguageServer::State::publish() {
+    if (phase != Phase::Running || workspace.editor.pulls_diagnostics) {
+        return;
+    }
+    for (auto& [path, document] : workspace.documents) {
+        if (document.is_dirty) {
+            Json all = document_diagnostics(workspace, document);
+            send({{"jsonrpc", "2.0"},
+                  {"method", "textDocument/publishDiagnostics"},
+                  {"params",
+                   {{"uri", document.uri},
+                    {"version", document.version},
+                    {"diagnostics", std::move(all)}}}});
+        }
+    }
+}
+
+Json LanguageServer::State::initialize(const Json& params) {
+    workspace.editor = features_of(member(params, {"capabilities"}));
+    const Json& folders = member(params, {"workspaceFolders"});
+    if (folders.is_array()) {
+        for (const Json& folder : folders) {
+            workspace.folders.push_back(path_of_uri(folder.at("uri").get<std::string>()));
+        }
+    } else if (const Json& root = member(params, {"rootUri"}); root.is_string()) {
+        workspace.folders.push_back(path_of_uri(root.get<std::string>()));
+    }
+    phase = Phase::Running;
+    return {{"capabilities", server_capabilities(workspace.editor)},
+            {"serverInfo", {{"name", "lsc"}, {"version", workspace.host.version}}}};
+}
+
+void LanguageServer::State::open(const Json& params) {
+    const Json& item = params.at("textDocument");
+    Document document;
+    document.uri = item.at("uri").get<std::string>();
+    document.path = path_of_uri(document.uri);
+    document.text = item.at("text").get<std::string>();
+    document.version = item.value("version", std::int64_t{0});
+    document.is_lsys = item.value("languageId", std::string()) == "lsys";
+    workspace.documents.insert_or_assign(document.path, std::move(document));
+    mark({}); // the file may be one that others did not find
+}
+
+void LanguageServer::State::change(const Json& params) {
+    Document& document = workspace.document(params.at("textDocument").at("uri"));
+    for (const Json& change : params.at("contentChanges")) {
+        const auto text = change.at("text").get<std::string>();
+        if (!change.contains("range")) {
+            document.text = text;
+            continue;
+        }
+        const TextPositions positions(document.text, workspace.editor.encoding);
+        const auto offset = [&](const Json& position) {
+            return positions.offset({position.at("line").get<std::uint32_t>(),
+                                     position.at("character").get<std::uint32_t>()});
+        };
+        const std::size_t begin = offset(change.at("range").at("start"));
+        const std::size_t end = std::max(begin, offset(change.at("range").at("end")));
+        document.text.replace(begin, end - begin, text);
+    }
+    document.version = params.at("textDocument").value("version", document.version + 1);
+    mark(document.path);
+}
+
+void LanguageServer::State::close(const Json& params) {
+    const Document& document = workspace.document(params.at("textDocument").at("uri"));
+    const std::string path = document.path;
+    const std::string uri = document.uri;
+    workspace.documents.erase(path);
+    mark(path);
+    if (!workspace.editor.pulls_diagnostics) {
+        send({{"jsonrpc", "2.0"},
+              {"method", "textDocument/publishDiagnostics"},
+              {"params", {{"uri", uri}, {"diagnostics", Json::array()}}}});
+    }
+}
+
+void LanguageServer::State::change_folders(const Json& params) {
+    const Json& event = params.at("event");
+    for (const Json& folder : event.at("removed")) {
+        std::erase(workspace.folders, path_of_uri(folder.at("uri").get<std::string>()));
+    }
+    for (const Json& folder : event.at("added")) {
+        workspace.folders.push_back(path_of_uri(folder.at("uri").get<std::string>()));
+    }
+}
+
+Json LanguageServer::State::answer(const std::string& method, const Json& params) {
+    if (method == "initialize") {
+        if (phase != Phase::Created) {
+            throw RequestError(RpcError::InvalidRequest, "the server is initialized already");
+        }
+        return initialize(params);
+    }
+    if (phase == Phase::Created) {
+        throw RequestError(RpcError::ServerNotInitialized, "the server is not initialized");
+    }
+    if (phase == Phase::ShutDown) {
+        throw RequestError(RpcError::InvalidRequest, "the server is shut down");
+    }
+    if (method == "shutdown") {
+        phase = Phase::ShutDown;
+        was_shut_down = true;
+        return nullptr;
+    }
+    const auto found = std::find_if(kRequests.begin(), kRequests.end(),
+                                    [&](const RequestRow& row) { return row.method == method; });
+    if (found == kRequests.end()) {
+        throw RequestError(RpcError::MethodNotFound, "there is no method `" + method + "`");
+    }
+    return found->answer(workspace, params);
+}
+
+void LanguageServer::State::notify(const std::string& method, const Json& params) {
+    if (method == "exit") {
+        phase = Phase::Exited;
+    }
+    if (phase != Phase::Running) {
+        return;
+    }
+    if (method == "textDocument/didOpen") {
+        open(params);
+    } else if (method == "textDocument/didChange") {
+        change(params);
+    } else if (method == "textDocument/didClose") {
+        close(params);
+    } else if (method == "textDocument/didSave" || method == "workspace/didChangeWatchedFiles") {
+        mark({});
+    } else if (method == "workspace/didChangeWorkspaceFolders") {
+        change_folders(params);
+    } // other notifications, also unknown ones, have no effect
+}
+
+void LanguageServer::State::receive(const Json& message, const std::set<std::string>& cancelled) {
+    if (phase == Phase::Exited) {
+        return;
+    }
+    const Json id = message.is_object() && message.contains("id") ? message.at("id") : Json();
+    const Json& method = member(message, {"method"});
+    if (!method.is_string()) {
+        const bool is_response = !member(message, {"id"}).is_null() &&
+                                 (message.contains("result") || message.contains("error"));
+        if (!is_response) {
+            send(error_response(is_id(id) ? id : Json(), RpcError::InvalidRequest,
+                                "the message has no method"));
+        }
+        return;
+    }
+    const bool is_request = message.contains("id");
+    const auto fail = [&](RpcError code, const std::string& reason) {
+        if (is_request) {
+            send(error_response(is_id(id) ? id : Json(), code, reason));
+        }
+    };
+    if (is_request && !is_id(id)) {
+        fail(RpcError::InvalidRequest, "the id is neither a number nor a text");
+        return;
+    }
+    if (is_request && cancelled.contains(id.dump())) {
+        fail(RpcError::RequestCancelled, "the request was cancelled");
+        return;
+    }
+    try {
+        if (is_request) {
+            Json result = answer(method.get<std::string>(), member(message, {"params"}));
+            send({{"jsonrpc", "2.0"}, {"id", id}, {"result", std::move(result)}});
+        } else {
+            notify(method.get<std::string>(), member(message, {"params"}));
+        }
+    } catch (const RequestError& error) {
+        fail(error.code, error.what());
+    } catch (const Json::exception&) {
+        fail(RpcError::InvalidParams, "the parameters of `" + method.get<std::string>() +
+                                          "` are not as in the specification");
+    }
+}
+
+LanguageServer::LanguageServer(LanguageServerHost host)
+    : state_(std::make_unique<State>(std::move(host))) {}
+
+LanguageServer::~LanguageServer() = default;
+
+std::vector<std::string> LanguageServer::receive(const std::vector<ReadMessage>& messages) {
+    std::vector<Json> parsed;
+    std::set<std::string> cancelled; // ids as JSON
+    for (const ReadMessage& message : messages) {
+        parsed.push_back(message.error.empty() ? Json::parse(message.body, nullptr, false)
+                                               : Json(Json::value_t::discarded));
+        if (!parsed.back().is_discarded() &&
+            member(parsed.back(), {"method"}) == "$/cancelRequest") {
+            cancelled.insert(member(parsed.back(), {"params", "id"})
+                                 .dump(-1, ' ', false, Json::error_handler_t::replace));
+        }
+    }
+    for (std::size_t i = 0; i < parsed.size(); ++i) {
+        if (parsed[i].is_discarded()) {
+            state_->send(error_response(nullptr, RpcError::ParseError,
+                                        messages[i].error.empty() ? "the message is not JSON"
+                                                                  : messages[i].error));
+        } else {
+            state_->receive(parsed[i], cancelled);
+        }
+    }
+    state_->publish();
+    return std::exchange(state_->output, {});
+}
+
+bool LanguageServer::has_exited() const {
+    return state_->phase == State::Phase::Exited;
+}
+
+int LanguageServer::exit_status() const {
+    return has_exited() && state_->was_shut_down ? 0 : 1;
+}
+
+} // namespace lsys

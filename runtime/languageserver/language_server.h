@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: MIT
+// LanguageServer: `lsc lsp` without its streams. Takes the JSON texts of messages (LSP 3.17) and
+// returns the JSON texts of its own. Checks grammars by the pipeline and never derives them.
+#pragma once
+
+#include "runtime/languageserver/message_reader.h"
+#include "runtime/pipeline/grammar.h"
+#include "runtime/pipeline/project.h"
+
+#include <functional>
+#include <map>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace lsys {
+
+/// A document with the options under which it is checked.
+struct CheckedText {
+    const std::string& path;
+    const GrammarText& text;
+    const GrammarOptions& options;
+};
+
+/// Services of the program that runs the server.
+struct LanguageServerHost {
+    Project project; // reads files that are not open in the editor
+    std::string version;
+    /// The .lsys files in a folder and below it, in a fixed order; at most a few thousand.
+    std::function<std::vector<std::string>(const std::string& folder)> grammars_below;
+    /// The explanation of a code as Markdown; empty if there is none.
+    std::function<std::string(std::string_view code)> explain;
+    /// Turns fixes of `compiled` that are not certain into offers, as `lsc check --fix` does.
+    std::function<void(const CheckedText&, const Project&, CompiledText& compiled)> offer_doubtful;
+    /// The new bytes of each file that `lsc check --fix` changes, by path.
+    std::function<std::map<std::string, std::string>(const CheckedText&, const Project&)> fix;
+};
+
+class LanguageServer {
+public:
+    explicit LanguageServer(LanguageServerHost host);
+    LanguageServer(const LanguageServer&) = delete;
+    LanguageServer& operator=(const LanguageServer&) = delete;
+    ~LanguageServer();
+
+    /// Handles messages that arrived together: a request that a later one of them cancels is not
+    /// run, and diagnostics are computed once, after the last change. Returns the bodies of the
+    /// responses and notifications to send, in order.
+    [[nodiscard]] std::vector<std::string> receive(const std::vector<ReadMessage>& messages);
+    /// Whether `exit` was received; messages after it are ignored.
+    [[nodiscard]] bool has_exited() const;
+    /// The exit status of the process: 0 after `shutdown`, otherwise 1.
+    [[nodiscard]] int exit_status() const;
+
+private:
+    struct State;
+    std::unique_ptr<State> state_;
+};
+
+} // namespace lsys
