@@ -116,6 +116,10 @@ TEST_CASE("the contact sheet draws plants beside the window, and one is taken by
 
     panels.sheet.varied = {"size"};
     press(Key::K);
+    CHECK(panels.sheet.selected == 0);
+    press(Key::Right);
+    press(Key::Down);
+    press(Key::Down);
     press(Key::Enter);
     CHECK(panels.dialog == OpenDialog::None);
     REQUIRE(view.settings.definitions.size() == 1);
