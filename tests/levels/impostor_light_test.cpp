@@ -37,8 +37,8 @@ struct Sun {
     double brightest;
 };
 const std::array<Sun, 4> kSuns{{{"behind the eye", {0.3F, 0.6F, 0.74F}, 0.63, 1.1},
-                                {"above", {0.0F, 1.0F, 0.1F}, 0.75, 1.5},
-                                {"beside", {0.9F, 0.4F, 0.0F}, 0.85, 1.2},
+                                {"above", {0.0F, 1.0F, 0.1F}, 0.7, 1.5},
+                                {"beside", {0.9F, 0.4F, 0.0F}, 0.75, 1.2},
                                 {"in front", {0.3F, 0.75F, -0.6F}, 0.7, 2.9}}};
 
 /// Mean lit colours of the samples that a mesh covers, by sun.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "frame.glsl"
-// Trees, branches and forms; the C++ side is gl/impl/forest_buffers.cpp.
+// Trees, branches and forms. The C++ side: TreeRecord and FormRecord in gl/impl/forest_buffers.cpp,
+// PoolBranch in scene/branch_pool.h.
 struct Branch {
     vec4 position_scale; // m, origin of the hero; scale
     uvec4 rotation_mesh_tree; // snorm16 xy, snorm16 zw, mesh, tree

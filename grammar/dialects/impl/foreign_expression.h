@@ -131,7 +131,8 @@ public:
     [[nodiscard]] bool has_draw(ForeignId root) const;
     /// Count of nodes written for `root` when local values are expanded, at most about 2^32.
     [[nodiscard]] std::uint64_t expanded_size(ForeignId root) const;
-    /// The nodes of the expression without the nodes of local values, children before parents.
+    /// The nodes of the expression, children before parents. A local value counts as one node; the
+    /// nodes of its expression are left out.
     [[nodiscard]] std::vector<ForeignId> subtree(ForeignId root) const;
 
     void write(ForeignId root, const ForeignWriting& how, Translation& out) const;

@@ -29,7 +29,7 @@ using namespace lsys::view;
 
 namespace {
 
-/// A wood with the lists of both ways of choosing its trees.
+/// A wood, and its draw lists: chosen by compute shaders or on the CPU.
 struct CulledWood {
     std::unique_ptr<HeadlessContext> context = std::move(HeadlessContext::make().value());
     std::unique_ptr<Wood> wood;
