@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "runtime/cli/including_grammar.h"
 
-#include "grammar/base/characters.h"
 #include "grammar/base/paths.h"
+#include "grammar/lsys/included_names.h"
 
 #include <algorithm>
 #include <cstdint>
@@ -39,34 +39,14 @@ std::vector<fs::path> grammars_in(const fs::path& folder) {
     return files;
 }
 
-/// Calls visit(name) for each `#include "name"` of a text.
-template <typename Visit>
-void for_each_include(std::string_view text, const Visit& visit) {
-    constexpr std::string_view kInclude = "#include";
-    for (std::size_t at = text.find(kInclude); at != std::string_view::npos;
-         at = text.find(kInclude, at)) {
-        at += kInclude.size();
-        const std::size_t quote = text.find_first_not_of(kWhitespace, at);
-        if (quote == std::string_view::npos || text[quote] != '"') {
-            continue;
-        }
-        const std::size_t end = text.find_first_of("\"\n", quote + 1);
-        if (end != std::string_view::npos && text[end] == '"') {
-            visit(text.substr(quote + 1, end - quote - 1));
-        }
-    }
-}
-
 bool includes(const fs::path& grammar, const fs::path& part) {
     std::ifstream in(grammar, std::ios::binary);
     const std::string text{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
-    bool found = false;
-    for_each_include(text, [&](std::string_view name) {
+    const std::vector<std::string_view> names = included_names(text);
+    return std::any_of(names.begin(), names.end(), [&](std::string_view name) {
         std::error_code ignored;
-        found =
-            found || fs::weakly_canonical(grammar.parent_path() / path_of(name), ignored) == part;
+        return fs::weakly_canonical(grammar.parent_path() / path_of(name), ignored) == part;
     });
-    return found;
 }
 
 } // namespace

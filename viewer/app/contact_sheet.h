@@ -99,7 +99,7 @@ private:
     std::unique_ptr<LatestRequestWorker<SheetRequest, bool>> worker_;
 };
 
-/// What the user did in draw_contact_sheet().
+/// The action of the user in a frame of draw_contact_sheet().
 struct SheetAction {
     std::optional<std::size_t> taken; // cell clicked
     bool closes = false;

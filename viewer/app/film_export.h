@@ -45,7 +45,7 @@ struct PictureSettings {
 
 /// Work for another thread.
 struct FilmExportRequest {
-    // Of the film's pictures, except those that `settings` have.
+    // Options of the film's pictures; those of `settings` replace them.
     std::shared_ptr<const ViewOptions> options;
     PictureSettings settings;
     std::shared_ptr<std::atomic<std::uint32_t>> done; // count of pictures

@@ -14,8 +14,8 @@ class HeadlessContext {
 public:
     /// Makes a context and makes it current on this thread. Error: the reason of each failure.
     [[nodiscard]] static Result<std::unique_ptr<HeadlessContext>> make();
-    /// As make(), but tries no hidden window: required on threads other than the main one, and
-    /// while a Window exists.
+    /// Makes a context like make(), but never by a hidden window, which only the main thread may
+    /// make and only while no Window exists.
     [[nodiscard]] static Result<std::unique_ptr<HeadlessContext>> make_without_window();
     HeadlessContext(const HeadlessContext&) = delete;
     HeadlessContext& operator=(const HeadlessContext&) = delete;

@@ -35,7 +35,8 @@ struct LodOptions {
     /// From the limit of a coarser band up to this multiple of it, both bands are drawn, each in a
     /// part of the pixels, so that nothing pops.
     float blend = 1.25F;
-    /// The same multiple between two levels of branches, whose forms differ less.
+    /// The multiple between two levels of branches, whose shapes differ less than those of a tree
+    /// and its impostor.
     float level_blend = 1.04F;
     /// Max triangles of branches; with more, the heights of all trees in pixels are multiplied by
     /// DrawLists::detail, below 1.

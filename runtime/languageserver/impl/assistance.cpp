@@ -19,7 +19,7 @@ namespace lsys {
 
 namespace {
 
-/// What may stand at the cursor.
+/// The kind of text that completion offers at the cursor.
 enum class Slot {
     Nothing,
     Statement, // `#` and a keyword

@@ -4,6 +4,7 @@
 #include "grammar/ast/include_chain.h"
 #include "grammar/base/characters.h"
 #include "grammar/base/paths.h"
+#include "grammar/lsys/included_names.h"
 
 #include <algorithm>
 #include <utility>
@@ -31,20 +32,9 @@ bool has_drive(std::string_view path) {
 
 /// The files that a text includes, normalised.
 std::vector<std::string> included_files(const std::string& path, std::string_view text) {
-    constexpr std::string_view kInclude = "#include";
     std::vector<std::string> files;
-    for (std::size_t at = text.find(kInclude); at != std::string_view::npos;
-         at = text.find(kInclude, at)) {
-        at += kInclude.size();
-        const std::size_t quote = text.find_first_not_of(kWhitespace, at);
-        if (quote == std::string_view::npos || text[quote] != '"') {
-            continue;
-        }
-        const std::size_t end = text.find_first_of("\"\n", quote + 1);
-        if (end != std::string_view::npos && text[end] == '"') {
-            files.push_back(
-                normalised_path(path_beside(path, text.substr(quote + 1, end - quote - 1))));
-        }
+    for (const std::string_view name : included_names(text)) {
+        files.push_back(normalised_path(path_beside(path, name)));
     }
     return files;
 }
