@@ -126,7 +126,7 @@ class Tiles(unittest.TestCase):
 
     def end_while_it_writes(self, name, end):
         """Starts a job, ends it by `end` after it has written some files, and resumes the job."""
-        size = 1500
+        size = 3000
         folder = self.folder / name
         reference = self.folder / "large"
         if not reference.exists():
