@@ -43,9 +43,14 @@ struct ServerRun {
     std::vector<Json> messages;
 };
 
-/// Runs the program, writes `pieces` one after another to its standard input, and reads its output
-/// to the end.
-ServerRun run_server(const std::vector<std::string>& pieces) {
+/// A running program, with the ends of the pipes to its standard input and from its output.
+struct StartedServer {
+    pid_t process = -1;
+    int input = -1;
+    int output = -1;
+};
+
+StartedServer start_server() {
     int to[2];
     int from[2];
     REQUIRE(::pipe(to) == 0);
@@ -57,23 +62,32 @@ ServerRun run_server(const std::vector<std::string>& pieces) {
         for (const int each : {to[0], to[1], from[0], from[1]}) {
             ::close(each);
         }
+        std::signal(SIGTERM, SIG_DFL);
         ::execl(LSC_EXECUTABLE, LSC_EXECUTABLE, "lsp", nullptr);
         ::_exit(127);
     }
     ::close(to[0]);
     ::close(from[1]);
+    return {process, to[1], from[0]};
+}
+
+/// Runs the program, writes `pieces` one after another to its standard input, and reads its output
+/// to the end.
+ServerRun run_server(const std::vector<std::string>& pieces) {
+    const StartedServer server = start_server();
     for (const std::string& piece : pieces) {
-        CHECK(::write(to[1], piece.data(), piece.size()) == static_cast<ssize_t>(piece.size()));
+        CHECK(::write(server.input, piece.data(), piece.size()) ==
+              static_cast<ssize_t>(piece.size()));
     }
-    ::close(to[1]);
+    ::close(server.input);
     std::string out;
     char buffer[4096];
-    for (ssize_t count = 1; (count = ::read(from[0], buffer, sizeof buffer)) > 0;) {
+    for (ssize_t count = 1; (count = ::read(server.output, buffer, sizeof buffer)) > 0;) {
         out.append(buffer, static_cast<std::size_t>(count));
     }
-    ::close(from[0]);
+    ::close(server.output);
     int status = 0;
-    REQUIRE(::waitpid(process, &status, 0) == process);
+    REQUIRE(::waitpid(server.process, &status, 0) == server.process);
     REQUIRE(WIFEXITED(status));
     return {WEXITSTATUS(status), messages_of(out)};
 }
@@ -112,27 +126,16 @@ TEST_CASE("the program reads messages byte by byte and survives malformed ones")
 }
 
 TEST_CASE("a signal ends the program while it waits for input") {
-    int to[2];
-    int from[2];
-    REQUIRE(::pipe(to) == 0);
-    REQUIRE(::pipe(from) == 0);
-    const pid_t process = ::fork();
-    if (process == 0) {
-        ::dup2(to[0], STDIN_FILENO);
-        ::dup2(from[1], STDOUT_FILENO);
-        std::signal(SIGTERM, SIG_DFL);
-        ::execl(LSC_EXECUTABLE, LSC_EXECUTABLE, "lsp", nullptr);
-        ::_exit(127);
-    }
+    const StartedServer server = start_server();
     const std::string bytes = framed(kInitialize);
-    CHECK(::write(to[1], bytes.data(), bytes.size()) == static_cast<ssize_t>(bytes.size()));
+    CHECK(::write(server.input, bytes.data(), bytes.size()) == static_cast<ssize_t>(bytes.size()));
     char first = 0;
-    CHECK(::read(from[0], &first, 1) == 1); // it serves
-    CHECK(::kill(process, SIGTERM) == 0);
+    CHECK(::read(server.output, &first, 1) == 1); // it serves
+    CHECK(::kill(server.process, SIGTERM) == 0);
     int status = 0;
-    CHECK(::waitpid(process, &status, 0) == process); // its input is still open
+    CHECK(::waitpid(server.process, &status, 0) == server.process); // its input is still open
     CHECK(!(WIFEXITED(status) && WEXITSTATUS(status) == 0));
-    for (const int each : {to[0], to[1], from[0], from[1]}) {
+    for (const int each : {server.input, server.output}) {
         ::close(each);
     }
 }

@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Tubes along smooth curves through their joints.
-#include "runtime/base/workers.h"
-#include "runtime/meshing/impl/axes.h"
-#include "runtime/meshing/impl/axis_reader.h"
 #include "runtime/meshing/mesh.h"
+#include "tests/runtime/meshing/tube_joints.h"
 #include "tests/support/mesh_checks.h"
 #include "tests/support/plants.h"
 
@@ -17,6 +15,7 @@
 
 namespace lsys {
 
+using test::joints_of;
 using test::Plant;
 
 namespace {
@@ -43,18 +42,6 @@ Skeleton chain(int count, float degrees, bool winds, float radius) {
         angle += (winds && i % 2 == 1 ? -1.0F : 1.0F) * degrees * kDegree;
     }
     return plant.skeleton();
-}
-
-/// The joints of the tube along the axis that begins with segment `first`.
-std::vector<Joint>
-joints_of(const Skeleton& skeleton, const MeshOptions& options, std::uint32_t first) {
-    Workers workers(1);
-    const Axes axes = find_axes(skeleton, workers);
-    AxisReader reader(skeleton, axes, options);
-    reader.start(first);
-    Run run;
-    REQUIRE(reader.next(run));
-    return {run.joints.begin(), run.joints.end()};
 }
 
 float max_turn(const std::vector<Joint>& joints) {

@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Flares, buttress roots, collars and shaped tips of tubes (docs/language.md section 7.8).
-#include "runtime/base/workers.h"
-#include "runtime/meshing/impl/axes.h"
-#include "runtime/meshing/impl/axis_reader.h"
 #include "runtime/meshing/impl/stem_base.h"
 #include "runtime/meshing/mesh.h"
+#include "tests/runtime/meshing/tube_joints.h"
 #include "tests/support/mesh_checks.h"
 #include "tests/support/plants.h"
 
@@ -17,6 +15,7 @@
 
 namespace lsys {
 
+using test::joints_of;
 using test::Plant;
 
 namespace {
@@ -59,18 +58,6 @@ Plant forked_trunk() {
 
 std::size_t triangles(const Mesh& mesh) {
     return mesh.indices.size() / 3;
-}
-
-/// The joints of the axis that begins with segment `first`.
-std::vector<Joint>
-joints_of(const Skeleton& skeleton, const MeshOptions& options, std::uint32_t first) {
-    Workers workers(1);
-    const Axes axes = find_axes(skeleton, workers);
-    AxisReader reader(skeleton, axes, options);
-    reader.start(first);
-    Run run;
-    REQUIRE(reader.next(run));
-    return {run.joints.begin(), run.joints.end()};
 }
 
 bool equal_meshes(const Mesh& a, const Mesh& b) {
