@@ -187,7 +187,7 @@ private:
 void show_open_dialog(const View& view, PanelState& panels);
 /// Opens the dialog for a picture, with a name that no file has.
 void show_picture_dialog(const View& view, PanelState& panels);
-/// Writes the picture of the settings, or begins to write their film; reports why not in a note.
+/// Writes the picture of panels.picture, or begins to write its film; a note reports errors.
 void take_picture(View& view, PanelState& panels);
 /// Shows the contact sheet of the plant; without a plant reports that in a note.
 void show_sheet(PlantView& view, PanelState& panels);

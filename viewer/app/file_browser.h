@@ -40,9 +40,9 @@ public:
     void go_up();
 
     [[nodiscard]] const std::string& folder() const { return folder_; }
-    /// Entries that the text leaves. A text without `/` leaves names that contain it, in any case
-    /// of ASCII letters. A text with `/` is a path from the folder, from `/` or from `~`: the
-    /// folder before its last `/` is listed, and names that begin with the rest are left.
+    /// Entries that match the text. A text without `/` matches names that contain it, ignoring the
+    /// case of ASCII letters. A text with `/` is a path from the folder, from `/` or from `~`: it
+    /// matches names in the folder before its last `/` that begin with the rest.
     [[nodiscard]] const std::vector<FolderEntry>& entries() const { return entries_; }
     [[nodiscard]] std::size_t selected() const { return selected_; }
     [[nodiscard]] const std::string& text() const { return text_; }

@@ -22,7 +22,7 @@ namespace lsys::view {
 
 namespace {
 
-/// Times of choosing trees, ms, by picture.
+/// Times to choose the trees of each picture, ms.
 struct CullTimes {
     std::vector<double> wall;
     std::vector<double> cpu;

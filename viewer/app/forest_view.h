@@ -59,7 +59,7 @@ struct CacheStats {
     std::string species;
     std::uint32_t generations = 0;
     std::uint32_t heroes = 0;
-    std::uint64_t keys = 0;
+    std::uint64_t keys = 0;     // pairs of a branch id and an age
     std::uint64_t branches = 0; // recorded branches, whole plants included
     std::uint64_t hits = 0;
     std::uint64_t misses = 0;

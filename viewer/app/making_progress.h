@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// MakingProgress: what the thread of a loader is doing, for the window. Thread-safe.
+// MakingProgress: the step that the thread of a loader has reached, for the window. Thread-safe.
 #pragma once
 
 #include "runtime/pipeline/project.h"

@@ -25,7 +25,7 @@ struct FilmMoment {
     Mesh mesh;
     MeshOptions mesh_options; // of `mesh`
     GrowthMoment moment;
-    std::uint64_t modules = 0; // count of modules in the generation that grows
+    std::uint64_t modules = 0; // count of modules in the later of the two generations
     Messages messages;
     bool failed = false;
 };

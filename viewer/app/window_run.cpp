@@ -33,7 +33,7 @@ constexpr double kMaxFlightStep = 0.1;
 constexpr std::chrono::milliseconds kRest{300};
 /// Pictures that take longer are not refined, because input waits for a sample.
 constexpr double kMaxRefinedSeconds = 0.15;
-/// Count of pictures that ImGui needs to settle after input.
+/// Count of pictures that ImGui needs after input until its layout is final.
 constexpr int kPicturesAfterInput = 3;
 
 std::string title_of(const std::string& file) {

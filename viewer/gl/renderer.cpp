@@ -75,7 +75,7 @@ Result<Programs> make_programs(Device& device, const ShaderSource& shaders) {
     return programs;
 }
 
-/// Bounds of a plant and the ground around it that receives its shadow.
+/// Box around a plant and the part of the ground on which its shadow may fall.
 Bounds shadow_bounds(const Bounds& plant) {
     Bounds bounds = plant;
     const float height = plant.high.y - plant.low.y;
@@ -99,7 +99,7 @@ bool overlaps(const Bounds& a, const Bounds& b) {
     return a.low.x <= b.high.x && b.low.x <= a.high.x && a.low.z <= b.high.z && b.low.z <= a.high.z;
 }
 
-/// Term of the sequence of Halton (1964) to a base, 0 to 1.
+/// Term number `index` of the Halton sequence (1964) with a base, 0 to 1.
 float halton(std::uint32_t index, std::uint32_t base) {
     float sum = 0.0F;
     for (float part = 1.0F; index != 0; index /= base) {
@@ -109,7 +109,8 @@ float halton(std::uint32_t index, std::uint32_t base) {
     return sum;
 }
 
-/// Shifts a picture by a part of a pixel, and its dither by whole pixels. `index` 0: not at all.
+/// Shifts a picture by a part of a pixel, and its dither by whole pixels. `index`: number of the
+/// refinement; 0: no shift.
 void shift(FrameBlock& block, std::uint32_t index, const PixelArea& area) {
     if (index == 0) {
         return;
@@ -402,7 +403,7 @@ private:
         }
         glDepthFunc(GL_ALWAYS);
         if (frame.dims && !frame.transparent) {
-            // The sky once more, over all, as a veil.
+            // Dim everything: draw the sky over it, partly transparent.
             constexpr GLfloat kVeil = 0.6F;
             glEnable(GL_BLEND);
             glBlendColor(0.0F, 0.0F, 0.0F, kVeil);

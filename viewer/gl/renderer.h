@@ -74,7 +74,7 @@ struct Frame {
     /// shown. Growth keeps one disc for all its pictures.
     glm::vec4 ground_disc{0.0F};
     PlantStyle style = PlantStyle::Surface;
-    bool dims = false; // everything but the lines fades towards the sky; not with `transparent`
+    bool dims = false; // dims everything except lines; not with `transparent`
     std::uint32_t samples = 4;        // per pixel: 1 or 4
     std::optional<glm::dvec3> figure; // feet of a person of 1.8 m in the world, m
     // Forests only.
@@ -236,9 +236,9 @@ public:
     [[nodiscard]] virtual const ForestFrameStats& forest_stats() const = 0;
     [[nodiscard]] virtual ForestSizes forest_sizes() const = 0;
     [[nodiscard]] virtual FrameTimes frame_times() const = 0;
-    /// Adds a sample per sample of the last picture, shifted by a part of a pixel, to the mean that
-    /// present() shows until the next draw(). What is shown must be unchanged since draw(). Returns
-    /// false, and draws nothing, once the mean has 17 pictures.
+    /// Draws the last picture again, shifted by a part of a pixel, and adds it to the mean that
+    /// present() shows until the next draw(). Precondition: the plant or forest is unchanged since
+    /// draw(). Returns false, and draws nothing, once the mean has 17 pictures.
     [[nodiscard]] virtual bool refine() = 0;
     /// Rows of the picture that present() shows, from top to bottom, RGBA.
     virtual void read_shown(std::vector<std::uint8_t>& pixels) = 0;

@@ -206,7 +206,7 @@ struct Window::State {
         ImGuiStyle& style = ImGui::GetStyle();
         style = ImGuiStyle();
         (look.is_light ? ImGui::StyleColorsLight : ImGui::StyleColorsDark)(nullptr);
-        // Numbers are read through the grips of sliders.
+        // Slider grips are half transparent, so that the numbers below them can be read.
         constexpr float kGrip = 0.45F;
         style.Colors[ImGuiCol_SliderGrab].w = kGrip;
         style.Colors[ImGuiCol_SliderGrabActive].w = kGrip;

@@ -33,7 +33,7 @@ struct LodOptions {
     /// Height of a cell's tallest tree in pixels below which the cell is drawn as a cluster.
     float cluster_pixels = 8.0F; // 0: never
     /// From the limit of a coarser band up to this multiple of it, both bands are drawn, each in a
-    /// part of the pixels, so that nothing pops.
+    /// part of the pixels, so that trees change gradually.
     float blend = 1.25F;
     /// The multiple between two levels of branches, whose shapes differ less than those of a tree
     /// and its impostor.
@@ -232,8 +232,8 @@ public:
     [[nodiscard]] double cell_size() const { return cell_size_; } // m
     [[nodiscard]] BranchPool& pool() { return pool_; }
     [[nodiscard]] const BranchPool& pool() const { return pool_; }
-    /// Lists all branches of trees in one level. Replaces `branches`, which the entries of `lists`
-    /// number, and branches and runs of `lists`.
+    /// Lists all branches of trees in one level. Replaces `branches`, and the branches and runs of
+    /// `lists`, whose entries have indices in `branches` as slots.
     void list_whole_trees(std::span<const std::uint32_t> trees,
                           std::uint32_t level,
                           std::vector<PoolBranch>& branches,

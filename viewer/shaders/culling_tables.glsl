@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Forms, instances and exits of a forest for the compute shaders; gl/impl/culling_tables.cpp writes
-// them. Offsets in words.
+// them. Offsets are in words of 32 bits.
 layout(std430, binding = 2) readonly buffer Tables { uint tables[]; };
 const uint kFormWords = 32u;
 const uint kInstanceWords = 16u;

@@ -247,7 +247,7 @@ std::array<float, 2> ForestPass::altitudes_near(const glm::vec2& middle, float h
             range = {std::min(range[0], height), std::max(range[1], height)};
         }
     }
-    // Ground between the samples.
+    // Ground between the samples may be lower or higher.
     const float margin = 0.25F * (range[1] - range[0]);
     return {range[0] - margin, range[1] + margin + model_.streamed->tallest};
 }

@@ -75,9 +75,9 @@ public:
     /// Draws the crowns around the eye, seen from above, into a texture for shaders/crowns.glsl, and
     /// binds it. Call after prepare(). Returns FrameBlock::crowns.
     [[nodiscard]] glm::vec4 draw_crowns(const glm::vec3& eye);
-    /// Draws the trees of a shadow map as branches of a level into the bound one, moved by the wind
-    /// of the prepared frame. The uniforms of the frame must have `shadow_from_world` as the view.
-    /// `map`: below kNearMaps.
+    /// Draws the trees in shadow map number `map` (below kNearMaps) as branches of a level into the
+    /// bound framebuffer, moved by the wind of the prepared frame. The bound FrameBlock must have
+    /// `shadow_from_world` as its view_projection.
     void draw_near_shadows(std::size_t map,
                            const glm::mat4& shadow_from_world,
                            std::uint32_t level,
@@ -161,7 +161,7 @@ private:
     Frustum frustum_;
     GroundHorizon horizon_;
     const DrawLists* lists_ = nullptr;
-    bool has_clusters_ = false; // the atlas has cluster impostors
+    bool has_clusters_ = false; // the atlas has layers of clusters
     // The cluster impostors show the previous trees until all are baked again.
     bool has_old_clusters_ = false;
     GpuTimer branches_timer_;
