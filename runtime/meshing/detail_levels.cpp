@@ -71,9 +71,9 @@ constexpr int kStraighterTries = 6;
 constexpr int kMaxStraightenings = 48;
 constexpr float kStraightening = 1.15F; // factor of MeshOptions::axis_error per straightening
 constexpr int kRestoringTries = 14;
-constexpr std::uint64_t kMorePaths = 8; // max paths that restore() adds for their joints
+constexpr std::uint64_t kMorePaths = 8; // max paths that restore() adds to approach a number
 constexpr double kMaxOfPaths = 4000.0;  // max triangles of levels to which restore() adds paths
-constexpr double kFairCount = 0.1;      // kCloseCount with added paths
+constexpr double kFairCount = 0.1;      // as kCloseCount, once restore() has added paths
 constexpr float kRestoring = 1.3F;      // factor of MeshOptions::axis_error per try
 constexpr double kMeanErrorPart = 0.3;  // mean error of an axis / MeshOptions::axis_error
 constexpr float kMaxDeviations = 4.0F;  // max MeshOptions::deviation / axis_error
@@ -657,20 +657,20 @@ private:
             if (is_done(base)) {
                 return base;
             }
-            DetailLevel rounder = base;
-            rounder.options.axis_error = before.options.axis_error;
+            DetailLevel sides_by_radius = base;
+            sides_by_radius.options.axis_error = before.options.axis_error;
             seek(&MeshOptions::deviation, 0.0F, kMaxDeviations * error, min - foliage,
-                 max - foliage, rounder);
-            if (is_done(rounder)) {
-                return rounder;
+                 max - foliage, sides_by_radius);
+            if (is_done(sides_by_radius)) {
+                return sides_by_radius;
             }
             wood = static_cast<double>(wood_triangles(base));
-            // `base` and `rounder` have too many triangles, because straight wood loses nearly all
-            // joints at one error. Continue with the level of fewer triangles.
-            const auto rounder_wood = static_cast<double>(wood_triangles(rounder));
-            if (rounder_wood < wood) {
-                base = rounder;
-                wood = rounder_wood;
+            // Both levels have too many triangles, because straight wood loses nearly all joints at
+            // one error. Continue with the level of fewer triangles.
+            const auto sides_by_radius_wood = static_cast<double>(wood_triangles(sides_by_radius));
+            if (sides_by_radius_wood < wood) {
+                base = sides_by_radius;
+                wood = sides_by_radius_wood;
             }
         }
         // Fewer sides of all branches, unless this alone leaves too few triangles.
@@ -693,11 +693,11 @@ private:
         }
         if (base.options.deviation == 0.0F && before.options.method == MeshMethod::Tubes) {
             // Fewer sides where branches are thin.
-            DetailLevel rounder = base;
+            DetailLevel sides_by_radius = base;
             seek(&MeshOptions::deviation, 0.0F, kMaxDeviations * base.error, min - foliage,
-                 max - foliage, rounder);
-            if (is_done(rounder)) {
-                return rounder;
+                 max - foliage, sides_by_radius);
+            if (is_done(sides_by_radius)) {
+                return sides_by_radius;
             }
         }
         if (before.options.method != MeshMethod::Tubes) {

@@ -74,7 +74,7 @@ struct Frame {
     /// shown. Growth keeps one disc for all its pictures.
     glm::vec4 ground_disc{0.0F};
     PlantStyle style = PlantStyle::Surface;
-    bool dims = false; // dims everything except lines; not with `transparent`
+    bool dims = false;                // dims everything except lines; not with `transparent`
     std::uint32_t samples = 4;        // per pixel: 1 or 4
     std::optional<glm::dvec3> figure; // feet of a person of 1.8 m in the world, m
     // Forests only.

@@ -51,7 +51,7 @@ struct StatementOutline {
     std::vector<std::string> formals; // of a production, function or module
 };
 
-/// A whole parse: the tree with what its ids refer to.
+/// A parsed grammar: the syntax tree and the tables that its ids refer to.
 struct ParsedGrammar {
     SourceMap sources;
     Names names;
