@@ -69,8 +69,8 @@ Shown shown(std::vector<std::string> arguments) {
     return {read_picture(folder / "a.png"), nlohmann::json::parse(run.out)};
 }
 
-/// Draws the default picture with and without trees, and measures it. `files`: a scene, or a grammar
-/// with options of the ground. `trees`: options of the placement.
+/// Draws the default picture with and without trees, and measures it. `files`: a scene, or a
+/// grammar with options of the ground. `trees`: options of the placement.
 PictureContrast first_sight(const std::vector<std::string>& files,
                             const std::vector<std::string>& trees) {
     std::vector<std::string> wooded = files;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Hover, completion and signatures. The statement at the cursor is usually unfinished and not in the
-// syntax tree, so its text determines what completion offers.
+// Hover, completion and signatures. The statement at the cursor is usually unfinished and not in
+// the syntax tree, so its text determines what completion offers.
 #include "compiler/bytecode/turtle_operation.h"
 #include "compiler/resolve/profiles.h"
 #include "grammar/base/characters.h"

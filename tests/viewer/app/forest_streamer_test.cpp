@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// ForestStreamer: trees depend on their place alone, squares stay within the budget of memory, and a
-// flight over a forest of a thousand million trees does not stutter.
+// ForestStreamer: trees depend on their place alone, squares stay within the budget of memory, and
+// a flight over a forest of a thousand million trees does not stutter.
 #include "runtime/program/host.h"
 #include "tests/support/lsc_run.h"
 #include "tests/viewer/lsview_run.h"

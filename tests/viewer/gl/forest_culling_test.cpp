@@ -89,8 +89,8 @@ std::map<std::uint32_t, std::pair<long, long>> ranges_of(const std::vector<Impos
     return ranges;
 }
 
-/// Branches that are drawn: tree, instance, weight in 1/BranchEntry::kBlendSteps, whether it is drawn
-/// in the coarser level.
+/// Branches that are drawn: tree, instance, weight in 1/BranchEntry::kBlendSteps, whether it is
+/// drawn in the coarser level.
 using DrawnBranches = std::vector<std::tuple<std::uint32_t, std::uint32_t, std::uint32_t, bool>>;
 template <typename Pool>
 DrawnBranches drawn_of(const std::vector<BranchEntry>& entries, const Pool& pool) {

@@ -261,7 +261,7 @@ FrameStats TerrainPass::draw() {
     const ProgramObject& program = colour_ ? picture_program_ : program_;
     glUseProgram(program.name());
     if (colour_) {
-        // A corner of a tile near the origin: binary32 is too coarse for coordinates of far corners.
+        // A corner of a tile near the origin: binary32 is too coarse for far coordinates.
         const auto corner = [](double first, double origin, double size) {
             return static_cast<float>(origin == 0.0 ? first : std::fmod(first - origin, size));
         };
