@@ -41,7 +41,9 @@ float max_coordinate(const glm::vec3& v) {
     return std::max(std::max(std::abs(v.x), std::abs(v.y)), std::abs(v.z));
 }
 
-bool thick_beside(float radius, const Joint& before, float length) {
+/// Whether a ring is thick enough relative to the joint before it and to the edge after it, of
+/// `length`, so that its triangles have an area.
+bool is_ring_thick_enough(float radius, const Joint& before, float length) {
     return radius >= kThinnest * std::max(std::max(before.radius, before.length), length);
 }
 
@@ -244,7 +246,7 @@ void AxisReader::add(const Segment& segment, float radius) {
     if (joints_.size() > 1) {
         const Joint& before = joints_[joints_.size() - 2];
         joint.rings = rings_of_bend(before.heading, joint.heading);
-        rings_final_ = rings_final_ && thick_beside(radius, before, joint.length) &&
+        rings_final_ = rings_final_ && is_ring_thick_enough(radius, before, joint.length) &&
                        before.radius >= kThinnest * radius;
     }
 }
@@ -269,7 +271,7 @@ bool AxisReader::add_end(const glm::vec3& centre, float radius) {
     end.radius = radius;
     end.length = 0.0F;
     end.rings = 1;
-    rings_final_ = rings_final_ && (radius == 0.0F || thick_beside(radius, before, 0.0F)) &&
+    rings_final_ = rings_final_ && (radius == 0.0F || is_ring_thick_enough(radius, before, 0.0F)) &&
                    before.radius >= kThinnest * std::max(radius, before.length);
     joints_.push_back(end);
     if (joints_.front().radius == 0.0F) { // a pointed end has the sides of the ring beside it
