@@ -438,7 +438,7 @@ private:
             const glm::dvec3 normal = has_normal(corner) ? glm::dvec3(normals_[corner.normal])
                                                          : area_sums_[corner.position];
             const double length = std::sqrt(glm::dot(normal, normal));
-            // The normals of the faces of a vertex may cancel each other.
+            // If the normals of the faces of a vertex cancel each other, its normal is +Y.
             mesh_.normals.push_back(length > 0.0 ? glm::vec3(normal / length)
                                                  : glm::vec3(0.0F, 1.0F, 0.0F));
             if (!texture_coordinates_.empty()) {

@@ -23,7 +23,7 @@ const uint kLevels = 4u;
 const uint kBlendSteps = 127u; // BranchEntry::kBlendSteps
 const float kNearest = 0.1; // m: min distance
 
-// The C++ side is CullingState.
+// Counts and draw sizes that the compute shaders write; the C++ side is CullingState.
 layout(std430, binding = 5) buffer State {
     uint dispatches[24];   // sizes of indirect dispatches, three words each
     uint draws[16];        // commands: impostors of trees, whole and blended; then of clusters

@@ -61,8 +61,8 @@ int margin_of(int tile) {
 
 /// The normal of a card at a point with this normal of the plant, both with Z towards the eye.
 glm::vec3 normal_on_card(glm::vec3 normal, bool is_upright) {
-    // Leaves have two sides. Viewers of tiles and forests look down on upright cards, and see the
-    // upper sides of level leaves.
+    // Take the normal of the side of the leaf that is visible. Viewers of tiles and forests look
+    // down on upright cards, and see the upper sides of level leaves.
     if (normal.z + (is_upright ? kLookDown * normal.y : 0.0F) < 0.0F) {
         normal = -normal;
     }

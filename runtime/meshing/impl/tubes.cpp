@@ -247,7 +247,7 @@ private:
                                               piece.radii.empty() ? 0 : kept.joint_count)));
             joint += kept.joint_count;
         }
-        // Counted and written vertices agree.
+        // The writer has written as many vertices as the reader has counted.
         LSYS_CHECK(writer_.vertex() == task_.end_vertex, writer_.vertex(), task_.end_vertex);
         if (piece.long_runs.empty()) {
             piece.runs = {};

@@ -349,7 +349,7 @@ void ForestBuffers::upload_forms(const ForestModel& model, const ImpostorPlan& p
 
 void ForestBuffers::set_colours(const ForestModel& model, BranchColours by) {
     colour_digests_.assign(model.forms.size(), 0);
-    // Clusters have forms of their own, which have no branches.
+    // One word per tree form. The forms of clusters have no branches and need none.
     std::vector<std::uint32_t> words(model.forms.size(), 0);
     const std::vector<LegendEntry> legend = legend_of(model, by);
     for (std::size_t f = 0; !legend.empty() && f < model.forms.size(); ++f) {
