@@ -48,9 +48,9 @@ struct SheetPictures {
 
 /// Work for another thread.
 struct SheetRequest {
-    ViewOptions options;                       // of all plants; `edits` are applied to them
+    ViewOptions options;                       // options of all plants; `edits` are applied to them
     std::array<PlantEdits, kSheetCells> edits; // constants and seeds of the plants
-    std::uint32_t width = 0;                   // of a picture, pixels
+    std::uint32_t width = 0;                   // size of a picture, pixels
     std::uint32_t height = 0;
     std::shared_ptr<SheetPictures> pictures;
     std::function<void()> wake; // called after each picture
@@ -87,7 +87,7 @@ public:
     /// the next show().
     std::vector<std::string> varied;
     std::size_t selected = 0;                         // cell
-    std::array<SheetCell, kSheetCells> cells;         // of the last show()
+    std::array<SheetCell, kSheetCells> cells;         // cells of the last show()
     std::array<std::uintptr_t, kSheetCells> images{}; // 0: not drawn yet
     std::array<bool, kSheetCells> done{};
 

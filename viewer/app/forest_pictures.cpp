@@ -207,7 +207,7 @@ ExitStatus take_forest_pictures(const ViewOptions& options,
         cull.gpu.push_back(drawn.cull_gpu_milliseconds);
         shadow.draws += drawn.shadow.draws;
         shadow.triangles += drawn.shadow.triangles;
-        shadow.gpu_milliseconds = drawn.shadow.gpu_milliseconds; // of the last picture that drew it
+        shadow.gpu_milliseconds = drawn.shadow.gpu_milliseconds; // the last picture that drew it
         ++pictures;
         if (!options.pick) {
             return ExitStatus::Ok;

@@ -17,7 +17,7 @@ namespace lsys::view {
 
 namespace {
 
-constexpr std::size_t kHeadBytes = 2048; // of a file, for its title
+constexpr std::size_t kHeadBytes = 2048; // bytes read from a file to find its title
 
 bool is_file(const std::string& path) {
     return platform::facts_of(path).type == platform::FileType::Regular;

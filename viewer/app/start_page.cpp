@@ -13,9 +13,9 @@ namespace lsys::view {
 
 namespace {
 
-constexpr std::uint32_t kThumbnailSide = 180;            // pixels
-constexpr float kColumnWidth = 300.0F;                   // of the recent files
-constexpr std::uint64_t kMaxPictureBytes = 16ULL << 20U; // of a file
+constexpr std::uint32_t kThumbnailSide = 180; // pixels
+constexpr float kColumnWidth = 300.0F;        // width of the list of recent files, pixels
+constexpr std::uint64_t kMaxPictureBytes = 16ULL << 20U; // max size of a picture file
 
 constexpr ImGuiWindowFlags kFixed = ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove |
                                     ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoSavedSettings |
@@ -213,7 +213,7 @@ std::string draw_start_page(StartPage& page, const AddImage& add_image, bool& wa
 std::string draw_open_dialog(FileBrowser& browser, bool& is_open) {
     std::string chosen;
     const ImVec2 all = ImGui::GetIO().DisplaySize;
-    constexpr float kPart = 0.7F; // of the window
+    constexpr float kPart = 0.7F; // size of the dialog as a fraction of the window
     ImGui::SetNextWindowPos({0.5F * all.x, 0.5F * all.y}, ImGuiCond_Always, {0.5F, 0.5F});
     ImGui::SetNextWindowSize({kPart * all.x, kPart * all.y});
     ImGui::SetNextWindowFocus();

@@ -23,10 +23,10 @@ struct StartPage {
     std::string samples_folder; // empty: no samples are installed
     std::vector<std::string> recent;
     std::vector<GallerySample> samples;
-    std::vector<std::uintptr_t> images; // of the first samples, as far as they are uploaded
+    std::vector<std::uintptr_t> images; // pictures of the first samples, uploaded so far
     bool in_recent = false;             // the selection is among the recent files
     std::size_t selected = 0;
-    std::size_t columns = 1; // of the gallery
+    std::size_t columns = 1; // columns of the gallery
     bool follows = false;    // scroll to the selection
     std::string letters;     // typed since the selection was last moved
 

@@ -184,7 +184,7 @@ private:
     bool take_trace();
 
     Description picked_;
-    TraceFunction trace_function_; // of the part picked last
+    TraceFunction trace_function_; // traces the module picked last
     TraceScope trace_scope_ = TraceScope::Written;
     std::vector<TextLine> traced_;
     bool wants_trace_ = false;            // a trace was requested and not forgotten

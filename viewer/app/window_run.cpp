@@ -109,7 +109,7 @@ public:
         draw();
         if (switcher_.current().file() != file) { // panels open files too
             window_.set_title(title_of(switcher_.current().file()));
-            window_.drop_images(); // of the start page, which is not shown again
+            window_.drop_images(); // pictures of the start page, which is not shown again
             panels_.start = {};
             if (panels_.dialog == OpenDialog::Sheet) {
                 close_sheet(panels_);
@@ -194,7 +194,7 @@ private:
     Clock::time_point last_progress_ = last_;
     bool shows_progress_ = false;
     bool shows_sheet_ = false;
-    WindowLook look_; // of the window
+    WindowLook look_; // look of the window
     Clock::time_point last_drawn_ = last_;
     double last_seconds_ = 0.0; // that the last picture or sample took
     bool refines_ = false;

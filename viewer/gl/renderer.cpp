@@ -35,7 +35,7 @@ constexpr GLuint kNearShadowTextures = 7; // in light.glsl; of kNearMaps
 /// Shadow maps around the eye in a forest.
 struct NearMap {
     float radius;        // m
-    std::uint32_t level; // of the branches that cast shadows
+    std::uint32_t level; // level of the branches that cast shadows
 };
 constexpr std::array<NearMap, kNearMaps> kNearMapSpecs = {{{8.0F, 0}, {30.0F, 2}}};
 // Uniform locations of ground.*.glsl.
@@ -604,13 +604,13 @@ private:
     Quality quality_ = Quality::Auto;
     RenderTarget target_;
     ShadowMap shadow_;
-    std::vector<ShadowMap> near_shadows_; // of kNearMaps; made when first needed
-    Wind near_wind_;                      // of the last near shadows
+    std::vector<ShadowMap> near_shadows_; // one per entry of kNearMapSpecs; made when first needed
+    Wind near_wind_;                      // wind when near_shadows_ were last drawn
     double near_time_ = 0.0;
     MaterialTextures textures_;
     PlantMesh plant_;
     std::unique_ptr<PlantMesh> figure_;     // made when a person is first shown
-    std::optional<glm::vec3> figure_place_; // of the person in figure_; empty: none is shown
+    std::optional<glm::vec3> figure_place_; // place of the person in figure_; empty: none is shown
     LineSet lines_;
     ForestPass forest_;
     ForestFrameStats forest_stats_;
@@ -618,7 +618,7 @@ private:
     Bounds casters_;         // box of the casters of the last shadow map
     ShaderSource shaders_;   // forest shaders are compiled on first use
     bool has_forest_shaders_ = false;
-    std::optional<Frame> shown_frame_; // of the last draw()
+    std::optional<Frame> shown_frame_; // frame of the last draw()
     PixelArea shown_area_;
     std::uint32_t refinements_ = 0;
     ProgramObject copy_; // compiled on first use

@@ -94,7 +94,7 @@ struct Frame {
 struct FrameStats {
     std::uint64_t draws = 0;
     std::uint64_t triangles = 0;
-    double gpu_milliseconds = 0.0; // of passes of a forest, like FrameTimes::gpu
+    double gpu_milliseconds = 0.0; // for passes of a forest only, like FrameTimes::gpu
 };
 
 /// Device that chooses the trees and branches of a picture of a forest; the pictures are the same.
@@ -152,7 +152,7 @@ struct ForestSizes {
     std::uint64_t trees = 0;
     std::uint64_t tree_bytes = 0;
     std::uint64_t branch_bytes = 0;
-    std::uint64_t culling_bytes = 0; // of the compute shaders; includes their branches
+    std::uint64_t culling_bytes = 0; // buffers of the compute shaders, with their branches
     std::uint64_t mesh_bytes = 0;
     std::uint64_t texture_bytes = 0;
     double upload_milliseconds = 0.0;
@@ -166,7 +166,7 @@ enum class PickedKind : std::uint8_t {
     Branch = 2,   // a branch of a near tree
     Impostor = 3, // the picture of a tree
     Cluster = 4,  // the picture of the trees of a cell
-    Ground = 5,   // of a forest
+    Ground = 5,   // ground of a forest
 };
 
 struct Picked {

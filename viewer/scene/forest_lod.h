@@ -129,7 +129,7 @@ struct DrawLists {
     std::uint64_t clustered_trees = 0; // trees of `clusters`, without those in `trees`
     std::uint64_t blended = 0;         // trees drawn in two bands
     std::uint64_t occluded = 0;        // trees occluded by the ground
-    std::uint64_t triangles = 0;       // of branches
+    std::uint64_t triangles = 0;       // triangles of the branches
     std::uint32_t expanded = 0;        // trees expanded into branches for this picture
     std::uint32_t waiting = 0;         // near trees without branches yet, drawn as impostors
     float detail = 1.0F;               // factor of tree heights; below 1 to keep max_triangles
@@ -145,7 +145,7 @@ struct ForestCell {
     float scale = 1.0F;        // mean scale of its trees
     float tallest = 0.0F;      // m
     std::uint16_t form = 0;    // most frequent form of its trees
-    std::uint32_t seed = 0;    // of a streamed forest: number of the cell's first tree
+    std::uint32_t seed = 0;    // in a streamed forest, number of the cell's first tree
     std::uint32_t removed = 0; // count of removed trees; with any, the cell is never a cluster
 };
 

@@ -61,7 +61,7 @@ struct StreamedTrees;
 struct ForestModel {
     const Forest* forest = nullptr;
     const Terrain* terrain = nullptr;
-    GroundPictures ground; // of the terrain
+    GroundPictures ground; // pictures of the terrain
     /// Set for a streamed forest, whose Forest::trees is empty; null for other forests.
     std::shared_ptr<const StreamedTrees> streamed;
     std::vector<TreeForm> forms;

@@ -6,7 +6,7 @@ struct NearTree {
     uint level_steps;   // weight of its branches in 1/kBlendSteps; bits from 8 on: level
     uint first_coarser; // its first branch among those drawn once more, in a coarser level
     uint first; // its first branch in the pool
-    uint count; // of branches; 0: no room
+    uint count; // count of its branches; 0: no room
     uint is_drawn;
     float yaw;
     vec4 position_scale;

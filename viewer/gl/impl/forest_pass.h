@@ -144,13 +144,13 @@ private:
     std::optional<PickPrograms> pick_programs_;
     BranchColours colours_ = BranchColours::Natural;
     bool is_windy_ = false;
-    Wind wind_; // of the prepared frame
+    Wind wind_; // wind of the prepared frame
     std::array<NearCasters, kNearMaps> near_casters_;
     // Map of crowns: made when first needed.
     ProgramObject crown_program_;
     TextureObject crowns_;
     Framebuffer crown_target_;
-    glm::vec4 crown_area_{0.0F}; // of its contents; 0: out of date
+    glm::vec4 crown_area_{0.0F}; // area that the map shows; 0: out of date
     ForestModel model_;
     std::unique_ptr<ForestLod> lod_;
     ForestBuffers buffers_;
@@ -168,7 +168,7 @@ private:
     GpuTimer impostors_timer_;
     GpuTimer terrain_timer_;
     GpuTimer shadow_timer_;
-    std::array<float, 2> caster_altitudes_{}; // of the last shadow_bounds() of a streamed forest
+    std::array<float, 2> caster_altitudes_{}; // lowest, highest, for the last shadow_bounds()
     double bake_seconds_ = 0.0;
     double upload_seconds_ = 0.0;
     double cull_seconds_ = 0.0;
@@ -176,7 +176,7 @@ private:
     std::unique_ptr<ForestCulling> culling_; // null: never used
     bool culls_on_device_ = false;           // later forests
     bool is_culled_on_device_ = false;       // the forest shown
-    ForestCulling::View view_;               // of the prepared frame
+    ForestCulling::View view_;               // parameters of the prepared frame
 };
 
 } // namespace lsys::view

@@ -321,7 +321,7 @@ FrameStats TerrainPass::draw_with(const ProgramObject& program) {
 }
 
 std::uint64_t TerrainPass::texture_bytes() const {
-    std::uint64_t texels = std::uint64_t{kNoiseTexels} * kNoiseTexels; // of the finest mip levels
+    std::uint64_t texels = std::uint64_t{kNoiseTexels} * kNoiseTexels; // in the finest mip levels
     for (const auto& picture : {pictures_.colour, pictures_.normals}) {
         texels += picture == nullptr ? 0 : std::uint64_t{picture->width} * picture->height;
     }
