@@ -36,7 +36,7 @@ constexpr double kEnoughTriangles = 0.96;  // fraction of the wanted triangles t
 constexpr int kFittingSteps = 12;
 constexpr double kCloseAreas = 0.004; // value of Planner::difference() that ends the fitting
 constexpr double kAreaWeight = 0.1;   // weight of the covered area in Planner::difference()
-constexpr double kMinScale = 0.2;     // of DetailLevel::wood_scale and foliage_scale
+constexpr double kMinScale = 0.2;     // min DetailLevel::wood_scale and foliage_scale
 constexpr double kMaxScale = 6.0;
 constexpr double kMaxStep = 1.8;   // max factor of a scale from one try to the next
 constexpr double kMaxExcess = 3.0; // max excess of an area relative to the wanted one
@@ -44,7 +44,7 @@ constexpr double kMinTint = 0.25;
 constexpr double kMaxTint = 4.0;
 constexpr float kMaxModerateTint = 1.6F; // beyond this tint all materials get one colour
 constexpr double kCloseTint = 0.002;     // a tint nearer to 1 than this counts as 1
-constexpr double kMinCover = 0.25;       // of DetailLevel::cover
+constexpr double kMinCover = 0.25;       // min DetailLevel::cover
 constexpr double kMaxCover = 1.75;
 constexpr double kFirstCover = 0.6;
 constexpr double kCloseCover = 0.005;   // relative error of the area that ends the fitting of cover
@@ -875,9 +875,9 @@ private:
     std::vector<double> mean_distances_; // m, by number of paths; see measure_paths()
     std::uint64_t most_paths_ = 0;       // paths of the level before it is thinned
     std::optional<AreaMeter> meter_;
-    VisibleAreas areas_;             // of the finest level
-    VisibleAreas third_;             // of the finest level, by AreaMeter::measure_third()
-    Bounds frame_;                   // of the finest level
+    VisibleAreas areas_;             // areas of the finest level
+    VisibleAreas third_;             // AreaMeter::measure_third() of the finest level
+    Bounds frame_;                   // bounds of the finest level
     std::uint64_t finest_ = 0;       // triangles of the finest level
     double last_ = 1.0;              // triangles wanted at the end of the chain
     double triangles_per_ear_ = 1.0; // mean; a polygon of n corners has n - 2 ears

@@ -30,9 +30,9 @@ constexpr std::uint32_t kMaxLevels = 8;
 constexpr float kHidden = 0.9F;
 constexpr float kThickestBranch = 1.5F; // in radii of the parent; above, the base is closed
 constexpr float kCollarSlope = 0.13F;   // increase of radius per length towards the base
-constexpr float kMinSine = 0.5F;        // of the angle of a branch, for the length of its collar
-constexpr float kMaxCollar = 0.7F;      // max length of a collar per length of its edge
-constexpr float kCollarReach = 1.5F;    // length of a wide collar outside of the parent, in radii
+constexpr float kMinSine = 0.5F;     // min sine of a branch's angle, for the length of its collar
+constexpr float kMaxCollar = 0.7F;   // max length of a collar per length of its edge
+constexpr float kCollarReach = 1.5F; // length of a wide collar outside of the parent, in radii
 constexpr std::array<std::uint32_t, kMaxShapedLevel + 1> kSidesPerRoot{6, 4}; // by level
 constexpr float kMaxParts = 16.0F;      // max pieces into which an edge is cut for noise
 constexpr std::size_t kExtraJoints = 2; // joints beside those of segments: a collar and the tip
@@ -415,7 +415,7 @@ void AxisReader::widen_base(bool open) {
             radius = std::min(radius > 0.0F ? wide.widened(radius, at) : 0.0F, kMaxRadius);
         };
         put(from, arc);
-        float begin = 0.0F; // of the last piece, from the beginning of the edge
+        float begin = 0.0F; // begin of the last piece, measured from the begin of the edge
         for (; part <= wide.parts; ++part) {
             const float along = wide.begin + static_cast<float>(part) * step - arc;
             if (!(along < from.length)) {

@@ -208,7 +208,7 @@ struct ImpostorBaker::Fragment {
 /// Buffers that are reused from picture to picture.
 struct ImpostorBaker::Canvas {
     DepthBuffer buffer;
-    std::vector<Fragment> fragments; // of samples with a depth
+    std::vector<Fragment> fragments; // valid for samples with a depth
     std::vector<glm::vec3> along;    // positions along the axes of the view
     LargeVector<std::uint32_t> indices;
     LinearTextures textures;
@@ -365,7 +365,7 @@ std::vector<std::uint8_t> ImpostorBaker::paint(const View& view,
                                                const glm::vec3& tint,
                                                Texture& colour,
                                                Texture& normal_map) const {
-    std::vector<std::uint32_t> order; // of opaque texels
+    std::vector<std::uint32_t> order; // numbers of texels, in the order in which they become opaque
     double area = 0.0;
     glm::dvec3 wanted(0.0); // sum of colours
     for (std::uint32_t i = 0; i < texels(); ++i) {

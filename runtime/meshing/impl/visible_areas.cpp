@@ -140,7 +140,7 @@ public:
 private:
     struct Pixel {
         const Surface* surface = nullptr;
-        glm::vec2 coordinates{}; // of its texture
+        glm::vec2 coordinates{}; // texture coordinates
     };
 
     [[nodiscard]] glm::vec3 place(const glm::vec3& position) const {
