@@ -372,7 +372,7 @@ private:
     std::vector<std::string> paths_; // by FileId
     std::set<std::string_view> known_;
     std::set<std::string_view> constants_;
-    std::set<NameId> locals_; // of the current statement
+    std::set<NameId> locals_; // formals and local values of the current statement
     TextPlace scope_;
     StatementOutline outline_;
     bool is_part_ = false;
@@ -414,7 +414,7 @@ const NameUse* NameIndex::at(const std::string& path, std::size_t offset) const 
     const NameUse* found = nullptr;
     for (const NameUse& use : uses) {
         if (use.place.path == path && use.place.begin <= offset && offset <= use.place.end) {
-            found = &use; // of two touching names, the later one
+            found = &use; // if two names touch, the later one
         }
     }
     return found;
