@@ -21,7 +21,7 @@ using namespace lsys::view;
 
 namespace {
 
-constexpr float kStep = 0.002F; // of the distance of the camera
+constexpr float kStep = 0.002F; // fraction of the distance of the camera
 constexpr double kMaxFactor = 1.5;
 
 /// A single tree in the middle of the picture.

@@ -263,7 +263,7 @@ TEST_CASE("times of the frames of a flight of 15 km", "[.flight]") {
     }
     std::vector<double> times;
     std::vector<double> culls;
-    constexpr int kFrames = 300; // of 50 m
+    constexpr int kFrames = 300; // each 50 m after the last
     for (int i = 0; i <= kFrames; ++i) {
         view.camera() = flying_camera(-50'000.0 + 50.0 * i, 20'000.0);
         const double seconds = frame();
