@@ -12,7 +12,7 @@ namespace lsys {
 
 namespace {
 
-/// A request on documents.
+/// A request about documents, and the function that answers it.
 struct RequestRow {
     std::string_view method;
     Json (*answer)(Workspace& workspace, const Json& params);

@@ -165,7 +165,7 @@ struct UserMesh {
 
 /// The mesh of make_mesh() as text: a line of counts, then one for each part, vertex and triangle.
 [[nodiscard]] std::uint64_t line_count(const Mesh& mesh);
-/// Precondition: line < line_count().
+/// Appends a line of the text. Precondition: line < line_count().
 void append_line(const Mesh& mesh, std::uint64_t line, std::string& text);
 
 /// Linear RGB colour of an item without a `#material`. Indexes: 0 bark, 1 leaf green, 2 to 15 ever

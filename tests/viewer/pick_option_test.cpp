@@ -187,7 +187,7 @@ TEST_CASE("the option --pick on a forest prints the branch and its number of ins
                                                 "1",
                                                 "--size",
                                                 "320x240"};
-    // The same forest, made by the test.
+    // Make the same forest without lsview.
     view::ViewOptions options = std::get<view::ViewOptions>(view::parse_options(arguments));
     std::istringstream in;
     std::ostringstream out;

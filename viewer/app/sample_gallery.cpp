@@ -44,7 +44,7 @@ std::string picture_of(const std::string& stem, const std::string& extension) {
     return found == pictures.end() ? std::string() : *found;
 }
 
-/// Appends the samples directly in a folder.
+/// Appends the samples whose folders lie directly in `folder`.
 void add_samples(const std::string& folder, std::vector<GallerySample>& samples) {
     std::error_code error;
     std::vector<std::string> names;

@@ -510,7 +510,7 @@ private:
                 near_shadows_.emplace_back(device_, kShadowTexels);
             }
             ShadowMap& map = near_shadows_[i];
-            // A sphere ahead of the eye, moved in large steps.
+            // The map shows a sphere ahead of the eye, which moves in large steps.
             const float radius = kNearMapSpecs[i].radius;
             const float step = 0.125F * radius;
             const glm::vec3 middle =

@@ -361,7 +361,7 @@ private:
     GroundHorizon* ground_ = nullptr; // during select()
     std::vector<VisibleCell> visible_cells_;
     std::vector<std::uint32_t> mesh_counts_; // visible branches by form, group and instance
-    // Of a streamed forest.
+    // The members below are used in streamed forests only.
     glm::dvec3 origin_{};
     std::vector<ShownSquare> squares_;
     std::vector<std::uint32_t> free_squares_;

@@ -23,7 +23,7 @@ struct LodForm {
     float low;
     float high;
     float impostor_radius;
-    float width; // for the wind
+    float width; // m at scale 1, for sway_of()
 };
 LodForm form_at(uint form) {
     uint at = kFormWords * form;

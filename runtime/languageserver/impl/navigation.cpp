@@ -301,7 +301,7 @@ Json rename_name(Workspace& workspace, const Json& params) {
     }
     Json changes = Json::object();
     std::map<std::string, std::string> changed;
-    // From the last place to the first, so that the places before stay valid.
+    // Replace from the last place to the first, so that the places before stay valid.
     for (auto each = found.index.uses.rbegin(); each != found.index.uses.rend(); ++each) {
         if (!NameIndex::are_same(*each, use)) {
             continue;

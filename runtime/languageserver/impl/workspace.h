@@ -87,7 +87,8 @@ public:
     [[nodiscard]] std::vector<std::string> roots_of(const std::string& path) const;
     /// All grammars: open documents, files below the folders, or else files beside `path`.
     [[nodiscard]] std::vector<std::string> known_grammars(const std::string& path) const;
-    /// The names of all grammars with these roots. `changed` replaces texts, by path.
+    /// The names in the grammars `roots` and their included files. `changed`: texts that replace
+    /// those of files, by path.
     [[nodiscard]] NameIndex index(const std::vector<std::string>& roots,
                                   const std::map<std::string, std::string>& changed) const;
     /// Checks a document as `lsc check` does. `offers_doubtful`: turns doubtful fixes into offers.

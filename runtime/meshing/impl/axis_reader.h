@@ -37,7 +37,7 @@ enum class TubeEnd : std::uint8_t {
     Broken, // closed by a jagged break
 };
 
-/// Rings that close a run after the ring of its last joint.
+/// Number of rings that close a run after the ring of its last joint.
 [[nodiscard]] inline std::uint32_t closing_rings(TubeEnd end) {
     return end == TubeEnd::Ball ? 1 : end == TubeEnd::Round || end == TubeEnd::Broken ? 2 : 0;
 }

@@ -142,7 +142,7 @@ void compare(CulledWood& both, const Camera& camera, const LodOptions& options, 
     CHECK(gap(device.state.occluded, cpu.occluded) <= 16 * allowed);
     CHECK(gap(device.state.clustered, cpu.clustered_trees) <= 16 * allowed);
     CHECK(device.state.waiting == 0);
-    // The same branches at the same places.
+    // Both pools have the same branches at the same places.
     float apart = 0.0F;
     int turned = 0;
     for (const auto& [tree, branches] : by_tree(device.pool)) {

@@ -66,7 +66,8 @@ struct TreeRecord {
 };
 static_assert(sizeof(TreeRecord) == 24);
 
-/// Spare records for added trees; when they are used up, the buffer is copied on the device.
+/// Spare records for added trees. When they are used up, the device copies the records to a larger
+/// buffer.
 constexpr std::size_t kRoomForTrees = std::size_t{1} << 14U;
 
 TreeRecord record_of(const LodTree& tree, const Tree& full) {

@@ -111,7 +111,7 @@ private:
 
     void
     list_casters(const glm::mat4& shadow_from_world, std::uint32_t level, NearCasters& casters);
-    /// Call when trees have changed or moved.
+    /// Forgets near_casters_ and crown_area_. Call when trees have changed or moved.
     void forget_near_trees();
     /// Lowest and highest place of ground and trees near the middle of a shadow map.
     [[nodiscard]] std::array<float, 2> altitudes_near(const glm::vec2& middle, float half) const;

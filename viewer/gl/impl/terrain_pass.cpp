@@ -238,7 +238,7 @@ void TerrainPass::draw_grass(FrameStats& stats) const {
     const auto cell_of = [&](double place) {
         return static_cast<GLint>(std::floor(place / kCell));
     };
-    const auto lattice_of = [&](double place) { // wraps
+    const auto lattice_of = [&](double place) { // modulo 2^32, as the shader adds numbers of cells
         return static_cast<GLint>(
             static_cast<std::uint32_t>(static_cast<std::int64_t>(std::round(place / kCell))));
     };
