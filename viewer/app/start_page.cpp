@@ -35,10 +35,10 @@ void load_image(StartPage& page, const AddImage& add_image) {
 }
 
 /// Scrolls to the last item if the keyboard has selected it.
-void follow(StartPage& page, bool is_selected) {
-    if (is_selected && page.follows) {
+void scroll_to_selection(StartPage& page, bool is_selected) {
+    if (is_selected && page.wants_scroll) {
         ImGui::SetScrollHereY();
-        page.follows = false;
+        page.wants_scroll = false;
     }
 }
 
@@ -51,7 +51,7 @@ std::string draw_recent(StartPage& page) {
         if (ImGui::Selectable(std::string(name_of_path(file)).c_str(), is_selected)) {
             chosen = file;
         }
-        follow(page, is_selected);
+        scroll_to_selection(page, is_selected);
         draw_tooltip(file.c_str());
         ImGui::PopID();
     }
@@ -107,7 +107,7 @@ std::string draw_gallery(StartPage& page) {
                         is_selected)) {
             chosen = page.samples[i].file;
         }
-        follow(page, is_selected);
+        scroll_to_selection(page, is_selected);
         ImGui::PopID();
     }
     return chosen;
@@ -126,7 +126,7 @@ void StartPage::load(const std::string& state, const std::string& folder) {
 }
 
 void StartPage::move(int right, int down) {
-    follows = true;
+    wants_scroll = true;
     letters.clear();
     const bool at_edge = selected % columns == 0;
     if (in_recent ? right > 0 && !samples.empty() : right < 0 && at_edge && !recent.empty()) {
@@ -153,7 +153,7 @@ void StartPage::find(const std::string& text) {
             if (samples[number].name.find(part) != std::string::npos) {
                 selected = number;
                 in_recent = false;
-                follows = true;
+                wants_scroll = true;
                 return true;
             }
         }
@@ -243,7 +243,7 @@ std::string draw_open_dialog(FileBrowser& browser, bool& is_open) {
                         break;
                     }
                 }
-                if (is_selected && browser.take_follows()) {
+                if (is_selected && browser.take_scroll_request()) {
                     ImGui::SetScrollHereY();
                 }
             }

@@ -26,9 +26,9 @@ struct StartPage {
     std::vector<std::uintptr_t> images; // pictures of the first samples, uploaded so far
     bool in_recent = false;             // the selection is among the recent files
     std::size_t selected = 0;
-    std::size_t columns = 1; // columns of the gallery
-    bool follows = false;    // scroll to the selection
-    std::string letters;     // typed since the selection was last moved
+    std::size_t columns = 1;   // columns of the gallery
+    bool wants_scroll = false; // the page must scroll to the selection
+    std::string letters;       // typed since the selection was last moved
 
     /// Reads the list of recent files in `state`, and the samples of `folder`.
     void load(const std::string& state, const std::string& folder);
