@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: MIT
-# Two interface targets that every target of the project links: lsys_options has the compiler options,
-# lsys_warnings the warnings. The functions below make libraries.
+# Two interface targets that every target of the project links: lsys_options sets the compiler options, lsys_warnings
+# the warnings. The functions below add libraries.
 
-# Floating-point results are the same on every machine: no contraction to fused multiply-add, no optimisation that
+# For the same floating-point results on every machine: no contraction to fused multiply-add, no optimisation that
 # changes values.
 add_library(lsys_options INTERFACE)
 target_include_directories(lsys_options INTERFACE "${PROJECT_SOURCE_DIR}")

@@ -24,7 +24,7 @@ struct OptionText {
     std::string group; // heading in --help
     ValueKind kind = ValueKind::None;
     std::vector<std::string> words;      // literal values, such as `human`; possible with any kind
-    std::vector<std::string> extensions; // of ValueKind::File, without dots; empty: any file
+    std::vector<std::string> extensions; // for ValueKind::File, without dots; empty: any file
     bool required = false;
     bool repeatable = false;
     bool optional_value = false; // the value may be missing: `--fix`, `--fix=offered`
@@ -32,7 +32,7 @@ struct OptionText {
 
 /// A command, or a program.
 struct CommandText {
-    std::string name; // of the command, `export`, or of the program, `lsc`
+    std::string name; // name of the command, `export`, or of the program, `lsc`
     std::string description;
     std::vector<OptionText> positionals;
     std::vector<OptionText> options; // in the order of --help

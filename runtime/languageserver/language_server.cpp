@@ -12,7 +12,7 @@ namespace lsys {
 
 namespace {
 
-/// A request on documents.
+/// A request about documents, and the function that answers it.
 struct RequestRow {
     std::string_view method;
     Json (*answer)(Workspace& workspace, const Json& params);
@@ -190,7 +190,7 @@ void LanguageServer::State::open(const Json& params) {
     document.version = item.value("version", std::int64_t{0});
     document.is_lsys = item.value("languageId", std::string()) == "lsys";
     workspace.documents.insert_or_assign(document.path, std::move(document));
-    mark({}); // the file may be one that others did not find
+    mark({}); // other documents may include the file, which was missing until now
 }
 
 void LanguageServer::State::change(const Json& params) {

@@ -65,7 +65,8 @@ std::optional<ReadMessage> MessageReader::read_header() {
     const std::size_t end = rest.find(kHeaderEnd);
     if (end == std::string_view::npos) {
         if (rest.size() > kMaxHeaderBytes) {
-            begin_ = buffer_.size() - (kHeaderEnd.size() - 1); // the end may have begun
+            // Keep the last bytes, with which the end of the header may begin.
+            begin_ = buffer_.size() - (kHeaderEnd.size() - 1);
             if (!in_long_header_) {
                 in_long_header_ = true;
                 return ReadMessage{{}, "the header of a message is too long"};

@@ -33,7 +33,7 @@ private:
     [[nodiscard]] std::optional<ReadMessage> read_header();
 
     std::string buffer_;
-    std::size_t begin_ = 0;               // of the unread bytes in buffer_
+    std::size_t begin_ = 0;               // index of the first unread byte in buffer_
     std::optional<std::size_t> expected_; // length of the body after the header
     std::size_t skipped_ = 0;             // bytes to skip of a message that is too large
     bool in_long_header_ = false;         // skips a header that is too long

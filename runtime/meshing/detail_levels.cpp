@@ -36,7 +36,7 @@ constexpr double kEnoughTriangles = 0.96;  // fraction of the wanted triangles t
 constexpr int kFittingSteps = 12;
 constexpr double kCloseAreas = 0.004; // value of Planner::difference() that ends the fitting
 constexpr double kAreaWeight = 0.1;   // weight of the covered area in Planner::difference()
-constexpr double kMinScale = 0.2;     // of DetailLevel::wood_scale and foliage_scale
+constexpr double kMinScale = 0.2;     // min DetailLevel::wood_scale and foliage_scale
 constexpr double kMaxScale = 6.0;
 constexpr double kMaxStep = 1.8;   // max factor of a scale from one try to the next
 constexpr double kMaxExcess = 3.0; // max excess of an area relative to the wanted one
@@ -44,7 +44,7 @@ constexpr double kMinTint = 0.25;
 constexpr double kMaxTint = 4.0;
 constexpr float kMaxModerateTint = 1.6F; // beyond this tint all materials get one colour
 constexpr double kCloseTint = 0.002;     // a tint nearer to 1 than this counts as 1
-constexpr double kMinCover = 0.25;       // of DetailLevel::cover
+constexpr double kMinCover = 0.25;       // min DetailLevel::cover
 constexpr double kMaxCover = 1.75;
 constexpr double kFirstCover = 0.6;
 constexpr double kCloseCover = 0.005;   // relative error of the area that ends the fitting of cover
@@ -71,9 +71,9 @@ constexpr int kStraighterTries = 6;
 constexpr int kMaxStraightenings = 48;
 constexpr float kStraightening = 1.15F; // factor of MeshOptions::axis_error per straightening
 constexpr int kRestoringTries = 14;
-constexpr std::uint64_t kMorePaths = 8; // max paths that restore() adds for their joints
+constexpr std::uint64_t kMorePaths = 8; // max paths that restore() adds to approach a number
 constexpr double kMaxOfPaths = 4000.0;  // max triangles of levels to which restore() adds paths
-constexpr double kFairCount = 0.1;      // kCloseCount with added paths
+constexpr double kFairCount = 0.1;      // as kCloseCount, once restore() has added paths
 constexpr float kRestoring = 1.3F;      // factor of MeshOptions::axis_error per try
 constexpr double kMeanErrorPart = 0.3;  // mean error of an axis / MeshOptions::axis_error
 constexpr float kMaxDeviations = 4.0F;  // max MeshOptions::deviation / axis_error
@@ -657,20 +657,20 @@ private:
             if (is_done(base)) {
                 return base;
             }
-            DetailLevel rounder = base;
-            rounder.options.axis_error = before.options.axis_error;
+            DetailLevel sides_by_radius = base;
+            sides_by_radius.options.axis_error = before.options.axis_error;
             seek(&MeshOptions::deviation, 0.0F, kMaxDeviations * error, min - foliage,
-                 max - foliage, rounder);
-            if (is_done(rounder)) {
-                return rounder;
+                 max - foliage, sides_by_radius);
+            if (is_done(sides_by_radius)) {
+                return sides_by_radius;
             }
             wood = static_cast<double>(wood_triangles(base));
-            // `base` and `rounder` have too many triangles, because straight wood loses nearly all
-            // joints at one error. Continue with the level of fewer triangles.
-            const auto rounder_wood = static_cast<double>(wood_triangles(rounder));
-            if (rounder_wood < wood) {
-                base = rounder;
-                wood = rounder_wood;
+            // Both levels have too many triangles, because straight wood loses nearly all joints at
+            // one error. Continue with the level of fewer triangles.
+            const auto sides_by_radius_wood = static_cast<double>(wood_triangles(sides_by_radius));
+            if (sides_by_radius_wood < wood) {
+                base = sides_by_radius;
+                wood = sides_by_radius_wood;
             }
         }
         // Fewer sides of all branches, unless this alone leaves too few triangles.
@@ -693,11 +693,11 @@ private:
         }
         if (base.options.deviation == 0.0F && before.options.method == MeshMethod::Tubes) {
             // Fewer sides where branches are thin.
-            DetailLevel rounder = base;
+            DetailLevel sides_by_radius = base;
             seek(&MeshOptions::deviation, 0.0F, kMaxDeviations * base.error, min - foliage,
-                 max - foliage, rounder);
-            if (is_done(rounder)) {
-                return rounder;
+                 max - foliage, sides_by_radius);
+            if (is_done(sides_by_radius)) {
+                return sides_by_radius;
             }
         }
         if (before.options.method != MeshMethod::Tubes) {
@@ -875,9 +875,9 @@ private:
     std::vector<double> mean_distances_; // m, by number of paths; see measure_paths()
     std::uint64_t most_paths_ = 0;       // paths of the level before it is thinned
     std::optional<AreaMeter> meter_;
-    VisibleAreas areas_;             // of the finest level
-    VisibleAreas third_;             // of the finest level, by AreaMeter::measure_third()
-    Bounds frame_;                   // of the finest level
+    VisibleAreas areas_;             // areas of the finest level
+    VisibleAreas third_;             // AreaMeter::measure_third() of the finest level
+    Bounds frame_;                   // bounds of the finest level
     std::uint64_t finest_ = 0;       // triangles of the finest level
     double last_ = 1.0;              // triangles wanted at the end of the chain
     double triangles_per_ear_ = 1.0; // mean; a polygon of n corners has n - 2 ears

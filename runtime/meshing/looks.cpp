@@ -77,7 +77,8 @@ void apply_look(const Looks* looks, ItemColour colour, Material& material) {
     if (look->normal_map != nullptr) {
         material.normal_map = look->normal_map;
         if (material.textured && material.picture == nullptr) {
-            material.picture = built_in_picture(material.kind); // drawn with the normal map
+            // A material with a normal map needs its colours as a picture too.
+            material.picture = built_in_picture(material.kind);
         }
     }
     material.translucency = look->translucency;

@@ -34,7 +34,7 @@ std::optional<Stop> build_solid(const Skeleton& skeleton,
                                 const std::vector<UserMesh>& user_meshes,
                                 const MeshOptions& options,
                                 Mesh& mesh) {
-    MeshOptions plain = options; // of leaves and polygons, without thickness
+    MeshOptions plain = options; // options for leaves and polygons without thickness
     plain.texture_coordinates = false;
     plain.tangents = false;
     plain.colours = true;

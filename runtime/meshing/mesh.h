@@ -24,8 +24,8 @@ namespace lsys {
 struct Texture; // runtime/meshing/texture.h
 
 enum class MaterialKind : std::uint8_t { Bark, Leaf, Flower, Plain };
-inline constexpr float kBarkRoughness = 0.95F; // of MaterialKind::Bark
-inline constexpr float kRoughness = 0.7F;      // of the other kinds
+inline constexpr float kBarkRoughness = 0.95F; // roughness of MaterialKind::Bark
+inline constexpr float kRoughness = 0.7F;      // roughness of the other kinds
 
 /// Appearance of a part of a mesh. Colours are linear RGBA, 0 to 1.
 struct Material {
@@ -35,7 +35,7 @@ struct Material {
     bool two_sided = false;
     bool cut_out = false;  // texels below half opacity are discarded
     bool textured = false; // by `picture` or, if that is null, material_texture(kind)
-    std::shared_ptr<const Texture> picture = nullptr;    // of a file; multiplied by the colour
+    std::shared_ptr<const Texture> picture = nullptr; // picture of a file; multiplied by the colour
     std::shared_ptr<const Texture> normal_map = nullptr; // normals of a file, as bark_normals()
     std::optional<float> roughness = std::nullopt;       // unset: the roughness of the kind
     std::optional<float> translucency = std::nullopt; // 0 to 1; unset: the viewer chooses by kind
@@ -62,12 +62,12 @@ struct Mesh {
     LargeVector<glm::vec3> normals;             // unit length
     LargeVector<glm::vec2> texture_coordinates; // empty unless requested
     LargeVector<glm::vec4> tangents;            // empty unless requested; w: sign of the bitangent
-    LargeVector<ItemColour> colours;            // of each vertex; empty unless requested
+    LargeVector<ItemColour> colours;            // colour of each vertex; empty unless requested
     LargeVector<VertexSegments> segments;       // empty unless requested
     TriangleList indices;
     std::vector<MeshPart> parts; // one for each material in use, in order of indices
     std::vector<Material> materials;
-    std::shared_ptr<const Looks> looks; // of the indexes in `colours`: Skeleton::looks
+    std::shared_ptr<const Looks> looks; // Skeleton::looks: looks of the indexes in `colours`
     std::uint64_t shells = 0;           // separate closed pieces; of MeshMethod::Solid only
 
     [[nodiscard]] std::uint64_t byte_count() const {
@@ -144,8 +144,8 @@ struct UserMesh {
     std::vector<glm::vec2> texture_coordinates;
     std::vector<std::uint32_t> indices;
     std::vector<ObjName> libraries; // its material files (mtllib)
-    std::vector<ObjName> materials; // of its faces, in order of first use; no name: no material
-    std::shared_ptr<const Texture> picture;         // of the whole mesh; may be null
+    std::vector<ObjName> materials; // materials of its faces, in order of first use; no name: none
+    std::shared_ptr<const Texture> picture;         // picture of the whole mesh; may be null
     std::shared_ptr<const Texture> normal_map;      // normals of the whole mesh; may be null
     std::vector<std::string> files;                 // files tried to find the picture
     [[nodiscard]] float length() const;             // max y, at least 0
@@ -165,7 +165,7 @@ struct UserMesh {
 
 /// The mesh of make_mesh() as text: a line of counts, then one for each part, vertex and triangle.
 [[nodiscard]] std::uint64_t line_count(const Mesh& mesh);
-/// Precondition: line < line_count().
+/// Appends a line of the text. Precondition: line < line_count().
 void append_line(const Mesh& mesh, std::uint64_t line, std::string& text);
 
 /// Linear RGB colour of an item without a `#material`. Indexes: 0 bark, 1 leaf green, 2 to 15 ever

@@ -127,7 +127,7 @@ bool has_holes(const Texture& texture) {
 }
 
 glm::vec3 mean_colour(const Texture& texture) {
-    std::array<std::uint64_t, 768> counts{}; // of each value of each channel
+    std::array<std::uint64_t, 768> counts{}; // count of each value of each channel
     std::uint64_t count = 0;
     for (std::size_t i = 0; i + 3 < texture.texels.size(); i += 4) {
         if (texture.texels[i + 3] >= 128) {

@@ -68,7 +68,7 @@ private:
 
     /// Triangles of one shape in a regular order.
     struct Patch {
-        std::uint32_t end = 0;    // of its indices, counted within the block
+        std::uint32_t end = 0;    // end of its indices, counted within the block
         std::uint32_t first = 0;  // first vertex of the ring, or of the lowest ring of bands
         std::uint32_t second = 0; // first vertex of the other ring or of the last ring; the point
         Shape shape = Shape::Bands;
@@ -81,7 +81,7 @@ private:
 
     /// Patches, or plain indices.
     struct Block {
-        std::uint64_t begin = 0; // of its indices
+        std::uint64_t begin = 0; // number of the block's first index
         std::uint32_t first_vertex = 0;
         std::vector<Patch> patches;
         LargeVector<std::uint32_t> listed;

@@ -438,7 +438,7 @@ private:
             const glm::dvec3 normal = has_normal(corner) ? glm::dvec3(normals_[corner.normal])
                                                          : area_sums_[corner.position];
             const double length = std::sqrt(glm::dot(normal, normal));
-            // The normals of the faces of a vertex may cancel each other.
+            // If the normals of the faces of a vertex cancel each other, its normal is +Y.
             mesh_.normals.push_back(length > 0.0 ? glm::vec3(normal / length)
                                                  : glm::vec3(0.0F, 1.0F, 0.0F));
             if (!texture_coordinates_.empty()) {
@@ -453,7 +453,7 @@ private:
 
     std::string_view text_;
     std::uint64_t max_bytes_;
-    std::uint64_t name_bytes_ = 0; // of names of materials and their files
+    std::uint64_t name_bytes_ = 0; // bytes of the names of materials and their files
     std::size_t at_ = 0;
     std::uint64_t line_ = 1;
     std::optional<Error> error_;
@@ -463,7 +463,7 @@ private:
     std::vector<glm::dvec3>
         area_sums_; // by vertex: sum of the normals of its faces, each of length 2 * area
     CornerNumbers numbers_;
-    ObjName material_; // of the faces that follow
+    ObjName material_; // material of the faces that follow
     std::string last_material_;
     std::unordered_set<std::string> known_libraries_;
     std::unordered_set<std::string> known_materials_;
@@ -528,7 +528,7 @@ std::unordered_map<std::string, MaterialPicture> pictures_of(std::string_view mt
         names.insert(each.name);
     }
     std::unordered_map<std::string, MaterialPicture> materials;
-    MaterialPicture* material = nullptr; // of the current lines
+    MaterialPicture* material = nullptr; // material that the current lines describe
     for (std::size_t at = 0; at < mtl.size();) {
         const std::size_t end = std::min(mtl.find_first_of("\r\n", at), mtl.size());
         std::size_t begin = at;

@@ -23,9 +23,9 @@ namespace lsys {
 /// Pictures of a material in an MTL file; an empty name: no picture.
 struct MaterialPicture {
     bool has_options = false; // a name has options other than -bm of a normal map
-    ObjName file;             // of map_Kd
-    ObjName opacity;          // of map_d
-    ObjName normal_map;       // of map_Bump, bump or norm
+    ObjName file;             // file of map_Kd
+    ObjName opacity;          // file of map_d
+    ObjName normal_map;       // file of map_Bump, bump or norm
     float bump = 1.0F;        // factor of the heights of map_Bump, by -bm
 };
 /// Pictures of the materials `wanted`, by material name. Omits materials that `mtl` lacks.

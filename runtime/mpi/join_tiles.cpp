@@ -75,6 +75,9 @@ private:
 
     void take_files(const Message& message, lsc::TilesetFolder& folder, Crew& crew) {
         has_asked_ = false;
+        if (folder.is_stopped()) {
+            return; // the crew is closed, or step() will close it
+        }
         const std::uint64_t begin = message.numbers[0];
         const std::uint64_t end = message.numbers[1];
         std::error_code error;

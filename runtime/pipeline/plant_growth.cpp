@@ -32,7 +32,7 @@ struct PlantGrowth::State {
     std::optional<SkeletonGrowth> growth; // skeletons of the previous and the current word
     std::vector<Origin> ancestors;        // by current module: the previous module that wrote it
     bool is_consistent = false; // whether the skeletons match the word; false after a stop
-    bool noted_lost_corners = false;
+    bool noted_fewer_corners = false;
 
     [[nodiscard]] std::uint32_t age() const { return derivation.age(); }
 
@@ -101,7 +101,8 @@ struct PlantGrowth::State {
                           nullptr);
             return Stop::Limit;
         }
-        if (growth->counts().lost_corners != 0 && !std::exchange(noted_lost_corners, true)) {
+        if (growth->counts().polygons_with_fewer_corners != 0 &&
+            !std::exchange(noted_fewer_corners, true)) {
             step.messages.add_info("polygons lose corners from one generation to the next; they "
                                    "do so at once");
         }

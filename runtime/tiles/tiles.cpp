@@ -116,7 +116,8 @@ bool TileForest::has_tile(const TileId& tile) const {
     return tile.level < levels().size() && state_->grid.has_ground(tile);
 }
 bool TileForest::has_tileset(std::uint32_t level) const {
-    return level == 0 || (!state_->options.implicit && has_subtrees(level, state_->plan.finest()));
+    return level == 0 ||
+           (!state_->options.implicit && has_nested_tileset(level, state_->plan.finest()));
 }
 bool TileForest::has_subtree(std::uint32_t level) const {
     const auto all = static_cast<std::uint32_t>(levels().size());

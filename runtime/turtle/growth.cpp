@@ -288,7 +288,8 @@ struct SkeletonGrowth::State {
                         local_corner(before.corners[old.first_corner + at], polygon.parent, 0);
                 }
                 is_kept[old_of[i]] = true;
-                counts.lost_corners += polygon.corner_count < old.corner_count ? 1 : 0;
+                counts.polygons_with_fewer_corners +=
+                    polygon.corner_count < old.corner_count ? 1 : 0;
                 ++counts.kept;
             }
             use_shorter_turn(moving.motion.turn);

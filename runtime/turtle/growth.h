@@ -32,7 +32,7 @@ struct GrowthCounts {
     std::uint64_t grown = 0;    // items that grow from size 0
     std::uint64_t vanished = 0; // items that shrink to size 0
     /// Polygons with fewer corners in the later drawing; the lost corners disappear at once.
-    std::uint64_t lost_corners = 0;
+    std::uint64_t polygons_with_fewer_corners = 0;
 };
 
 class SkeletonGrowth {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Shows a tileset in CesiumJS, without globe and without any service. Sets window.isSettled when the view is complete.
+// Shows a tileset in CesiumJS, without a globe and without services of Cesium. Sets window.isSettled when the view is
+// complete.
 import { eastNorthUp, readView } from './scene_frame.js';
 
 const { Cesium } = window;

@@ -39,8 +39,8 @@ void check_alike(const Picture& a, const Picture& b) {
     REQUIRE(a.width == b.width);
     REQUIRE(a.height == b.height);
     const PictureDifference difference = difference_of(a, b);
-    CHECK(difference.mean < 0.05); // the tolerance of stored pictures is 1.0
-    CHECK(difference.far < 0.001); // the tolerance of stored pictures is 0.01
+    CHECK(difference.mean < 0.05);       // the tolerance of stored pictures is 1.0
+    CHECK(difference.differing < 0.001); // the tolerance of stored pictures is 0.01
 }
 
 /// A renderer of a wood, and its pictures.
@@ -177,7 +177,7 @@ TEST_CASE("painted and removed trees are drawn alike with compute shaders") {
     }
     const Picture painted = gpu.draw();
     check_alike(cpu.draw(), painted);
-    CHECK(difference_of(before, painted).far > 0.02);
+    CHECK(difference_of(before, painted).differing > 0.02);
     for (std::uint32_t i = 0; i < 800; i += 3) {
         change(i, wood->forest.trees[i], true);
     }

@@ -28,7 +28,7 @@ struct PictureContrast {
 /// Pixels with trees differ in a channel by more than this, of 255.
 constexpr int kTreeDifference = 24;
 
-/// `bare`: the same picture without trees.
+/// Measures `picture`. `bare`: the same picture without trees.
 PictureContrast sight_of(const Picture& picture, const Picture& bare) {
     const std::size_t first = std::size_t{4} * picture.width * (picture.height / 3);
     double sum = 0.0;
@@ -69,7 +69,8 @@ Shown shown(std::vector<std::string> arguments) {
     return {read_picture(folder / "a.png"), nlohmann::json::parse(run.out)};
 }
 
-/// `files`: a scene, or a grammar with options of the ground. `trees`: options of the placement.
+/// Draws the default picture with and without trees, and measures it. `files`: a scene, or a
+/// grammar with options of the ground. `trees`: options of the placement.
 PictureContrast first_sight(const std::vector<std::string>& files,
                             const std::vector<std::string>& trees) {
     std::vector<std::string> wooded = files;

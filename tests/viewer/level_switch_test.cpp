@@ -21,7 +21,7 @@ using namespace lsys::view;
 
 namespace {
 
-constexpr float kStep = 0.002F; // of the distance of the camera
+constexpr float kStep = 0.002F; // fraction of the distance of the camera
 constexpr double kMaxFactor = 1.5;
 
 /// A single tree in the middle of the picture.
@@ -180,7 +180,7 @@ TEST_CASE("refined pictures are smoother, and a new picture begins anew") {
     CAPTURE(difference_of(plain, limit).mean, difference_of(refined, limit).mean);
     CHECK(difference_of(refined, limit).mean < difference_of(plain, limit).mean);
     CHECK(shown().texels != refined.texels); // draw() has begun a new picture
-    // read() has no refinement.
+    // read() returns the picture without refinement.
     const Picture again = tree.draw(130.0F, 0.3F);
     CHECK(tree.renderer->refine());
     Picture read{tree.frame.width, tree.frame.height, {}};

@@ -119,7 +119,7 @@ TEST_CASE("the option --pick with --why prints the text of lsc trace") {
                      "#interpret s : S(x) : * : F(x) F(0.1);\n");
     struct Scope {
         const char* why;
-        const char* option; // of lsc trace; empty: none
+        const char* option; // option of lsc trace; empty: none
     };
     for (const Scope scope :
          {Scope{"written", "--written"}, Scope{"next", ""}, Scope{"back", "--back"}}) {
@@ -187,7 +187,7 @@ TEST_CASE("the option --pick on a forest prints the branch and its number of ins
                                                 "1",
                                                 "--size",
                                                 "320x240"};
-    // The same forest, made by the test.
+    // Make the same forest without lsview.
     view::ViewOptions options = std::get<view::ViewOptions>(view::parse_options(arguments));
     std::istringstream in;
     std::ostringstream out;

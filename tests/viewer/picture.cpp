@@ -29,9 +29,9 @@ Picture read_picture(const std::string& path) {
 }
 
 PictureDifference difference_of(const Picture& a, const Picture& b) {
-    constexpr int kFar = 32;
+    constexpr int kMaxEqual = 32;
     double sum = 0.0;
-    std::size_t far = 0;
+    std::size_t differing = 0;
     for (std::size_t i = 0; i < a.texels.size(); i += 4) {
         int max_difference = 0;
         for (std::size_t c = 0; c < 4; ++c) {
@@ -39,10 +39,10 @@ PictureDifference difference_of(const Picture& a, const Picture& b) {
             sum += difference;
             max_difference = std::max(max_difference, difference);
         }
-        far += max_difference > kFar ? 1U : 0U;
+        differing += max_difference > kMaxEqual ? 1U : 0U;
     }
     const auto count = static_cast<double>(a.texels.size());
-    return {sum / count, 4.0 * static_cast<double>(far) / count};
+    return {sum / count, 4.0 * static_cast<double>(differing) / count};
 }
 
 } // namespace lsys::tests

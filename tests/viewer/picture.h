@@ -28,8 +28,8 @@ texel(const Picture& picture, std::uint32_t x, std::uint32_t y) {
 [[nodiscard]] Picture read_picture(const std::string& path);
 
 struct PictureDifference {
-    double mean = 0.0; // over all channels, 0 to 255
-    double far = 0.0;  // fraction of pixels that differ by more than 32 in a channel
+    double mean = 0.0;      // over all channels, 0 to 255
+    double differing = 0.0; // fraction of pixels that differ by more than 32 in a channel
 };
 /// Precondition: both pictures have the same size.
 [[nodiscard]] PictureDifference difference_of(const Picture& a, const Picture& b);

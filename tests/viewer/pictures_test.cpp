@@ -110,7 +110,7 @@ void compare(const PictureCase& scene) {
     REQUIRE(now.height == then.height);
     const PictureDifference difference = difference_of(now, then);
     CHECK(difference.mean < 1.0);
-    CHECK(difference.far < 0.01);
+    CHECK(difference.differing < 0.01);
 }
 
 } // namespace
@@ -264,7 +264,7 @@ TEST_CASE("the edges of cut-out leaves are smooth with several samples") {
                    "eye 0,0.5,1.5 target 0,0.5,0 fov 50", "--samples", samples}));
     };
     const PictureDifference difference = difference_of(view("1"), view("4"));
-    CHECK(difference.far > 0.002);
+    CHECK(difference.differing > 0.002);
     CHECK(difference.mean < 2.0); // the leaf covers about the same area
 }
 
@@ -272,8 +272,8 @@ TEST_CASE("the sky has no bands of equal colour") {
     const Picture picture =
         decode_picture(drawn({scene("mixed-forest"), "--size", "320x240", "--camera",
                               "eye 120,40,120 target 60,90,60 fov 60"}));
-    // Means of squares of a smooth sky lie between two colours of 8 bits; in bands they are equal to
-    // one.
+    // In a smooth sky, the means of squares lie between two colours of 8 bits; in a sky with bands
+    // they equal one of these colours.
     constexpr std::uint32_t kSide = 8;
     std::uint32_t squares = 0;
     std::uint32_t flat = 0;
@@ -300,8 +300,7 @@ TEST_CASE("the ground does not repeat with its noise tile") {
 TEST_CASE("a picture is the same in every run and for any stripes") {
     const std::vector<std::string> arguments = {sample("abop-1-25-bush"), "--size", "150x80"};
     CHECK(drawn(arguments) == drawn(arguments));
-    // Compare a picture with more pixels than are drawn at once with a smaller one of the same
-    // view.
+    // Compare a picture so large that it is drawn in stripes with a smaller one of the same view.
     const Picture large = decode_picture(drawn({sample("teach-bending"), "--size", "2600x2600"}));
     const Picture small = decode_picture(drawn({sample("teach-bending"), "--size", "325x325"}));
     Picture reduced{325, 325, std::vector<std::uint8_t>(std::size_t{4} * 325 * 325)};
@@ -318,7 +317,7 @@ TEST_CASE("a picture is the same in every run and for any stripes") {
     }
     const PictureDifference difference = difference_of(reduced, small);
     CHECK(difference.mean < 2.0);
-    CHECK(difference.far < 0.02);
+    CHECK(difference.differing < 0.02);
 }
 
 TEST_CASE("a picture may have only one pixel") {
@@ -347,7 +346,7 @@ TEST_CASE("a series has the requested number of pictures, all different") {
 
 TEST_CASE("a series of growth shows whole generations and moments between them") {
     const ScratchFolder folder;
-    // Without the ground, whose size is that of the last generation.
+    // No ground, because its size depends on the last generation.
     const std::vector<std::string> view = {sample("abop-2-8a"),
                                            "--no-ground",
                                            "--size",
@@ -423,7 +422,8 @@ TEST_CASE("wind moves a plant, and without wind it does not move") {
     CHECK(drawn(still) == drawn(calm));
     std::vector<std::string> windy = still;
     windy.insert(windy.end(), {"--wind", "15,0,0"});
-    CHECK(difference_of(decode_picture(drawn(still)), decode_picture(drawn(windy))).far > 0.001);
+    CHECK(difference_of(decode_picture(drawn(still)), decode_picture(drawn(windy))).differing >
+          0.001);
 }
 
 TEST_CASE("lsview ends with a message if it cannot show the file") {

@@ -22,17 +22,17 @@ struct CameraBookmark {
 
 class CameraBookmarks {
 public:
-    /// Reads the bookmarks of `file` from the state folder, unless they are those held. Lines that
-    /// are not understood are skipped. Without a state folder bookmarks last as long as `file` is
-    /// shown.
+    /// Reads the bookmarks of `file` from the state folder, unless the last call had the same
+    /// `file`. Skips lines that are no bookmarks. Without a state folder bookmarks are lost when
+    /// another file is shown.
     void show(const std::string& state_folder, const std::string& file);
 
-    /// Bookmark 1 is the first.
+    /// Bookmark 1 has index 0.
     [[nodiscard]] const std::array<std::optional<CameraBookmark>, kBookmarks>& all() const {
         return bookmarks_;
     }
-    /// Sets a camera; it keeps the name that it has, and is named "Camera 1" at first. `index`:
-    /// 0 to 8.
+    /// Sets the camera of bookmark `index` + 1 (`index`: 0 to 8). Keeps its name; a new bookmark
+    /// is named "Camera 1", with its own number.
     void set(std::size_t index, const Camera& camera, const Console& console);
     /// Precondition: the bookmark is set.
     void rename(std::size_t index, const std::string& name, const Console& console);
@@ -41,7 +41,7 @@ public:
 private:
     void write(const Console& console) const;
 
-    std::string path_; // of the stored bookmarks; empty: they are not stored
+    std::string path_; // file of the bookmarks; empty: they are not stored
     std::string file_;
     std::array<std::optional<CameraBookmark>, kBookmarks> bookmarks_;
 };

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // ContactSheet: nine pictures of a plant with other seeds, or with other values of one or two
-// `#param`, of which the user takes one. Plants are derived, meshed and drawn one after the other
-// on a thread of its own, so memory is that of one plant.
+// `#param`, from which the user chooses. Plants are derived, meshed and drawn one after the other
+// on another thread, so only one of them is in memory at a time.
 #pragma once
 
 #include "runtime/meshing/texture.h"
@@ -24,16 +24,16 @@ namespace lsys::view {
 inline constexpr std::size_t kSheetSide = 3;
 inline constexpr std::size_t kSheetCells = kSheetSide * kSheetSide;
 
-/// A plant of the sheet: values that it replaces in the settings of the view.
+/// A plant of the sheet: the values in which it differs from the plant of the view.
 struct SheetCell {
     std::optional<std::uint64_t> seed;
-    std::vector<Definition> definitions; // replace those of the same names
+    std::vector<Definition> definitions; // replace the settings' definitions of the same names
     std::string label;                   // "seed 4", "angle 30, width 0.2"
 };
 
-/// The cells of nine seeds from `seed` on, without parameters. Of one parameter: nine values in
-/// equal steps from its minimum to its maximum. Of two: three values of each, the first from left
-/// to right, the second from top to bottom.
+/// The cells of a sheet. Without `params`: nine seeds from `seed` on. One parameter: nine values in
+/// equal steps from its minimum to its maximum. Two parameters: three values of each, the first
+/// from left to right, the second from top to bottom.
 [[nodiscard]] std::array<SheetCell, kSheetCells>
 sheet_cells(std::uint64_t seed, const std::vector<Constant>& params, const Names& names);
 
@@ -48,9 +48,9 @@ struct SheetPictures {
 
 /// Work for another thread.
 struct SheetRequest {
-    ViewOptions options;                       // of the plants, except those of `edits`
+    ViewOptions options;                       // options of all plants; `edits` are applied to them
     std::array<PlantEdits, kSheetCells> edits; // constants and seeds of the plants
-    std::uint32_t width = 0;                   // of a picture, pixels
+    std::uint32_t width = 0;                   // size of a picture, pixels
     std::uint32_t height = 0;
     std::shared_ptr<SheetPictures> pictures;
     std::function<void()> wake; // called after each picture
@@ -68,9 +68,9 @@ struct SheetSize {
 
 class ContactSheet {
 public:
-    /// Begins to draw the pictures for the plant of `view`; drops those before. `width`, `height`:
-    /// of a picture, pixels. `wake`: called on any thread when take() has pictures. Without a plant
-    /// does nothing.
+    /// Begins to draw the pictures for the plant of `view`; drops earlier pictures. `width`,
+    /// `height`: of a picture, pixels. `wake`: called on any thread when take() has pictures.
+    /// Without a plant does nothing.
     void show(const PlantView& view,
               std::uint32_t width,
               std::uint32_t height,
@@ -87,7 +87,7 @@ public:
     /// the next show().
     std::vector<std::string> varied;
     std::size_t selected = 0;                         // cell
-    std::array<SheetCell, kSheetCells> cells;         // of the last show()
+    std::array<SheetCell, kSheetCells> cells;         // cells of the last show()
     std::array<std::uintptr_t, kSheetCells> images{}; // 0: not drawn yet
     std::array<bool, kSheetCells> done{};
 

@@ -29,7 +29,7 @@ struct PanelState {
     std::string closed_messages;
     // The user was warned of unsaved changes; the next request closes the window.
     bool asked_to_quit = false;
-    std::string state_folder; // of files kept between runs; empty: none are kept
+    std::string state_folder; // folder of files kept between runs; empty: none are kept
     OpenDialog dialog = OpenDialog::None;
     FileBrowser browser;
     StartPage start;
@@ -41,7 +41,7 @@ struct PanelState {
     WindowLook look;
     std::uint32_t window_width = 0; // pixels
     std::uint32_t window_height = 0;
-    std::function<void()> wake; // of the window, on any thread, when `film` has an outcome
+    std::function<void()> wake; // wakes the window when `film` has an outcome; called on any thread
     AddImage add_image;         // empty: pictures are not shown
 };
 
@@ -187,7 +187,7 @@ private:
 void show_open_dialog(const View& view, PanelState& panels);
 /// Opens the dialog for a picture, with a name that no file has.
 void show_picture_dialog(const View& view, PanelState& panels);
-/// Writes the picture of the settings, or begins to write their film; reports why not in a note.
+/// Writes the picture of panels.picture, or begins to write its film; a note reports errors.
 void take_picture(View& view, PanelState& panels);
 /// Shows the contact sheet of the plant; without a plant reports that in a note.
 void show_sheet(PlantView& view, PanelState& panels);

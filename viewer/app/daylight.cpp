@@ -42,7 +42,7 @@ glm::dvec3 sun_transmittance(double turbidity, double elevation_degrees) {
     const double mass = 1.0 / (std::sin(glm::radians(elevation)) +
                                0.50572 * std::pow(elevation + 6.07995, -1.6364));
     constexpr std::array<double, 3> kMicrometres{0.65, 0.55, 0.45};
-    const double haze = 0.04608 * turbidity - 0.04586; // beta of Angstrom
+    const double haze = 0.04608 * turbidity - 0.04586; // Angstrom's turbidity coefficient
     glm::dvec3 passes(0.0);
     for (int i = 0; i < 3; ++i) {
         const double wavelength = kMicrometres[static_cast<std::size_t>(i)];
@@ -86,12 +86,12 @@ Light daylight_of(const SceneLight& scene, const Light& light) {
     };
     const glm::vec3 passes(sun_transmittance(turbidity, sun.elevation) /
                            sun_transmittance(kDefaultTurbidity, own_elevation));
-    // From the horizon to dusk the sky fades to a hundredth.
+    // Between sun elevations of kLowestSun and -kDusk the sky fades to a hundredth.
     const double below = std::clamp((kLowestSun - sun.elevation) / (kLowestSun + kDusk), 0.0, 1.0);
     const auto fade = static_cast<float>(std::pow(0.01, below));
     Light changed = light;
     changed.to_sun = glm::vec3(direction_to(sun));
-    // The disc of the sun sets within a degree.
+    // The sunlight ends between the elevations 0.5 and -0.5 degrees, while the disc sets.
     const auto disc = static_cast<float>(std::clamp(sun.elevation + 0.5, 0.0, 1.0));
     changed.sun = disc * light.sun * passes;
     // Haze makes the sky grey. Light from the horizon has passed through about half as much air as

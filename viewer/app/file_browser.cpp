@@ -129,7 +129,7 @@ void FileBrowser::filter() {
                                     : lower(each.name).find(wanted) != std::string::npos;
                  });
     selected_ = 0;
-    follows_ = true;
+    wants_scroll_ = true;
     mistake_.clear();
 }
 
@@ -180,7 +180,7 @@ void FileBrowser::complete() {
 void FileBrowser::move(int steps) {
     const auto last = static_cast<std::ptrdiff_t>(entries_.size()) - 1;
     const std::ptrdiff_t wanted = static_cast<std::ptrdiff_t>(selected_) + steps;
-    follows_ = true;
+    wants_scroll_ = true;
     selected_ =
         last < 0
             ? 0

@@ -40,9 +40,9 @@ public:
     void go_up();
 
     [[nodiscard]] const std::string& folder() const { return folder_; }
-    /// Entries that the text leaves. A text without `/` leaves names that contain it, in any case
-    /// of ASCII letters. A text with `/` is a path from the folder, from `/` or from `~`: the
-    /// folder before its last `/` is listed, and names that begin with the rest are left.
+    /// Entries that match the text. A text without `/` matches names that contain it, ignoring the
+    /// case of ASCII letters. A text with `/` is a path from the folder, from `/` or from `~`: it
+    /// matches names in the folder before its last `/` that begin with the rest.
     [[nodiscard]] const std::vector<FolderEntry>& entries() const { return entries_; }
     [[nodiscard]] std::size_t selected() const { return selected_; }
     [[nodiscard]] const std::string& text() const { return text_; }
@@ -58,8 +58,8 @@ public:
     /// Moves the selection; stops at both ends.
     void move(int steps);
     void select(std::size_t entry) { selected_ = entry; }
-    /// Whether the list is to be scrolled to the selection; only once after each change by keys.
-    [[nodiscard]] bool take_follows() { return std::exchange(follows_, false); }
+    /// Whether the list must scroll to the selection: true once after each change by keys.
+    [[nodiscard]] bool take_scroll_request() { return std::exchange(wants_scroll_, false); }
     /// Enters the selected folder and returns an empty path, or returns the path of the selected
     /// file, or of the file that the text names. Without either sets mistake().
     [[nodiscard]] std::string accept();
@@ -77,7 +77,7 @@ private:
     std::vector<FolderEntry> all_;
     std::vector<FolderEntry> entries_;
     std::size_t selected_ = 0;
-    bool follows_ = false;
+    bool wants_scroll_ = false;
 };
 
 } // namespace lsys::view

@@ -72,7 +72,7 @@ Result<void> encode(const PictureFolder& pictures,
     const std::string messages = pictures / "messages";
     std::string folder = pictures / "";
     folder.pop_back();
-    // H.264 needs even sizes.
+    // The filter `pad` makes width and height even, as H.264 needs.
     const std::vector<std::string> arguments = {program,
                                                 "-nostdin",
                                                 "-loglevel",

@@ -21,7 +21,7 @@ enum class FilmKind : std::uint8_t { Turntable, Growth };
 
 /// Choices of the user.
 struct PictureSettings {
-    std::uint32_t width = 0; // pixels; 0: those of the window
+    std::uint32_t width = 0; // pixels; width or height 0: size of the window's picture
     std::uint32_t height = 0;
     std::uint32_t samples = 4;
     bool transparent = false; // plants only
@@ -45,7 +45,7 @@ struct PictureSettings {
 
 /// Work for another thread.
 struct FilmExportRequest {
-    // Options of the film's pictures; those of `settings` replace them.
+    // Options of the film's pictures; values of `settings` replace them.
     std::shared_ptr<const ViewOptions> options;
     PictureSettings settings;
     std::shared_ptr<std::atomic<std::uint32_t>> done; // count of pictures

@@ -22,7 +22,7 @@ namespace lsys::view {
 
 namespace {
 
-/// Times of choosing trees, ms, by picture.
+/// Times to choose the trees of each picture, ms.
 struct CullTimes {
     std::vector<double> wall;
     std::vector<double> cpu;
@@ -207,7 +207,7 @@ ExitStatus take_forest_pictures(const ViewOptions& options,
         cull.gpu.push_back(drawn.cull_gpu_milliseconds);
         shadow.draws += drawn.shadow.draws;
         shadow.triangles += drawn.shadow.triangles;
-        shadow.gpu_milliseconds = drawn.shadow.gpu_milliseconds; // of the last picture that drew it
+        shadow.gpu_milliseconds = drawn.shadow.gpu_milliseconds; // the last picture that drew it
         ++pictures;
         if (!options.pick) {
             return ExitStatus::Ok;

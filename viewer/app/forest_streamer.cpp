@@ -160,7 +160,7 @@ void ForestStreamer::forget_squares() {
             }
         }
         if (oldest == ready_.end()) {
-            return; // only wanted squares are left, with more trees than expected
+            return; // all squares left are wanted; they have more trees than expected
         }
         stats_.bytes -= bytes_of(*oldest->second.square);
         ready_.erase(oldest);

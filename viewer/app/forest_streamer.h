@@ -34,10 +34,10 @@ struct StreamStats {
     std::uint64_t shown = 0;      // squares
     std::uint64_t kept = 0;       // squares that are ready but not wanted
     std::uint64_t made = 0;       // squares since the start
-    std::uint64_t bytes = 0;      // of all squares that are ready
+    std::uint64_t bytes = 0;      // bytes of all squares that are ready
     std::uint64_t peak_bytes = 0; // since the start
     double slowest_step = 0.0;    // s, of step() and settle() without waiting
-    double wait_seconds = 0.0;    // of settle()
+    double wait_seconds = 0.0;    // time that settle() waited
 };
 
 class ForestStreamer {

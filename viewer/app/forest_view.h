@@ -59,7 +59,7 @@ struct CacheStats {
     std::string species;
     std::uint32_t generations = 0;
     std::uint32_t heroes = 0;
-    std::uint64_t keys = 0;
+    std::uint64_t keys = 0;     // pairs of a branch id and an age
     std::uint64_t branches = 0; // recorded branches, whole plants included
     std::uint64_t hits = 0;
     std::uint64_t misses = 0;
@@ -179,7 +179,7 @@ private:
     [[nodiscard]] std::optional<glm::dvec3> ground_at(const glm::vec2& place);
 
     std::shared_ptr<ForestDocument> document_;
-    std::unique_ptr<ForestStreamer> streamer_; // of document_; null: it is not streamed
+    std::unique_ptr<ForestStreamer> streamer_; // streamer of document_; null: it is not streamed
     bool is_streaming_ = false;                // the last picture lacked wanted squares
     ForestPainting painting_;
     std::vector<std::string> files_;

@@ -64,7 +64,7 @@ public:
         if (finished_) {
             last_ = finished_;
         }
-        // The changed files are still to be read.
+        // The next request must be a repeat too, because no outcome has the changed files.
         owes_repeat_ = owes_repeat_ || (pending_ && pending_->is_repeat) ||
                        (is_running_ && is_running_repeat_);
         pending_.reset();

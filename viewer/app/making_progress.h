@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// MakingProgress: what the thread of a loader is doing, for the window. Thread-safe.
+// MakingProgress: the step that the thread of a loader has reached, for the window. Thread-safe.
 #pragma once
 
 #include "runtime/pipeline/project.h"
@@ -13,7 +13,7 @@ namespace lsys::view {
 
 struct MakingState {
     std::string text;              // "Deriving generation 9 of 12: 40,000,000 modules"
-    std::optional<float> fraction; // of the derivation, 0 to 1; empty: unknown
+    std::optional<float> fraction; // finished part of the derivation, 0 to 1; empty: unknown
 };
 
 class MakingProgress {

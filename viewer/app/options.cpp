@@ -335,7 +335,7 @@ ParsedOptions parse_options(std::span<const std::string> arguments) {
     if (options.is_forest) {
         options.overrides.season = season;
     } else if (season) {
-        options.grammar.definitions.push_back({"season", *season}); // a constant
+        options.grammar.definitions.push_back({"season", *season}); // the grammar's constant
     }
     if (options.is_forest && options.gravity) {
         return UsageError{"--gravity bends a plant, not a forest", "leave it out"};

@@ -45,7 +45,7 @@ struct ViewOptions {
     bool is_forest = false;            // a scene, several grammars, or options of forests
     // Forests only; its `grammar` and `seed` are unset: the fields above hold them.
     SceneOverrides overrides;
-    SceneOverrides edits; // of the window, applied after `overrides`
+    SceneOverrides edits; // edits in the window, applied after `overrides`
     MeshOptions mesh;
     RunOptions run;
 

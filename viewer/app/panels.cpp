@@ -187,7 +187,7 @@ float draw_messages(const View& view, PanelState& panels, const Area& area) {
         }
         int number = 0;
         for (const ShownMessage& message : view.entries()) {
-            // Notes may stay for long, so they begin as one line.
+            // Notes may stay on the screen for long, so only their first line is shown at first.
             const bool is_note = message.severity == Severity::Note;
             draw_message(message, number, number == 0 && !is_note);
             ++number;

@@ -7,13 +7,13 @@
 
 namespace lsys::view {
 
-/// Width of the panel on the left, pixels; the picture is beside it.
+/// Width of the panel on the left, pixels; the picture is beside it. `scale`: Window::scale().
 [[nodiscard]] float panel_width(float scale);
 
 /// Whether a control of the panels is held or edited.
 [[nodiscard]] bool is_control_held();
 
-/// Call between Window::begin_panels() and Window::present(). `scale`: of text.
+/// Call between Window::begin_panels() and Window::present(). `scale`: Window::scale().
 void draw_panels(ViewSwitcher& switcher, PanelState& panels, float scale);
 
 } // namespace lsys::view

@@ -38,7 +38,7 @@ struct PickedModule {
 
 struct Description {
     std::vector<std::string> lines;
-    std::optional<PickedModule> module; // of a plant: the module that drew the part
+    std::optional<PickedModule> module; // module of a plant that drew the part
     std::string hint;                   // why there is no trace; may be empty
 };
 
@@ -74,7 +74,7 @@ using TraceFunction =
 /// Work for another thread: a call of describe() with its arguments bound.
 struct PickRequest {
     std::function<Outcome<Description>(const Project&)> describe;
-    TraceFunction trace; // of the module described; empty in forests
+    TraceFunction trace; // traces the module described; empty in forests
     RunOptions run;
     SteadyClock::time_point changed_at;
     bool is_repeat = false;

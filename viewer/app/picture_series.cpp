@@ -42,7 +42,7 @@ void divide_by_opacity(std::vector<std::uint8_t>& texels) {
     }
 }
 
-/// Writes a file that appears under its name when all `outputs` do.
+/// Writes a file and appends it to `outputs`. It gets its name when `outputs` are committed.
 Result<void> write_part(const std::string& path,
                         const std::string& bytes,
                         const Console& console,
@@ -128,7 +128,7 @@ ExitStatus take_series(const ViewOptions& options,
     const Camera camera = frame.camera;
     const std::uint32_t count = std::max(options.frames, 1U);
     const Camera last = with_parts(options.fly_to, camera);
-    std::vector<Output> outputs; // with options.all_or_none
+    std::vector<Output> outputs; // used with options.all_or_none only
     for (std::uint32_t i = 0; i < count; ++i) {
         if (console.interrupted()) {
             return ExitStatus::Interrupted;

@@ -23,7 +23,7 @@ struct PictureSeries {
     std::vector<double> cpu;  // processor time of the drawing thread
     std::vector<double> gpu;  // by timer queries
     std::vector<double> write;
-    FrameStats drawn;         // of the last picture
+    FrameStats drawn;         // statistics of the last picture
     std::uint64_t digest = 0; // equal for runs with the same pictures
 };
 
@@ -55,7 +55,7 @@ draw_picture(const Frame& frame, Renderer& renderer, FrameStats& stats, double& 
 [[nodiscard]] ExitStatus
 write_picked(const ViewOptions& options,
              const Frame& frame,
-             std::uint32_t number, // of the picture, from 1
+             std::uint32_t number, // number of the picture, from 1
              Renderer& renderer,
              const Console& console,
              const std::function<Outcome<Description>(const Picked& picked)>& describe);

@@ -20,7 +20,8 @@ namespace {
 Result<PlantFileOptions> file_options(const ExportRequest& request) {
     const MeshOptions& mesh = request.options.mesh;
     std::vector<NamedOption> options;
-    // The parser must know these two options: a preset leaves out what they prevent.
+    // The parser needs the method and the level, which prevent some options of presets
+    // (presets.def).
     if (mesh.method == MeshMethod::Solid) {
         options.emplace_back("method", "solid");
     }

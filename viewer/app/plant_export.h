@@ -19,7 +19,7 @@ namespace lsys::view {
 /// Choices of the user.
 struct ExportSettings {
     std::string file;       // its extension chooses the format
-    std::string preset;     // of runtime/output/presets.def; empty: none
+    std::string preset;     // a name in runtime/output/presets.def; empty: none
     std::uint32_t lods = 0; // levels of detail; 0: one level, or those of the preset
 };
 

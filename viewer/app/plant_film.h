@@ -23,9 +23,9 @@ struct FilmRequest {
 struct FilmMoment {
     Skeleton skeleton;
     Mesh mesh;
-    MeshOptions mesh_options; // of `mesh`
+    MeshOptions mesh_options; // options with which `mesh` was made
     GrowthMoment moment;
-    std::uint64_t modules = 0; // count of modules in the generation that grows
+    std::uint64_t modules = 0; // count of modules in the later of the two generations
     Messages messages;
     bool failed = false;
 };

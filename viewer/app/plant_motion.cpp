@@ -19,7 +19,8 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-// Max wall time, s, that one pass simulates; slower plants move in slow motion.
+// Max wall time, s, since the last moment that is simulated for the next one; plants that take
+// longer move in slow motion.
 constexpr double kMaxTimeStep = 0.1;
 
 } // namespace

@@ -280,7 +280,7 @@ void draw_export(PlantView& view) {
         "Levels of detail in the file; 0: only the plant shown, or what the preset writes");
     std::error_code ignored;
     const bool exists = std::filesystem::exists(output.file, ignored);
-    // The header has the id "Export".
+    // Another label than "Export", which is the ImGui id of the header above.
     if (ImGui::Button(exists ? "Replace the file" : "Write the file")) {
         view.export_shown();
     }

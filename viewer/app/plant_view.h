@@ -148,7 +148,7 @@ private:
     bool is_new_file_ = true; // at the next swap, take the damping of the grammar
     bool logs_next_frame_ = false;
     PlantViewStats stats_;
-    Bounds rest_bounds_; // of document_
+    Bounds rest_bounds_; // bounds of document_ at rest
 
     std::optional<PlantViewSettings> requested_; // last request
     EditHistory<PlantEdits> history_;
@@ -169,7 +169,7 @@ private:
     bool warns_of_fall_ = false;
     std::unique_ptr<StandingChecker> standing_checker_; // made by the first simulation
     std::unique_ptr<PlantExporter> exporter_;           // made by the first export
-    std::string exported_file_;                         // of the last request
+    std::string exported_file_;                         // file of the last export
     PlantLoader loader_;
     FileWatch watch_; // last member: it calls the loader
 };

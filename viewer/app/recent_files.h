@@ -28,7 +28,7 @@ inline constexpr float kMaxTextSize = 3.0F;
 /// list that cannot be written only with --verbose. Does nothing if `folder` is empty.
 void remember_file(const std::string& folder, const std::string& file, const Console& console);
 
-/// The look that write_look() wrote; the usual one if there is none or if it is not understood.
+/// The look that write_look() wrote; the default look if the file is missing or not valid.
 [[nodiscard]] WindowLook read_look(const std::string& folder);
 /// Writes the look of the window to `folder`/look. Does nothing if `folder` is empty.
 void write_look(const std::string& folder, const WindowLook& look, const Console& console);

@@ -17,7 +17,7 @@ namespace lsys::view {
 
 namespace {
 
-constexpr std::size_t kHeadBytes = 2048; // of a file, for its title
+constexpr std::size_t kHeadBytes = 2048; // bytes read from a file to find its title
 
 bool is_file(const std::string& path) {
     return platform::facts_of(path).type == platform::FileType::Regular;
@@ -44,7 +44,7 @@ std::string picture_of(const std::string& stem, const std::string& extension) {
     return found == pictures.end() ? std::string() : *found;
 }
 
-/// Appends the samples directly in a folder.
+/// Appends the samples whose folders lie directly in `folder`.
 void add_samples(const std::string& folder, std::vector<GallerySample>& samples) {
     std::error_code error;
     std::vector<std::string> names;

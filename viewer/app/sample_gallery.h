@@ -12,7 +12,7 @@
 namespace lsys::view {
 
 struct GallerySample {
-    std::string name;    // of its folder
+    std::string name;    // name of its folder
     std::string file;    // a grammar or a scene
     std::string title;   // first sentence of the file's first comment
     std::string picture; // PNG; empty: none

@@ -29,7 +29,7 @@ SquareSource::make(const Scene& scene, const Project& project, const GrownForest
     PlacementOptions options = placement_options(scene, project, grown);
     options.threads = 1;
     const Region all = options.region;
-    // At the corners the numbers of cells are largest.
+    // Cell numbers are largest at the corners. If they are valid there, they are valid everywhere.
     for (const double x : {all.x, all.x + all.width}) {
         for (const double z : {all.z, all.z + all.depth}) {
             options.region = {std::max(x - 1.0, all.x), std::max(z - 1.0, all.z), 1.0, 1.0};

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // SquareSource: computes the trees of any part of the ground independently of all other parts, so
-// that a forest of any size can be shown square by square. For placements on an unbounded grid.
+// that a forest of any size can be shown square by square. Only for placement methods that choose
+// each tree from a cell of an unbounded grid.
 #pragma once
 
 #include "runtime/pipeline/forest.h"
@@ -36,8 +37,8 @@ public:
     /// All trees of a part of the ground, sized, by ascending number. May be called from several
     /// threads. Throws std::bad_alloc.
     [[nodiscard]] std::vector<Tree> trees_of(const Region& region) const;
-    /// Upper estimate of the number of trees of a region, from the density of places at 16 points
-    /// where the density varies.
+    /// Upper estimate of the number of trees of a region. Where the density varies, it is sampled
+    /// at 16 points.
     [[nodiscard]] double expected_trees(const Region& region) const;
     /// Expected number of places on the whole ground.
     [[nodiscard]] double all_places() const { return all_places_; }

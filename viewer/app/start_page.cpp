@@ -13,9 +13,9 @@ namespace lsys::view {
 
 namespace {
 
-constexpr std::uint32_t kThumbnailSide = 180;            // pixels
-constexpr float kColumnWidth = 300.0F;                   // of the recent files
-constexpr std::uint64_t kMaxPictureBytes = 16ULL << 20U; // of a file
+constexpr std::uint32_t kThumbnailSide = 180; // pixels
+constexpr float kColumnWidth = 300.0F;        // width of the list of recent files, pixels
+constexpr std::uint64_t kMaxPictureBytes = 16ULL << 20U; // max size of a picture file
 
 constexpr ImGuiWindowFlags kFixed = ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove |
                                     ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoSavedSettings |
@@ -35,10 +35,10 @@ void load_image(StartPage& page, const AddImage& add_image) {
 }
 
 /// Scrolls to the last item if the keyboard has selected it.
-void follow(StartPage& page, bool is_selected) {
-    if (is_selected && page.follows) {
+void scroll_to_selection(StartPage& page, bool is_selected) {
+    if (is_selected && page.wants_scroll) {
         ImGui::SetScrollHereY();
-        page.follows = false;
+        page.wants_scroll = false;
     }
 }
 
@@ -51,7 +51,7 @@ std::string draw_recent(StartPage& page) {
         if (ImGui::Selectable(std::string(name_of_path(file)).c_str(), is_selected)) {
             chosen = file;
         }
-        follow(page, is_selected);
+        scroll_to_selection(page, is_selected);
         draw_tooltip(file.c_str());
         ImGui::PopID();
     }
@@ -107,7 +107,7 @@ std::string draw_gallery(StartPage& page) {
                         is_selected)) {
             chosen = page.samples[i].file;
         }
-        follow(page, is_selected);
+        scroll_to_selection(page, is_selected);
         ImGui::PopID();
     }
     return chosen;
@@ -126,7 +126,7 @@ void StartPage::load(const std::string& state, const std::string& folder) {
 }
 
 void StartPage::move(int right, int down) {
-    follows = true;
+    wants_scroll = true;
     letters.clear();
     const bool at_edge = selected % columns == 0;
     if (in_recent ? right > 0 && !samples.empty() : right < 0 && at_edge && !recent.empty()) {
@@ -153,7 +153,7 @@ void StartPage::find(const std::string& text) {
             if (samples[number].name.find(part) != std::string::npos) {
                 selected = number;
                 in_recent = false;
-                follows = true;
+                wants_scroll = true;
                 return true;
             }
         }
@@ -213,7 +213,7 @@ std::string draw_start_page(StartPage& page, const AddImage& add_image, bool& wa
 std::string draw_open_dialog(FileBrowser& browser, bool& is_open) {
     std::string chosen;
     const ImVec2 all = ImGui::GetIO().DisplaySize;
-    constexpr float kPart = 0.7F; // of the window
+    constexpr float kPart = 0.7F; // size of the dialog as a fraction of the window
     ImGui::SetNextWindowPos({0.5F * all.x, 0.5F * all.y}, ImGuiCond_Always, {0.5F, 0.5F});
     ImGui::SetNextWindowSize({kPart * all.x, kPart * all.y});
     ImGui::SetNextWindowFocus();
@@ -243,7 +243,7 @@ std::string draw_open_dialog(FileBrowser& browser, bool& is_open) {
                         break;
                     }
                 }
-                if (is_selected && browser.take_follows()) {
+                if (is_selected && browser.take_scroll_request()) {
                     ImGui::SetScrollHereY();
                 }
             }

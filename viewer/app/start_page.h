@@ -23,12 +23,12 @@ struct StartPage {
     std::string samples_folder; // empty: no samples are installed
     std::vector<std::string> recent;
     std::vector<GallerySample> samples;
-    std::vector<std::uintptr_t> images; // of the first samples, as far as they are uploaded
+    std::vector<std::uintptr_t> images; // pictures of the first samples, uploaded so far
     bool in_recent = false;             // the selection is among the recent files
     std::size_t selected = 0;
-    std::size_t columns = 1; // of the gallery
-    bool follows = false;    // scroll to the selection
-    std::string letters;     // typed since the selection was last moved
+    std::size_t columns = 1;   // columns of the gallery
+    bool wants_scroll = false; // the page must scroll to the selection
+    std::string letters;       // typed since the selection was last moved
 
     /// Reads the list of recent files in `state`, and the samples of `folder`.
     void load(const std::string& state, const std::string& folder);

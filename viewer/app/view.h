@@ -111,12 +111,12 @@ public:
     void present(const PixelArea& area) { renderer_->present(area); }
     /// Writes the last picture to a new file in the current folder and reports its name.
     void write_screenshot();
-    /// Draws what the last picture shows with the size and samples of `settings`, writes it to
-    /// their file, and reports the result in a note. The next draw() draws the window's picture
-    /// again.
+    /// Draws the last picture again with the size and samples of `settings`, writes it to
+    /// settings.path(), and reports the result in a note. The next draw() draws the window's
+    /// picture again.
     void write_picture(const PictureSettings& settings);
-    /// Options of lsview with which run_pictures() draws pictures of what is shown, at rest, with
-    /// the camera of the window. `frames` of growth end at the last generation or year.
+    /// Options of lsview with which run_pictures() draws the plant or forest shown, at rest, with
+    /// the camera of the window. A film of growth ends at the last generation or year.
     [[nodiscard]] virtual ViewOptions picture_options(FilmKind kind) const = 0;
     /// Width and height of the last picture, pixels; 0 before the first one.
     [[nodiscard]] std::uint32_t picture_width() const { return frame_ ? frame_->width : 0; }
@@ -184,7 +184,7 @@ private:
     bool take_trace();
 
     Description picked_;
-    TraceFunction trace_function_; // of the part picked last
+    TraceFunction trace_function_; // traces the module picked last
     TraceScope trace_scope_ = TraceScope::Written;
     std::vector<TextLine> traced_;
     bool wants_trace_ = false;            // a trace was requested and not forgotten

@@ -15,7 +15,7 @@
 namespace lsys::view {
 
 float scaled(float pixels) {
-    constexpr float kUsualSize = 13.0F; // of text, pixels
+    constexpr float kUsualSize = 13.0F; // default text size, pixels
     return pixels * ImGui::GetFontSize() / kUsualSize;
 }
 

@@ -12,7 +12,7 @@
 
 namespace lsys::view {
 
-/// Length of `pixels` of the usual text, scaled with the size of text.
+/// Converts a length for text of the default size, pixels, to the current text size.
 [[nodiscard]] float scaled(float pixels);
 /// Room for the label of a widget, pixels.
 [[nodiscard]] float label_width();

@@ -33,7 +33,7 @@ constexpr double kMaxFlightStep = 0.1;
 constexpr std::chrono::milliseconds kRest{300};
 /// Pictures that take longer are not refined, because input waits for a sample.
 constexpr double kMaxRefinedSeconds = 0.15;
-/// Count of pictures that ImGui needs to settle after input.
+/// Count of pictures that ImGui needs after input until its layout is final.
 constexpr int kPicturesAfterInput = 3;
 
 std::string title_of(const std::string& file) {
@@ -109,7 +109,7 @@ public:
         draw();
         if (switcher_.current().file() != file) { // panels open files too
             window_.set_title(title_of(switcher_.current().file()));
-            window_.drop_images(); // of the start page, which is not shown again
+            window_.drop_images(); // pictures of the start page, which is not shown again
             panels_.start = {};
             if (panels_.dialog == OpenDialog::Sheet) {
                 close_sheet(panels_);
@@ -194,7 +194,7 @@ private:
     Clock::time_point last_progress_ = last_;
     bool shows_progress_ = false;
     bool shows_sheet_ = false;
-    WindowLook look_; // of the window
+    WindowLook look_; // look of the window
     Clock::time_point last_drawn_ = last_;
     double last_seconds_ = 0.0; // that the last picture or sample took
     bool refines_ = false;

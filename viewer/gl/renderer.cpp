@@ -35,7 +35,7 @@ constexpr GLuint kNearShadowTextures = 7; // in light.glsl; of kNearMaps
 /// Shadow maps around the eye in a forest.
 struct NearMap {
     float radius;        // m
-    std::uint32_t level; // of the branches that cast shadows
+    std::uint32_t level; // level of the branches that cast shadows
 };
 constexpr std::array<NearMap, kNearMaps> kNearMapSpecs = {{{8.0F, 0}, {30.0F, 2}}};
 // Uniform locations of ground.*.glsl.
@@ -75,7 +75,7 @@ Result<Programs> make_programs(Device& device, const ShaderSource& shaders) {
     return programs;
 }
 
-/// Bounds of a plant and the ground around it that receives its shadow.
+/// Box around a plant and the part of the ground on which its shadow may fall.
 Bounds shadow_bounds(const Bounds& plant) {
     Bounds bounds = plant;
     const float height = plant.high.y - plant.low.y;
@@ -99,7 +99,7 @@ bool overlaps(const Bounds& a, const Bounds& b) {
     return a.low.x <= b.high.x && b.low.x <= a.high.x && a.low.z <= b.high.z && b.low.z <= a.high.z;
 }
 
-/// Term of the sequence of Halton (1964) to a base, 0 to 1.
+/// Term number `index` of the Halton sequence (1964) with a base, 0 to 1.
 float halton(std::uint32_t index, std::uint32_t base) {
     float sum = 0.0F;
     for (float part = 1.0F; index != 0; index /= base) {
@@ -109,7 +109,8 @@ float halton(std::uint32_t index, std::uint32_t base) {
     return sum;
 }
 
-/// Shifts a picture by a part of a pixel, and its dither by whole pixels. `index` 0: not at all.
+/// Shifts a picture by a part of a pixel, and its dither by whole pixels. `index`: number of the
+/// refinement; 0: no shift.
 void shift(FrameBlock& block, std::uint32_t index, const PixelArea& area) {
     if (index == 0) {
         return;
@@ -402,7 +403,7 @@ private:
         }
         glDepthFunc(GL_ALWAYS);
         if (frame.dims && !frame.transparent) {
-            // The sky once more, over all, as a veil.
+            // Dim everything: draw the sky over it, partly transparent.
             constexpr GLfloat kVeil = 0.6F;
             glEnable(GL_BLEND);
             glBlendColor(0.0F, 0.0F, 0.0F, kVeil);
@@ -509,7 +510,7 @@ private:
                 near_shadows_.emplace_back(device_, kShadowTexels);
             }
             ShadowMap& map = near_shadows_[i];
-            // A sphere ahead of the eye, moved in large steps.
+            // The map shows a sphere ahead of the eye, which moves in large steps.
             const float radius = kNearMapSpecs[i].radius;
             const float step = 0.125F * radius;
             const glm::vec3 middle =
@@ -603,13 +604,13 @@ private:
     Quality quality_ = Quality::Auto;
     RenderTarget target_;
     ShadowMap shadow_;
-    std::vector<ShadowMap> near_shadows_; // of kNearMaps; made when first needed
-    Wind near_wind_;                      // of the last near shadows
+    std::vector<ShadowMap> near_shadows_; // one per entry of kNearMapSpecs; made when first needed
+    Wind near_wind_;                      // wind when near_shadows_ were last drawn
     double near_time_ = 0.0;
     MaterialTextures textures_;
     PlantMesh plant_;
     std::unique_ptr<PlantMesh> figure_;     // made when a person is first shown
-    std::optional<glm::vec3> figure_place_; // of the person in figure_; empty: none is shown
+    std::optional<glm::vec3> figure_place_; // place of the person in figure_; empty: none is shown
     LineSet lines_;
     ForestPass forest_;
     ForestFrameStats forest_stats_;
@@ -617,7 +618,7 @@ private:
     Bounds casters_;         // box of the casters of the last shadow map
     ShaderSource shaders_;   // forest shaders are compiled on first use
     bool has_forest_shaders_ = false;
-    std::optional<Frame> shown_frame_; // of the last draw()
+    std::optional<Frame> shown_frame_; // frame of the last draw()
     PixelArea shown_area_;
     std::uint32_t refinements_ = 0;
     ProgramObject copy_; // compiled on first use

@@ -74,7 +74,7 @@ struct Frame {
     /// shown. Growth keeps one disc for all its pictures.
     glm::vec4 ground_disc{0.0F};
     PlantStyle style = PlantStyle::Surface;
-    bool dims = false; // everything but the lines fades towards the sky; not with `transparent`
+    bool dims = false;                // dims everything except lines; not with `transparent`
     std::uint32_t samples = 4;        // per pixel: 1 or 4
     std::optional<glm::dvec3> figure; // feet of a person of 1.8 m in the world, m
     // Forests only.
@@ -94,7 +94,7 @@ struct Frame {
 struct FrameStats {
     std::uint64_t draws = 0;
     std::uint64_t triangles = 0;
-    double gpu_milliseconds = 0.0; // of passes of a forest, like FrameTimes::gpu
+    double gpu_milliseconds = 0.0; // for passes of a forest only, like FrameTimes::gpu
 };
 
 /// Device that chooses the trees and branches of a picture of a forest; the pictures are the same.
@@ -152,7 +152,7 @@ struct ForestSizes {
     std::uint64_t trees = 0;
     std::uint64_t tree_bytes = 0;
     std::uint64_t branch_bytes = 0;
-    std::uint64_t culling_bytes = 0; // of the compute shaders; includes their branches
+    std::uint64_t culling_bytes = 0; // buffers of the compute shaders, with their branches
     std::uint64_t mesh_bytes = 0;
     std::uint64_t texture_bytes = 0;
     double upload_milliseconds = 0.0;
@@ -166,7 +166,7 @@ enum class PickedKind : std::uint8_t {
     Branch = 2,   // a branch of a near tree
     Impostor = 3, // the picture of a tree
     Cluster = 4,  // the picture of the trees of a cell
-    Ground = 5,   // of a forest
+    Ground = 5,   // ground of a forest
 };
 
 struct Picked {
@@ -236,9 +236,9 @@ public:
     [[nodiscard]] virtual const ForestFrameStats& forest_stats() const = 0;
     [[nodiscard]] virtual ForestSizes forest_sizes() const = 0;
     [[nodiscard]] virtual FrameTimes frame_times() const = 0;
-    /// Adds a sample per sample of the last picture, shifted by a part of a pixel, to the mean that
-    /// present() shows until the next draw(). What is shown must be unchanged since draw(). Returns
-    /// false, and draws nothing, once the mean has 17 pictures.
+    /// Draws the last picture again, shifted by a part of a pixel, and adds it to the mean that
+    /// present() shows until the next draw(). Precondition: the plant or forest is unchanged since
+    /// draw(). Returns false, and draws nothing, once the mean has 17 pictures.
     [[nodiscard]] virtual bool refine() = 0;
     /// Rows of the picture that present() shows, from top to bottom, RGBA.
     virtual void read_shown(std::vector<std::uint8_t>& pixels) = 0;

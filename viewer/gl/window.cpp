@@ -114,8 +114,8 @@ struct Window::State {
     std::vector<std::pair<int, Key>> keys;
     std::vector<GLuint> images;
     WindowLook look;
-    WindowLook drawn_look;    // of the fonts and style of ImGui
-    float drawn_scale = 0.0F; // of the fonts and style of ImGui; 0: not made yet
+    WindowLook drawn_look;    // look for which ImGui's fonts and style were made
+    float drawn_scale = 0.0F; // scale for which they were made; 0: not made yet
 
     static State& of(GLFWwindow* window) {
         return *static_cast<State*>(glfwGetWindowUserPointer(window));
@@ -206,7 +206,7 @@ struct Window::State {
         ImGuiStyle& style = ImGui::GetStyle();
         style = ImGuiStyle();
         (look.is_light ? ImGui::StyleColorsLight : ImGui::StyleColorsDark)(nullptr);
-        // Numbers are read through the grips of sliders.
+        // Slider grips are half transparent, so that the numbers below them can be read.
         constexpr float kGrip = 0.45F;
         style.Colors[ImGuiCol_SliderGrab].w = kGrip;
         style.Colors[ImGuiCol_SliderGrabActive].w = kGrip;

@@ -103,7 +103,7 @@ struct WindowInput {
 
 /// Look of the panels.
 struct WindowLook {
-    float text_size = 1.0F; // factor of the size that the monitor asks for
+    float text_size = 1.0F; // factor of the text size that suits the monitor's scale
     bool is_light = false;  // dark text on light panels
 
     friend bool operator==(const WindowLook&, const WindowLook&) = default;

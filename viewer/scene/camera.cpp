@@ -180,7 +180,7 @@ Camera orbited(const Camera& camera, float around, float upwards) {
 }
 
 Camera seen_from(StandardView view, const Camera& camera) {
-    ViewAngles angles; // of the front
+    ViewAngles angles; // angles of the view from the front
     if (view == StandardView::Side) {
         angles.azimuth = -0.5F * std::numbers::pi_v<float>;
     } else if (view == StandardView::Top) {

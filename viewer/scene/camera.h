@@ -33,7 +33,7 @@ inline constexpr double kOriginStep = 4096.0;
 [[nodiscard]] glm::dvec3 nearest_origin(const glm::dvec3& place);
 /// Place of the eye in the world, m.
 [[nodiscard]] glm::dvec3 eye_of(const Camera& camera);
-/// The same camera with another origin.
+/// Moves the origin of a camera; its places in the world stay.
 [[nodiscard]] Camera relative_to(const Camera& camera, const glm::dvec3& origin);
 
 /// `eye X,Y,Z target X,Y,Z fov DEGREES` with places in the world; parse_camera() reads back a camera

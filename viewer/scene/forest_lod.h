@@ -33,7 +33,7 @@ struct LodOptions {
     /// Height of a cell's tallest tree in pixels below which the cell is drawn as a cluster.
     float cluster_pixels = 8.0F; // 0: never
     /// From the limit of a coarser band up to this multiple of it, both bands are drawn, each in a
-    /// part of the pixels, so that nothing pops.
+    /// part of the pixels, so that trees change gradually.
     float blend = 1.25F;
     /// The multiple between two levels of branches, whose shapes differ less than those of a tree
     /// and its impostor.
@@ -129,7 +129,7 @@ struct DrawLists {
     std::uint64_t clustered_trees = 0; // trees of `clusters`, without those in `trees`
     std::uint64_t blended = 0;         // trees drawn in two bands
     std::uint64_t occluded = 0;        // trees occluded by the ground
-    std::uint64_t triangles = 0;       // of branches
+    std::uint64_t triangles = 0;       // triangles of the branches
     std::uint32_t expanded = 0;        // trees expanded into branches for this picture
     std::uint32_t waiting = 0;         // near trees without branches yet, drawn as impostors
     float detail = 1.0F;               // factor of tree heights; below 1 to keep max_triangles
@@ -145,7 +145,7 @@ struct ForestCell {
     float scale = 1.0F;        // mean scale of its trees
     float tallest = 0.0F;      // m
     std::uint16_t form = 0;    // most frequent form of its trees
-    std::uint32_t seed = 0;    // of a streamed forest: number of the cell's first tree
+    std::uint32_t seed = 0;    // in a streamed forest, number of the cell's first tree
     std::uint32_t removed = 0; // count of removed trees; with any, the cell is never a cluster
 };
 
@@ -232,8 +232,8 @@ public:
     [[nodiscard]] double cell_size() const { return cell_size_; } // m
     [[nodiscard]] BranchPool& pool() { return pool_; }
     [[nodiscard]] const BranchPool& pool() const { return pool_; }
-    /// Lists all branches of trees in one level. Replaces `branches`, which the entries of `lists`
-    /// number, and branches and runs of `lists`.
+    /// Lists all branches of trees in one level. Replaces `branches`, and the branches and runs of
+    /// `lists`, whose entries have indices in `branches` as slots.
     void list_whole_trees(std::span<const std::uint32_t> trees,
                           std::uint32_t level,
                           std::vector<PoolBranch>& branches,
@@ -361,7 +361,7 @@ private:
     GroundHorizon* ground_ = nullptr; // during select()
     std::vector<VisibleCell> visible_cells_;
     std::vector<std::uint32_t> mesh_counts_; // visible branches by form, group and instance
-    // Of a streamed forest.
+    // The members below are used in streamed forests only.
     glm::dvec3 origin_{};
     std::vector<ShownSquare> squares_;
     std::vector<std::uint32_t> free_squares_;

@@ -178,9 +178,11 @@ float ForestLod::cluster_size(const ForestCell& cell, const glm::vec3& eye) cons
     const std::size_t picture = sine < kLimits[0] ? 0 : sine < kLimits[1] ? 1 : 2;
     // Twice the vertical error of trees at the edges, by the elevation of the picture.
     const float height_error = std::abs(sine - kSines[picture]);
-    // The picture is as wide as the cell: low trees far apart would cover few of its texels.
+    // Min height of trees, in sides of the cell. The picture is as wide as the cell, so lower trees
+    // would cover few of its texels.
     constexpr float kMinHeight = 1.0F / 6.0F;
-    // From above no cell hides the next one, and their pictures would show as a grid.
+    // Seen from above, the size is about the side of the cell: no cell hides the next one, so the
+    // borders of large pictures would be visible as a grid.
     constexpr float kSideView = 0.25F; // sine of the elevation
     constexpr float kFootprint = 2.5F;
     const float footprint = kFootprint * (sine - kSideView);

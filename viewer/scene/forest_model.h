@@ -61,11 +61,11 @@ struct StreamedTrees;
 struct ForestModel {
     const Forest* forest = nullptr;
     const Terrain* terrain = nullptr;
-    GroundPictures ground; // of the terrain
+    GroundPictures ground; // pictures of the terrain
     /// Set for a streamed forest, whose Forest::trees is empty; null for other forests.
     std::shared_ptr<const StreamedTrees> streamed;
     std::vector<TreeForm> forms;
-    // By species: index of its first stage in `forms`; its other stages follow.
+    // Index in `forms` of the first stage of each species; its other stages follow.
     std::vector<std::uint32_t> first_form;
 
     [[nodiscard]] std::uint32_t form_of(const Tree& tree) const {
@@ -79,7 +79,7 @@ struct KnownModel {
     const ForestModel* model = nullptr;
     std::uint64_t key = 0; // key of its forest
     MeshOptions options;
-    /// By species of the new forest: the species of `model` with the same heroes, if any.
+    /// For each species of the new forest: the species of `model` with the same heroes, if any.
     std::vector<std::optional<std::size_t>> species;
 };
 

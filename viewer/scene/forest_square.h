@@ -18,7 +18,7 @@ struct ForestSquare {
     SquareId id;
     glm::dvec2 corner{};            // m; origin of `lod_trees` and `cells` along X and Z
     std::vector<Tree> trees;        // by cell; places of the world
-    std::vector<LodTree> lod_trees; // of `trees`, in the same order; `tree`: index in `trees`
+    std::vector<LodTree> lod_trees; // `trees` in the same order; LodTree::tree: index in `trees`
     std::vector<ForestCell> cells;  // `first`: index in `trees`
 
     [[nodiscard]] std::uint64_t byte_count() const;

@@ -36,7 +36,8 @@ ForestStream::wanted(const Camera& camera, float ground, std::uint32_t picture_h
     const double reach =
         static_cast<double>(tallest_) * pixels_per_slope / static_cast<double>(kMinStreamedPixels);
     const double usable = kWantedPart * static_cast<double>(max_bytes_);
-    // A circle that would exceed the budget even with empty squares is not searched.
+    // The search ends at this distance: a circle of this radius exceeds the budget even if all its
+    // squares are empty.
     const double empty_bytes = static_cast<double>(layout_.cell_count() * kBytesPerStreamedCell);
     const double most = std::sqrt(usable / empty_bytes) * layout_.side;
     const double away = std::min(reach, std::hypot(most, above));

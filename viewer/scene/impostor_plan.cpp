@@ -11,7 +11,8 @@ namespace lsys::view {
 
 namespace {
 
-/// Finest level of impostors; a form with more triangles per tree is baked at a coarser level.
+/// Finest level of branches in impostors; a form with more than kMaxTriangles per tree gets a
+/// coarser level.
 constexpr std::uint32_t kFinestLevel = 1;
 constexpr double kMaxTriangles = 70'000.0;
 constexpr std::uint32_t kClusterRow = 4; // trees along a side of a cluster

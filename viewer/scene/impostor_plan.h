@@ -20,7 +20,7 @@ struct Cylinder {
 /// Contents of one layer of the atlas.
 struct ImpostorLayer {
     std::uint32_t form = 0;
-    std::uint32_t level = 0; // of the branches
+    std::uint32_t level = 0; // level of the branches
     std::vector<Tree> trees;
 };
 

@@ -14,7 +14,7 @@ namespace {
 constexpr std::uint32_t kMaxCells = std::uint32_t{1} << 22;
 constexpr std::uint32_t kPaintGeneration =
     0x5041494EU; // makes these random numbers independent of those of placements
-// Random places tried per tree that fits into the brush, and max places tried per call.
+// Random places tried per tree that still fits into the brush; max places tried per call.
 constexpr double kTries = 4.0;
 constexpr double kMaxTries = 20'000.0;
 // Max density times d^2 of trees placed at random at least d apart: the jamming limit of discs is
@@ -100,7 +100,7 @@ std::uint32_t Painter::cell_of(float x, float z) const {
 }
 
 /// Calls `visit(index)` for living trees nearer than `radius` until `visit` returns true; returns
-/// whether it has.
+/// whether it returned true.
 template <typename Visit>
 bool Painter::any_near(float x, float z, float radius, const Visit& visit) const {
     const std::uint32_t low = cell_of(x - radius, z - radius);

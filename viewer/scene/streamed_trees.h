@@ -25,7 +25,7 @@ struct SquareId {
 };
 
 struct SquareLayout {
-    Region ground;                  // of the forest
+    Region ground;                  // ground of the forest
     double side = 1024.0;           // m, of a square: a power of two
     std::uint32_t cells_across = 1; // cells along a side of a square
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Samples of a pixel that a surface covers: LOD bands blend by dithering, each in a range of the
-// pixels (BlendRange in C++), and cut-out pictures have smooth edges.
+// Samples of a pixel that a surface covers. LOD bands blend by dithering: each draws the pixels
+// with thresholds in its range (BlendRange in C++). Cut-out pictures have smooth edges.
 #include "dither.glsl"
 
 bool is_in_range(float threshold, vec2 range) {

@@ -17,7 +17,7 @@ in vec3 crown_position;
 #ifdef BAKE
 in vec3 world_position;
 // Baking of impostors, before lighting.
-layout(location = 2) uniform vec4 centre; // of the impostor, m; w: its half depth, m
+layout(location = 2) uniform vec4 centre; // xyz: centre of the impostor, m; w: its half depth, m
 layout(location = 3) uniform vec3 to_eye;
 layout(location = 4) uniform vec3 right;
 layout(location = 5) uniform vec3 up;

@@ -7,8 +7,8 @@ struct Material {
     uint kind;
 };
 layout(std430, binding = 3) readonly buffer Materials { Material materials[]; };
-// First one entry per form: the index of its first colour, or 0 for natural colours. Then the
-// colours by instance, as square roots of linear RGB.
+// First one entry per form: index of the form's first colour, 0 for natural colours. Then the
+// colours of the instances, as square roots of linear RGB.
 layout(std430, binding = 5) readonly buffer BranchColours { uint branch_colours[]; };
 const uint kColoured = 8u; // bit of Material.kind: one colour for all of the branch
 layout(location = 0) in vec3 position;  // in the box of the heroes, -1 to 1

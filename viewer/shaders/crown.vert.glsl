@@ -2,7 +2,7 @@
 #include "forest.glsl"
 // Crown and foot of a tree in the map of openness_at().
 layout(location = 0) uniform vec3 area; // middle and half side of the map, m
-layout(location = 0) in uint index;     // of the tree
+layout(location = 0) in uint index;     // index of the tree
 out vec2 from_trunk;                    // m
 flat out vec2 radii;                    // m, of crown and foot
 void main() {

@@ -2,7 +2,7 @@
 // Ambient light on the ground, from a map of crowns and feet of trunks seen from above. Include after
 // frame.glsl.
 layout(binding = 9) uniform sampler2D crown_map;
-// Fractions left by crowns (x) and by the feet of trunks (y) at a place of the ground.
+// Fractions of the light that crowns (x) and feet of trunks (y) let through at a place.
 vec2 openness_at(vec2 place) {
     vec2 at = (place - frame.crowns.xy) / frame.crowns.z;
     float edge = max(abs(at.x), abs(at.y));

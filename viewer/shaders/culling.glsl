@@ -3,7 +3,7 @@
 // gl/impl/forest_culling.cpp; the reference on the CPU is scene/forest_lod_select.cpp. Lists keep the
 // order of their input, so the same forest and camera always give the same lists.
 layout(std140, binding = 1) uniform Culling {
-    vec4 planes[5];     // of the view, pointing inward
+    vec4 planes[5];     // planes of the view, pointing inward
     vec4 eye_pixels;    // xyz: eye, m; w: height in pixels of an object as high as it is far away
     vec4 level_pixels;  // min height in pixels for each level of branches
     vec4 sway;          // Sway: per m of height, per m of width, m; w: LodOptions::blend
@@ -23,7 +23,7 @@ const uint kLevels = 4u;
 const uint kBlendSteps = 127u; // BranchEntry::kBlendSteps
 const float kNearest = 0.1; // m: min distance
 
-// The C++ side is CullingState.
+// Counts and draw sizes that the compute shaders write; the C++ side is CullingState.
 layout(std430, binding = 5) buffer State {
     uint dispatches[24];   // sizes of indirect dispatches, three words each
     uint draws[16];        // commands: impostors of trees, whole and blended; then of clusters
@@ -39,10 +39,10 @@ layout(std430, binding = 5) buffer State {
     uint drawn_branches;
     uint detail;           // bits of the factor of heights
     uint level_counts[4];  // near trees with branches in view, by level
-    uint triangles[2];     // of branches, 64 bits
+    uint triangles[2];     // triangles of branches, 64 bits
     uint coarser_used;     // branches drawn once more, in a coarser level
     uint level_blended;    // trees drawn in two levels of branches
-    uint sums[192];        // of triangles, by step and part of the search: 64 bits each
+    uint sums[192];        // sums of triangles, by step and part of the search: 64 bits each
 } state;
 
 // Number of a workgroup of a dispatch in two dimensions.

@@ -27,7 +27,7 @@ float cluster_size(float tallest, vec3 middle) {
     return max(tallest, per_side * culling.clusters.y);
 }
 
-// Class of a cell, and the weight of its trees against its cluster.
+// Bits kCluster and kTrees of a cell; bits of the weight of its trees against its cluster.
 uvec2 code_of(uint index) {
     vec4 low = uintBitsToFloat(cells[3u * index]);
     uvec4 high_words = cells[3u * index + 1u];

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Draw commands of branches: the counts and first branches of their keys.
+// Fills draw commands with the count and the first branch of their keys.
 #include "culling.glsl"
 layout(local_size_x = 256) in;
 layout(location = 0) uniform uint command_count;

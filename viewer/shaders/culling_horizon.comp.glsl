@@ -3,7 +3,7 @@
 // distance.
 #include "culling.glsl"
 layout(local_size_x = 256) in;
-layout(binding = 1) uniform sampler2DArray heights; // of terrain.vert.glsl
+layout(binding = 1) uniform sampler2DArray heights; // as in terrain.vert.glsl
 layout(binding = 0, r32f) writeonly uniform image2D slopes;
 // Distances, m; from 256 on: sine and cosine of each angle between two directions.
 layout(std430, binding = 3) readonly buffer Rays { float rays[]; };

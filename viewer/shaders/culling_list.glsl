@@ -3,7 +3,7 @@
 // counts of each workgroup, culling_sum.comp.glsl adds the sums of the workgroups before, and another
 // kernel writes the lists (prefix sums: Blelloch 1990, "Prefix Sums and Their Applications").
 layout(std430, binding = 6) buffer Codes { uvec2 codes[]; }; // class and value of each element
-layout(std430, binding = 7) buffer Sums { uvec4 sums[]; };   // of each workgroup
+layout(std430, binding = 7) buffer Sums { uvec4 sums[]; };   // sums of each workgroup
 shared uvec4 partial[kBlock];
 
 // Sum over the invocations before this one. `total`: over the whole workgroup.

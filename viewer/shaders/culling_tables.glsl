@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Forms, instances and exits of a forest for the compute shaders; gl/impl/culling_tables.cpp writes
-// them. Offsets in words.
+// them. Offsets are in words of 32 bits.
 layout(std430, binding = 2) readonly buffer Tables { uint tables[]; };
 const uint kFormWords = 32u;
 const uint kInstanceWords = 16u;
@@ -23,7 +23,7 @@ struct LodForm {
     float low;
     float high;
     float impostor_radius;
-    float width; // for the wind
+    float width; // m at scale 1, for sway_of()
 };
 LodForm form_at(uint form) {
     uint at = kFormWords * form;

@@ -33,7 +33,7 @@ uint cell_of(uint element) {
     return low;
 }
 
-// Class and number of a tree; height in pixels of a candidate, weight of a far tree.
+// x: kCandidate or kFar, and the tree's index; y: pixels of a candidate, weight of a far tree.
 uvec2 code_of(uint element) {
     uint tree = culling.trees.y + element - state.cell_totals[3];
     float weight = 1.0;

@@ -4,7 +4,7 @@
 // Dror, Shaw 2011): runtime/base/random.h. Include after the definition of
 // void visit(uint node, uint instance, uint parent, uint exit).
 const uint kNone = 0xFFFFFFFFu;
-const uint kMaxDepth = 64u; // of nested instances: kMaxWalkDepth in gl/impl/culling_tables.h
+const uint kMaxDepth = 64u; // max nesting of instances: kMaxWalkDepth in gl/impl/culling_tables.h
 
 uint draw_of(uint tree_number, uint node) {
     const uint kExpansionGeneration = 0xFFFFFFFEu;
@@ -36,7 +36,7 @@ uint walk(uint form, uint tree_number) {
     uint slots = slots_at(form);
     uint instances = instances_at(form);
     uint exits = exits_at(form);
-    uint nodes[kMaxDepth];  // of the instances that are not finished, from the root on
+    uint nodes[kMaxDepth];  // nodes of the instances that are not finished, from the root on
     uint next[kMaxDepth];   // their next exits
     uint ends[kMaxDepth];
     uint node = 0u;

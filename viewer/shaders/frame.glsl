@@ -11,7 +11,7 @@ layout(std140, binding = 0) uniform FrameBlock {
     vec4 horizon;   // rgb: sky at the horizon; w: side of a texel of the shadow map, m
     vec4 ground;    // rgb: ambient light from below; w: horizon.w as a fraction of the map's side
     vec4 wind;      // xyz: velocity, m/s; w: fraction that varies in gusts
-    mat4 near_from_world[2]; // of the shadow maps near the eye, the nearest first
+    mat4 near_from_world[2]; // matrices of the shadow maps near the eye, the nearest first
     vec4 near_maps; // xy: sides of their texels, m; z: 1 if they are drawn, else 0
     vec4 crowns;    // xy: middle of the map of crowns, m; z: half its side, m; w: 1 if it is drawn
     vec4 viewport;  // xy: corner of the drawn area, zw: size of the whole picture; pixels

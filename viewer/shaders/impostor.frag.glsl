@@ -37,7 +37,7 @@ out vec4 colour;
 #endif
 void main() {
 #ifdef TURNS
-    // A part of the thresholds, so that each LOD band has pixels of both views.
+    // Lower bits of the threshold divide the pixels of each LOD band between both views.
     float threshold = fract(8.0 * dither_threshold());
     bool is_next = threshold >= next_view.y && threshold < next_view.z;
     vec2 across = dFdx(layer_uv.xy), along = dFdy(layer_uv.xy);

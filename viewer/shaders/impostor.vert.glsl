@@ -3,7 +3,7 @@
 #include "impostor.glsl"
 // Bounds of the opaque texels of each tile.
 layout(std430, binding = 4) readonly buffer Boxes { vec4 boxes[]; };
-layout(location = 0) in uint index; // of the tree or cluster
+layout(location = 0) in uint index; // index of the tree or cluster
 layout(location = 1) in vec2 range;
 #ifdef BLENDS
 flat out vec2 blend_range;
@@ -14,8 +14,8 @@ flat out uint item;
 #endif
 #if QUALITY > 0 && !defined(SHADOW)
 #define TURNS
-// The second nearest view: place of its tile in the atlas, from that of the nearest; range of the
-// dither thresholds of its pixels.
+// The second nearest view. x: offset of its tile in the atlas from the tile of the nearest view;
+// yz: range of the dither thresholds of its pixels.
 flat out vec3 next_view;
 #ifndef DEPTH
 flat out mat3 next_world_from_impostor;
@@ -72,7 +72,7 @@ void main() {
     vec4 box = boxes[tile];
 #ifdef TURNS
     // Near the limit between two views both are drawn, each in a part of the pixels.
-    const float kBlend = 0.1; // of the width of a view, on each side of its limits
+    const float kBlend = 0.1; // fraction of the width of a view, on each side of its limits
     float from_limit = fract(views + 0.5) - 0.5;
     int next = (view + (from_limit < 0.0 ? 1 : kYaws - 1)) % kYaws;
     float share = max(0.5 - 0.5 * abs(from_limit) / kBlend, 0.0);

@@ -22,7 +22,7 @@ vec3 shadow_map_position(vec3 world_position, vec3 offset) {
 }
 
 // Visible fraction of the sun at a position in the shadow map. `outside`: value outside the map.
-// ONE_TAP, TWO_TAPS: fewer taps than the default of four; a tap filters four texels.
+// Reads the map four times, once with ONE_TAP, twice with TWO_TAPS; each read filters four texels.
 float sunlight_at(vec3 at, float outside) {
     if (frame.to_sun.w == 0.0) {
         return 1.0;
@@ -49,8 +49,8 @@ float sunlight_at(vec3 at, float outside) {
     return mix(lit, outside, smoothstep(0.8, 1.0, max(abs(at.x), abs(at.y))));
 }
 
-// Visible fraction of the sun at a place, from the shadow maps near the eye. `offset`: against
-// self-shadowing; `lit`: value of the map of the whole view.
+// Visible fraction of the sun at a place, from the shadow maps near the eye. `offset`: direction in
+// which the place is moved against self-shadowing; `lit`: value of the map of the whole view.
 #if QUALITY > 0
 layout(binding = 7) uniform sampler2DShadow nearest_map;
 layout(binding = 8) uniform sampler2DShadow near_map;

@@ -4,7 +4,7 @@
 #ifdef PICTURE
 layout(binding = 3) uniform sampler2D colours;
 layout(binding = 4) uniform sampler2D normal_map; // normals as in glTF
-layout(location = 16) uniform vec4 tiles;     // a corner of a tile; its sides; m
+layout(location = 16) uniform vec4 tiles;     // xy: a corner of a tile, m; zw: its sides, m
 layout(location = 17) uniform vec3 mean;      // mean of the colours
 layout(location = 18) uniform int has_normal_map;
 #else

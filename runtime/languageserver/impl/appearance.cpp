@@ -15,7 +15,8 @@ namespace lsys {
 
 namespace {
 
-/// Token types of LSP: those of NameKind in its order, then those of statements.
+/// Token types of LSP: one for each NameKind in its order, then `keyword` for `#` and its word, and
+/// `property` for the key of a `#set`.
 constexpr std::array kTokenTypes{"class",  "variable", "parameter", "function",
                                  "method", "keyword",  "property"};
 constexpr std::uint32_t kKeywordType = 5;
@@ -130,7 +131,7 @@ Json folding_ranges(Workspace& workspace, const Json& params) {
         }
     };
     const std::string& text = at.text(path);
-    std::uint32_t done = 0; // comments are looked for between the statements
+    std::uint32_t done = 0; // end of the last statement; comments lie between statements
     const auto add_comments = [&](std::uint32_t end) {
         for (std::size_t begin = text.find("/*", done); begin < end;) {
             const std::size_t close = text.find("*/", begin + 2);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Hover, completion and signatures. The statement before the cursor is mostly unfinished and not in
-// the syntax tree, so its part is found by its characters.
+// Hover, completion and signatures. The statement at the cursor is usually unfinished and not in
+// the syntax tree, so its text determines what completion offers.
 #include "compiler/bytecode/turtle_operation.h"
 #include "compiler/resolve/profiles.h"
 #include "grammar/base/characters.h"
@@ -32,7 +32,7 @@ enum class Slot {
 
 struct CursorContext {
     Slot slot = Slot::Nothing;
-    std::string key;                  // of the `#set`
+    std::string key;                  // key of the `#set`
     std::set<std::string> locals;     // formals and local values of the statement
     std::string prefix;               // the part of a word before the cursor
     std::string callee;               // name before the innermost open `(`
@@ -59,7 +59,7 @@ std::optional<std::string> unfinished_statement(std::string_view text) {
             }
             i += end;
         } else if (text[i] == '`' || (text[i] == '"' && rest.find('"', 1) < rest.find('\n'))) {
-            // A single `"` is a module.
+            // A `"` without a second one in its line is a module.
             const std::size_t end = rest.find(text[i], 1);
             if (end == std::string_view::npos) {
                 return std::nullopt;
@@ -129,7 +129,7 @@ void find_call(std::string_view field, bool is_modules, CursorContext& context) 
     const std::size_t begin = word_begin(field, end);
     context.callee = field.substr(begin, end - begin);
     if (context.callee.empty() && end > 0 && context.is_module_call) {
-        context.callee = field[end - 1]; // `+(`
+        context.callee = field[end - 1]; // a turtle command of one character, such as `+`
     }
     if (is_modules) {
         context.slot = Slot::Expression;
@@ -214,7 +214,7 @@ CursorContext context_at(std::string_view before) {
         context.slot = Slot::Modules;
         find_call(field, true, context);
         if (context.slot == Slot::Expression) {
-            context.slot = Slot::Nothing; // a new formal
+            context.slot = Slot::Nothing; // the author chooses a name for a new formal
         }
     } else if (fields.size() == 3 || (fields.size() == 4 && has_let)) {
         expression();

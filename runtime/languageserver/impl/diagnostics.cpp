@@ -134,7 +134,7 @@ bool is_before(const Json& a, const Json& b) {
            std::pair(b.at("line").get<std::int64_t>(), b.at("character").get<std::int64_t>());
 }
 
-bool do_touch(const Json& a, const Json& b) {
+bool ranges_touch(const Json& a, const Json& b) {
     return !is_before(a.at("end"), b.at("start")) && !is_before(b.at("end"), a.at("start"));
 }
 
@@ -198,7 +198,7 @@ Json code_actions(Workspace& workspace, const Json& params) {
             }
             has_certain = has_certain || has_certain_fix(diagnostic);
             const Json written = writer.write(diagnostic);
-            if (!do_touch(written.at("range"), range)) {
+            if (!ranges_touch(written.at("range"), range)) {
                 continue;
             }
             for (const Fix& fix : diagnostic.fixes) {

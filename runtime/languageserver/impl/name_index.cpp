@@ -128,7 +128,7 @@ private:
         }
         index_.uses.push_back(std::move(use));
     }
-    void put_named(NameKind kind, NameId name, SourceSpan span) {
+    void put_definition(NameKind kind, NameId name, SourceSpan span) {
         put(kind, names_.text(name), span, true);
         outline_.name = names_.text(name);
         outline_.name_place = place(span);
@@ -277,7 +277,7 @@ private:
 
     void add_production(const ProductionNode& node) {
         outline_.stage = node.stage;
-        put_named(NameKind::Production, node.name, node.name_span);
+        put_definition(NameKind::Production, node.name, node.name_span);
         add_modules(node.left, false, Arguments::Formals);
         add_modules(node.predecessor, true, Arguments::Formals);
         add_modules(node.right, false, Arguments::Formals);
@@ -298,18 +298,18 @@ private:
             add_expression(ast_.generations[i].value);
             break;
         case StatementKind::Define:
-            put_named(NameKind::Constant, ast_.defines[i].name, ast_.defines[i].name_span);
+            put_definition(NameKind::Constant, ast_.defines[i].name, ast_.defines[i].name_span);
             add_expression(ast_.defines[i].value);
             break;
         case StatementKind::Param:
-            put_named(NameKind::Constant, ast_.params[i].name, ast_.params[i].name_span);
+            put_definition(NameKind::Constant, ast_.params[i].name, ast_.params[i].name_span);
             add_expression(ast_.params[i].value);
             add_expression(ast_.params[i].minimum);
             add_expression(ast_.params[i].maximum);
             break;
         case StatementKind::Function: {
             const FunctionNode& node = ast_.functions[i];
-            put_named(NameKind::Function, node.name, node.name_span);
+            put_definition(NameKind::Function, node.name, node.name_span);
             for (std::uint32_t k = 0; k < node.formals.count; ++k) {
                 add_formal(ast_.expression_lists[node.formals.first + k]);
             }
@@ -317,7 +317,7 @@ private:
             break;
         }
         case StatementKind::Curve:
-            put_named(NameKind::Function, ast_.curves[i].name, ast_.curves[i].name_span);
+            put_definition(NameKind::Function, ast_.curves[i].name, ast_.curves[i].name_span);
             for (std::uint32_t k = 0; k < ast_.curves[i].coordinates.count; ++k) {
                 add_expression(ast_.expression_lists[ast_.curves[i].coordinates.first + k]);
             }
@@ -372,7 +372,7 @@ private:
     std::vector<std::string> paths_; // by FileId
     std::set<std::string_view> known_;
     std::set<std::string_view> constants_;
-    std::set<NameId> locals_; // of the current statement
+    std::set<NameId> locals_; // formals and local values of the current statement
     TextPlace scope_;
     StatementOutline outline_;
     bool is_part_ = false;
@@ -414,7 +414,7 @@ const NameUse* NameIndex::at(const std::string& path, std::size_t offset) const 
     const NameUse* found = nullptr;
     for (const NameUse& use : uses) {
         if (use.place.path == path && use.place.begin <= offset && offset <= use.place.end) {
-            found = &use; // of two touching names, the later one
+            found = &use; // if two names touch, the later one
         }
     }
     return found;

@@ -32,7 +32,7 @@ struct NameUse {
     TextPlace place; // without back quotes
     NameKind kind{};
     std::string name;
-    TextPlace scope; // of a formal: its statement; else empty
+    TextPlace scope; // statement of a formal; else empty
     bool is_definition = false;
     bool is_part = false; // one of several modules that are written as one name
 
@@ -48,10 +48,10 @@ struct StatementOutline {
     TextPlace name_place;
     std::string name;                 // empty for statements without a name
     std::string detail;               // the text without the name, on one line, cut
-    std::vector<std::string> formals; // of a production, function or module
+    std::vector<std::string> formals; // formals of a production, function or module
 };
 
-/// A whole parse: the tree with what its ids refer to.
+/// A parsed grammar: the syntax tree and the tables that its ids refer to.
 struct ParsedGrammar {
     SourceMap sources;
     Names names;

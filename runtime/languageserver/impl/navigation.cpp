@@ -134,11 +134,11 @@ bool is_kept(const NameIndex& before,
         const std::string& wanted = NameIndex::are_same(old, renamed) ? new_name : old.name;
         const std::size_t old_scope =
             scopes_before.try_emplace(old.scope, scopes_before.size()).first->second;
-        const std::size_t now_scope =
+        const std::size_t new_scope =
             scopes_after.try_emplace(now.scope, scopes_after.size()).first->second;
         if (now.name != wanted || now.kind != old.kind || now.is_definition != old.is_definition ||
             now.is_part != old.is_part || now.place.path != old.place.path ||
-            old_scope != now_scope) {
+            old_scope != new_scope) {
             return false;
         }
     }
@@ -301,7 +301,7 @@ Json rename_name(Workspace& workspace, const Json& params) {
     }
     Json changes = Json::object();
     std::map<std::string, std::string> changed;
-    // From the last place to the first, so that the places before stay valid.
+    // Replace from the last place to the first, so that the places before stay valid.
     for (auto each = found.index.uses.rbegin(); each != found.index.uses.rend(); ++each) {
         if (!NameIndex::are_same(*each, use)) {
             continue;

@@ -83,7 +83,7 @@ SettingHelp number(std::string_view name, std::string_view wanted, Number initia
     return {std::string(name), fmt::format("{}; default {}", wanted, initial), {}};
 }
 
-/// A setting that code of its own reads.
+/// Help for a setting whose value is neither one number nor one word of a fixed list.
 SettingHelp special(std::string_view name) {
     if (name == "names") {
         return {"names",

@@ -15,7 +15,8 @@ namespace {
 
 constexpr std::string_view kFileScheme = "file://";
 constexpr std::string_view kMark = "\xEF\xBB\xBF";
-constexpr std::uint64_t kMaxProjectBytes = std::uint64_t{1} << 20U; // of a file that is not open
+/// Max size of a file that is not open.
+constexpr std::uint64_t kMaxProjectBytes = std::uint64_t{1} << 20U;
 constexpr std::size_t kMaxRootFiles = 64;
 
 int hex_digit(char c) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Workspace: the open documents, the folders of the editor, and what is computed from them. Texts
-// of open documents replace the files on disk everywhere.
+// Workspace: the open documents, the folders of the editor, and the answers to requests about them.
+// Texts of open documents replace the files on disk everywhere.
 #pragma once
 
 #include "runtime/languageserver/impl/name_index.h"
@@ -33,7 +33,7 @@ enum class RpcError : int {
     RequestFailed = -32803,
 };
 
-/// Ends a request with an error response. Does not leave the library.
+/// Ends a request with an error response. LanguageServer catches it.
 struct RequestError : std::runtime_error {
     RequestError(RpcError own_code, const std::string& message)
         : std::runtime_error(message), code(own_code) {}
@@ -46,7 +46,7 @@ struct Document {
     std::string text; // with a byte order mark, if the editor sends one
     std::int64_t version = 0;
     bool is_lsys = false;         // the editor calls the language `lsys`
-    bool is_dirty = true;         // the diagnostics are to be computed
+    bool is_dirty = true;         // the diagnostics are out of date
     std::set<std::string> inputs; // files read by the last check
     Json diagnostics = Json::array();
 };
@@ -82,12 +82,13 @@ public:
     [[nodiscard]] Document& document(const Json& uri);
     /// The text of a file, without a byte order mark; nullopt if it cannot be read.
     [[nodiscard]] std::optional<std::string> text_of(const std::string& path) const;
-    /// The files that belong together with `path`: the grammars that nothing includes and that
-    /// include it directly or through others, or else `path` itself.
+    /// The grammars that contain `path`: those that no file includes and that include it, directly
+    /// or through other files; `path` itself if nothing includes it. At most 64.
     [[nodiscard]] std::vector<std::string> roots_of(const std::string& path) const;
     /// All grammars: open documents, files below the folders, or else files beside `path`.
     [[nodiscard]] std::vector<std::string> known_grammars(const std::string& path) const;
-    /// The names of all grammars with these roots. `changed` replaces texts, by path.
+    /// The names in the grammars `roots` and their included files. `changed`: texts that replace
+    /// those of files, by path.
     [[nodiscard]] NameIndex index(const std::vector<std::string>& roots,
                                   const std::map<std::string, std::string>& changed) const;
     /// Checks a document as `lsc check` does. `offers_doubtful`: turns doubtful fixes into offers.

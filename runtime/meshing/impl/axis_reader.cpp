@@ -30,9 +30,9 @@ constexpr std::uint32_t kMaxLevels = 8;
 constexpr float kHidden = 0.9F;
 constexpr float kThickestBranch = 1.5F; // in radii of the parent; above, the base is closed
 constexpr float kCollarSlope = 0.13F;   // increase of radius per length towards the base
-constexpr float kMinSine = 0.5F;        // of the angle of a branch, for the length of its collar
-constexpr float kMaxCollar = 0.7F;      // max length of a collar per length of its edge
-constexpr float kCollarReach = 1.5F;    // length of a wide collar outside of the parent, in radii
+constexpr float kMinSine = 0.5F;     // min sine of a branch's angle, for the length of its collar
+constexpr float kMaxCollar = 0.7F;   // max length of a collar per length of its edge
+constexpr float kCollarReach = 1.5F; // length of a wide collar outside of the parent, in radii
 constexpr std::array<std::uint32_t, kMaxShapedLevel + 1> kSidesPerRoot{6, 4}; // by level
 constexpr float kMaxParts = 16.0F;      // max pieces into which an edge is cut for noise
 constexpr std::size_t kExtraJoints = 2; // joints beside those of segments: a collar and the tip
@@ -41,7 +41,9 @@ float max_coordinate(const glm::vec3& v) {
     return std::max(std::max(std::abs(v.x), std::abs(v.y)), std::abs(v.z));
 }
 
-bool thick_beside(float radius, const Joint& before, float length) {
+/// Whether a ring is thick enough relative to the joint before it and to the edge after it, of
+/// `length`, so that its triangles have an area.
+bool is_ring_thick_enough(float radius, const Joint& before, float length) {
     return radius >= kThinnest * std::max(std::max(before.radius, before.length), length);
 }
 
@@ -244,7 +246,7 @@ void AxisReader::add(const Segment& segment, float radius) {
     if (joints_.size() > 1) {
         const Joint& before = joints_[joints_.size() - 2];
         joint.rings = rings_of_bend(before.heading, joint.heading);
-        rings_final_ = rings_final_ && thick_beside(radius, before, joint.length) &&
+        rings_final_ = rings_final_ && is_ring_thick_enough(radius, before, joint.length) &&
                        before.radius >= kThinnest * radius;
     }
 }
@@ -269,7 +271,7 @@ bool AxisReader::add_end(const glm::vec3& centre, float radius) {
     end.radius = radius;
     end.length = 0.0F;
     end.rings = 1;
-    rings_final_ = rings_final_ && (radius == 0.0F || thick_beside(radius, before, 0.0F)) &&
+    rings_final_ = rings_final_ && (radius == 0.0F || is_ring_thick_enough(radius, before, 0.0F)) &&
                    before.radius >= kThinnest * std::max(radius, before.length);
     joints_.push_back(end);
     if (joints_.front().radius == 0.0F) { // a pointed end has the sides of the ring beside it
@@ -413,7 +415,7 @@ void AxisReader::widen_base(bool open) {
             radius = std::min(radius > 0.0F ? wide.widened(radius, at) : 0.0F, kMaxRadius);
         };
         put(from, arc);
-        float begin = 0.0F; // of the last piece, from the beginning of the edge
+        float begin = 0.0F; // begin of the last piece, measured from the begin of the edge
         for (; part <= wide.parts; ++part) {
             const float along = wide.begin + static_cast<float>(part) * step - arc;
             if (!(along < from.length)) {

@@ -19,9 +19,9 @@ namespace lsys {
 /// A joint, and the edge from it to the next one.
 struct Joint {
     glm::vec3 centre{};
-    float radius = 0.0F; // of the corners of the ring; 0 only at a pointed end
+    float radius = 0.0F; // distance of the ring's corners from the centre; 0 only at a pointed end
     glm::vec3 heading{}; // unit, of the edge; last joint: of the edge before
-    float length = 0.0F; // of the edge; 0 at the last joint
+    float length = 0.0F; // length of the edge; 0 at the last joint
     ItemColour colour = 0;
     std::uint8_t sides = 0;
     std::uint8_t rings = 1; // more where the axis bends by more than 60 degrees
@@ -37,7 +37,7 @@ enum class TubeEnd : std::uint8_t {
     Broken, // closed by a jagged break
 };
 
-/// Rings that close a run after the ring of its last joint.
+/// Number of rings that close a run after the ring of its last joint.
 [[nodiscard]] inline std::uint32_t closing_rings(TubeEnd end) {
     return end == TubeEnd::Ball ? 1 : end == TubeEnd::Round || end == TubeEnd::Broken ? 2 : 0;
 }
@@ -107,7 +107,7 @@ private:
     // With a deviation, sides_ and joints have the sides of level 0 until fit_sides().
     std::optional<SideCounts> counts_;
     std::array<std::uint8_t, kMaxSides + 1> max_sides_{}; // at options_.level, by sides of level 0
-    BaseWidening base_widening_;                          // of the run
+    BaseWidening base_widening_;                          // widening of the current run
     float max_base_radius_ = 0.0F; // max radius of the corners of an open base
     std::array<float, 2> flare_{}; // radii at the ends of the longest collar; 0: none
     LargeVector<float> radii_;

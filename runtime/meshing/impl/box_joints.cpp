@@ -47,7 +47,7 @@ constexpr float kMinStep = 4e-6F;
 // parent from the top of a joint.
 constexpr float kContinues = 0.97F;
 constexpr float kSameWidth = 0.15F;
-constexpr std::size_t kSides = 5; // of a joint: four and the top
+constexpr std::size_t kSides = 5; // sides of a joint: four around it and the top
 constexpr std::size_t kTop = 4;
 
 /// Whether the segment is large enough for the resolution of floats at its place.

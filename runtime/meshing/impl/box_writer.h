@@ -94,9 +94,9 @@ private:
 
     PolygonMesh mesh_;
     const Segment* segment_ = nullptr;
-    std::uint32_t number_ = kNoSegment; // of segment_
+    std::uint32_t number_ = kNoSegment; // number of segment_
     BoxSocket end_;
-    float distance_ = 0.0F; // of end_
+    float distance_ = 0.0F; // distance of end_ from the base of the segment
     float v_per_length_ = 0.0F;
 
     std::vector<std::size_t> tile_order_; // indices of places, by tile

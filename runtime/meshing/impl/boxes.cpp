@@ -214,7 +214,7 @@ void carve_grooves(CatmullClark& surface,
     if (wanted < 2) {
         return;
     }
-    const std::uint32_t grooves = 1U << (std::min(wanted, kMaxSteps) - 1); // of each half
+    const std::uint32_t grooves = 1U << (std::min(wanted, kMaxSteps) - 1); // per half of the stem
     const bool has_grooves = 1U << steps >= grooves; // at least two vertices per groove
     constexpr float kCircumference = 1.0F;
     const Grooves wander(grooves, kCircumference, 0);

@@ -23,11 +23,11 @@ namespace lsys {
 struct PolygonMesh {
     LargeVector<glm::vec3> positions;
     LargeVector<glm::vec2> texture_coordinates;
-    LargeVector<float> radii;             // of the stem at vertices, smoothed too; may be empty
-    LargeVector<std::uint32_t> corners;   // of all faces, one after the other
+    LargeVector<float> radii; // radii of the stem at the vertices, smoothed too; may be empty
+    LargeVector<std::uint32_t> corners;   // vertices of all faces, one face after the other
     LargeVector<std::uint32_t> face_ends; // end of each face in `corners`
-    LargeVector<std::uint32_t> colours;   // of faces
-    LargeVector<std::uint32_t> segments;  // of faces; may be empty
+    LargeVector<std::uint32_t> colours;   // colour of each face
+    LargeVector<std::uint32_t> segments;  // segment of each face; may be empty
 };
 
 struct MeshCounts {

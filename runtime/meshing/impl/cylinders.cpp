@@ -163,12 +163,12 @@ private:
     }
 
     const MeshBlock& block_;
-    std::span<std::uint32_t> indices_; // of the part
+    std::span<std::uint32_t> indices_; // room for the indices of the current part
     std::uint64_t vertex_;
     std::uint64_t index_;
     glm::mat3 axes_{1.0F};
     const Direction* ring_directions_ = nullptr;
-    std::uint32_t number_ = kNoSegment; // of the segment
+    std::uint32_t number_ = kNoSegment; // number of the current segment
 };
 
 struct Piece {
@@ -214,7 +214,7 @@ void append_cylinders(const Skeleton& skeleton, const MeshOptions& options, Mesh
     std::uint64_t vertices = 0;
     std::vector<MeshBuilder::PartSize> sizes;
     for (std::size_t group = 0; group < groups.groups.size(); ++group) {
-        std::uint64_t indices = 0; // of the part
+        std::uint64_t indices = 0; // count of indices in the part
         for (std::size_t i = first_piece[group]; i < first_piece[group + 1]; ++i) {
             Piece& piece = pieces[i];
             vertices += std::exchange(piece.vertices, vertices);

@@ -20,7 +20,8 @@ constexpr std::size_t kMaxRows = 16;
 // Max turn of a leaf that stands on its edge, radians.
 constexpr float kSidewaysTurn = 2.1F;
 
-/// Part of the whole turn that is reached at a distance from the base: bending fades to the tip.
+/// Part of the whole turn, 0 to 1, that is reached at a distance from the base (0) to the tip (1).
+/// The midrib bends most at the base.
 float part_of_turn(float distance) {
     const float rest = 1.0F - distance;
     return 1.0F - rest * rest;

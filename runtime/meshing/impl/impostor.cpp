@@ -61,8 +61,8 @@ int margin_of(int tile) {
 
 /// The normal of a card at a point with this normal of the plant, both with Z towards the eye.
 glm::vec3 normal_on_card(glm::vec3 normal, bool is_upright) {
-    // Leaves have two sides. Viewers of tiles and forests look down on upright cards, and see the
-    // upper sides of level leaves.
+    // Take the normal of the side of the leaf that is visible. Viewers of tiles and forests look
+    // down on upright cards, and see the upper sides of level leaves.
     if (normal.z + (is_upright ? kLookDown * normal.y : 0.0F) < 0.0F) {
         normal = -normal;
     }
@@ -208,7 +208,7 @@ struct ImpostorBaker::Fragment {
 /// Buffers that are reused from picture to picture.
 struct ImpostorBaker::Canvas {
     DepthBuffer buffer;
-    std::vector<Fragment> fragments; // of samples with a depth
+    std::vector<Fragment> fragments; // valid for samples with a depth
     std::vector<glm::vec3> along;    // positions along the axes of the view
     LargeVector<std::uint32_t> indices;
     LinearTextures textures;
@@ -365,7 +365,7 @@ std::vector<std::uint8_t> ImpostorBaker::paint(const View& view,
                                                const glm::vec3& tint,
                                                Texture& colour,
                                                Texture& normal_map) const {
-    std::vector<std::uint32_t> order; // of opaque texels
+    std::vector<std::uint32_t> order; // numbers of texels, in the order in which they become opaque
     double area = 0.0;
     glm::dvec3 wanted(0.0); // sum of colours
     for (std::uint32_t i = 0; i < texels(); ++i) {

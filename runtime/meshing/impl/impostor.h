@@ -73,7 +73,7 @@ private:
 
     int tile_;            // texels of a side of a picture, 16 to 128
     int slabs_;           // cards of a direction
-    std::size_t columns_; // of pictures in the atlas
+    std::size_t columns_; // columns of pictures in the atlas
     std::uint64_t triangles_;
     std::vector<View> views_;
 };

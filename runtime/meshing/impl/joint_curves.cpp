@@ -17,7 +17,7 @@ namespace {
 constexpr double kTurnOfPart = 0.2;
 // An axis turns back where the square of the sum of the two unit headings is at most this.
 constexpr float kTurnsBack = 1e-4F;
-constexpr std::size_t kSamples = 32; // of an edge, to find where it turns
+constexpr std::size_t kSamples = 32; // samples of an edge, to find where it turns
 
 /// A cubic from 0 to 1 with given ends and derivatives there.
 struct Cubic {

@@ -54,7 +54,7 @@ bool has_material(const std::vector<Material>& materials, const std::string& nam
                        [&name](const Material& each) { return each.name == name; });
 }
 
-/// Name of a colour: "3" for a palette index, "6699CC" for an own colour. Without `#`, which some
+/// Name of a colour: "3" for a palette index, "6699CC" for an RGB colour. Without `#`, which some
 /// readers of OBJ take for a comment.
 std::string name_of_colour(ItemColour colour) {
     return is_own(colour) ? fmt::format("{:06X}", colour - kOwnColour) : fmt::format("{}", colour);

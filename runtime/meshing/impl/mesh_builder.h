@@ -36,7 +36,7 @@ struct MaterialKey {
 struct FilePictures {
     std::shared_ptr<const Texture> colour;
     std::shared_ptr<const Texture> normal_map;
-    std::string name; // of the material
+    std::string name; // name of the material
 };
 
 /// The material of wood: textured bark for palette index 0, the plain colour for any other.

@@ -87,7 +87,7 @@ void Instances::write(std::uint64_t first, std::uint64_t end) const {
         if (bending) {
             bending->bend(part, object.frame, droop, bent);
         }
-        // A negative size turns an object inside out.
+        // A negative size turns an object inside out: reverse its normals and triangles.
         const bool mirrored = object.size < 0.0F;
         const glm::mat3 turn = glm::mat3_cast(object.frame);
         const glm::mat3 turn_and_scale = object.size * turn;

@@ -108,7 +108,7 @@ struct Piece {
     std::uint64_t first_item = 0;
     std::uint64_t item_count = 0;
     std::vector<std::uint32_t> triangles;    // three corners of their polygon per triangle
-    std::vector<std::uint32_t> index_counts; // of each polygon; 0 where it has no area
+    std::vector<std::uint32_t> index_counts; // one per polygon; 0 if it has no area
     std::uint64_t vertex_count = 0;
     std::uint64_t first_vertex = 0; // in the block of the group
     std::uint64_t first_index = 0;

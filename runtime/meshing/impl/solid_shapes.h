@@ -17,7 +17,7 @@ namespace lsys {
 /// The union of all balls about an axis, with radii that change linearly from base to tip; or of
 /// all balls of `base_radius` about a triangle.
 struct SolidShape {
-    std::array<glm::dvec3, 3> corners{}; // of a cone: the ends of its axis
+    std::array<glm::dvec3, 3> corners{}; // corners of a triangle; of a cone, the ends of its axis
     double base_radius = 0.0;
     double tip_radius = 0.0;
     bool is_triangle = false;
@@ -25,7 +25,7 @@ struct SolidShape {
     std::uint32_t segment = kNoSegment; // the segment that carries the shape
     // Members of a cone:
     glm::dvec3 axis{};   // unit length
-    double length = 0.0; // of the axis; 0: a ball
+    double length = 0.0; // length of the axis; 0: a ball
     double taper = 0.0;  // loss of radius per length
     /// Distance along the axis, towards the base, from the projection of a point on the axis to the
     /// ball nearest to the point, per distance of the point from the axis.

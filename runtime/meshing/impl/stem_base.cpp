@@ -13,7 +13,7 @@ namespace lsys {
 
 namespace {
 
-constexpr float kGroundTolerance = 1e-3F; // of y at the base of a stem, per height of the flare
+constexpr float kGroundTolerance = 1e-3F; // max abs(y) of a stem's base, per height of the flare
 // Depth of the ridges at the ground in radii, per growth of the radius by the flare, and at most.
 constexpr float kRidgeDepthPerFlare = 0.75F;
 constexpr float kMaxRidgeDepth = 0.6F;

@@ -54,8 +54,8 @@ public:
 private:
     std::uint32_t count_;
     float reach_; // arc length at which the roots end
-    float depth_; // of the ridges at the ground, in radii
-    float mean_;  // of all ridges around the axis
+    float depth_; // depth of the ridges at the ground, in radii
+    float mean_;  // mean of all ridges around the axis
 };
 
 } // namespace lsys

@@ -59,7 +59,7 @@ struct Tetrahedron {
 
 struct Grid {
     glm::dvec3 origin{};
-    double side = 1.0; // of the root cube
+    double side = 1.0; // side of the root cube, m
 
     /// The middle between two nodes.
     [[nodiscard]] glm::dvec3 middle(const Node& a, const Node& b) const {
@@ -204,7 +204,7 @@ public:
 private:
     struct Size {
         double distance = 0.0;
-        double size = 0.0; // of cells
+        double size = 0.0; // size of cells
     };
 
     [[nodiscard]] Size measure(const SolidShape& shape, const glm::dvec3& point) const {
@@ -474,7 +474,7 @@ private:
     static constexpr std::uint64_t kTriangleBytes = 24;
 
     const Solid& solid_;
-    const std::vector<Ball>& balls_; // of the shapes
+    const std::vector<Ball>& balls_; // a ball around each shape
     const Grid& grid_;
     std::atomic<std::uint64_t>& bytes_left_;
     bool overflow_ = false;
@@ -485,7 +485,7 @@ private:
     static constexpr std::size_t kMaxMiddles = 1 << 20;
     std::unordered_map<std::uint64_t, Size> middles_; // by key of the edge
     std::unordered_map<std::uint64_t, std::uint32_t> vertex_of_;
-    std::vector<std::uint64_t> keys_; // of the vertices
+    std::vector<std::uint64_t> keys_; // keys of the edges on which the vertices lie
     SolidSurface surface_;
 };
 

@@ -19,8 +19,8 @@ namespace lsys {
 /// and a colour.
 struct FoliageGroup {
     bool polygons = false;
-    TurtleOperation kind = TurtleOperation::Nothing; // of objects
-    std::uint32_t mesh_file = 0;                     // of objects
+    TurtleOperation kind = TurtleOperation::Nothing; // kind of the objects
+    std::uint32_t mesh_file = 0;                     // mesh file of the objects
 };
 
 /// The ranks of all parts of a plant; parts of low rank stay longest. Items of foliage are numbered
@@ -47,7 +47,7 @@ struct ThinningOrder {
 /// Measures of the shape of a group.
 struct FoliageShape {
     std::uint64_t triangles = 0;
-    double area = 0.0;  // of all triangles at size 1
+    double area = 0.0;  // area of all triangles at size 1
     glm::vec3 centre{}; // centroid of this area
 };
 /// Shapes of the groups at MeshOptions::level `level`; polygons have none.

@@ -15,7 +15,7 @@ namespace {
 constexpr double kFlat = 1e-13;
 // With fewer corners, comparing an ear with all corners is faster than using an index.
 constexpr std::uint32_t kIndexedFrom = 64;
-// Budget in corners for repeated searches for ears in a polygon without any.
+// Max corners visited in rounds that find no ear, about; then corners are cut off without a search.
 constexpr std::uint32_t kSearches = 400'000;
 
 double cross(const glm::dvec2& a, const glm::dvec2& b) {
@@ -276,7 +276,7 @@ void Triangulator::clip(std::vector<std::uint32_t>& triangles) {
     while (remaining_ > 2) {
         const std::uint32_t after = nodes_[node].next;
         if (nodes_[node].at == nodes_[after].at || turn(node) == 0.0) {
-            // A corner that is collinear with its neighbours, or coincides with one, is not needed.
+            // Remove a corner that is collinear with its neighbours or coincides with one.
             remove(node);
             node = nodes_[node].previous;
             corners_since_ear = 0;

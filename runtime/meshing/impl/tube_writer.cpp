@@ -248,7 +248,7 @@ void TubeWriter::set_mitred(const glm::vec3& in, const glm::vec3& out, Ring& rin
     const float normal_part = glm::dot(normal, out);
     const float binormal_part = glm::dot(binormal, out);
     const float sum = 1.0F + glm::dot(in, out);
-    const float length = std::sqrt(2.0F * sum); // of `in` + `out`
+    const float length = std::sqrt(2.0F * sum); // length of `in` + `out`
     ring.tangent = (in + out) * (1.0F / length);
     // Turns the normal and the binormal by half of the bend.
     const glm::vec3 turn = (in + ring.tangent) * (1.0F / (length + sum));

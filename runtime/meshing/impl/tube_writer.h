@@ -56,7 +56,7 @@ private:
     struct Ring {
         glm::vec3 centre{};
         float radius = 0.0F;
-        float slope = 0.0F; // of the radius by arc length
+        float slope = 0.0F; // change of the radius per arc length
         glm::vec3 tangent{};
         glm::vec3 normal{}; // unit; direction of the first corner
         glm::vec3 binormal{};

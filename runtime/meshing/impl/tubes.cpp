@@ -55,9 +55,9 @@ struct Piece {
     std::uint32_t begin = 0;
     std::uint32_t end = 0;
     std::uint64_t vertices = 0;          // number of vertices, later the index of the first one
-    std::vector<TriangleList> triangles; // of each colour
+    std::vector<TriangleList> triangles; // triangles of each colour
     LargeVector<KeptRun> runs;
-    LargeVector<Joint> joints; // of all runs that are not long
+    LargeVector<Joint> joints; // joints of all runs that are not long
     LargeVector<float> radii;
     std::vector<std::unique_ptr<LongRun>> long_runs;
 };
@@ -247,7 +247,7 @@ private:
                                               piece.radii.empty() ? 0 : kept.joint_count)));
             joint += kept.joint_count;
         }
-        // Counted and written vertices agree.
+        // The writer has written as many vertices as the reader has counted.
         LSYS_CHECK(writer_.vertex() == task_.end_vertex, writer_.vertex(), task_.end_vertex);
         if (piece.long_runs.empty()) {
             piece.runs = {};

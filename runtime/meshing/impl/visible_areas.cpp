@@ -111,7 +111,8 @@ public:
             for (std::uint64_t i = surface.part.first_index; i + 2 < end; i += 3) {
                 const std::array<std::uint32_t, 3> corners{drawn.indices[i], drawn.indices[i + 1],
                                                            drawn.indices[i + 2]};
-                // Most triangles of a large plant lie between centres of pixels.
+                // Skip triangles between two neighbouring columns or rows of pixel centres, like
+                // most triangles of a large plant: they cover no centre.
                 const std::uint32_t spread = (cells_[corners[0]] ^ cells_[corners[1]]) |
                                              (cells_[corners[0]] ^ cells_[corners[2]]);
                 if ((spread & kRowBits) != 0 && (spread & ~kRowBits) != 0) {
@@ -139,7 +140,7 @@ public:
 private:
     struct Pixel {
         const Surface* surface = nullptr;
-        glm::vec2 coordinates{}; // of its texture
+        glm::vec2 coordinates{}; // texture coordinates
     };
 
     [[nodiscard]] glm::vec3 place(const glm::vec3& position) const {

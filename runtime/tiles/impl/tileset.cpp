@@ -68,7 +68,7 @@ private:
             node["content"]["uri"] = path_to(TileForest::content_path(tile));
         }
         node["refine"] = "REPLACE";
-        if (has_subtrees(tile.level, static_cast<std::uint32_t>(plan_.levels.size()) - 1)) {
+        if (has_nested_tileset(tile.level, static_cast<std::uint32_t>(plan_.levels.size()) - 1)) {
             // One reference for all tiles below, so that a client asks for one tileset when it
             // refines this tile, and for none before.
             Json below = bounds_of(tile);

@@ -14,11 +14,11 @@
 
 namespace lsys {
 
-inline constexpr std::uint32_t kSubtreeLevels = 3; // number of levels that most tilesets list
+inline constexpr std::uint32_t kListedLevels = 3; // number of levels that most tilesets list
 /// Whether tiles of a level, apart from level 0, have a tileset of the tiles below them. The
 /// tileset of level 0 lists one to five levels, or three to five if there are other tilesets.
-[[nodiscard]] constexpr bool has_subtrees(std::uint32_t level, std::uint32_t finest) {
-    return level > 1 && level < finest && finest > 4 && (finest - level) % kSubtreeLevels == 0;
+[[nodiscard]] constexpr bool has_nested_tileset(std::uint32_t level, std::uint32_t finest) {
+    return level > 1 && level < finest && finest > 4 && (finest - level) % kListedLevels == 0;
 }
 
 struct TilesetPlan {

@@ -54,7 +54,7 @@ TEST_CASE("a changed forest is drawn like a forest made with the same trees") {
     trees.resize(2000);
     ForestLod changed(part->model);
     ForestLod wanted(whole->model);
-    // Select once before the change, so that draw lists and pool must be updated.
+    // Select once before the change, so that draw lists and the pool of branches must change too.
     static_cast<void>(drawn_by(changed, over_all()));
     for (std::uint32_t i = 0; i < last.size(); ++i) {
         CHECK(changed.change_tree(2000 + i, last[i], true) == 2000 + i);

@@ -27,7 +27,7 @@ bool differs(const Picture& a, const Picture& b, std::uint32_t x, std::uint32_t 
     return sum > 60;
 }
 
-/// First and last row that differ, and the count of texels.
+/// First and last row with texels that differ, and the count of these texels.
 struct Difference {
     std::uint32_t first = 0;
     std::uint32_t last = 0;

@@ -163,7 +163,7 @@ TEST_CASE("recent files are the last twelve that exist, newest first") {
     CHECK(files[1] == folder / "14.lsys");
     CHECK(files[2] == folder / "12.lsys");
     CHECK(std::count(files.begin(), files.end(), folder / "5.lsys") == 1);
-    remember_file("", folder / "5.lsys", console); // nowhere to remember it
+    remember_file("", folder / "5.lsys", console); // no state folder: does nothing
     CHECK(err.str().empty());
     write_text(folder / "file", "");
     remember_file(folder / "file/lsview", folder / "5.lsys", console); // no folder can be made

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// ForestStreamer: trees by place, budget, and a flight over a forest of a thousand million trees.
+// ForestStreamer: trees depend on their place alone, squares stay within the budget of memory, and
+// a flight over a forest of a thousand million trees does not stutter.
 #include "runtime/program/host.h"
 #include "tests/support/lsc_run.h"
 #include "tests/viewer/lsview_run.h"
@@ -262,7 +263,7 @@ TEST_CASE("times of the frames of a flight of 15 km", "[.flight]") {
     }
     std::vector<double> times;
     std::vector<double> culls;
-    constexpr int kFrames = 300; // of 50 m
+    constexpr int kFrames = 300; // each 50 m after the last
     for (int i = 0; i <= kFrames; ++i) {
         view.camera() = flying_camera(-50'000.0 + 50.0 * i, 20'000.0);
         const double seconds = frame();

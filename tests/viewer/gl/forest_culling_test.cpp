@@ -89,7 +89,8 @@ std::map<std::uint32_t, std::pair<long, long>> ranges_of(const std::vector<Impos
     return ranges;
 }
 
-/// Branches that are drawn: tree, instance, weight of blending, whether in the coarser level.
+/// Branches that are drawn: tree, instance, weight in 1/BranchEntry::kBlendSteps, whether it is
+/// drawn in the coarser level.
 using DrawnBranches = std::vector<std::tuple<std::uint32_t, std::uint32_t, std::uint32_t, bool>>;
 template <typename Pool>
 DrawnBranches drawn_of(const std::vector<BranchEntry>& entries, const Pool& pool) {
@@ -141,7 +142,7 @@ void compare(CulledWood& both, const Camera& camera, const LodOptions& options, 
     CHECK(gap(device.state.occluded, cpu.occluded) <= 16 * allowed);
     CHECK(gap(device.state.clustered, cpu.clustered_trees) <= 16 * allowed);
     CHECK(device.state.waiting == 0);
-    // The same branches at the same places.
+    // Both pools have the same branches at the same places.
     float apart = 0.0F;
     int turned = 0;
     for (const auto& [tree, branches] : by_tree(device.pool)) {

@@ -152,7 +152,7 @@ TEST_CASE("a picked branch is the first one on the ray through the middle of the
     std::set<std::uint32_t> instances;
     for (std::uint32_t y = 1; y < kHeight; y += 3) {
         for (std::uint32_t x = 1; x < kWidth; x += 3) {
-            // The same view in a picture 16 times as large has the finest level.
+            // In a picture 16 times as large, the tree has its finest level.
             Frame large = wood.frame;
             large.width *= 16;
             large.height *= 16;

@@ -48,7 +48,7 @@ double distance_to_square(const ForestStream& stream, const SquareId& id, const 
                       eye.z - std::clamp(eye.z, region.z, region.z + region.depth));
 }
 
-/// A wood of squares of 64 m: its trees come square by square.
+/// A wood in squares of 64 m, which are added to ForestLod one by one.
 struct StreamedWood {
     std::unique_ptr<Wood> wood;
     std::vector<std::shared_ptr<const ForestSquare>> squares;
@@ -68,7 +68,7 @@ StreamedWood make_streamed_wood(double shift) {
     std::map<SquareId, std::vector<Tree>> by_square;
     for (Tree& tree : trees) {
         for (float* const along : {&tree.position.x, &tree.position.z}) {
-            // Binary32 has these places also far away.
+            // Multiples of 1/64 m, which binary32 can represent at far places too.
             *along =
                 static_cast<float>(std::floor(static_cast<double>(*along) * 64.0) / 64.0 + shift);
         }

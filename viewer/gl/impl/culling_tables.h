@@ -24,7 +24,7 @@ struct CullingTables {
     std::uint32_t max_branches = 0;
 };
 
-/// Groups of branches: one for each level, and one for blended trees of each level.
+/// Groups of branches: one for each level of detail, and one for blended trees of each level.
 inline constexpr std::uint32_t kBranchGroups = 2 * kTreeLevels;
 
 /// Nullopt: instances are nested deeper than kMaxWalkDepth.

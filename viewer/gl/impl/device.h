@@ -28,7 +28,7 @@ public:
     /// Whether the processor draws, as llvmpipe does.
     [[nodiscard]] bool is_software() const { return is_software_; }
 
-    /// QUALITY of the shaders compiled later: 0 to 2.
+    /// Macro QUALITY of shaders that are compiled from now on: 0 to 2.
     [[nodiscard]] std::uint32_t quality() const { return quality_; }
     void set_quality(std::uint32_t quality) { quality_ = quality; }
 

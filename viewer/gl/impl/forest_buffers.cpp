@@ -66,7 +66,8 @@ struct TreeRecord {
 };
 static_assert(sizeof(TreeRecord) == 24);
 
-/// Spare records for added trees; when they are used up, the buffer is copied on the device.
+/// Spare records for added trees. When they are used up, the device copies the records to a larger
+/// buffer.
 constexpr std::size_t kRoomForTrees = std::size_t{1} << 14U;
 
 TreeRecord record_of(const LodTree& tree, const Tree& full) {
@@ -349,7 +350,7 @@ void ForestBuffers::upload_forms(const ForestModel& model, const ImpostorPlan& p
 
 void ForestBuffers::set_colours(const ForestModel& model, BranchColours by) {
     colour_digests_.assign(model.forms.size(), 0);
-    // Clusters have forms of their own, which have no branches.
+    // One word per tree form. The forms of clusters have no branches and need none.
     std::vector<std::uint32_t> words(model.forms.size(), 0);
     const std::vector<LegendEntry> legend = legend_of(model, by);
     for (std::size_t f = 0; !legend.empty() && f < model.forms.size(); ++f) {

@@ -29,9 +29,8 @@ enum class BranchClass : std::uint8_t {
 /// Count of these classes; each picture of a mesh file is a further class.
 inline constexpr std::size_t kBranchClasses = 4;
 
-/// Buffers that uploads and draws use. Baking of impostors has a set of its own, because it happens
-/// between pictures of the forest. Shadow: casters of the shadow maps near the eye, with the trees of
-/// Forest.
+/// Buffers that uploads and draws use. Impostor: for baking, which happens between pictures of the
+/// forest. Shadow: branches that cast shadows near the eye; trees are taken from Forest.
 enum class BufferSet : std::uint8_t { Forest, Impostor, Shadow };
 
 struct DrawCommand { // layout of glMultiDrawElementsIndirect
@@ -105,8 +104,9 @@ public:
     /// `blends`: runs of blended trees; the program needs BLENDS.
     std::uint64_t draw(BranchClass kind, bool blends = false) const;
     /// Draws the branches whose material has a picture file: with the program `cut_out` if the
-    /// picture has holes, `bumpy_cut_out` if it has a normal map too, else with `solid`. Binds these
-    /// programs and textures of bark, leaves and normal maps; returns the count of draw calls.
+    /// picture has transparent texels, `bumpy_cut_out` if it has a normal map too, else with
+    /// `solid`. Binds these programs and textures of bark, leaves and normal maps; returns the
+    /// count of draw calls.
     std::uint64_t
     draw_pictures(GLuint solid, GLuint cut_out, GLuint bumpy_cut_out, bool blends) const;
     void bind_storage() const;

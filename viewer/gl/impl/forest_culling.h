@@ -36,7 +36,8 @@ struct CullingLimits {
 /// Limits of the current context.
 [[nodiscard]] CullingLimits culling_limits();
 
-/// Counts that the shaders keep; layout of State in shaders/culling.glsl.
+/// Counts that the shaders make, in the layout of State in shaders/culling.glsl, which describes
+/// the fields without a comment here.
 struct CullingState {
     std::array<std::uint32_t, 24> dispatches{};
     std::array<std::uint32_t, 16> draws{};

@@ -247,7 +247,7 @@ std::array<float, 2> ForestPass::altitudes_near(const glm::vec2& middle, float h
             range = {std::min(range[0], height), std::max(range[1], height)};
         }
     }
-    // Ground between the samples.
+    // Ground between the samples may be lower or higher.
     const float margin = 0.25F * (range[1] - range[0]);
     return {range[0] - margin, range[1] + margin + model_.streamed->tallest};
 }
@@ -312,15 +312,15 @@ void ForestPass::prepare(const Frame& frame) {
     const Clock::time_point start = Clock::now();
     const double cpu_start = platform::thread_cpu_seconds();
     // Wireframes occlude nothing.
-    const bool hides = frame.style != PlantStyle::Wireframe;
+    const bool ground_occludes = frame.style != PlantStyle::Wireframe;
     if (is_culled_on_device_) {
-        view_ = {frustum_, options, hides ? terrain_.lod() : nullptr, terrain_.heights()};
+        view_ = {frustum_, options, ground_occludes ? terrain_.lod() : nullptr, terrain_.heights()};
         cull_seconds_ = seconds_since(start);
         cull_cpu_seconds_ = platform::thread_cpu_seconds() - cpu_start;
         return;
     }
     horizon_.set_viewpoint(*terrain_.lod(), frustum_.eye);
-    lists_ = &lod_->select(frustum_, options, hides ? &horizon_ : nullptr);
+    lists_ = &lod_->select(frustum_, options, ground_occludes ? &horizon_ : nullptr);
     cull_seconds_ = seconds_since(start);
     cull_cpu_seconds_ = platform::thread_cpu_seconds() - cpu_start;
     if (model_.streamed != nullptr) {

@@ -75,9 +75,9 @@ public:
     /// Draws the crowns around the eye, seen from above, into a texture for shaders/crowns.glsl, and
     /// binds it. Call after prepare(). Returns FrameBlock::crowns.
     [[nodiscard]] glm::vec4 draw_crowns(const glm::vec3& eye);
-    /// Draws the trees of a shadow map as branches of a level into the bound one, moved by the wind
-    /// of the prepared frame. The uniforms of the frame must have `shadow_from_world` as the view.
-    /// `map`: below kNearMaps.
+    /// Draws the trees in shadow map number `map` (below kNearMaps) as branches of a level into the
+    /// bound framebuffer, moved by the wind of the prepared frame. The bound FrameBlock must have
+    /// `shadow_from_world` as its view_projection.
     void draw_near_shadows(std::size_t map,
                            const glm::mat4& shadow_from_world,
                            std::uint32_t level,
@@ -111,7 +111,7 @@ private:
 
     void
     list_casters(const glm::mat4& shadow_from_world, std::uint32_t level, NearCasters& casters);
-    /// Call when trees have changed or moved.
+    /// Forgets near_casters_ and crown_area_. Call when trees have changed or moved.
     void forget_near_trees();
     /// Lowest and highest place of ground and trees near the middle of a shadow map.
     [[nodiscard]] std::array<float, 2> altitudes_near(const glm::vec2& middle, float half) const;
@@ -144,13 +144,13 @@ private:
     std::optional<PickPrograms> pick_programs_;
     BranchColours colours_ = BranchColours::Natural;
     bool is_windy_ = false;
-    Wind wind_; // of the prepared frame
+    Wind wind_; // wind of the prepared frame
     std::array<NearCasters, kNearMaps> near_casters_;
     // Map of crowns: made when first needed.
     ProgramObject crown_program_;
     TextureObject crowns_;
     Framebuffer crown_target_;
-    glm::vec4 crown_area_{0.0F}; // of its contents; 0: out of date
+    glm::vec4 crown_area_{0.0F}; // area that the map shows; 0: out of date
     ForestModel model_;
     std::unique_ptr<ForestLod> lod_;
     ForestBuffers buffers_;
@@ -161,14 +161,14 @@ private:
     Frustum frustum_;
     GroundHorizon horizon_;
     const DrawLists* lists_ = nullptr;
-    bool has_clusters_ = false; // the atlas has cluster impostors
+    bool has_clusters_ = false; // the atlas has layers of clusters
     // The cluster impostors show the previous trees until all are baked again.
     bool has_old_clusters_ = false;
     GpuTimer branches_timer_;
     GpuTimer impostors_timer_;
     GpuTimer terrain_timer_;
     GpuTimer shadow_timer_;
-    std::array<float, 2> caster_altitudes_{}; // of the last shadow_bounds() of a streamed forest
+    std::array<float, 2> caster_altitudes_{}; // lowest, highest, for the last shadow_bounds()
     double bake_seconds_ = 0.0;
     double upload_seconds_ = 0.0;
     double cull_seconds_ = 0.0;
@@ -176,7 +176,7 @@ private:
     std::unique_ptr<ForestCulling> culling_; // null: never used
     bool culls_on_device_ = false;           // later forests
     bool is_culled_on_device_ = false;       // the forest shown
-    ForestCulling::View view_;               // of the prepared frame
+    ForestCulling::View view_;               // parameters of the prepared frame
 };
 
 } // namespace lsys::view

@@ -33,7 +33,7 @@ constexpr GLint kToEye = 3;
 constexpr GLint kRight = 4;
 constexpr GLint kUp = 5;
 
-/// The cylinder of the form whose layers include `layer`; layers of a form are contiguous.
+/// The cylinder of the form to which `layer` belongs; the layers of a form are contiguous.
 const Cylinder& cylinder_of(const ImpostorPlan& plan, std::uint32_t layer) {
     return std::find_if(plan.forms.rbegin(), plan.forms.rend(),
                         [layer](const ImpostorForm& each) { return each.first_layer <= layer; })

@@ -15,7 +15,7 @@ namespace lsys::view {
 class MappedBuffer {
 public:
     static constexpr std::size_t kParts = 4;
-    enum class Access : std::uint8_t { Write, Read }; // of the process
+    enum class Access : std::uint8_t { Write, Read }; // access by the process
 
     /// `part_bytes`: size of a part, a multiple of 256.
     MappedBuffer(Device& device, std::size_t part_bytes, Access access);

@@ -20,7 +20,8 @@ public:
     /// Colour texture of a kind of material. Precondition: has_texture(kind).
     [[nodiscard]] GLuint base_colour(MaterialKind kind);
     [[nodiscard]] GLuint bark_normals();
-    /// Texture of a picture file; mip levels keep coverage if it has holes.
+    /// Texture of a picture file. If it has transparent texels, all mip levels have the same
+    /// fraction of opaque texels.
     [[nodiscard]] TextureObject make(const Texture& picture) const;
     /// Texture of a picture file without its opacity: all texels are opaque.
     [[nodiscard]] TextureObject make_opaque(const Texture& picture) const;

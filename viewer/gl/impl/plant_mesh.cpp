@@ -56,12 +56,12 @@ void PlantMesh::upload(const Mesh& mesh, const MaterialTextures& textures) {
         TextureObject& normal_map = normal_maps_.emplace_back();
         if (material.normal_map != nullptr) {
             normal_map = textures.make_normals(*material.normal_map);
-            material.normal_map.reset(); // may be large
+            material.normal_map.reset(); // frees memory
         }
         TextureObject& picture = pictures_.emplace_back();
         if (material.picture != nullptr) {
             picture = textures.make(*material.picture);
-            material.picture.reset(); // may be large
+            material.picture.reset(); // frees memory
         }
     }
     triangles_ = mesh.indices.size() / 3;

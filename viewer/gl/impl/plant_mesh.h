@@ -34,8 +34,8 @@ private:
     Buffer indices_;
     std::vector<MeshPart> parts_;
     std::vector<Material> materials_;
-    std::vector<TextureObject> pictures_;    // of files, by material
-    std::vector<TextureObject> normal_maps_; // of files, by material
+    std::vector<TextureObject> pictures_;    // pictures of files, by material
+    std::vector<TextureObject> normal_maps_; // normal maps of files, by material
     std::uint64_t triangles_ = 0;
     Bounds bounds_;
 };

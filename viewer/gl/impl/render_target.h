@@ -21,9 +21,9 @@ public:
     /// Mixes the picture into a mean, with a weight up to 1, which begins a new mean. `copy`: program
     /// of shaders/copy; an empty vertex array must be bound. Changes the bound framebuffer.
     void accumulate(const ProgramObject& copy, float weight);
-    /// Rows from top to bottom, RGBA. `mean`: of the mean instead of the last picture.
+    /// Reads the last picture, or with `mean` the mean: rows from top to bottom, RGBA.
     void read(std::vector<std::uint8_t>& pixels, bool mean) const;
-    /// Copies to a part of the framebuffer of the window.
+    /// Copies the last picture, or with `mean` the mean, to a part of the window's framebuffer.
     void present(const PixelArea& area, bool mean) const;
 
 private:

@@ -238,7 +238,7 @@ void TerrainPass::draw_grass(FrameStats& stats) const {
     const auto cell_of = [&](double place) {
         return static_cast<GLint>(std::floor(place / kCell));
     };
-    const auto lattice_of = [&](double place) { // wraps
+    const auto lattice_of = [&](double place) { // modulo 2^32, as the shader adds numbers of cells
         return static_cast<GLint>(
             static_cast<std::uint32_t>(static_cast<std::int64_t>(std::round(place / kCell))));
     };
@@ -261,7 +261,7 @@ FrameStats TerrainPass::draw() {
     const ProgramObject& program = colour_ ? picture_program_ : program_;
     glUseProgram(program.name());
     if (colour_) {
-        // A corner of a tile near the origin: far coordinates would lose the place in the tile.
+        // A corner of a tile near the origin: binary32 is too coarse for far coordinates.
         const auto corner = [](double first, double origin, double size) {
             return static_cast<float>(origin == 0.0 ? first : std::fmod(first - origin, size));
         };
@@ -321,7 +321,7 @@ FrameStats TerrainPass::draw_with(const ProgramObject& program) {
 }
 
 std::uint64_t TerrainPass::texture_bytes() const {
-    std::uint64_t texels = std::uint64_t{kNoiseTexels} * kNoiseTexels; // of the finest mip levels
+    std::uint64_t texels = std::uint64_t{kNoiseTexels} * kNoiseTexels; // in the finest mip levels
     for (const auto& picture : {pictures_.colour, pictures_.normals}) {
         texels += picture == nullptr ? 0 : std::uint64_t{picture->width} * picture->height;
     }

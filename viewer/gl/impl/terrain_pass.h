@@ -55,7 +55,7 @@ private:
     ProgramObject program_;
     ProgramObject picture_program_; // with pictures of the ground
     ProgramObject grass_program_;   // from QUALITY 1 on
-    glm::vec3 eye_{0.0F};           // of the selected patches
+    glm::vec3 eye_{0.0F};           // eye for which patches were selected
     GroundPictures pictures_;
     TextureObject colour_;
     TextureObject normals_;
