@@ -50,7 +50,7 @@ void add_check(CLI::App& app, CheckCommand& command) {
                  "be defined elsewhere (default: whether a grammar in its folder or the one above "
                  "includes it)");
     add_grammar(app, command.grammar, command.run);
-    add_base(app, command.run);
+    add_base_option(app, command.run);
     add_message_options(app, command.messages);
     add_levels(app, command.messages);
     app.footer(
@@ -72,7 +72,7 @@ void add_compile(CLI::App& app, CompileCommand& command) {
         ->required()
         ->type_name("FILE");
     add_grammar(app, command.grammar, command.run);
-    add_base(app, command.run);
+    add_base_option(app, command.run);
     add_seed(app, command.seed);
     add_message_options(app, command.messages);
     add_levels(app, command.messages);
@@ -144,7 +144,7 @@ void add_dump(CLI::App& app, DumpCommand& command) {
     describe_detail_levels(app);
     add_dump_instancing(app, command);
     add_grammar(app, command.grammar, command.run);
-    add_base(app, command.run);
+    add_base_option(app, command.run);
     add_seed(app, command.seed);
     add_height(app, command.height);
     add_run_limits(app, command.run);
@@ -217,7 +217,7 @@ void add_export(CLI::App& app, ExportCommand& command) {
         ->type_name("NAME=NUMBER,NUMBER,...");
     add_plant_motion(app, command);
     add_grammar(app, command.grammar, command.run);
-    add_base(app, command.run);
+    add_base_option(app, command.run);
     add_seed(app, command.seed);
     add_height(app, command.height);
     add_run_limits(app, command.run);
@@ -290,7 +290,7 @@ void add_import(CLI::App& app, ImportCommand& command) {
                  "Replace existing files of the output folder; otherwise they stay and the exit "
                  "status is 2");
     add_grammar(app, command.grammar, command.run);
-    add_base(app, command.run);
+    add_base_option(app, command.run);
     add_message_options(app, command.messages);
     add_levels(app, command.messages);
     app.footer("The output derives the same word as the input; -n becomes its #n, -D the values of "
@@ -309,7 +309,7 @@ void add_stats(CLI::App& app, StatsCommand& command) {
     app.add_flag("--parameters", command.parameters,
                  "List the values that -D can change, with their bounds, instead of sizes");
     add_grammar(app, command.grammar, command.run);
-    add_base(app, command.run);
+    add_base_option(app, command.run);
     add_height(app, command.height);
     add_message_options(app, command.messages);
     add_levels(app, command.messages);
@@ -346,7 +346,7 @@ void add_trace(CLI::App& app, TraceCommand& command) {
         app, "--format", command.format, {{"text", TraceFormat::Text}, {"json", TraceFormat::Json}},
         "Form of the output (default text)");
     add_grammar(app, command.grammar, command.run);
-    add_base(app, command.run);
+    add_base_option(app, command.run);
     add_seed(app, command.seed);
     add_run_limits(app, command.run);
     add_message_options(app, command.messages);

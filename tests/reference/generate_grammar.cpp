@@ -394,7 +394,7 @@ private:
         }
     }
 
-    // Moves a group to `#interpret`, which changes no word: its productions are only drawn.
+    // Moves a group to `#interpret`: its productions then change the drawing, not the word.
     void interpret_some() {
         if (!random_.percent(10)) {
             return;

@@ -468,7 +468,7 @@ private:
         }
     }
 
-    /// Decides where the trees of the next forest are chosen.
+    /// Chooses the processor, CPU or GPU, that selects the visible trees of the next forest.
     Result<void> choose_culling() {
         if (culling_ == Culling::Cpu || (culling_ == Culling::Auto && device_.is_software())) {
             return forest_.cull_on_device(false, shaders_);

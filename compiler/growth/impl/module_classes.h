@@ -159,7 +159,8 @@ private:
     std::vector<std::uint32_t> unknown_ids_; // by code: the class with unknown values
     std::map<std::vector<std::uint32_t>, ClassId> known_value_ids_; // classes with known values
     std::vector<ClassExpansion> expansions_;
-    std::unordered_map<std::uint32_t, ClassExpansion> shared_; // by symbol, for unknown values
+    std::unordered_map<std::uint32_t, ClassExpansion>
+        shared_; // by symbol: of all its classes with unknown values
     std::vector<ClassOutcome> outcomes_;
     std::vector<ClassTerm> terms_;
     std::unordered_map<std::uint32_t, CountedWord> words_; // by production

@@ -70,16 +70,17 @@ private:
         if (ends_branch_.empty()) {
             ends_branch_.assign(program_.symbols.size(), 1);
             for (const Axiom& axiom : program_.axioms) {
-                find_inner_modules(axiom.word);
+                mark_modules_without_close(axiom.word);
             }
             for (const Production& production : program_.productions) {
-                find_inner_modules(production.successor);
+                mark_modules_without_close(production.successor);
             }
         }
         return ends_branch_[static_cast<std::size_t>(symbol)] != 0;
     }
 
-    void find_inner_modules(const ProgramWord& word) {
+    /// Clears `ends_branch_` of the symbols that stand somewhere in `word` without a `]` behind them.
+    void mark_modules_without_close(const ProgramWord& word) {
         const std::size_t end = std::size_t{word.first_module} + word.module_count;
         for (std::size_t i = word.first_module; i < end; ++i) {
             if (i + 1 == end || symbol_at(i + 1).kind != SymbolKind::BranchClose) {

@@ -342,7 +342,7 @@ ValueId ExpressionResolver::constant_of(const Expression& expression, Expression
 ValueId ExpressionResolver::range_value(const Expression& expression, ExpressionPlace place) {
     const ValueId maximum = pop();
     const ValueId minimum = pop();
-    return check_draw_allowed(expression, place) && check_range(expression, minimum, maximum)
+    return check_random_allowed(expression, place) && check_range(expression, minimum, maximum)
                ? draw_value(Opcode::Range, minimum, maximum, expression, place)
                : kPoison;
 }
@@ -352,14 +352,14 @@ ValueId ExpressionResolver::distribution_value(const Expression& expression,
                                                std::span<const ValueId> arguments,
                                                ExpressionPlace place) {
     const ValueId second = arguments.size() > 1 ? arguments[1] : kNoValue;
-    return check_draw_allowed(expression, place) &&
+    return check_random_allowed(expression, place) &&
                    check_distribution_of(expression, opcode, arguments[0], second)
                ? draw_value(opcode, arguments[0], second, expression, place)
                : kPoison;
 }
 
 /// Returns false after reporting that ranges and distributions are not allowed in `place`.
-bool ExpressionResolver::check_draw_allowed(const Expression& expression, ExpressionPlace place) {
+bool ExpressionResolver::check_random_allowed(const Expression& expression, ExpressionPlace place) {
     is_random_ = true;
     if (!ranges_allowed(place)) {
         report_not_allowed(expression, place, true);

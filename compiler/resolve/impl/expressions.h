@@ -126,7 +126,7 @@ private:
                                              Opcode opcode,
                                              std::span<const ValueId> arguments,
                                              ExpressionPlace place);
-    [[nodiscard]] bool check_draw_allowed(const Expression& expression, ExpressionPlace place);
+    [[nodiscard]] bool check_random_allowed(const Expression& expression, ExpressionPlace place);
     [[nodiscard]] ValueId draw_value(Opcode opcode,
                                      ValueId first,
                                      ValueId second,

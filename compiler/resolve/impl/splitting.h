@@ -64,7 +64,7 @@ private:
     std::unordered_set<Use, UseHash> uses_;      // uses of unknown identifiers
     std::unordered_set<std::size_t> use_lengths_;
     std::unordered_map<Use, std::vector<NamePart>, UseHash> decided_;
-    /// Work left. After it is used up, names that are costly to split stay whole.
+    /// Characters that splitting may still compare. At 0 names that are costly to split stay whole.
     std::uint64_t work_left_ = std::uint64_t{1} << 28;
 };
 

@@ -15,7 +15,7 @@ namespace lsys {
 
 namespace {
 
-/// Maximum bytes of all expanded macros; only nested macros that repeat each other reach it.
+/// Max bytes of all expanded macros. Reached only if macros use other macros several times each.
 constexpr std::size_t kMaxExpanded = std::size_t{1} << 24;
 constexpr int kMaxMacroDepth = 64;
 

@@ -105,7 +105,7 @@ bool HoudiniWriter::check_head(const HoudiniRule& rule) {
     return is_valid;
 }
 
-/// All combinations of parameter counts that the symbols of the turtle in the head may have.
+/// All combinations of parameter counts of the turtle's symbols that stand in the rule's head.
 std::vector<HoudiniWriter::ParameterCounts>
 HoudiniWriter::all_parameter_counts(const HoudiniRule& rule) const {
     std::vector<ParameterCounts> variants{{}};

@@ -127,18 +127,18 @@ public:
         }
         switch (keyword_) {
         case Keyword::Function:
-            return function();
+            return repair_function();
         case Keyword::Curve:
-            curve();
+            repair_curve();
             break;
         case Keyword::Set:
-            setting();
+            repair_setting();
             break;
         case Keyword::Object:
-            object();
+            repair_object();
             break;
         case Keyword::Include:
-            include();
+            repair_include();
             break;
         case Keyword::Define:
         case Keyword::Param:
@@ -175,7 +175,7 @@ private:
     // --- functions
 
     /// `#function f(x) { return x; }` and `#function f(x): return x;`.
-    std::size_t function() {
+    std::size_t repair_function() {
         const std::size_t open = text().find('(', body_);
         if (open == std::string_view::npos || open >= statement_.end) {
             return after();
@@ -327,7 +327,7 @@ private:
     // --- curves
 
     /// Points in parentheses, `(0, 1), (1, 2)`, or with a comma between coordinates, `0,1 1,2`.
-    void curve() {
+    void repair_curve() {
         const std::size_t name = skip_gaps(text(), body_);
         std::size_t begin = name + leading_word(text().substr(name)).size();
         begin = skip_gaps(text(), begin);
@@ -380,7 +380,7 @@ private:
     // --- settings
 
     /// `#set tropism (0, -1, 0) 0.2;`.
-    void setting() {
+    void repair_setting() {
         const std::size_t key = skip_gaps(text(), body_);
         const std::string_view word = leading_word(text().substr(key));
         Piece all = trimmed(text(), key + word.size(), statement_.end);
@@ -417,7 +417,7 @@ private:
     // --- objects and files
 
     /// `#object L LEAF scale 0.4;`.
-    void object() {
+    void repair_object() {
         const std::size_t name = skip_gaps(text(), body_);
         const std::string_view module = leading_word(text().substr(name));
         const std::size_t object =
@@ -453,7 +453,7 @@ private:
     }
 
     /// `#include <file.lsys>;`.
-    void include() {
+    void repair_include() {
         const Piece all = trimmed(text(), body_, statement_.end);
         const std::string_view written = text_of(text(), all);
         const bool is_angled = written.starts_with('<') && written.ends_with('>');
