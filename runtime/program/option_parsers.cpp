@@ -138,7 +138,7 @@ void add_grammar(CLI::App& app, GrammarOptions& options, RunOptions& run) {
         ->group("Limits");
 }
 
-void add_base(CLI::App& app, RunOptions& run) {
+void add_base_option(CLI::App& app, RunOptions& run) {
     const auto folder = [](const std::string& text) -> Result<std::string> {
         std::error_code ignored;
         return std::filesystem::is_directory(path_of(text), ignored)

@@ -89,7 +89,7 @@ void add_levels(CLI::App& app, MessageOptions& options);
 void add_dialect(CLI::App& app, std::string& dialect);
 void add_grammar(CLI::App& app, GrammarOptions& options, RunOptions& run);
 /// The options --base and --stdin-name: folder or path of a grammar from standard input.
-void add_base(CLI::App& app, RunOptions& run);
+void add_base_option(CLI::App& app, RunOptions& run);
 /// Applies --base or --stdin-name: replaces each `-` in `files` by the path of standard_input_in()
 /// or standard_input_as(). Returns a mistake if one of these options is given without a `-`, or if
 /// both are given.

@@ -105,12 +105,12 @@ std::vector<const Statement*> statements_in_order(const Grammar& grammar);
 // The value of `#set key`, if the grammar has one.
 std::optional<std::string> setting(const Grammar& grammar, const std::string& key);
 
-// `left < predecessor > right` with names and numbers of parameters only. Productions for which this
-// text is the same form a group (docs/language.md section 5).
+// `left < predecessor > right` with names and numbers of parameters only. Productions for which
+// this text is the same form a group (docs/language.md section 5).
 std::string group_of(const Production& production);
 
-// The predecessor with names and numbers of parameters only. Productions for which this text is the
-// same form a rule (docs/language.md section 5).
+// The predecessor with names and numbers of parameters only. Productions for which this text is
+// the same form a rule (docs/language.md section 5).
 std::string rule_of(const Production& production);
 
 } // namespace lsys::reference

@@ -269,7 +269,7 @@ void add_all(CLI::App& app, ViewOptions& options) {
         "one, a window opens with samples and recent files");
     add_picture(app, options);
     add_grammar(app, options.grammar, options.run);
-    add_base(app, options.run);
+    add_base_option(app, options.run);
     add_seed(app, options.seed);
     add_height(app, options.plant_height);
     add_bending(app, options);

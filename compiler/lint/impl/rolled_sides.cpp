@@ -79,7 +79,7 @@ private:
         return ends_branch_[static_cast<std::size_t>(symbol)] != 0;
     }
 
-    /// Clears `ends_branch_` of the symbols that stand somewhere in `word` without a `]` behind them.
+    /// Clears `ends_branch_` of each symbol that stands in `word` without a `]` behind it.
     void mark_modules_without_close(const ProgramWord& word) {
         const std::size_t end = std::size_t{word.first_module} + word.module_count;
         for (std::size_t i = word.first_module; i < end; ++i) {

@@ -15,7 +15,7 @@ namespace lsys {
 
 namespace {
 
-/// Max bytes of all expanded macros. Reached only if macros use other macros several times each.
+/// Max bytes of all expanded macros. Only macros that use other macros several times each reach it.
 constexpr std::size_t kMaxExpanded = std::size_t{1} << 24;
 constexpr int kMaxMacroDepth = 64;
 

@@ -13,9 +13,9 @@ namespace lsys {
 
 struct BoxShape {
     float width = 1.0F; // half side of a box for a radius of 1
-    /// Whether the mesh will be smoothed: flat ends then get a rim that keeps them flat, and a branch
-    /// may be narrower in its opening, the hole in the side of its parent's box. Otherwise each box
-    /// has exactly the widths of its segment.
+    /// Whether the mesh will be smoothed: flat ends then get a rim that keeps them flat, and a
+    /// branch may be narrower in its opening, the hole in the side of its parent's box. Otherwise
+    /// each box has exactly the widths of its segment.
     bool smoothed = true;
 };
 
