@@ -47,8 +47,9 @@ struct GenerationSize {
 /// predicted, if possible.
 inline constexpr std::uint32_t kMaxListedGenerations = 10'000;
 
-/// Bounds low[g] and high[g] of generation g. Lists all requested generations up to
-/// kMaxListedGenerations; large programs list fewer, so that the prediction stays fast.
+/// Lower and upper bounds low[g] and high[g] of the sizes of generation g. Lists all requested
+/// generations up to kMaxListedGenerations; large programs list fewer, so that the prediction stays
+/// fast.
 struct GrowthPrediction {
     bool exact = false; // low == high for every generation
     std::vector<GenerationSize> low;

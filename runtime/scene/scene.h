@@ -111,7 +111,7 @@ struct SceneSpecies {
     std::vector<std::uint32_t> stages;
     /// Domination: years per stage; 0: one stage, or unset.
     float years_of_stage = 0.0F;
-    std::optional<StageStart> start; // none: First with domination, else Random
+    std::optional<StageStart> start; // none: First if domination places the trees, else Random
     float rho = kSceneRho;
     CacheOptions cache; // only heroes, seed, cap and tolerance are set
     ExplicitInstancing explicit_instancing;

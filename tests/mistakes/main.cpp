@@ -44,7 +44,7 @@ std::string persona_of(const std::string& name) {
     return name.substr(0, name.rfind('-'));
 }
 
-/// The mistakes whose name begins with a filter; all without filters.
+/// The mistakes whose name begins with one of the filters; all mistakes if there are no filters.
 std::vector<lsys::tests::ListedCase> read_cases(const lsys::tests::UiOptions& options) {
     std::vector<lsys::tests::ListedCase> cases;
     for (const Row& row : read_table(options.root / "mistakes.tsv")) {

@@ -54,7 +54,7 @@ void check_quotes(const CheckInput& input, const ProgramWord& word, Diagnostics&
          false});
 }
 
-/// Reports `F(0,75)`, a length of 0 and a spring constant of 75.
+/// Reports a decimal comma: `F(0,75)`, meant as `F(0.75)`, has length 0 and spring constant 75.
 void check_comma(const CheckInput& input,
                  SourceSpan module,
                  const std::vector<SourceSpan>& arguments,

@@ -89,7 +89,7 @@ void check_unused_objects(const CheckInput& input, ModuleUse& use, Diagnostics& 
 }
 
 void check_idle_modules(const CheckInput& input, ModuleUse& use, Diagnostics& diagnostics) {
-    // A grammar that draws nothing is used for its word, so any module may be meant.
+    // A grammar that draws nothing is used for its word: no module is idle by mistake.
     if (!use.draws) {
         return;
     }

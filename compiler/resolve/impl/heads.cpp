@@ -38,9 +38,9 @@ bool HeadResolver::resolve(const ProductionNode& node, Production& production) {
     production.has_left = node.has_left;
     production.has_right = node.has_right;
     bool ok = check_shape(node);
-    ok = pattern(node.left, Part::Left, production.left) && ok;
-    ok = pattern(node.predecessor, Part::Predecessor, production.predecessor) && ok;
-    ok = pattern(node.right, Part::Right, production.right) && ok;
+    ok = read_pattern(node.left, Part::Left, production.left) && ok;
+    ok = read_pattern(node.predecessor, Part::Predecessor, production.predecessor) && ok;
+    ok = read_pattern(node.right, Part::Right, production.right) && ok;
     return ok;
 }
 
@@ -119,7 +119,7 @@ bool HeadResolver::check_stage(const ProductionNode& node) {
     return false;
 }
 
-bool HeadResolver::pattern(ModuleList list, Part part, ProgramPattern& out) {
+bool HeadResolver::read_pattern(ModuleList list, Part part, ProgramPattern& out) {
     bool ok = true;
     out.span = list.span;
     out.items.reserve(list.count);
@@ -135,11 +135,11 @@ bool HeadResolver::pattern(ModuleList list, Part part, ProgramPattern& out) {
         const SymbolKind kind =
             kind_of(resolution_.program.settings.turtle, resolution_.text(module.name));
         if (kind == SymbolKind::BranchOpen || kind == SymbolKind::BranchClose) {
-            ok = bracket(module, part, out) && ok;
+            ok = read_bracket(module, part, out) && ok;
             continue;
         }
         const auto first_formal = static_cast<std::uint32_t>(production_->formals.size());
-        ok = formals(module) && ok;
+        ok = read_formals(module) && ok;
         append(module, first_formal, out);
     }
     for (const SourceSpan open : open_) {
@@ -152,7 +152,7 @@ bool HeadResolver::pattern(ModuleList list, Part part, ProgramPattern& out) {
     return ok;
 }
 
-bool HeadResolver::bracket(const ModuleView& module, Part part, ProgramPattern& out) {
+bool HeadResolver::read_bracket(const ModuleView& module, Part part, ProgramPattern& out) {
     const bool opens = kind_of(resolution_.program.settings.turtle,
                                resolution_.text(module.name)) == SymbolKind::BranchOpen;
     const bool rewritten = part == Part::Predecessor &&
@@ -183,7 +183,7 @@ bool HeadResolver::bracket(const ModuleView& module, Part part, ProgramPattern& 
     }
     if (rewritten) { // with `rewriting leftmost` a predecessor has brackets as ordinary modules
         const auto first_formal = static_cast<std::uint32_t>(production_->formals.size());
-        const bool ok = formals(module);
+        const bool ok = read_formals(module);
         append(module, first_formal, out);
         return ok;
     }
@@ -216,16 +216,16 @@ void HeadResolver::append(const ModuleView& module,
     }
 }
 
-bool HeadResolver::formals(const ModuleView& module) {
+bool HeadResolver::read_formals(const ModuleView& module) {
     bool ok = true;
     for (std::uint32_t i = 0; i < module.arguments.count; ++i) {
         const ExpressionId argument = resolution_.ast.expression_lists[module.arguments.first + i];
-        ok = formal(resolution_.ast.expression(argument)) && ok;
+        ok = read_formal(resolution_.ast.expression(argument)) && ok;
     }
     return ok;
 }
 
-bool HeadResolver::formal(const Expression& argument) {
+bool HeadResolver::read_formal(const Expression& argument) {
     const SourceSpan span = argument.span();
     if (argument.kind != ExpressionKind::Name) {
         if (argument.kind != ExpressionKind::Error) {

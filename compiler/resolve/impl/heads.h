@@ -19,10 +19,10 @@ public:
 private:
     enum class Part : std::uint8_t { Left, Predecessor, Right };
 
-    [[nodiscard]] bool pattern(ModuleList list, Part part, ProgramPattern& out);
-    [[nodiscard]] bool bracket(const ModuleView& module, Part part, ProgramPattern& out);
-    [[nodiscard]] bool formals(const ModuleView& module);
-    [[nodiscard]] bool formal(const Expression& argument);
+    [[nodiscard]] bool read_pattern(ModuleList list, Part part, ProgramPattern& out);
+    [[nodiscard]] bool read_bracket(const ModuleView& module, Part part, ProgramPattern& out);
+    [[nodiscard]] bool read_formals(const ModuleView& module);
+    [[nodiscard]] bool read_formal(const Expression& argument);
     void append(const ModuleView& module, std::uint32_t first_formal, ProgramPattern& out);
     void report_argument(const Expression& argument);
     [[nodiscard]] std::optional<Edit> condition_edit(const std::string& test) const;

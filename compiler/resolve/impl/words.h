@@ -19,8 +19,8 @@ struct ModuleReading {
     NameSplitter& splitter;
     ExpressionResolver& expressions;
     SplitReport splits;
-    /// Cache by name: the symbol of its modules without arguments; kNoSymbol if not cached. Split
-    /// names are never cached.
+    /// Cache by name: the symbol of its modules without arguments; kNoSymbol if not cached.
+    /// Names that are split into several modules are never cached.
     std::vector<SymbolId> bare;
 };
 

@@ -16,7 +16,7 @@ inline constexpr std::uint32_t kColumns = 100;
 
 class LineWriter {
 public:
-    /// Appends to `out`, with `column` columns in its last line.
+    /// Appends to `out`, whose last line already has `column` columns.
     LineWriter(std::string& out, std::uint32_t column) : out_(out), column_(column) {}
 
     /// Adds a piece, after `blanks` unless it begins a line.

@@ -365,7 +365,7 @@ std::vector<std::uint8_t> ImpostorBaker::paint(const View& view,
                                                const glm::vec3& tint,
                                                Texture& colour,
                                                Texture& normal_map) const {
-    std::vector<std::uint32_t> order; // numbers of texels, in the order in which they become opaque
+    std::vector<std::uint32_t> order; // numbers of texels, in the order of covering
     double area = 0.0;
     glm::dvec3 wanted(0.0); // sum of colours
     for (std::uint32_t i = 0; i < texels(); ++i) {

@@ -146,7 +146,7 @@ TEST_CASE("a smooth branch leaves along its parent and keeps its radius", "[mesh
     const std::vector<Joint> joints = joints_of(plant.skeleton(), kSmooth, branch);
     CHECK(joints.front().centre == plant.skeleton().segments[branch].base);
     CHECK(joints.back().centre == tip(plant.skeleton().segments[branch]));
-    // The first ring turns from the trunk by about half of the turn between two rings.
+    // The angle from the trunk to the first ring is about half of the angle between two rings.
     CHECK(glm::dot(joints.front().heading, glm::vec3(0, 1, 0)) > std::cos(10.0F * kDegree));
     CHECK(max_turn(joints) < 15.0F);
     for (std::size_t i = 1; i < joints.size(); ++i) {

@@ -137,7 +137,7 @@ TEST_CASE("tapered pipes narrow to the width of the segment that continues them"
             CHECK(plant.segments[i].tip_radius == Approx(own.base_radius + taper * rest));
         }
     }
-    Skeleton fork; // a trunk that ends in two limbs of one and two tips
+    Skeleton fork; // a trunk with two limbs: one has one tip, the other two
     for (const std::uint32_t parent : {kNoSegment, 0U, 0U, 2U, 2U}) {
         test::add_segment(fork, parent, test::leaning(0.1F), wood(1.0F, 0.5F));
     }
