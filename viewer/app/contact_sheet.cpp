@@ -232,13 +232,6 @@ std::vector<std::pair<std::size_t, Texture>> ContactSheet::take() {
     return drawn;
 }
 
-void ContactSheet::move(int right, int down) {
-    constexpr int kLast = static_cast<int>(kSheetSide) - 1;
-    const int column = std::clamp(static_cast<int>(selected % kSheetSide) + right, 0, kLast);
-    const int row = std::clamp(static_cast<int>(selected / kSheetSide) + down, 0, kLast);
-    selected = static_cast<std::size_t>(row) * kSheetSide + static_cast<std::size_t>(column);
-}
-
 SheetAction draw_contact_sheet(ContactSheet& sheet, const PlantView& view) {
     SheetAction action;
     const ImVec2 size = ImGui::GetIO().DisplaySize;
@@ -274,8 +267,11 @@ SheetAction draw_contact_sheet(ContactSheet& sheet, const PlantView& view) {
             }
             const ImVec2 corner = ImGui::GetCursorScreenPos();
             ImGui::PushID(static_cast<int>(i));
-            if (ImGui::Selectable("##cell", sheet.selected == i, 0, cell)) {
+            if (ImGui::Selectable("##cell", false, 0, cell)) {
                 action.taken = i;
+            }
+            if (i == 0) {
+                ImGui::SetItemDefaultFocus();
             }
             ImGui::PopID();
             ImDrawList& list = *ImGui::GetWindowDrawList();

@@ -86,13 +86,9 @@ public:
     /// Names of the `#param` that are varied, at most two; empty: seeds. A change takes effect at
     /// the next show().
     std::vector<std::string> varied;
-    std::size_t selected = 0;                         // cell
     std::array<SheetCell, kSheetCells> cells;         // of the last show()
     std::array<std::uintptr_t, kSheetCells> images{}; // 0: not drawn yet
     std::array<bool, kSheetCells> done{};
-
-    /// Moves the selection; stops at the edges.
-    void move(int right, int down);
 
 private:
     std::shared_ptr<SheetPictures> pictures_;
@@ -101,7 +97,7 @@ private:
 
 /// The action of the user in a frame of draw_contact_sheet().
 struct SheetAction {
-    std::optional<std::size_t> taken; // cell clicked
+    std::optional<std::size_t> taken; // cell
     bool closes = false;
     bool varies = false; // ContactSheet::varied has changed
 };

@@ -160,19 +160,8 @@ void draw_painting(ForestView& view) {
     }
     ImGui::DragFloatRange2("Scale", &brush.min_scale, &brush.max_scale, 0.005F, 0.01F, 100.0F,
                            "%.2f", nullptr, ImGuiSliderFlags_AlwaysClamp);
-    if (ImGui::Button("Undo")) {
-        view.undo();
-    }
-    ImGui::SameLine();
-    if (ImGui::Button("Redo")) {
-        view.redo();
-    }
-    ImGui::SameLine();
-    if (ImGui::Button(view.is_unsaved() ? "Save *" : "Save")) {
-        view.save();
-    }
-    ImGui::SameLine();
-    line(fmt::format("{} painted", grouped(view.painting().painted_count())));
+    line(fmt::format("{:>11} painted{}", grouped(view.painting().painted_count()),
+                     view.is_unsaved() ? ", not saved" : ""));
 }
 
 /// Draws the species; returns the path of a grammar that the user wants to open, or an empty text.
@@ -187,8 +176,10 @@ std::string draw_species(ForestView& view) {
     for (std::size_t i = 0; i < document->scene.species.size(); ++i) {
         const SceneSpecies& species = document->scene.species[i];
         const PlacementSpecies& placed = document->scene.placement.species[i];
-        if (!ImGui::TreeNodeEx(species.name.c_str(),
-                               i < 2 ? ImGuiTreeNodeFlags_DefaultOpen : ImGuiTreeNodeFlags_None)) {
+        // A species may be named like a section of the panel.
+        if (!ImGui::TreeNodeEx(("species " + species.name).c_str(),
+                               i < 2 ? ImGuiTreeNodeFlags_DefaultOpen : ImGuiTreeNodeFlags_None,
+                               "%s", species.name.c_str())) {
             continue;
         }
         SpeciesOverrides& edit = view.settings.edits.species[species.name];

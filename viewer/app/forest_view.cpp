@@ -518,6 +518,7 @@ void ForestView::open(const std::string& file) {
     settings.edits = {};
     settings.visibility.reset();
     settings.light = {};
+    settings.figure = false;
     settings.plays = false;
     grown_.reset();
     frame_next_ = true;

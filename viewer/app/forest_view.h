@@ -131,7 +131,7 @@ public:
     void end_stroke();
     /// Saves painted trees in the file of the scene shown and reports the result. If a scene with
     /// errors was opened later, its file is not written.
-    void save();
+    void save() override;
 
     /// The moment of growth shown; empty: the forest of a whole year is shown.
     [[nodiscard]] const std::optional<GrowthMoment>& grown() const { return grown_; }

@@ -580,8 +580,10 @@ TEST_CASE("opening another scene drops the options, heroes and painting of the f
     forest.settings.tool = PaintTool::OneTree;
     viewed.press();
     REQUIRE(forest.is_unsaved());
-    viewed.views.open(second.scene); // refused
     viewed.views.open(second.scene);
+    REQUIRE(viewed.views.leaving());
+    CHECK(viewed.views.leaving()->file == second.scene);
+    CHECK_FALSE(viewed.views.leave());
     REQUIRE(viewed.until_trees(40));
     const SceneSpecies& species = forest.document()->scene.species[0];
     CHECK(species.definitions.empty());
@@ -615,20 +617,36 @@ TEST_CASE("dropped files show plants and forests in turn") {
     drop(files.scene);
     REQUIRE(viewed.views.forest() != nullptr);
     REQUIRE(viewed.until_swaps(1));
-    // If painted trees are unsaved, the first drop of a file or request to close only warns.
+    // With unsaved trees, a dropped file or a request to close asks first.
     viewed.look_at(30.0F, 30.0F);
     viewed.forest().settings.tool = PaintTool::OneTree;
     viewed.press();
     drop(files.folder / "bush.lsys");
     REQUIRE(viewed.views.forest() != nullptr);
+    CHECK(panels.dialog == OpenDialog::Unsaved);
+    const auto press = [&](Key key) {
+        WindowInput input;
+        input.presses = {{key}};
+        controls.apply(input, 0.01, area, viewed.views, panels);
+    };
+    press(Key::Escape);
+    CHECK(panels.dialog == OpenDialog::None);
+    CHECK_FALSE(viewed.views.leaving());
     WindowInput closing;
     closing.close_requested = true;
-    controls.apply(closing, 0.01, area, viewed.views, panels);
-    CHECK_FALSE(panels.quits);
-    controls.apply(closing, 0.01, area, viewed.views, panels);
-    CHECK(panels.quits);
+    for (int i = 0; i < 2; ++i) { // the second request does not close the window either
+        controls.apply(closing, 0.01, area, viewed.views, panels);
+        CHECK_FALSE(panels.quits);
+        CHECK(panels.dialog == OpenDialog::Unsaved);
+    }
+    answer_unsaved(UnsavedAnswer::Cancel, viewed.views, panels);
     drop(files.folder / "bush.lsys");
-    CHECK(viewed.views.plant() != nullptr);
+    REQUIRE(viewed.views.forest() != nullptr);
+    answer_unsaved(UnsavedAnswer::Discard, viewed.views, panels);
+    CHECK_FALSE(panels.quits);
+    CHECK(panels.dialog == OpenDialog::None);
+    REQUIRE(viewed.views.plant() != nullptr);
+    CHECK(read_text(files.scene).find("[painted]") == std::string::npos);
     CHECK(viewed.renderer->errors().empty());
 }
 
