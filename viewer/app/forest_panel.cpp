@@ -336,6 +336,19 @@ void draw_colours(ForestView& view) {
     draw_legend(view);
 }
 
+/// `own`: empty: no species follows the season.
+void draw_season(const std::optional<float>& own, std::optional<float>& edit) {
+    ImGui::BeginDisabled(!own);
+    draw_edit("Season", own.value_or(0.0F), edit, [&own](float& value) {
+        const bool changed =
+            ImGui::SliderFloat("##value", &value, 0.0F, 1.0F, "%.2f", ImGuiSliderFlags_AlwaysClamp);
+        draw_tooltip(own ? "Time of the year, from March to March; Ctrl+S writes it to the scene"
+                         : "No species here has a constant `season` that the scene leaves open");
+        return changed;
+    });
+    ImGui::EndDisabled();
+}
+
 void draw_look(ForestView& view) {
     if (!ImGui::CollapsingHeader("Display")) {
         return;
@@ -353,15 +366,7 @@ void draw_look(ForestView& view) {
     ImGui::Checkbox("Wind", &settings.windy);
     draw_wind(settings.wind);
     if (view.document() != nullptr) {
-        const std::vector<SceneSpecies>& species = view.document()->scene.species;
-        const auto seasonal = std::find_if(species.begin(), species.end(),
-                                           [](const SceneSpecies& each) { return each.season; });
-        if (seasonal != species.end()) {
-            draw_edit("Season", *seasonal->season, settings.edits.season, [](float& value) {
-                return ImGui::SliderFloat("##value", &value, 0.0F, 1.0F, "%.2f",
-                                          ImGuiSliderFlags_AlwaysClamp);
-            });
-        }
+        draw_season(view.document()->season, settings.edits.season);
         draw_sun(view.document()->scene.light, settings.light);
         edit_length("Visibility", default_visibility(*view.document()), settings.visibility, 0.01,
                     1e6, "%.3g km");

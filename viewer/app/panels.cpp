@@ -466,13 +466,13 @@ void draw_edit_buttons(ViewSwitcher& switcher) {
     ImGui::SameLine();
     const PlantView* const plant = switcher.plant();
     ImGui::BeginDisabled(plant != nullptr ? !plant->has_changed_values() : !view.is_unsaved());
-    if (ImGui::Button(plant != nullptr ? "Write to file" : "Save painting")) {
+    if (ImGui::Button("Write to file")) {
         view.save();
     }
     ImGui::EndDisabled();
     draw_tooltip(plant != nullptr
                      ? "Writes changed constants, settings and seed to the file (Ctrl+S)"
-                     : "Writes painted and erased trees to the scene file (Ctrl+S)");
+                     : "Writes painted and erased trees and the season to the scene (Ctrl+S)");
 }
 
 void draw_output_buttons(ViewSwitcher& switcher, PanelState& panels) {

@@ -16,7 +16,7 @@ std::optional<UnsavedAnswer> draw_unsaved_dialog(ViewSwitcher& switcher, const P
     const std::string& next = switcher.leaving()->file;
     bool is_open = true;
     if (begin_dialog("Unsaved changes", is_open)) {
-        line(fmt::format("{} of {} are not saved.", view.is_forest() ? "Painted trees" : "Values",
+        line(fmt::format("{} of {} are not saved.", view.is_forest() ? "Changes" : "Values",
                          name_of_path(view.file())));
         line(next.empty() ? "The window is about to close."
                           : fmt::format("{} is about to be opened.", name_of_path(next)));

@@ -262,6 +262,50 @@ TEST_CASE("values set in the window replace those of the scene") {
     CHECK_FALSE(viewed.forest().failed());
 }
 
+TEST_CASE("after a change of season the picture, with its shadows, is that of a new view") {
+    const std::string text = "season = 0.1\n" + wood(12);
+    const std::string bush = "#param season 0.5 {0, 1};\n#n = 4;\n#set names letters;\n"
+                             "#set width 0.1;\n#w : A;\n"
+                             "#p : A : * : F(1)[+(50)F(4*season)][-(50)F(4*season)]/(90)A;\n";
+    const WoodFolder files(text);
+    write_text(files.folder / "bush.lsys", bush);
+    ViewOptions options = forest_options(files.scene);
+    options.quality = Quality::Medium; // with shadows of branches
+    const auto settle = [](ViewedForest& viewed) {
+        viewed.forest().settings.camera = {{30.0F, 12.0F, 62.0F}, {30.0F, 2.0F, 30.0F}, 40.0F};
+        const SteadyClock::time_point start = SteadyClock::now();
+        REQUIRE(viewed.until([&] { return SteadyClock::now() - start > 1s; }));
+        return viewed.picture();
+    };
+    std::vector<std::uint8_t> changed;
+    {
+        ViewedForest viewed(options);
+        REQUIRE(viewed.until_swaps(1));
+        const std::vector<std::uint8_t> before = settle(viewed);
+        viewed.forest().settings.edits.season = 0.9F;
+        REQUIRE(viewed.until_swaps(2));
+        changed = settle(viewed);
+        CHECK(changed != before);
+        // Writing it to the scene changes one line, and not the picture.
+        CHECK(viewed.forest().is_unsaved());
+        viewed.forest().save();
+        CAPTURE(viewed.forest().note());
+        CHECK_FALSE(viewed.forest().is_unsaved());
+        CHECK(read_text(files.scene) == "season = 0.9\n" + wood(12));
+        REQUIRE(viewed.until_swaps(3));
+        CHECK(viewed.forest().document()->season == 0.9F);
+        CHECK(settle(viewed) == changed);
+    }
+    ViewedForest viewed(options);
+    REQUIRE(viewed.until_swaps(1));
+    CHECK(settle(viewed) == changed);
+    // A scene that sets the constant itself leaves nothing to the season.
+    write_text(files.scene, wood(12, "define = { season = 0.3 }\n"));
+    viewed.forest().reload();
+    REQUIRE(viewed.until_swaps(2));
+    CHECK_FALSE(viewed.forest().document()->season);
+}
+
 TEST_CASE("a forest grows from its first year to its last") {
     const WoodFolder files("key = 3\n[terrain]\nsize = 40\n[placement]\nmethod = \"domination\"\n"
                            "count = 60\nyears = 30\n[[species]]\nname = \"bush\"\n"
