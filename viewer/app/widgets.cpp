@@ -29,19 +29,32 @@ void line(const std::string& text) {
     ImGui::TextUnformatted(text.data(), text.data() + text.size());
 }
 
+namespace {
+
+/// Whether the keyboard was used last, and a ring is shown.
+bool uses_keyboard() {
+    return ImGui::GetCurrentContext()->NavDisableMouseHover && ImGui::GetIO().NavVisible;
+}
+
+} // namespace
+
 void set_tooltip(const std::string& text) {
+    if (uses_keyboard()) {
+        // Beside the window, so that the next controls stay in sight.
+        ImGui::SetNextWindowPos(
+            {ImGui::GetWindowPos().x + ImGui::GetWindowWidth(), ImGui::GetItemRectMin().y});
+    }
     ImGui::SetTooltip("%s", text.c_str());
 }
 
 bool is_pointed_at() {
-    const ImGuiContext& context = *ImGui::GetCurrentContext();
     return ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled) ||
-           (context.NavDisableMouseHover && ImGui::GetIO().NavVisible && ImGui::IsItemFocused());
+           (uses_keyboard() && ImGui::IsItemFocused());
 }
 
 void draw_tooltip(const char* text) {
     if (is_pointed_at()) {
-        ImGui::SetTooltip("%s", text);
+        set_tooltip(text);
     }
 }
 

@@ -129,6 +129,10 @@ struct Window::State {
     bool shift = false;         // at the last press or release of the left button
     std::array<bool, 3> held{}; // buttons pressed outside of panels
     std::vector<std::pair<int, Key>> keys;
+    // Keys that the panels received since the last frame. ImGui would not see a key that is released
+    // before the next one, so such releases wait.
+    std::vector<int> new_keys;
+    std::vector<std::pair<int, int>> waiting_releases; // GLFW key codes and scan codes
     std::vector<GLuint> images;
     WindowLook look;
     WindowLook drawn_look;    // of the fonts and style of ImGui
@@ -301,10 +305,29 @@ struct Window::State {
     void install_key_callback() {
         glfwSetKeyCallback(
             window, [](GLFWwindow* from, int code, int scan_code, int action, int modifiers) {
-                if (of(from).press_key(code, scan_code, action, modifiers)) {
-                    ImGui_ImplGlfw_KeyCallback(from, code, scan_code, action, modifiers);
+                State& state = of(from);
+                if (!state.press_key(code, scan_code, action, modifiers)) {
+                    return;
                 }
+                const bool is_new = std::find(state.new_keys.begin(), state.new_keys.end(), code) !=
+                                    state.new_keys.end();
+                if (action == GLFW_RELEASE && is_new) {
+                    state.waiting_releases.emplace_back(code, scan_code);
+                    return;
+                }
+                if (action == GLFW_PRESS && !is_modifier(code)) {
+                    state.new_keys.push_back(code);
+                }
+                ImGui_ImplGlfw_KeyCallback(from, code, scan_code, action, modifiers);
             });
+    }
+
+    /// Call after ImGui has begun a frame.
+    void release_keys() {
+        new_keys.clear();
+        for (const auto& [code, scan_code] : std::exchange(waiting_releases, {})) {
+            ImGui_ImplGlfw_KeyCallback(window, code, scan_code, GLFW_RELEASE, 0);
+        }
     }
 };
 
@@ -458,6 +481,7 @@ void Window::begin_panels() {
         io.NavInputs[ImGuiNavInput_Activate] = 1.0F;
     }
     ImGui::NewFrame();
+    state_->release_keys();
 }
 
 void Window::present() {
