@@ -89,9 +89,13 @@ public:
     std::array<SheetCell, kSheetCells> cells;         // of the last show()
     std::array<std::uintptr_t, kSheetCells> images{}; // 0: not drawn yet
     std::array<bool, kSheetCells> done{};
+    /// Whether all pictures taken so far are equal.
+    [[nodiscard]] bool are_alike() const { return are_alike_; }
 
 private:
     std::shared_ptr<SheetPictures> pictures_;
+    std::vector<std::uint8_t> first_texels_;
+    bool are_alike_ = true;
     std::unique_ptr<LatestRequestWorker<SheetRequest, bool>> worker_;
 };
 

@@ -124,7 +124,7 @@ void draw_constant(PlantViewSettings& settings, const Constant& constant, const 
     }
     line(name);
     if (is_pointed || is_pointed_at()) {
-        set_tooltip(describe_constant(constant, grammar));
+        set_tooltip(describe_constant(constant, grammar, is_set));
     }
     if (changed && std::isfinite(value)) {
         if (is_set) {

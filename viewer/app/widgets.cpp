@@ -44,7 +44,12 @@ void set_tooltip(const std::string& text) {
         ImGui::SetNextWindowPos(
             {ImGui::GetWindowPos().x + ImGui::GetWindowWidth(), ImGui::GetItemRectMin().y});
     }
-    ImGui::SetTooltip("%s", text.c_str());
+    constexpr float kCharacters = 45.0F; // in a line
+    ImGui::BeginTooltip();
+    ImGui::PushTextWrapPos(kCharacters * ImGui::CalcTextSize("0").x);
+    line(text);
+    ImGui::PopTextWrapPos();
+    ImGui::EndTooltip();
 }
 
 bool is_pointed_at() {

@@ -311,7 +311,9 @@ struct Window::State {
                 }
                 const bool is_new = std::find(state.new_keys.begin(), state.new_keys.end(), code) !=
                                     state.new_keys.end();
-                if (action == GLFW_RELEASE && is_new) {
+                // Shift and Ctrl are held until the key with them is seen.
+                const bool is_needed = is_modifier(code) && !state.new_keys.empty();
+                if (action == GLFW_RELEASE && (is_new || is_needed)) {
                     state.waiting_releases.emplace_back(code, scan_code);
                     return;
                 }

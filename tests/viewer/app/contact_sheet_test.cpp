@@ -105,6 +105,7 @@ TEST_CASE("the contact sheet draws plants beside the window, and one is taken by
         CHECK(panels.sheet.done.at(i));
     }
     CHECK(drawn[0].second.texels != drawn[1].second.texels);
+    CHECK_FALSE(panels.sheet.are_alike());
     press(Key::Escape);
     CHECK(panels.dialog == OpenDialog::None);
     CHECK_FALSE(view.settings.seed);
