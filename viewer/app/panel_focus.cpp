@@ -87,13 +87,16 @@ void PanelFocus::begin(DialogKeys dialog, FocusMove move) {
     }
 }
 
-void PanelFocus::end() {
+void PanelFocus::end(DialogKeys dialog) {
     const bool has_list =
         ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopupId | ImGuiPopupFlags_AnyPopupLevel);
     const ImGuiWindow* const window = focused_panel();
-    has_keys_ = dialog_ == DialogKeys::OfPanels || has_list ||
-                (dialog_ == DialogKeys::NoDialog && window != nullptr &&
-                 (window->Flags & ImGuiWindowFlags_NoNavInputs) == 0);
+    const bool has_panel =
+        dialog_ != DialogKeys::NoDialog
+            ? !before_.empty() // the next frame gives the keyboard back
+            : window != nullptr && (window->Flags & ImGuiWindowFlags_NoNavInputs) == 0;
+    has_keys_ =
+        dialog == DialogKeys::OfPanels || has_list || (dialog == DialogKeys::NoDialog && has_panel);
 }
 
 } // namespace lsys::view

@@ -20,8 +20,8 @@ public:
     /// after the last one to the picture. A dialog gets the keyboard when it opens, and gives it
     /// back when it closes.
     void begin(DialogKeys dialog, FocusMove move);
-    /// Call after the panels are drawn.
-    void end();
+    /// Call after the panels are drawn. `dialog`: the dialog for the next frame.
+    void end(DialogKeys dialog);
     /// Whether a panel or a dialog of ImGui has the keyboard. Does not need ImGui.
     [[nodiscard]] bool has_keys() const { return has_keys_; }
 

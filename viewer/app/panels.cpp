@@ -695,7 +695,7 @@ void draw_panels(ViewSwitcher& switcher, PanelState& panels, float scale) {
         }
         ask_about_unsaved(switcher, panels);
     }
-    panels.focus.end();
+    panels.focus.end(keys_of(panels.dialog));
     panels.has_open_list =
         ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopupId | ImGuiPopupFlags_AnyPopupLevel);
 }
