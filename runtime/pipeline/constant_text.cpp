@@ -28,15 +28,16 @@ std::string_view comment_after(std::string_view text, std::size_t place) {
 
 } // namespace
 
-std::string describe_constant(const Constant& constant, const Grammar& grammar) {
+std::string describe_constant(const Constant& constant, const Grammar& grammar, bool is_replaced) {
     std::string text;
     if (constant.span.file != kNoFile) {
         const SourceFile& file = grammar.sources->file(constant.span.file);
         text = comment_after(file.text(), constant.span.end);
     }
     text += text.empty() ? "" : "\n";
-    text +=
-        constant.is_random ? "random in each run" : fmt::format("{:g} in the file", constant.value);
+    text += constant.is_random ? "random in each run"
+            : is_replaced ? fmt::format("{:g} instead of the value in the file", constant.value)
+                          : fmt::format("{:g} in the file", constant.value);
     if (constant.is_param) {
         text += fmt::format("; from {:g} to {:g}", constant.minimum, constant.maximum);
     }

@@ -179,6 +179,8 @@ void ContactSheet::show(const PlantView& view,
     cells = sheet_cells(seed, varied_params(*this, grammar), grammar.names);
     images = {};
     done = {};
+    first_texels_.clear();
+    are_alike_ = true;
     pictures_ = std::make_shared<SheetPictures>();
     SheetRequest request;
     for (std::size_t i = 0; i < kSheetCells; ++i) {
@@ -228,15 +230,12 @@ std::vector<std::pair<std::size_t, Texture>> ContactSheet::take() {
     }
     for (const auto& [cell, picture] : drawn) {
         done.at(cell) = true;
+        if (first_texels_.empty()) {
+            first_texels_ = picture.texels;
+        }
+        are_alike_ = are_alike_ && picture.texels == first_texels_;
     }
     return drawn;
-}
-
-void ContactSheet::move(int right, int down) {
-    constexpr int kLast = static_cast<int>(kSheetSide) - 1;
-    const int column = std::clamp(static_cast<int>(selected % kSheetSide) + right, 0, kLast);
-    const int row = std::clamp(static_cast<int>(selected / kSheetSide) + down, 0, kLast);
-    selected = static_cast<std::size_t>(row) * kSheetSide + static_cast<std::size_t>(column);
 }
 
 SheetAction draw_contact_sheet(ContactSheet& sheet, const PlantView& view) {
@@ -263,7 +262,13 @@ SheetAction draw_contact_sheet(ContactSheet& sheet, const PlantView& view) {
         ImGui::SameLine();
         action.closes = ImGui::Button("Close (Esc)");
         ImGui::SameLine();
-        ImGui::TextDisabled("Arrow keys and Enter, or a click, take a plant");
+        const bool are_done =
+            std::all_of(sheet.done.begin(), sheet.done.end(), [](bool is_done) { return is_done; });
+        if (are_done && sheet.are_alike()) {
+            line("All nine are alike: choose a constant from the list");
+        } else {
+            ImGui::TextDisabled("Arrow keys and Enter, or a click, take a plant");
+        }
         const ImVec2 room = ImGui::GetContentRegionAvail();
         const ImVec2 gap = ImGui::GetStyle().ItemSpacing;
         constexpr auto kSide = static_cast<float>(kSheetSide);
@@ -274,8 +279,11 @@ SheetAction draw_contact_sheet(ContactSheet& sheet, const PlantView& view) {
             }
             const ImVec2 corner = ImGui::GetCursorScreenPos();
             ImGui::PushID(static_cast<int>(i));
-            if (ImGui::Selectable("##cell", sheet.selected == i, 0, cell)) {
+            if (ImGui::Selectable("##cell", false, 0, cell)) {
                 action.taken = i;
+            }
+            if (i == 0) {
+                ImGui::SetItemDefaultFocus();
             }
             ImGui::PopID();
             ImDrawList& list = *ImGui::GetWindowDrawList();

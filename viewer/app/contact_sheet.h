@@ -86,22 +86,22 @@ public:
     /// Names of the `#param` that are varied, at most two; empty: seeds. A change takes effect at
     /// the next show().
     std::vector<std::string> varied;
-    std::size_t selected = 0;                         // cell
     std::array<SheetCell, kSheetCells> cells;         // cells of the last show()
     std::array<std::uintptr_t, kSheetCells> images{}; // 0: not drawn yet
     std::array<bool, kSheetCells> done{};
-
-    /// Moves the selection; stops at the edges.
-    void move(int right, int down);
+    /// Whether all pictures taken so far are equal.
+    [[nodiscard]] bool are_alike() const { return are_alike_; }
 
 private:
     std::shared_ptr<SheetPictures> pictures_;
+    std::vector<std::uint8_t> first_texels_;
+    bool are_alike_ = true;
     std::unique_ptr<LatestRequestWorker<SheetRequest, bool>> worker_;
 };
 
 /// The action of the user in a frame of draw_contact_sheet().
 struct SheetAction {
-    std::optional<std::size_t> taken; // cell clicked
+    std::optional<std::size_t> taken; // cell
     bool closes = false;
     bool varies = false; // ContactSheet::varied has changed
 };

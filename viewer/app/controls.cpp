@@ -2,6 +2,7 @@
 #include "viewer/app/controls.h"
 
 #include "grammar/base/paths.h"
+#include "viewer/app/output_path.h"
 
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
@@ -10,6 +11,7 @@
 #include <cmath>
 #include <imgui.h>
 #include <numbers>
+#include <utility>
 
 namespace lsys::view {
 
@@ -84,11 +86,17 @@ void show_picture_dialog(const View& view, PanelState& panels) {
 
 void take_picture(View& view, PanelState& panels) {
     PictureSettings settings = panels.picture;
+    const std::string problem =
+        settings.name.empty() ? "the picture has no name" : problem_of_output(settings.path());
+    if (!problem.empty()) {
+        view.set_note("not written: " + problem); // the dialog stays and says so too
+        return;
+    }
     settings.width = settings.width == 0 ? view.picture_width() : settings.width;
     settings.height = settings.height == 0 ? view.picture_height() : settings.height;
     panels.dialog = OpenDialog::None;
-    if (settings.name.empty() || settings.width == 0) {
-        view.set_note("not written: the picture has no name");
+    if (settings.width == 0) {
+        view.set_note("not written: there is no picture yet");
     } else if (!settings.is_film) {
         view.write_picture(settings);
     } else if (view.is_unsaved()) {
@@ -102,13 +110,57 @@ void take_picture(View& view, PanelState& panels) {
     }
 }
 
+void show_export_dialog(PanelState& panels) {
+    panels.dialog = OpenDialog::Export;
+}
+
+void export_shown(PlantView& view, PanelState& panels) {
+    const std::string problem = problem_of_export(view.settings.output.file);
+    if (!problem.empty()) {
+        view.set_note("not written: " + problem); // the dialog stays and says so too
+        return;
+    }
+    panels.dialog = OpenDialog::None;
+    view.export_shown();
+}
+
+void ask_about_unsaved(const ViewSwitcher& switcher, PanelState& panels) {
+    if (!switcher.leaving() || panels.dialog == OpenDialog::Unsaved) {
+        return;
+    }
+    if (panels.dialog == OpenDialog::Sheet) {
+        close_sheet(panels);
+    }
+    panels.save_failure.clear();
+    panels.dialog = OpenDialog::Unsaved;
+}
+
+void answer_unsaved(UnsavedAnswer answer, ViewSwitcher& switcher, PanelState& panels) {
+    if (!switcher.leaving()) {
+        return;
+    }
+    View& view = switcher.current();
+    if (answer == UnsavedAnswer::Save) {
+        view.save();
+        if (view.is_unsaved()) {
+            panels.save_failure = view.note();
+            return;
+        }
+    }
+    panels.dialog = OpenDialog::None;
+    if (answer == UnsavedAnswer::Cancel) {
+        switcher.stay();
+    } else {
+        panels.quits = switcher.leave();
+    }
+}
+
 void show_sheet(PlantView& view, PanelState& panels) {
     if (view.document() == nullptr) {
         view.set_note("There is no plant for a contact sheet");
         return;
     }
     const SheetSize cell = sheet_cell_size(panels.window_width, panels.window_height);
-    panels.sheet.selected = 0;
     panels.sheet.show(view, cell.width, cell.height, panels.wake);
     panels.dialog = OpenDialog::Sheet;
 }
@@ -160,16 +212,10 @@ void Controls::apply(const WindowInput& input,
     } else {
         apply_to_view(input, seconds, area, switcher, panels);
     }
-    if (input.close_requested || panels.quits) {
-        panels.quits = !switcher.current().is_unsaved() || panels.asked_to_quit;
-        if (!panels.quits) {
-            panels.asked_to_quit = true;
-            switcher.current().set_note(
-                "painted trees are not saved: Ctrl+S saves them, Ctrl+Q quits without saving");
-        }
-    } else if (!input.presses.empty()) {
-        panels.asked_to_quit = false;
+    if (input.close_requested || std::exchange(panels.wants_to_quit, false)) {
+        panels.quits = switcher.may_quit();
     }
+    ask_about_unsaved(switcher, panels);
 }
 
 void Controls::apply_to_view(const WindowInput& input,
@@ -223,31 +269,65 @@ bool Controls::use_pages(const WindowInput& input, ViewSwitcher& switcher, Panel
         panels.start.find(input.text);
     }
     for (const KeyPress& press : input.presses) {
-        if (panels.dialog == OpenDialog::Sheet && panels.has_open_list) {
-            continue; // the key is meant for the list
+        press_in_page(press, switcher, panels, chosen);
+    }
+    if (!chosen.empty()) {
+        panels.dialog = OpenDialog::None;
+        switcher.open(chosen);
+    }
+    return true;
+}
+
+/// Keys that the panels have not taken.
+void Controls::press_in_page(const KeyPress& press,
+                             ViewSwitcher& switcher,
+                             PanelState& panels,
+                             std::string& chosen) {
+    if (press.control) {
+        panels.wants_to_quit = panels.wants_to_quit || press.key == Key::Q;
+        if (press.key == Key::O &&
+            (panels.dialog == OpenDialog::None || panels.dialog == OpenDialog::Picture ||
+             panels.dialog == OpenDialog::Export)) {
+            show_open_dialog(switcher.current(), panels);
         }
-        if (press.key == Key::F1 && panels.dialog == OpenDialog::None) {
-            panels.help = !panels.help;
-        } else if (press.control) {
-            panels.quits = panels.quits || press.key == Key::Q;
-            if (press.key == Key::O && panels.dialog != OpenDialog::Sheet) {
-                show_open_dialog(switcher.current(), panels);
-            }
-        } else if (panels.dialog == OpenDialog::File) {
-            press_in_browser(press, panels, chosen);
-        } else if (panels.dialog == OpenDialog::Picture) {
-            if (press.key == Key::Enter) {
-                take_picture(switcher.current(), panels);
-            } else if (press.key == Key::Escape) {
-                panels.dialog = OpenDialog::None;
-            }
-        } else if (panels.dialog == OpenDialog::Sheet && press.key == Key::Escape) {
+        return;
+    }
+    const bool accepts = press.key == Key::Enter;
+    const bool cancels = press.key == Key::Escape && !panels.has_open_list;
+    switch (panels.dialog) {
+    case OpenDialog::File:
+        press_in_browser(press, panels, chosen);
+        break;
+    case OpenDialog::Picture:
+        if (accepts) {
+            take_picture(switcher.current(), panels);
+        } else if (cancels) {
+            panels.dialog = OpenDialog::None;
+        }
+        break;
+    case OpenDialog::Export:
+        if (accepts && switcher.plant() != nullptr) {
+            export_shown(*switcher.plant(), panels);
+        } else if (cancels) {
+            panels.dialog = OpenDialog::None;
+        }
+        break;
+    case OpenDialog::Sheet:
+        if (cancels) {
             close_sheet(panels);
-        } else if (press.key == Key::Enter) {
-            if (panels.dialog == OpenDialog::Sheet && switcher.plant() != nullptr) {
-                take_from_sheet(panels.sheet.selected, *switcher.plant(), panels);
-                break;
-            }
+        }
+        break;
+    case OpenDialog::Unsaved:
+        if (accepts || cancels) {
+            answer_unsaved(accepts ? UnsavedAnswer::Save : UnsavedAnswer::Cancel, switcher, panels);
+        }
+        break;
+    case OpenDialog::None:
+        if (press.key == Key::F1) {
+            panels.help = !panels.help;
+        } else if (press.key == Key::Escape) {
+            panels.help = false;
+        } else if (accepts) {
             chosen = panels.start.selected_file();
         } else {
             const auto axis = [&press](Key less, Key more) {
@@ -255,18 +335,12 @@ bool Controls::use_pages(const WindowInput& input, ViewSwitcher& switcher, Panel
             };
             const int right = axis(Key::Left, Key::Right);
             const int down = axis(Key::Up, Key::Down);
-            if (panels.dialog == OpenDialog::Sheet) {
-                panels.sheet.move(right, down);
-            } else if (right != 0 || down != 0) {
+            if (right != 0 || down != 0) {
                 panels.start.move(right, down);
             }
         }
+        break;
     }
-    if (!chosen.empty()) {
-        panels.dialog = OpenDialog::None;
-        switcher.open(chosen);
-    }
-    return true;
 }
 
 void Controls::press_in_browser(const KeyPress& press, PanelState& panels, std::string& chosen) {
@@ -420,7 +494,7 @@ bool Controls::press_common(const KeyPress& press, View& view, PanelState& panel
     if (press.control) {
         switch (press.key) {
         case Key::Q:
-            panels.quits = true;
+            panels.wants_to_quit = true;
             return true;
         case Key::O:
             show_open_dialog(view, panels);
@@ -436,10 +510,20 @@ bool Controls::press_common(const KeyPress& press, View& view, PanelState& panel
         }
     }
     switch (press.key) {
+    case Key::F6:
+        panels.focus_move = FocusMove::Next;
+        return true;
     case Key::Tab:
         panels.flies = !panels.flies;
         return true;
     case Key::Escape:
+        if (press.in_control) {
+            return true; // ends the use of the control
+        }
+        if (panels.focus.has_keys() && !panels.flies) {
+            panels.focus_move = FocusMove::Picture;
+            return true;
+        }
         if (view.making()) {
             view.cancel_making();
             return true;
@@ -586,7 +670,7 @@ void Controls::press(const KeyPress& press, PlantView& view, PanelState& panels)
     }
     if (press.control) {
         if (press.key == Key::S) {
-            view.write_values();
+            view.save();
         }
         return;
     }
@@ -638,6 +722,9 @@ void Controls::press(const KeyPress& press, PlantView& view, PanelState& panels)
         break;
     case Key::K:
         show_sheet(view, panels);
+        break;
+    case Key::E:
+        show_export_dialog(panels);
         break;
     case Key::T:
         view.trace(view.shows_trace() ? scope_after(view.trace_scope()) : view.trace_scope());

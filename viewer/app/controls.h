@@ -5,6 +5,7 @@
 #include "viewer/app/camera_bookmarks.h"
 #include "viewer/app/contact_sheet.h"
 #include "viewer/app/film_export.h"
+#include "viewer/app/panel_focus.h"
 #include "viewer/app/start_page.h"
 #include "viewer/app/view_switcher.h"
 #include "viewer/gl/window.h"
@@ -16,19 +17,20 @@
 namespace lsys::view {
 
 /// The dialog that receives all keys.
-enum class OpenDialog : std::uint8_t { None, File, Picture, Sheet };
+enum class OpenDialog : std::uint8_t { None, File, Picture, Export, Sheet, Unsaved };
 
 /// Open overlays, and modes of the window.
 struct PanelState {
     bool panels = true;
-    bool statistics = true;
+    bool statistics = false;
     bool help = false;
-    bool flies = false; // fly mode: the mouse looks around, WASD move
-    bool quits = false;
+    bool flies = false;         // fly mode: the mouse looks around, WASD move
+    bool wants_to_quit = false; // Ctrl+Q
+    bool quits = false;         // unsaved changes are saved or given up
+    FocusMove focus_move = FocusMove::None;
+    PanelFocus focus;
     /// Messages that the user closed, as View::all_messages(); others are shown.
     std::string closed_messages;
-    // The user was warned of unsaved changes; the next request closes the window.
-    bool asked_to_quit = false;
     std::string state_folder; // folder of files kept between runs; empty: none are kept
     OpenDialog dialog = OpenDialog::None;
     FileBrowser browser;
@@ -37,7 +39,8 @@ struct PanelState {
     FilmExport film;
     CameraBookmarks bookmarks;
     ContactSheet sheet;
-    bool has_open_list = false; // a list above the contact sheet is open
+    bool has_open_list = false; // a list of a panel or dialog is open
+    std::string save_failure;   // why the dialog about unsaved changes has not saved them
     WindowLook look;
     std::uint32_t window_width = 0; // pixels
     std::uint32_t window_height = 0;
@@ -50,15 +53,15 @@ struct KeyHelp {
     const char* keys;
     const char* what;
 };
-inline constexpr std::array<KeyHelp, 6> kStartKeys = {{
+inline constexpr auto kStartKeys = std::to_array<KeyHelp>({
     {"Arrows", "Select a sample or a recent file"},
     {"Letters", "Select a sample by a part of its name"},
     {"Enter", "Open it"},
     {"Ctrl+O", "Open another file"},
     {"F1", "This list"},
     {"Ctrl+Q", "Quit"},
-}};
-inline constexpr std::array<KeyHelp, 35> kPlantKeys = {{
+});
+inline constexpr auto kPlantKeys = std::to_array<KeyHelp>({
     {"Left drag", "Orbit"},
     {"Click", "Describe the module and the production that wrote it"},
     {"T", "Trace of the module: why written, next step, back to the axiom"},
@@ -85,18 +88,21 @@ inline constexpr std::array<KeyHelp, 35> kPlantKeys = {{
     {"Ctrl+Z, Ctrl+Y", "Undo, redo a change of settings"},
     {"Ctrl+S", "Write constants, settings and seed to the file"},
     {"P, Shift+P", "Picture or film; at once a PNG in the current folder"},
+    {"E", "Export to a file of another program"},
     {"H", "Panels"},
     {"A", "Statistics"},
     {"M", "Close or show the messages"},
     {"F1", "Keys"},
+    {"F6", "Keyboard to the next panel, then to the picture"},
+    {"in a panel", "Arrows: controls, Tab: fields, Enter or Space: use, Esc: picture"},
     {"Esc", "Cancel what is being made; close the keys, stop flying"},
     {"Ctrl+Q", "Quit"},
     {"Ctrl+O", "Open a file"},
     {"Alt+Left, Alt+Right", "Previous, next file of the folder"},
     {"Drop a file", "Open it"},
-}};
+});
 
-inline constexpr std::array<KeyHelp, 34> kForestKeys = {{
+inline constexpr auto kForestKeys = std::to_array<KeyHelp>({
     {"Left drag", "Orbit; with a tool: paint, Shift: erase"},
     {"Click", "Without a tool: describe the branch and its production"},
     {"Right drag", "Pan; with a tool: orbit"},
@@ -126,12 +132,14 @@ inline constexpr std::array<KeyHelp, 34> kForestKeys = {{
     {"H, A", "Panels, statistics"},
     {"M", "Close or show the messages"},
     {"F1", "Keys"},
+    {"F6", "Keyboard to the next panel, then to the picture"},
+    {"in a panel", "Arrows: controls, Tab: fields, Enter or Space: use, Esc: picture"},
     {"Esc", "Cancel what is being made; put the tool away, close the keys, stop flying"},
     {"Ctrl+Q", "Quit"},
     {"Ctrl+O", "Open a file"},
     {"Alt+Left, Alt+Right", "Previous, next file of the folder"},
     {"Drop a file", "Open it: a scene or a grammar"},
-}};
+});
 
 class Controls {
 public:
@@ -161,6 +169,10 @@ private:
     /// Gives input to the dialog or the start page that is shown; returns whether one is.
     [[nodiscard]] static bool
     use_pages(const WindowInput& input, ViewSwitcher& switcher, PanelState& panels);
+    static void press_in_page(const KeyPress& press,
+                              ViewSwitcher& switcher,
+                              PanelState& panels,
+                              std::string& chosen);
     static void press_in_browser(const KeyPress& press, PanelState& panels, std::string& chosen);
     static void press_with_alt(Key key, ViewSwitcher& switcher, PanelState& panels);
     void apply_to_view(const WindowInput& input,
@@ -189,6 +201,17 @@ void show_open_dialog(const View& view, PanelState& panels);
 void show_picture_dialog(const View& view, PanelState& panels);
 /// Writes the picture of panels.picture, or begins to write its film; a note reports errors.
 void take_picture(View& view, PanelState& panels);
+/// Opens the dialog for exports.
+void show_export_dialog(PanelState& panels);
+/// Begins to write the file of the export dialog; reports the result in a note.
+void export_shown(PlantView& view, PanelState& panels);
+
+/// An answer to the question about unsaved changes.
+enum class UnsavedAnswer : std::uint8_t { Save, Discard, Cancel };
+/// Follows the answer. If saving fails, the dialog stays and shows the reason.
+void answer_unsaved(UnsavedAnswer answer, ViewSwitcher& switcher, PanelState& panels);
+/// Opens the dialog about unsaved changes if ViewSwitcher::leaving() waits for an answer.
+void ask_about_unsaved(const ViewSwitcher& switcher, PanelState& panels);
 /// Shows the contact sheet of the plant; without a plant reports that in a note.
 void show_sheet(PlantView& view, PanelState& panels);
 void close_sheet(PanelState& panels);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "viewer/app/forest_document.h"
 
+#include "grammar/base/paths.h"
 #include "runtime/pipeline/instancing_choice.h"
 #include "runtime/pipeline/step.h"
 #include "runtime/pipeline/stopwatch.h"
@@ -70,6 +71,33 @@ bool keep_choice(const Scene& before, Scene& scene) {
     return true;
 }
 
+/// ForestDocument::season.
+std::optional<float> season_of(const LoadedScene& loaded, const Project& project) {
+    for (const SceneSpecies& species : loaded.scene.species) {
+        const bool is_fixed =
+            std::any_of(species.definitions.begin(), species.definitions.end(),
+                        [](const SceneDefinition& each) { return each.name == "season"; });
+        if (is_fixed) {
+            continue;
+        }
+        GrammarOptions options;
+        options.dialect = species.dialect.text;
+        options.bug_compatible = species.bug_compatible;
+        options.system = species.system.text;
+        const std::string path = path_text(path_of(loaded.folder) / path_of(species.grammar.path));
+        const Outcome<Grammar> grammar = load_grammar(path, options, project);
+        if (!grammar || !grammar.value().program) {
+            continue;
+        }
+        for (const Constant& each : grammar.value().program->constants) {
+            if (grammar.value().names.text(each.name) == "season") {
+                return species.season.value_or(each.value);
+            }
+        }
+    }
+    return std::nullopt;
+}
+
 /// `edits` and `known` may be null.
 Outcome<std::shared_ptr<ForestDocument>> make(const ViewOptions& options,
                                               const SceneOverrides* edits,
@@ -109,6 +137,7 @@ Outcome<std::shared_ptr<ForestDocument>> make(const ViewOptions& options,
     }
     if (edits != nullptr) {
         loaded.scene.painting = {};
+        document->season = season_of(loaded, project);
     }
     if (SquareSource::is_needed(loaded.scene, project, document->grown)) {
         Result<std::shared_ptr<const SquareSource>> squares =

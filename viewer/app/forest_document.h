@@ -29,6 +29,9 @@ struct ForestDocument {
     std::vector<std::string> files; // all requested files, readable or not, if recorded
     // Height of the tallest placed tree, m; empty: too many trees to measure.
     std::optional<double> tallest;
+    /// Time of the year of the first species that follows Scene::species.season; empty: none does.
+    /// Only in a window.
+    std::optional<float> season;
     double parse_seconds = 0.0;
     double mesh_seconds = 0.0;
 };

@@ -160,19 +160,8 @@ void draw_painting(ForestView& view) {
     }
     ImGui::DragFloatRange2("Scale", &brush.min_scale, &brush.max_scale, 0.005F, 0.01F, 100.0F,
                            "%.2f", nullptr, ImGuiSliderFlags_AlwaysClamp);
-    if (ImGui::Button("Undo")) {
-        view.undo();
-    }
-    ImGui::SameLine();
-    if (ImGui::Button("Redo")) {
-        view.redo();
-    }
-    ImGui::SameLine();
-    if (ImGui::Button(view.is_unsaved() ? "Save *" : "Save")) {
-        view.save();
-    }
-    ImGui::SameLine();
-    line(fmt::format("{} painted", grouped(view.painting().painted_count())));
+    line(fmt::format("{:>11} painted{}", grouped(view.painting().painted_count()),
+                     view.is_unsaved() ? ", not saved" : ""));
 }
 
 /// Draws the species; returns the path of a grammar that the user wants to open, or an empty text.
@@ -187,8 +176,10 @@ std::string draw_species(ForestView& view) {
     for (std::size_t i = 0; i < document->scene.species.size(); ++i) {
         const SceneSpecies& species = document->scene.species[i];
         const PlacementSpecies& placed = document->scene.placement.species[i];
-        if (!ImGui::TreeNodeEx(species.name.c_str(),
-                               i < 2 ? ImGuiTreeNodeFlags_DefaultOpen : ImGuiTreeNodeFlags_None)) {
+        // A species may be named like a section of the panel.
+        if (!ImGui::TreeNodeEx(("species " + species.name).c_str(),
+                               i < 2 ? ImGuiTreeNodeFlags_DefaultOpen : ImGuiTreeNodeFlags_None,
+                               "%s", species.name.c_str())) {
             continue;
         }
         SpeciesOverrides& edit = view.settings.edits.species[species.name];
@@ -345,6 +336,19 @@ void draw_colours(ForestView& view) {
     draw_legend(view);
 }
 
+/// `own`: empty: no species follows the season.
+void draw_season(const std::optional<float>& own, std::optional<float>& edit) {
+    ImGui::BeginDisabled(!own);
+    draw_edit("Season", own.value_or(0.0F), edit, [&own](float& value) {
+        const bool changed =
+            ImGui::SliderFloat("##value", &value, 0.0F, 1.0F, "%.2f", ImGuiSliderFlags_AlwaysClamp);
+        draw_tooltip(own ? "Time of the year, from March to March; Ctrl+S writes it to the scene"
+                         : "No species here has a constant `season` that the scene leaves open");
+        return changed;
+    });
+    ImGui::EndDisabled();
+}
+
 void draw_look(ForestView& view) {
     if (!ImGui::CollapsingHeader("Display")) {
         return;
@@ -362,15 +366,7 @@ void draw_look(ForestView& view) {
     ImGui::Checkbox("Wind", &settings.windy);
     draw_wind(settings.wind);
     if (view.document() != nullptr) {
-        const std::vector<SceneSpecies>& species = view.document()->scene.species;
-        const auto seasonal = std::find_if(species.begin(), species.end(),
-                                           [](const SceneSpecies& each) { return each.season; });
-        if (seasonal != species.end()) {
-            draw_edit("Season", *seasonal->season, settings.edits.season, [](float& value) {
-                return ImGui::SliderFloat("##value", &value, 0.0F, 1.0F, "%.2f",
-                                          ImGuiSliderFlags_AlwaysClamp);
-            });
-        }
+        draw_season(view.document()->season, settings.edits.season);
         draw_sun(view.document()->scene.light, settings.light);
         edit_length("Visibility", default_visibility(*view.document()), settings.visibility, 0.01,
                     1e6, "%.3g km");

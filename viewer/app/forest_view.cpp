@@ -4,6 +4,7 @@
 #include "runtime/pipeline/forest.h"
 #include "runtime/pipeline/stopwatch.h"
 #include "runtime/program/files.h"
+#include "runtime/scene/season.h"
 
 #include <fmt/format.h>
 
@@ -518,6 +519,7 @@ void ForestView::open(const std::string& file) {
     settings.edits = {};
     settings.visibility.reset();
     settings.light = {};
+    settings.figure = false;
     settings.plays = false;
     grown_.reset();
     frame_next_ = true;
@@ -656,8 +658,32 @@ void ForestView::redo() {
     }
 }
 
+bool ForestView::is_unsaved() const {
+    return painting_.is_unsaved() ||
+           (settings.edits.season && document_ != nullptr && is_scene(document_->files.front()));
+}
+
+/// Precondition: settings.edits.season.
+Result<void> ForestView::save_season(const std::string& scene) {
+    const Result<std::string> before = read_file(scene, {kMaxSourceBytes}, console_);
+    if (!before) {
+        return before.error();
+    }
+    Result<std::string> text = with_season(before.value(), *settings.edits.season);
+    if (!text) {
+        return text.error();
+    }
+    if (Result<void> written = write_file(scene, text.value(), console_); !written) {
+        return written;
+    }
+    saved_text_ = std::move(text.value());
+    settings.edits.season.reset();
+    options_.overrides.season.reset(); // the file has the value
+    return {};
+}
+
 void ForestView::save() {
-    if (refuses_painting()) {
+    if (!settings.edits.season && refuses_painting()) {
         return;
     }
     if (document_ == nullptr) {
@@ -671,12 +697,17 @@ void ForestView::save() {
         return;
     }
     const std::lock_guard lock(saved_mutex_);
-    const Result<void> saved = painting_.save(scene, console_);
+    Result<void> saved = painting_.save(scene, console_);
+    if (saved) {
+        saved_text_ = painting_.saved_text();
+    }
+    if (saved && settings.edits.season) {
+        saved = save_season(scene);
+    }
     if (!saved) {
         set_note(fmt::format("not saved: {}", saved.error().message));
         return;
     }
-    saved_text_ = painting_.saved_text();
     // The scene file identifies erased trees by number only.
     const bool is_doubtful = is_other_placement_ && painting_.has_erased();
     set_note(fmt::format("saved {}{}", scene,

@@ -105,7 +105,7 @@ public:
     void show_from(StandardView view) override;
     [[nodiscard]] const std::string& file() const override { return options_.file; }
     [[nodiscard]] Camera& camera() override { return settings.camera; }
-    [[nodiscard]] bool is_unsaved() const override { return painting_.is_unsaved(); }
+    [[nodiscard]] bool is_unsaved() const override;
 
     [[nodiscard]] ViewOptions picture_options(FilmKind kind) const override;
     [[nodiscard]] bool is_forest() const override { return true; }
@@ -129,9 +129,9 @@ public:
     void apply_tool(const glm::vec2& place, bool begins, bool erases);
     /// Ends a stroke and reports its changes.
     void end_stroke();
-    /// Saves painted trees in the file of the scene shown and reports the result. If a scene with
+    /// Saves painted trees and the season in the file of the scene shown and reports the result. If a scene with
     /// errors was opened later, its file is not written.
-    void save();
+    void save() override;
 
     /// The moment of growth shown; empty: the forest of a whole year is shown.
     [[nodiscard]] const std::optional<GrowthMoment>& grown() const { return grown_; }
@@ -165,6 +165,7 @@ private:
     void stream(Frame& frame);
     /// Returns whether the forest is streamed, after a note that such a forest cannot be painted.
     bool refuses_painting();
+    [[nodiscard]] Result<void> save_season(const std::string& scene);
     void show_colours();
     [[nodiscard]] std::string painted_text(const char* what) const;
     void watch_files();

@@ -434,6 +434,7 @@ void use_other_file(ViewOptions& options, const std::string& file) {
     options.light = {};
     options.edits = {};
     options.transparent = false;
+    options.figure = false;
 }
 
 } // namespace lsys::view

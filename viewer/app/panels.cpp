@@ -1,18 +1,22 @@
 // SPDX-License-Identifier: MIT
 #include "viewer/app/panels.h"
 
+#include "viewer/app/export_dialog.h"
 #include "viewer/app/forest_panel.h"
 #include "viewer/app/picture_dialog.h"
 #include "viewer/app/plant_panel.h"
 #include "viewer/app/recent_files.h"
+#include "viewer/app/unsaved_dialog.h"
 #include "viewer/app/widgets.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <imgui.h>
+#include <optional>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace lsys::view {
@@ -23,6 +27,8 @@ constexpr float kPanelWidth = 340.0F;
 constexpr ImGuiWindowFlags kOverlay = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
                                       ImGuiWindowFlags_NoSavedSettings |
                                       ImGuiWindowFlags_NoFocusOnAppearing | ImGuiWindowFlags_NoNav;
+/// An overlay with controls, which F6 reaches.
+constexpr ImGuiWindowFlags kUsedOverlay = kOverlay & ~ImGuiWindowFlags_NoNav;
 
 /// The part of the window beside the panel.
 struct Area {
@@ -178,7 +184,7 @@ float draw_messages(const View& view, PanelState& panels, const Area& area) {
                             {0.0F, 1.0F});
     ImGui::SetNextWindowSizeConstraints({width, 0.0F}, {width, 0.5F * area.high.y});
     ImGui::SetNextWindowBgAlpha(0.85F);
-    constexpr ImGuiWindowFlags kFlags = (kOverlay & ~ImGuiWindowFlags_NoScrollbar) |
+    constexpr ImGuiWindowFlags kFlags = (kUsedOverlay & ~ImGuiWindowFlags_NoScrollbar) |
                                         ImGuiWindowFlags_HorizontalScrollbar |
                                         ImGuiWindowFlags_AlwaysAutoResize;
     if (ImGui::Begin("Messages", nullptr, kFlags)) {
@@ -283,7 +289,7 @@ void draw_trace(View& view, const Area& area, float bottom) {
     const float width = std::max(area.high.x - area.low.x - 16.0F, 100.0F);
     ImGui::SetNextWindowPos({area.low.x + 8.0F, bottom - 8.0F}, ImGuiCond_Always, {0.0F, 1.0F});
     ImGui::SetNextWindowBgAlpha(0.92F);
-    if (ImGui::Begin("Trace", nullptr, kOverlay | ImGuiWindowFlags_AlwaysAutoResize)) {
+    if (ImGui::Begin("Trace", nullptr, kUsedOverlay | ImGuiWindowFlags_AlwaysAutoResize)) {
         draw_trace_buttons(view);
         const ImGuiStyle& style = ImGui::GetStyle();
         const float text_height =
@@ -317,7 +323,8 @@ void draw_help(std::span<const KeyHelp> keys, PanelState& panels, const Area& ar
     ImGui::SetNextWindowSizeConstraints({0.0F, 0.0F}, ImGui::GetIO().DisplaySize);
     if (ImGui::Begin("Keys", &panels.help,
                      ImGuiWindowFlags_HorizontalScrollbar | ImGuiWindowFlags_AlwaysAutoResize |
-                         ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoSavedSettings)) {
+                         ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoSavedSettings |
+                         ImGuiWindowFlags_NoFocusOnAppearing)) {
         for (const KeyHelp& help : keys) {
             line(fmt::format("{:<23} {}", help.keys, help.what));
         }
@@ -367,19 +374,6 @@ void draw_hint(ViewSwitcher& switcher, const PanelState& panels, const Area& are
     ImGui::End();
 }
 
-void draw_standard_views(View& view) {
-    const auto button = [&view](const char* name, StandardView standard) {
-        if (ImGui::Button(name)) {
-            view.show_from(standard);
-        }
-        ImGui::SameLine();
-    };
-    button("Front (1)", StandardView::Front);
-    button("Side (2)", StandardView::Side);
-    button("Top (3)", StandardView::Top);
-    ImGui::NewLine();
-}
-
 /// Draws what is being made, with a button that cancels it.
 void draw_making(View& view, PanelState& panels, const Area& area) {
     const std::optional<MakingState> of_view = view.making();
@@ -390,7 +384,7 @@ void draw_making(View& view, PanelState& panels, const Area& area) {
     ImGui::SetNextWindowPos({0.5F * (area.low.x + area.high.x), scaled(48.0F)}, ImGuiCond_Always,
                             {0.5F, 0.0F});
     ImGui::SetNextWindowBgAlpha(0.85F);
-    if (ImGui::Begin("Making", nullptr, kOverlay | ImGuiWindowFlags_AlwaysAutoResize)) {
+    if (ImGui::Begin("Making", nullptr, kUsedOverlay | ImGuiWindowFlags_AlwaysAutoResize)) {
         line(making->text);
         if (making->fraction) {
             ImGui::ProgressBar(*making->fraction, {kPanelWidth, 0.0F});
@@ -441,58 +435,133 @@ void draw_bookmarks(View& view, PanelState& panels) {
     }
 }
 
-void draw_window_look(WindowLook& look) {
+void draw_window_look(PanelState& panels) {
     if (ImGui::CollapsingHeader("Window")) {
+        WindowLook& look = panels.look;
         ImGui::SetNextItemWidth(-label_width());
         ImGui::SliderFloat("Text size", &look.text_size, kMinTextSize, kMaxTextSize, "x%.2f",
                            ImGuiSliderFlags_AlwaysClamp);
         ImGui::Checkbox("Light panels", &look.is_light);
+        ImGui::SameLine();
+        ImGui::Checkbox("Statistics", &panels.statistics);
+        draw_tooltip("Times and numbers of the last picture (A)");
     }
+}
+
+constexpr ImGuiWindowFlags kSide = ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove |
+                                   ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoSavedSettings |
+                                   ImGuiWindowFlags_NoTitleBar;
+
+void draw_edit_buttons(ViewSwitcher& switcher) {
+    View& view = switcher.current();
+    if (ImGui::Button("Undo")) {
+        view.undo();
+    }
+    draw_tooltip("Ctrl+Z");
+    ImGui::SameLine();
+    if (ImGui::Button("Redo")) {
+        view.redo();
+    }
+    draw_tooltip("Ctrl+Y");
+    ImGui::SameLine();
+    const PlantView* const plant = switcher.plant();
+    ImGui::BeginDisabled(plant != nullptr ? !plant->has_changed_values() : !view.is_unsaved());
+    if (ImGui::Button("Write to file")) {
+        view.save();
+    }
+    ImGui::EndDisabled();
+    draw_tooltip(plant != nullptr
+                     ? "Writes changed constants, settings and seed to the file (Ctrl+S)"
+                     : "Writes painted and erased trees and the season to the scene (Ctrl+S)");
+}
+
+void draw_output_buttons(ViewSwitcher& switcher, PanelState& panels) {
+    if (ImGui::Button("Open")) {
+        show_open_dialog(switcher.current(), panels);
+    }
+    draw_tooltip("Opens a file (Ctrl+O)");
+    ImGui::SameLine();
+    if (ImGui::Button("Picture")) {
+        show_picture_dialog(switcher.current(), panels);
+    }
+    draw_tooltip("Writes a picture or a film (P); Shift+P writes NAME-1.png at once");
+    if (PlantView* const plant = switcher.plant()) {
+        ImGui::SameLine();
+        if (ImGui::Button("Export")) {
+            show_export_dialog(panels);
+        }
+        draw_tooltip("Writes a file for another program (E)");
+        ImGui::SameLine();
+        if (ImGui::Button("Sheet")) {
+            show_sheet(*plant, panels);
+        }
+        draw_tooltip("Shows nine seeds, or values of constants, to choose from (K)");
+    }
+    ImGui::SameLine();
+    if (ImGui::Button("Keys")) {
+        panels.help = !panels.help;
+    }
+    draw_tooltip("Lists the keys (F1)");
+}
+
+void draw_view_buttons(View& view) {
+    if (ImGui::Button("Frame all")) {
+        view.frame_all();
+    }
+    draw_tooltip("Shows everything (F)");
+    const auto button = [&view](const char* name, const char* help, StandardView standard) {
+        ImGui::SameLine();
+        if (ImGui::Button(name)) {
+            view.show_from(standard);
+        }
+        draw_tooltip(help);
+    };
+    button("Front", "Looks from +Z (1)", StandardView::Front);
+    button("Side", "Looks from the side (2)", StandardView::Side);
+    button("Top", "Looks from above (3)", StandardView::Top);
+}
+
+/// Draws the buttons below the panel, which are always in sight; returns the file that they want to
+/// open.
+std::string draw_buttons(ViewSwitcher& switcher, PanelState& panels) {
+    std::string wanted;
+    draw_edit_buttons(switcher);
+    if (switcher.plant() != nullptr && !switcher.last_scene().empty()) {
+        ImGui::SameLine();
+        if (ImGui::Button("Back to forest")) {
+            wanted = switcher.last_scene();
+        }
+    }
+    draw_output_buttons(switcher, panels);
+    draw_view_buttons(switcher.current());
+    return wanted;
 }
 
 /// Draws the panel on the left; returns the file that it wants to open.
 std::string draw_side_panel(ViewSwitcher& switcher, PanelState& panels, const Area& area) {
     std::string wanted;
+    constexpr float kRows = 3.0F; // of buttons
+    const ImGuiStyle& style = ImGui::GetStyle();
+    const float below = kRows * ImGui::GetFrameHeightWithSpacing() - style.ItemSpacing.y +
+                        2.0F * style.WindowPadding.y;
+    const float height = std::max(area.high.y - below, 1.0F);
     ImGui::SetNextWindowPos({0.0F, 0.0F});
-    ImGui::SetNextWindowSize({area.low.x, area.high.y});
-    if (ImGui::Begin("Panel", nullptr,
-                     ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove |
-                         ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoSavedSettings |
-                         ImGuiWindowFlags_NoTitleBar)) {
+    ImGui::SetNextWindowSize({area.low.x, height});
+    if (ImGui::Begin("Panel", nullptr, kSide)) {
         if (ForestView* const forest = switcher.forest()) {
             wanted = draw_forest_panel(*forest);
         } else if (PlantView* const plant = switcher.plant()) {
             draw_plant_panel(*plant);
         }
         draw_bookmarks(switcher.current(), panels);
-        draw_window_look(panels.look);
-        ImGui::Separator();
-        ImGui::Checkbox("Statistics", &panels.statistics);
-        ImGui::SameLine();
-        if (ImGui::Button("Keys (F1)")) {
-            panels.help = !panels.help;
-        }
-        ImGui::SameLine();
-        if (ImGui::Button("Frame all")) {
-            switcher.current().frame_all();
-        }
-        ImGui::SameLine();
-        if (ImGui::Button("Open")) {
-            show_open_dialog(switcher.current(), panels);
-        }
-        draw_tooltip("Open a file (Ctrl+O)");
-        if (ImGui::Button("Picture or film (P)")) {
-            show_picture_dialog(switcher.current(), panels);
-        }
-        ImGui::SameLine();
-        if (ImGui::Button("Picture (Shift+P)")) {
-            switcher.current().write_screenshot();
-        }
-        draw_tooltip("Writes the picture of the window into the current folder, as NAME-1.png");
-        draw_standard_views(switcher.current());
-        if (switcher.plant() != nullptr && !switcher.last_scene().empty() &&
-            ImGui::Button("Back to forest")) {
-            wanted = switcher.last_scene();
+        draw_window_look(panels);
+    }
+    ImGui::End();
+    ImGui::SetNextWindowPos({0.0F, height});
+    ImGui::SetNextWindowSize({area.low.x, below});
+    if (ImGui::Begin("Buttons", nullptr, kSide | ImGuiWindowFlags_NoScrollbar)) {
+        if (std::string file = draw_buttons(switcher, panels); !file.empty()) {
+            wanted = std::move(file);
         }
     }
     ImGui::End();
@@ -531,8 +600,6 @@ void draw_sheet(ViewSwitcher& switcher, PanelState& panels) {
         panels.sheet.images.at(cell) = panels.add_image ? panels.add_image(picture) : 0;
     }
     const SheetAction action = draw_contact_sheet(panels.sheet, *plant);
-    panels.has_open_list =
-        ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopupId | ImGuiPopupFlags_AnyPopupLevel);
     if (action.taken) {
         take_from_sheet(*action.taken, *plant, panels);
     } else if (action.closes) {
@@ -557,6 +624,51 @@ std::string draw_start(const View& view, PanelState& panels) {
     return wanted;
 }
 
+DialogKeys keys_of(OpenDialog dialog) {
+    return dialog == OpenDialog::None   ? DialogKeys::NoDialog
+           : dialog == OpenDialog::File ? DialogKeys::OfControls
+                                        : DialogKeys::OfPanels;
+}
+
+/// Draws the open dialog, except the contact sheet; returns the file that it wants to open.
+std::string draw_dialog(ViewSwitcher& switcher, PanelState& panels) {
+    std::string wanted;
+    bool is_open = true;
+    switch (panels.dialog) {
+    case OpenDialog::File:
+        wanted = draw_open_dialog(panels.browser, is_open);
+        is_open = is_open && wanted.empty();
+        break;
+    case OpenDialog::Picture:
+        if (draw_picture_dialog(switcher.current(), panels.picture, is_open)) {
+            take_picture(switcher.current(), panels);
+        }
+        break;
+    case OpenDialog::Export:
+        if (PlantView* const plant = switcher.plant(); plant == nullptr) {
+            is_open = false; // another file was dropped on the window
+        } else if (draw_export_dialog(plant->settings.output, is_open)) {
+            export_shown(*plant, panels);
+        }
+        break;
+    case OpenDialog::Unsaved:
+        if (!switcher.leaving()) {
+            is_open = false;
+        } else if (const std::optional<UnsavedAnswer> answer =
+                       draw_unsaved_dialog(switcher, panels)) {
+            answer_unsaved(*answer, switcher, panels);
+        }
+        break;
+    case OpenDialog::Sheet:
+    case OpenDialog::None:
+        break;
+    }
+    if (!is_open) {
+        panels.dialog = OpenDialog::None;
+    }
+    return wanted;
+}
+
 } // namespace
 
 float panel_width(float scale) {
@@ -568,31 +680,24 @@ bool is_control_held() {
 }
 
 void draw_panels(ViewSwitcher& switcher, PanelState& panels, float scale) {
+    panels.focus.begin(keys_of(panels.dialog), std::exchange(panels.focus_move, FocusMove::None));
     if (panels.dialog == OpenDialog::Sheet) {
         draw_sheet(switcher, panels);
-        return;
-    }
-    std::string wanted = switcher.current().file().empty()
-                             ? draw_start(switcher.current(), panels)
-                             : draw_view_panels(switcher, panels, picture_area(panels, scale));
-    if (panels.dialog == OpenDialog::File) {
-        bool is_open = true;
-        wanted = draw_open_dialog(panels.browser, is_open);
-        if (!is_open || !wanted.empty()) {
-            panels.dialog = OpenDialog::None;
+    } else {
+        std::string wanted = switcher.current().file().empty()
+                                 ? draw_start(switcher.current(), panels)
+                                 : draw_view_panels(switcher, panels, picture_area(panels, scale));
+        if (std::string chosen = draw_dialog(switcher, panels); !chosen.empty()) {
+            wanted = std::move(chosen);
         }
-    }
-    if (panels.dialog == OpenDialog::Picture) {
-        bool is_open = true;
-        if (draw_picture_dialog(switcher.current(), panels.picture, is_open)) {
-            take_picture(switcher.current(), panels);
-        } else if (!is_open) {
-            panels.dialog = OpenDialog::None;
+        if (!wanted.empty()) {
+            switcher.open(wanted);
         }
+        ask_about_unsaved(switcher, panels);
     }
-    if (!wanted.empty()) {
-        switcher.open(wanted);
-    }
+    panels.focus.end(keys_of(panels.dialog));
+    panels.has_open_list =
+        ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopupId | ImGuiPopupFlags_AnyPopupLevel);
 }
 
 } // namespace lsys::view

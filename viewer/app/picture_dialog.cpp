@@ -4,6 +4,7 @@
 #include "grammar/base/paths.h"
 #include "runtime/platform/child.h"
 #include "runtime/program/files.h"
+#include "viewer/app/output_path.h"
 #include "viewer/app/widgets.h"
 
 #include <fmt/format.h>
@@ -73,11 +74,7 @@ void draw_film(const View& view, PictureSettings& settings, bool has_ffmpeg) {
 
 bool draw_picture_dialog(const View& view, PictureSettings& settings, bool& is_open) {
     bool is_wanted = false;
-    const ImVec2 all = ImGui::GetIO().DisplaySize;
-    ImGui::SetNextWindowPos({0.5F * all.x, 0.5F * all.y}, ImGuiCond_Always, {0.5F, 0.5F});
-    if (ImGui::Begin("Picture or film", &is_open,
-                     ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoCollapse |
-                         ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoMove)) {
+    if (begin_dialog("Picture or film", is_open)) {
         if (ImGui::IsWindowAppearing()) {
             // The programs that are installed may change between two uses of the dialog.
             settings.has_ffmpeg = !platform::find_program("ffmpeg").empty();
@@ -101,20 +98,24 @@ bool draw_picture_dialog(const View& view, PictureSettings& settings, bool& is_o
         if (settings.is_film) {
             draw_film(view, settings, settings.has_ffmpeg);
         }
-        edit_text("Folder", settings.folder);
+        bool is_entered = edit_text("Folder", settings.folder);
         draw_tooltip("Empty: the current folder");
-        edit_text("Name", settings.name);
+        if (begins_editing()) {
+            ImGui::SetKeyboardFocusHere();
+        }
+        is_entered = edit_text("Name", settings.name) || is_entered;
         const std::string path = settings.is_film && !settings.as_mp4
                                      ? numbered_path(settings.path(), 1)
                                      : settings.path();
-        line(settings.is_film ? fmt::format("{}: {} pictures", path, settings.frames()) : path);
+        const std::string problem =
+            settings.name.empty() ? "the picture has no name" : problem_of_output(path);
+        if (problem.empty()) {
+            line(settings.is_film ? fmt::format("{}: {} pictures", path, settings.frames()) : path);
+        }
+        draw_problem(problem);
         std::error_code ignored;
         const bool exists = std::filesystem::exists(path_of(path), ignored);
-        is_wanted = ImGui::Button(exists ? "Replace (Enter)" : "Write (Enter)");
-        ImGui::SameLine();
-        if (ImGui::Button("Cancel (Esc)")) {
-            is_open = false;
-        }
+        is_wanted = end_dialog(exists ? "Replace" : "Write", problem, is_entered, is_open);
     }
     ImGui::End();
     return is_wanted;

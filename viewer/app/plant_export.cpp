@@ -5,6 +5,7 @@
 #include "runtime/output/file_option_parsers.h"
 #include "runtime/output/plant_files.h"
 #include "runtime/program/host.h"
+#include "viewer/app/output_path.h"
 
 #include <fmt/format.h>
 
@@ -41,6 +42,10 @@ Result<PlantFileOptions> file_options(const ExportRequest& request) {
     return files;
 }
 
+std::string unknown_format(const std::string& file) {
+    return fmt::format("`{}` has no extension of a known format, such as .glb, .obj, .usda", file);
+}
+
 /// Writes the files.
 ExitStatus write(const ExportRequest& request, const OutputContext& context) {
     const Result<PlantFileOptions> options = file_options(request);
@@ -49,10 +54,7 @@ ExitStatus write(const ExportRequest& request, const OutputContext& context) {
     }
     const std::optional<ExportFormat> format = format_of_path(request.settings.file);
     if (!format) {
-        return report_error(
-            Error{fmt::format("`{}` has no extension of a known format, such as .glb, .obj, .usda",
-                              request.settings.file)},
-            context.console);
+        return report_error(Error{unknown_format(request.settings.file)}, context.console);
     }
     const std::string conflict = find_conflict(options.value(), *format, context);
     if (!conflict.empty()) {
@@ -83,6 +85,11 @@ std::string export_plant(const ExportRequest& request, const std::atomic<bool>& 
         console.error("out of memory");
     }
     return status == ExitStatus::Ok ? "Wrote " + request.settings.file : err.str();
+}
+
+std::string problem_of_export(const std::string& file) {
+    std::string problem = problem_of_output(file);
+    return problem.empty() && !format_of_path(file) ? unknown_format(file) : problem;
 }
 
 std::vector<std::string> export_presets() {

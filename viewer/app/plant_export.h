@@ -39,6 +39,10 @@ struct ExportRequest {
 
 using PlantExporter = LatestRequestWorker<ExportRequest, std::string>;
 
+/// Why no plant can be written to `file`: its path, or an extension of no known format; empty if one
+/// can.
+[[nodiscard]] std::string problem_of_export(const std::string& file);
+
 /// Names of the presets for plants.
 [[nodiscard]] std::vector<std::string> export_presets();
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "viewer/app/plant_panel.h"
 
-#include "grammar/base/counted_text.h"
 #include "runtime/pipeline/constant_text.h"
 #include "runtime/pipeline/setting_controls.h"
 #include "viewer/app/widgets.h"
@@ -26,22 +25,26 @@ void draw_numbers(const PlantView& view) {
     const PlantDocument* const document = view.document();
     if (document == nullptr) {
         line("No plant yet");
+        line("");
+        line("");
         return;
     }
-    if (const FilmMoment* const grown = view.grown()) {
-        line(fmt::format("{} modules, {} segments", grouped(grown->modules),
-                         grouped(grown->skeleton.segments.size())));
-        line(fmt::format("{} triangles; generation {:.2f}", grouped(grown->mesh.indices.size() / 3),
-                         static_cast<double>(grown->moment.generation) + grown->moment.part));
-        return;
-    }
-    const Plant& plant = document->plant;
-    line(fmt::format("{}, {}", counted(plant.modules, grouped(plant.modules), "module"),
-                     counted(plant.skeleton.segments.size(),
-                             grouped(plant.skeleton.segments.size()), "segment")));
-    line(fmt::format("{} triangles; profile {}", grouped(document->mesh.indices.size() / 3),
-                     name_of(document->grammar.bytecode.settings.turtle)));
-    line(fmt::format("{:.4g} m high", document->height));
+    // Numbers of a fixed width in a fixed count of lines, so that nothing moves during growth.
+    const FilmMoment* const grown = view.grown();
+    const std::uint64_t modules = grown != nullptr ? grown->modules : document->plant.modules;
+    const Skeleton& skeleton = grown != nullptr ? grown->skeleton : document->plant.skeleton;
+    const Mesh& mesh = grown != nullptr ? grown->mesh : document->mesh;
+    const auto row = [](std::uint64_t count, const char* what, const std::string& beside) {
+        line(fmt::format("{:>13} {:<9}  {}", grouped(count), what, beside));
+    };
+    row(modules, "modules",
+        grown == nullptr
+            ? fmt::format("{:.4g} m high", document->height)
+            : fmt::format("generation {:5.2f}",
+                          static_cast<double>(grown->moment.generation) + grown->moment.part));
+    row(skeleton.segments.size(), "segments", "");
+    row(mesh.indices.size() / 3, "triangles",
+        fmt::format("turtle {}", name_of(document->grammar.bytecode.settings.turtle)));
 }
 
 void draw_growth(PlantView& view) {
@@ -109,6 +112,7 @@ void draw_constant(PlantViewSettings& settings, const Constant& constant, const 
         const float speed = std::max(0.01F * std::abs(value), 0.001F);
         changed = ImGui::DragFloat("##value", &value, speed, 0.0F, 0.0F, "%.5g");
     }
+    const bool is_pointed = is_pointed_at();
     ImGui::SameLine();
     if (is_set) {
         if (ImGui::SmallButton("x")) {
@@ -119,8 +123,8 @@ void draw_constant(PlantViewSettings& settings, const Constant& constant, const 
         ImGui::SameLine();
     }
     line(name);
-    if (ImGui::IsItemHovered()) {
-        set_tooltip(describe_constant(constant, grammar));
+    if (is_pointed || is_pointed_at()) {
+        set_tooltip(describe_constant(constant, grammar, is_set));
     }
     if (changed && std::isfinite(value)) {
         if (is_set) {
@@ -205,6 +209,7 @@ void draw_setting(PlantViewSettings& settings, const SettingControl& control) {
     const std::string key(control.key);
     ImGui::PushID(key.c_str());
     const std::optional<std::string> edited = edit_setting(control, is_set ? &*set : nullptr);
+    const bool is_pointed = is_pointed_at();
     ImGui::SameLine();
     bool is_reset = false;
     if (is_set) {
@@ -212,7 +217,7 @@ void draw_setting(PlantViewSettings& settings, const SettingControl& control) {
         ImGui::SameLine();
     }
     line(key);
-    if (ImGui::IsItemHovered()) {
+    if (is_pointed || is_pointed_at()) {
         set_tooltip(
             fmt::format("#set {}{}{}", key, control.accepts.empty() ? "" : ": ", control.accepts));
     }
@@ -228,61 +233,15 @@ void draw_setting(PlantViewSettings& settings, const SettingControl& control) {
 
 void draw_settings(PlantView& view) {
     const PlantDocument* const document = view.document();
+    if (document == nullptr) {
+        return;
+    }
     ImGui::SetNextItemOpen(!view.settings.set_values.empty(), ImGuiCond_Once);
-    if (document == nullptr || !ImGui::CollapsingHeader("Settings")) {
+    if (!ImGui::CollapsingHeader("Settings")) {
         return;
     }
     for (const SettingControl& control : setting_controls(document->grammar)) {
         draw_setting(view.settings, control);
-    }
-}
-
-void draw_writing(PlantView& view) {
-    if (ImGui::Button("Undo")) {
-        view.undo();
-    }
-    ImGui::SameLine();
-    if (ImGui::Button("Redo")) {
-        view.redo();
-    }
-    if (view.has_changed_values()) {
-        ImGui::SameLine();
-        if (ImGui::Button("Write to file")) {
-            view.write_values();
-        }
-    }
-}
-
-void draw_export(PlantView& view) {
-    if (!ImGui::CollapsingHeader("Export")) {
-        return;
-    }
-    ExportSettings& output = view.settings.output;
-    edit_text("File", output.file);
-    draw_tooltip("The extension chooses the format: .glb, .gltf, .obj, .usda, .usdz, .ply, .stl, "
-                 ".off, .svg");
-    if (ImGui::BeginCombo("For", output.preset.empty() ? "any program" : output.preset.c_str())) {
-        if (ImGui::Selectable("any program", output.preset.empty())) {
-            output.preset.clear();
-        }
-        for (const std::string& preset : export_presets()) {
-            if (ImGui::Selectable(preset.c_str(), preset == output.preset)) {
-                output.preset = preset;
-            }
-        }
-        ImGui::EndCombo();
-    }
-    auto lods = static_cast<int>(output.lods);
-    if (ImGui::SliderInt("Levels", &lods, 0, 12)) {
-        output.lods = static_cast<std::uint32_t>(lods);
-    }
-    draw_tooltip(
-        "Levels of detail in the file; 0: only the plant shown, or what the preset writes");
-    std::error_code ignored;
-    const bool exists = std::filesystem::exists(output.file, ignored);
-    // Another label than "Export", which is the ImGui id of the header above.
-    if (ImGui::Button(exists ? "Replace the file" : "Write the file")) {
-        view.export_shown();
     }
 }
 
@@ -380,12 +339,10 @@ void draw_plant_panel(PlantView& view) {
     draw_growth(view);
     draw_constants(view);
     draw_settings(view);
-    draw_writing(view);
     draw_look(view.settings);
     draw_mesh(view.settings,
               view.document() == nullptr ? 0.0F : view.document()->plant.skeleton.leaf_droop);
     draw_bending(view.settings);
-    draw_export(view);
     ImGui::PopItemWidth();
 }
 

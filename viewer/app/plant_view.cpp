@@ -18,10 +18,50 @@ namespace lsys::view {
 
 namespace {
 
-/// Whether both edits of one file make the same plant.
-bool makes_same_plant(const PlantEdits& a, const PlantEdits& b) {
-    return a.generations == b.generations && a.seed == b.seed && a.mesh == b.mesh &&
-           a.definitions == b.definitions && a.set_values == b.set_values;
+PlantSource source_of(const ViewOptions& options) {
+    PlantSource source;
+    source.definitions = options.grammar.definitions;
+    source.definitions.insert(source.definitions.end(),
+                              options.grammar.optional_definitions.begin(),
+                              options.grammar.optional_definitions.end());
+    source.set_values = options.grammar.settings;
+    source.generations = options.grammar.generations;
+    source.seed = options.seed;
+    source.mesh = options.mesh;
+    return source;
+}
+
+void set_source(const PlantSource& source, ViewOptions& options) {
+    options.grammar.definitions = {};
+    options.grammar.optional_definitions = source.definitions;
+    options.grammar.settings = source.set_values;
+    options.grammar.generations = source.generations;
+    options.seed = source.seed;
+    options.mesh = source.mesh;
+}
+
+PlantLook look_of(const ViewOptions& options) {
+    PlantLook look;
+    look.style = options.style;
+    look.lines = options.lines;
+    look.shadows = options.shadows;
+    look.ground = options.ground;
+    look.figure = options.figure;
+    look.antialiasing = options.samples > 1;
+    look.quality = options.quality;
+    look.light = options.light;
+    return look;
+}
+
+void set_look(const PlantLook& look, ViewOptions& options) {
+    options.style = look.style;
+    options.lines = look.lines;
+    options.shadows = look.shadows;
+    options.ground = look.ground;
+    options.figure = look.figure;
+    options.samples = look.antialiasing ? 4 : 1;
+    options.quality = look.quality;
+    options.light = look.light;
 }
 
 bool is_same(const Bending& a, const Bending& b) {
@@ -38,19 +78,8 @@ std::string default_output(const std::string& file) {
 PlantViewSettings first_plant_settings(const ViewOptions& options) {
     PlantViewSettings settings;
     settings.file = options.file;
-    settings.definitions = options.grammar.definitions;
-    settings.set_values = options.grammar.settings;
-    settings.generations = options.grammar.generations;
-    settings.seed = options.seed;
-    settings.mesh = options.mesh;
-    settings.style = options.style;
-    settings.lines = options.lines;
-    settings.shadows = options.shadows;
-    settings.ground = options.ground;
-    settings.figure = options.figure;
-    settings.antialiasing = options.samples > 1;
-    settings.quality = options.quality;
-    settings.light = options.light;
+    static_cast<PlantSource&>(settings) = source_of(options);
+    static_cast<PlantLook&>(settings) = look_of(options);
     settings.simulates = options.gravity || options.wind;
     if (settings.simulates) {
         settings.bending.forces.gravity = options.gravity.value_or(0.0F);
@@ -64,9 +93,7 @@ PlantViewSettings first_plant_settings(const ViewOptions& options) {
 } // namespace
 
 bool operator==(const PlantEdits& a, const PlantEdits& b) {
-    return makes_same_plant(a, b) && a.style == b.style && a.lines == b.lines &&
-           a.shadows == b.shadows && a.ground == b.ground && a.antialiasing == b.antialiasing &&
-           a.light == b.light && a.figure == b.figure && a.dims == b.dims &&
+    return static_cast<const PlantSource&>(a) == b && static_cast<const PlantLook&>(a) == b &&
            a.simulates == b.simulates && is_same(a.bending, b.bending);
 }
 
@@ -75,7 +102,7 @@ PlantView::PlantView(const ViewOptions& options,
                      Renderer& renderer,
                      std::function<void()> wake)
     : View(options, console, renderer, std::move(wake)), settings(first_plant_settings(options)),
-      history_(settings), plays_next_(options.grow), loader_(wake_),
+      saved_(settings), history_(settings), plays_next_(options.grow), loader_(wake_),
       watch_(FileWatch::Options{},
              [this](const std::vector<std::string>& files, SteadyClock::time_point changed_at) {
                  const auto shaders =
@@ -96,12 +123,7 @@ PlantView::PlantView(const ViewOptions& options,
 ViewOptions PlantView::options_with_settings() const {
     ViewOptions wanted = options_;
     wanted.file = settings.file;
-    wanted.grammar.definitions = {};
-    wanted.grammar.optional_definitions = settings.definitions;
-    wanted.grammar.settings = settings.set_values;
-    wanted.grammar.generations = settings.generations;
-    wanted.seed = settings.seed;
-    wanted.mesh = settings.mesh;
+    set_source(settings, wanted);
     return wanted;
 }
 
@@ -114,12 +136,7 @@ ViewOptions PlantView::picture_options(FilmKind kind) const {
     wanted.camera = to_text(settings.camera);
     wanted.gravity.reset();
     wanted.wind.reset();
-    wanted.shadows = settings.shadows;
-    wanted.ground = settings.ground;
-    wanted.figure = settings.figure;
-    wanted.style = settings.style;
-    wanted.lines = settings.lines;
-    wanted.light = settings.light;
+    set_look(settings, wanted);
     return wanted;
 }
 
@@ -161,7 +178,7 @@ bool PlantView::update() {
         show_lines();
     }
     if (!requested_ || requested_->file != settings.file ||
-        !makes_same_plant(*requested_, settings)) {
+        static_cast<const PlantSource&>(*requested_) != settings) {
         requested_ = settings;
         loader_.request(options_with_settings(), SteadyClock::now());
     }
@@ -203,6 +220,7 @@ void PlantView::drop_unknown_definitions() {
         requested_->definitions = settings.definitions; // same plant
     }
     std::erase_if(history_.current().definitions, is_unknown);
+    std::erase_if(saved_.definitions, is_unknown);
 }
 
 void PlantView::swap(LoadOutcome outcome) {
@@ -225,10 +243,11 @@ void PlantView::swap(LoadOutcome outcome) {
         settings.plays = true;
     }
     if (std::exchange(frame_next_, false)) {
+        // Not the direction of the plant before.
+        const Camera from = with_parts(options_.camera, Camera{});
         settings.camera = with_parts(
             options_.camera,
-            first_view(settings.camera, settings.figure ? with_figure(rest_bounds_) : rest_bounds_,
-                       aspect_));
+            first_view(from, settings.figure ? with_figure(rest_bounds_) : rest_bounds_, aspect_));
     }
     settings.bending.forces.load = document_->grammar.bytecode.settings.load;
     if (std::exchange(is_new_file_, false)) {
@@ -390,6 +409,12 @@ bool PlantView::has_changed_values() const {
     return !settings.definitions.empty() || !settings.set_values.empty() || settings.seed;
 }
 
+bool PlantView::is_unsaved() const {
+    return has_changed_values() &&
+           (settings.definitions != saved_.definitions ||
+            settings.set_values != saved_.set_values || settings.seed != saved_.seed);
+}
+
 /// The bytes of the file with `values`, if the plant shown is that of the file on disk.
 Result<std::string> PlantView::text_with_values(const StatementValues& values) const {
     const Grammar& grammar = document_->grammar;
@@ -413,7 +438,7 @@ Result<std::string> PlantView::text_with_values(const StatementValues& values) c
     return with_values(file, bytes.value(), values, make_loader(project, project.limits.max_bytes));
 }
 
-void PlantView::write_values() {
+void PlantView::save() {
     if (!has_changed_values()) {
         set_note("no value differs from the file");
         return;
@@ -437,8 +462,9 @@ void PlantView::write_values() {
         names.push_back(setting.key);
     }
     const Result<std::string> text = text_with_values(values);
-    const bool is_up_to_date =
-        requested_ && makes_same_plant(*requested_, settings) && !loader_.is_busy();
+    const bool is_up_to_date = requested_ &&
+                               static_cast<const PlantSource&>(*requested_) == settings &&
+                               !loader_.is_busy();
     const Result<void> written =
         !text           ? Result<void>(text.error())
         : is_up_to_date ? write_file(settings.file, text.value(), console_)
@@ -450,6 +476,7 @@ void PlantView::write_values() {
     settings.definitions.clear();
     settings.set_values.clear();
     settings.seed.reset();
+    saved_ = settings;
     set_note(fmt::format("wrote {} to {}", fmt::join(names, ", "), settings.file));
 }
 
@@ -599,10 +626,11 @@ void PlantView::open(const std::string& file) {
     use_other_file(options_, file);
     settings.file = file;
     settings.output.file = default_output(file);
-    settings.definitions.clear();
-    settings.set_values.clear();
-    settings.generations.reset();
-    settings.seed.reset();
+    PlantSource source;
+    source.mesh = settings.mesh;
+    static_cast<PlantSource&>(settings) = std::move(source);
+    saved_ = settings;
+    settings.figure = false;
     settings.plays = false;
     film_.reset();
     film_ground_ = glm::vec4(0.0F);
@@ -670,11 +698,7 @@ void PlantView::cancel_making() {
         is_new_file_ = false;
         watch_files();
     }
-    settings.definitions = shown.grammar.optional_definitions;
-    settings.set_values = shown.grammar.settings;
-    settings.generations = shown.grammar.generations;
-    settings.seed = shown.seed;
-    settings.mesh = shown.mesh;
+    static_cast<PlantSource&>(settings) = source_of(shown);
     requested_ = settings;
     set_note("Cancelled: the last plant is shown");
 }

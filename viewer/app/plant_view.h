@@ -22,16 +22,19 @@
 
 namespace lsys::view {
 
-/// Settings of the user that undo() takes back.
-struct PlantEdits {
-    // Sources: a change makes a new plant.
+/// Values that make the plant of a file: a change makes a new plant.
+struct PlantSource {
     std::vector<Definition> definitions; // replace constants of the grammar
     std::vector<SettingText> set_values; // replace `#set` statements of the grammar
     std::optional<std::uint32_t> generations;
     std::optional<std::uint64_t> seed;
     MeshOptions mesh;
 
-    // Appearance.
+    friend bool operator==(const PlantSource&, const PlantSource&) = default;
+};
+
+/// Looks of a picture.
+struct PlantLook {
     PlantStyle style = PlantStyle::Surface;
     LineKind lines = LineKind::None;
     bool shadows = true;
@@ -42,6 +45,11 @@ struct PlantEdits {
     Quality quality = Quality::Auto;
     SceneLight light; // values that replace the default daylight
 
+    friend bool operator==(const PlantLook&, const PlantLook&) = default;
+};
+
+/// Settings of the user that undo() takes back.
+struct PlantEdits : PlantSource, PlantLook {
     bool simulates = false; // gravity and wind move the plant
     Bending bending;
 
@@ -105,11 +113,13 @@ public:
     void play_or_pause();
     /// Whether constants, settings or the seed differ from those of the file.
     [[nodiscard]] bool has_changed_values() const;
+    /// Whether they have changed since the file was opened or written.
+    [[nodiscard]] bool is_unsaved() const override;
     /// Writes changed constants, settings and seed to the .lsys file, keeps the rest of the file,
     /// and reports the result in a note. Refuses another dialect, a compiled grammar, a file that
     /// has changed on disk since it was read, values in included files, and values whose plant is
     /// not shown.
-    void write_values();
+    void save() override;
     /// Writes the plant shown, at rest, to settings.output.file on another thread, and reports the
     /// result in a note. Refuses moments between generations.
     void export_shown();
@@ -143,6 +153,7 @@ private:
 
     std::shared_ptr<const PlantDocument> document_;
     LoadOutcome shown_outcome_;
+    PlantSource saved_; // values when the file was opened or written
     std::vector<std::string> files_;
     bool frame_next_ = true;  // the next swap fits the camera to the plant
     bool is_new_file_ = true; // at the next swap, take the damping of the grammar

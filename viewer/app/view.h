@@ -82,8 +82,11 @@ public:
     [[nodiscard]] virtual bool is_forest() const { return false; }
     /// Whether the plant or forest grows, so that a film can show its growth.
     [[nodiscard]] virtual bool has_growth() const { return false; }
-    /// Whether there are unsaved changes.
+    /// Whether there are changes that save() writes to the file.
     [[nodiscard]] virtual bool is_unsaved() const { return false; }
+    /// Writes the changes to the file and reports the result in a note. They stay unsaved if that
+    /// fails.
+    virtual void save() {}
 
     /// Starts to describe the part that a pixel of the last picture shows; picked() returns the
     /// description once it is made. Then a trace of its module begins.

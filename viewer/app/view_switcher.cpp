@@ -47,13 +47,29 @@ void ViewSwitcher::open_neighbour(int step) {
 }
 
 void ViewSwitcher::open(const std::string& file) {
-    if (current_->is_unsaved() && refused_file_ != file) {
-        refused_file_ = file;
-        current_->set_note(
-            "painted trees are not saved: Ctrl+S saves them; repeat to go on without saving");
-        return;
+    if (current_->is_unsaved()) {
+        leaving_ = Leaving{file};
+    } else {
+        open_now(file);
     }
-    refused_file_.clear();
+}
+
+bool ViewSwitcher::may_quit() {
+    if (current_->is_unsaved()) {
+        leaving_ = Leaving{};
+    }
+    return !leaving_;
+}
+
+bool ViewSwitcher::leave() {
+    const std::string file = std::exchange(leaving_, std::nullopt)->file;
+    if (!file.empty()) {
+        open_now(file);
+    }
+    return file.empty();
+}
+
+void ViewSwitcher::open_now(const std::string& file) {
     const bool is_forest = is_scene(file);
     if (forest_ != nullptr && is_scene(forest_->file())) {
         last_scene_ = forest_->file();

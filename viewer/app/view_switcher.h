@@ -9,9 +9,15 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 
 namespace lsys::view {
+
+/// A request that waits until the user has decided about unsaved changes.
+struct Leaving {
+    std::string file; // to open; empty: the window is to be closed
+};
 
 class ViewSwitcher {
 public:
@@ -26,24 +32,32 @@ public:
     [[nodiscard]] ForestView* forest() { return forest_; }
 
     /// Opens and frames another file: a scene as a forest, a grammar as a plant. With unsaved
-    /// changes the first call only warns.
+    /// changes only sets leaving().
     void open(const std::string& file);
+    /// Returns whether the window may be closed. With unsaved changes sets leaving().
+    [[nodiscard]] bool may_quit();
+    /// The last request that found unsaved changes; empty: none waits.
+    [[nodiscard]] const std::optional<Leaving>& leaving() const { return leaving_; }
+    /// Drops the request.
+    void stay() { leaving_.reset(); }
+    /// Fulfils the request without saving. Returns whether the window is to be closed.
+    /// Precondition: leaving().
+    [[nodiscard]] bool leave();
     /// Opens the next file (`step` 1) or the previous one (-1) of the folder of the file shown.
     void open_neighbour(int step);
-    /// Makes the next open() with unsaved changes warn again.
-    void reset_warning() { refused_file_.clear(); }
     /// Scene shown before the plant; empty: none.
     [[nodiscard]] const std::string& last_scene() const { return last_scene_; }
 
 private:
     void make(const ViewOptions& options);
+    void open_now(const std::string& file);
 
     ViewOptions options_;
     Console console_;
     Renderer* renderer_;
     std::function<void()> wake_;
     std::string last_scene_;
-    std::string refused_file_; // last file whose opening was refused because of unsaved changes
+    std::optional<Leaving> leaving_;
     PlantView* plant_ = nullptr;
     ForestView* forest_ = nullptr;
     std::unique_ptr<View> current_;

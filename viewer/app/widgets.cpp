@@ -10,6 +10,7 @@
 #include <cmath>
 #include <cstdio>
 #include <imgui.h>
+#include <imgui_internal.h>
 #include <numbers>
 
 namespace lsys::view {
@@ -28,21 +29,102 @@ void line(const std::string& text) {
     ImGui::TextUnformatted(text.data(), text.data() + text.size());
 }
 
+namespace {
+
+/// Whether the keyboard was used last, and a ring is shown.
+bool uses_keyboard() {
+    return ImGui::GetCurrentContext()->NavDisableMouseHover && ImGui::GetIO().NavVisible;
+}
+
+} // namespace
+
 void set_tooltip(const std::string& text) {
-    ImGui::SetTooltip("%s", text.c_str());
+    if (uses_keyboard()) {
+        // Beside the window, so that the next controls stay in sight.
+        ImGui::SetNextWindowPos(
+            {ImGui::GetWindowPos().x + ImGui::GetWindowWidth(), ImGui::GetItemRectMin().y});
+    }
+    constexpr float kCharacters = 45.0F; // in a line
+    ImGui::BeginTooltip();
+    ImGui::PushTextWrapPos(kCharacters * ImGui::CalcTextSize("0").x);
+    line(text);
+    ImGui::PopTextWrapPos();
+    ImGui::EndTooltip();
+}
+
+bool is_pointed_at() {
+    return ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled) ||
+           (uses_keyboard() && ImGui::IsItemFocused());
 }
 
 void draw_tooltip(const char* text) {
-    if (ImGui::IsItemHovered()) {
-        ImGui::SetTooltip("%s", text);
+    if (is_pointed_at()) {
+        set_tooltip(text);
     }
 }
 
-void edit_text(const char* label, std::string& text) {
+namespace {
+
+constexpr const char* kRefused = "refused"; // state of a dialog: Enter was refused
+
+bool presses_enter() {
+    return ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Enter), false) ||
+           ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_KeyPadEnter), false);
+}
+
+} // namespace
+
+bool edit_text(const char* label, std::string& text) {
     std::array<char, 1024> bytes{};
     std::snprintf(bytes.data(), bytes.size(), "%s", text.c_str());
     if (ImGui::InputText(label, bytes.data(), bytes.size())) {
         text = bytes.data();
+    }
+    return ImGui::IsItemDeactivated() && presses_enter();
+}
+
+bool begin_dialog(const char* name, bool& is_open) {
+    const ImVec2 all = ImGui::GetIO().DisplaySize;
+    ImGui::SetNextWindowPos({0.5F * all.x, 0.5F * all.y}, ImGuiCond_Always, {0.5F, 0.5F});
+    ImGui::SetNextWindowSizeConstraints({0.0F, 0.0F}, all);
+    return ImGui::Begin(name, &is_open,
+                        ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoCollapse |
+                            ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoMove);
+}
+
+bool is_enter_free() {
+    // Without a ring no control takes Enter.
+    return !ImGui::GetIO().NavVisible && !ImGui::IsAnyItemActive() && ImGui::IsWindowFocused() &&
+           presses_enter();
+}
+
+bool begins_editing() {
+    return ImGui::IsWindowAppearing() ||
+           ImGui::GetStateStorage()->GetBool(ImGui::GetID(kRefused), false);
+}
+
+bool end_dialog(const std::string& button,
+                const std::string& problem,
+                bool is_entered,
+                bool& is_open) {
+    ImGui::GetStateStorage()->SetBool(ImGui::GetID(kRefused), is_entered && !problem.empty());
+    ImGui::BeginDisabled(!problem.empty());
+    const bool is_pressed = ImGui::Button((button + " (Enter)").c_str());
+    ImGui::EndDisabled();
+    ImGui::SameLine();
+    if (ImGui::Button("Cancel (Esc)")) {
+        is_open = false;
+    }
+    return is_pressed || (problem.empty() && (is_entered || is_enter_free()));
+}
+
+void draw_problem(const std::string& problem) {
+    if (!problem.empty()) {
+        const bool is_dark = ImGui::GetStyle().Colors[ImGuiCol_WindowBg].x < 0.5F;
+        ImGui::PushStyleColor(ImGuiCol_Text, is_dark ? ImVec4(1.0F, 0.6F, 0.5F, 1.0F)
+                                                     : ImVec4(0.7F, 0.1F, 0.0F, 1.0F));
+        line(problem);
+        ImGui::PopStyleColor();
     }
 }
 

@@ -97,11 +97,6 @@ public:
         }
         const bool has_news = switcher_.current().update() || film;
         const bool dropped_note = switcher_.current().drop_old_note(now);
-        if (dropped_note) {
-            // The warning has left the screen, so the next Ctrl+Q must warn again.
-            panels_.asked_to_quit = false;
-            switcher_.reset_warning();
-        }
         if (input.any || has_news || dropped_note) {
             pictures_left_ = kPicturesAfterInput;
         }
@@ -169,6 +164,7 @@ private:
         window_.begin_panels();
         View* const drawn = &switcher_.current();
         draw_panels(switcher_, panels_, window_.scale());
+        window_.set_panel_keys(panels_.focus.has_keys());
         window_.present();
         if (panels_.look != look_ && !is_control_held()) {
             look_ = panels_.look;

@@ -8,6 +8,8 @@
 #include <epoxy/egl.h>
 #include <epoxy/gl.h>
 #include <GLFW/glfw3.h>
+#include <map>
+#include <mutex>
 #include <string_view>
 
 namespace lsys::view {
@@ -20,6 +22,36 @@ std::string version_error() {
     return version >= 45
                ? std::string()
                : fmt::format("OpenGL {}.{} found, 4.5 required", version / 10, version % 10);
+}
+
+/// Contexts of all threads by their display, which eglTerminate() would end for all of them.
+struct DisplayUsers {
+    std::mutex mutex;
+    std::map<EGLDisplay, int> counts;
+};
+DisplayUsers& display_users() {
+    static DisplayUsers users;
+    return users;
+}
+
+bool begin_use(EGLDisplay display) {
+    DisplayUsers& users = display_users();
+    const std::lock_guard lock(users.mutex);
+    EGLint major = 0;
+    EGLint minor = 0;
+    if (eglInitialize(display, &major, &minor) == EGL_FALSE) {
+        return false;
+    }
+    ++users.counts[display];
+    return true;
+}
+
+void end_use(EGLDisplay display) {
+    DisplayUsers& users = display_users();
+    const std::lock_guard lock(users.mutex);
+    if (--users.counts[display] == 0) {
+        eglTerminate(display);
+    }
 }
 
 bool has_extension(const char* list, std::string_view name) {
@@ -48,9 +80,7 @@ struct HeadlessContext::State {
         if (which == EGL_NO_DISPLAY) {
             return "there is no such display";
         }
-        EGLint major = 0;
-        EGLint minor = 0;
-        if (eglInitialize(which, &major, &minor) == EGL_FALSE) {
+        if (!begin_use(which)) {
             return "EGL does not initialize";
         }
         display = which;
@@ -130,7 +160,7 @@ struct HeadlessContext::State {
             context = EGL_NO_CONTEXT;
         }
         if (display != EGL_NO_DISPLAY) {
-            eglTerminate(display);
+            end_use(display);
             display = EGL_NO_DISPLAY;
         }
         if (window != nullptr) {

@@ -23,13 +23,14 @@ struct NamedKey {
     int code;
     Key key;
 };
-constexpr std::array<NamedKey, 16> kNamedKeys = {{{GLFW_KEY_ESCAPE, Key::Escape},
+constexpr std::array<NamedKey, 17> kNamedKeys = {{{GLFW_KEY_ESCAPE, Key::Escape},
                                                   {GLFW_KEY_TAB, Key::Tab},
                                                   {GLFW_KEY_PAGE_UP, Key::PageUp},
                                                   {GLFW_KEY_PAGE_DOWN, Key::PageDown},
                                                   {GLFW_KEY_LEFT_SHIFT, Key::Shift},
                                                   {GLFW_KEY_RIGHT_SHIFT, Key::Shift},
                                                   {GLFW_KEY_F1, Key::F1},
+                                                  {GLFW_KEY_F6, Key::F6},
                                                   {GLFW_KEY_SPACE, Key::Space},
                                                   {GLFW_KEY_LEFT, Key::Left},
                                                   {GLFW_KEY_RIGHT, Key::Right},
@@ -56,6 +57,21 @@ Key key_of(int code, int scan_code) {
         return static_cast<Key>(name[0] - 'a' + 'A');
     }
     return code >= GLFW_KEY_A && code <= GLFW_KEY_Z ? static_cast<Key>(code) : Key::None;
+}
+
+bool is_modifier(int code) {
+    return code >= GLFW_KEY_LEFT_SHIFT && code <= GLFW_KEY_RIGHT_SUPER;
+}
+
+/// Whether a letter edits text together with Ctrl: select all, copy, paste, cut, undo, redo.
+bool edits_text(Key key) {
+    return key == Key::A || key == Key::C || key == Key::V || key == Key::X || key == Key::Z ||
+           key == Key::Y;
+}
+
+/// Whether a list or menu of the panels is open.
+bool has_popup() {
+    return ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopupId | ImGuiPopupFlags_AnyPopupLevel);
 }
 
 void append_utf8(std::string& text, unsigned character) {
@@ -105,6 +121,7 @@ struct Window::State {
     GLFWwindow* window = nullptr;
     bool has_panels = false;
     bool mouse_captured = false;
+    bool panels_have_keys = false;
     // Collected until the next wait().
     WindowInput input;
     glm::vec2 mouse{0.0F};
@@ -112,6 +129,10 @@ struct Window::State {
     bool shift = false;         // at the last press or release of the left button
     std::array<bool, 3> held{}; // buttons pressed outside of panels
     std::vector<std::pair<int, Key>> keys;
+    // Keys that the panels received since the last frame. ImGui would not see a key that is released
+    // before the next one, so such releases wait.
+    std::vector<int> new_keys;
+    std::vector<std::pair<int, int>> waiting_releases; // GLFW key codes and scan codes
     std::vector<GLuint> images;
     WindowLook look;
     WindowLook drawn_look;    // look for which ImGui's fonts and style were made
@@ -179,21 +200,32 @@ struct Window::State {
     bool press_key(int code, int scan_code, int action, int modifiers) {
         input.any = true;
         const Key key = key_of(code, scan_code);
-        const bool is_typing = !mouse_captured && ImGui::GetIO().WantTextInput;
         if (action == GLFW_RELEASE) {
             std::erase_if(keys, [code](const auto& held_key) { return held_key.first == code; });
             return true;
         }
-        if (key != Key::None && !is_typing) {
-            input.presses.push_back({key, (modifiers & GLFW_MOD_CONTROL) != 0,
-                                     (modifiers & GLFW_MOD_SHIFT) != 0,
-                                     (modifiers & GLFW_MOD_ALT) != 0});
-            if (action == GLFW_PRESS) {
+        if (is_modifier(code)) {
+            if (action == GLFW_PRESS && key != Key::None) {
+                keys.emplace_back(code, key);
+            }
+            return true; // Ctrl and a click edit the number of a slider
+        }
+        const bool is_typing = !mouse_captured && ImGui::GetIO().WantTextInput;
+        const bool to_panels = is_typing || (!mouse_captured && panels_have_keys);
+        const bool control = (modifiers & GLFW_MOD_CONTROL) != 0;
+        const bool alt = (modifiers & GLFW_MOD_ALT) != 0;
+        const bool is_command = key == Key::F1 || key == Key::F6 || key == Key::Escape ||
+                                (control && !(is_typing && edits_text(key))) || (alt && !is_typing);
+        const bool in_control = to_panels && (ImGui::IsAnyItemActive() || has_popup());
+        if (key != Key::None && (!to_panels || is_command)) {
+            input.presses.push_back(
+                {key, control, (modifiers & GLFW_MOD_SHIFT) != 0, alt, in_control});
+            if (action == GLFW_PRESS && !to_panels) {
                 keys.emplace_back(code, key);
             }
         }
-        // Outside of text fields Tab starts to fly; ImGui would put the cursor into a field.
-        return is_typing || (!mouse_captured && key != Key::Tab);
+        // Escape ends the use of a control, and else leaves the panels, which the caller does.
+        return to_panels && (key != Key::Escape || in_control);
     }
 
     /// Makes fonts and style anew if the scale of the monitor or the look has changed.
@@ -210,6 +242,9 @@ struct Window::State {
         constexpr float kGrip = 0.45F;
         style.Colors[ImGuiCol_SliderGrab].w = kGrip;
         style.Colors[ImGuiCol_SliderGrabActive].w = kGrip;
+        // The ring around the control that has the keyboard.
+        style.Colors[ImGuiCol_NavHighlight] =
+            look.is_light ? ImVec4(0.85F, 0.3F, 0.0F, 1.0F) : ImVec4(1.0F, 0.75F, 0.2F, 1.0F);
         style.ScaleAllSizes(scale);
         ImGuiIO& io = ImGui::GetIO();
         io.Fonts->Clear();
@@ -246,7 +281,7 @@ struct Window::State {
         glfwSetCharCallback(window, [](GLFWwindow* from, unsigned character) {
             State& state = of(from);
             state.input.any = true;
-            if (!state.mouse_captured && !ImGui::GetIO().WantTextInput) {
+            if (!state.mouse_captured && !state.panels_have_keys && !ImGui::GetIO().WantTextInput) {
                 append_utf8(state.input.text, character);
             }
         });
@@ -270,10 +305,31 @@ struct Window::State {
     void install_key_callback() {
         glfwSetKeyCallback(
             window, [](GLFWwindow* from, int code, int scan_code, int action, int modifiers) {
-                if (of(from).press_key(code, scan_code, action, modifiers)) {
-                    ImGui_ImplGlfw_KeyCallback(from, code, scan_code, action, modifiers);
+                State& state = of(from);
+                if (!state.press_key(code, scan_code, action, modifiers)) {
+                    return;
                 }
+                const bool is_new = std::find(state.new_keys.begin(), state.new_keys.end(), code) !=
+                                    state.new_keys.end();
+                // Shift and Ctrl are held until the key with them is seen.
+                const bool is_needed = is_modifier(code) && !state.new_keys.empty();
+                if (action == GLFW_RELEASE && (is_new || is_needed)) {
+                    state.waiting_releases.emplace_back(code, scan_code);
+                    return;
+                }
+                if (action == GLFW_PRESS && !is_modifier(code)) {
+                    state.new_keys.push_back(code);
+                }
+                ImGui_ImplGlfw_KeyCallback(from, code, scan_code, action, modifiers);
             });
+    }
+
+    /// Call after ImGui has begun a frame.
+    void release_keys() {
+        new_keys.clear();
+        for (const auto& [code, scan_code] : std::exchange(waiting_releases, {})) {
+            ImGui_ImplGlfw_KeyCallback(window, code, scan_code, GLFW_RELEASE, 0);
+        }
     }
 };
 
@@ -316,6 +372,7 @@ Window::make(const std::string& title, std::uint32_t width, std::uint32_t height
     IMGUI_CHECKVERSION();
     ImGui::CreateContext();
     ImGui::GetIO().IniFilename = nullptr; // no settings file
+    ImGui::GetIO().ConfigFlags |= ImGuiConfigFlags_NavEnableKeyboard;
     ImGui_ImplGlfw_InitForOpenGL(state.window, true);
     state.install_key_callback();
     ImGui_ImplOpenGL3_Init("#version 450 core");
@@ -370,6 +427,10 @@ void Window::set_look(const WindowLook& look) {
     state_->look = look;
 }
 
+void Window::set_panel_keys(bool panels_have_keys) {
+    state_->panels_have_keys = panels_have_keys;
+}
+
 void Window::set_title(const std::string& title) {
     glfwSetWindowTitle(state_->window, title.c_str());
 }
@@ -416,7 +477,13 @@ void Window::begin_panels() {
     ImGui_ImplOpenGL3_NewFrame();
     state_->update_look(scale());
     ImGui_ImplGlfw_NewFrame();
+    ImGuiIO& io = ImGui::GetIO();
+    // Enter edits numbers and texts, and presses buttons as Space does.
+    if (io.KeysDown[GLFW_KEY_ENTER] || io.KeysDown[GLFW_KEY_KP_ENTER]) {
+        io.NavInputs[ImGuiNavInput_Activate] = 1.0F;
+    }
     ImGui::NewFrame();
+    state_->release_keys();
 }
 
 void Window::present() {

@@ -25,6 +25,7 @@ enum class Key : std::uint8_t {
     PageDown,
     Shift,
     F1,
+    F6,
     Left,
     Right,
     Up,
@@ -73,6 +74,8 @@ struct KeyPress {
     bool control = false;
     bool shift = false;
     bool alt = false;
+    // A control of the panels was in use, or one of their lists was open.
+    bool in_control = false;
 };
 
 /// Event of the left button over the picture.
@@ -133,6 +136,9 @@ public:
     /// Takes effect at the next begin_panels(). Text above its usual size is drawn with DejaVu Sans
     /// Mono if it is installed, else with enlarged pixels.
     void set_look(const WindowLook& look);
+    /// Whether the panels have the keyboard: then they receive all keys except F keys, and those with
+    /// Ctrl or Alt. A text field in use always has the keyboard.
+    void set_panel_keys(bool panels_have_keys);
     void set_title(const std::string& title);
     /// Hides the pointer and reports its motion without limits.
     void capture_mouse(bool captured);

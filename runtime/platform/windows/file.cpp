@@ -171,7 +171,9 @@ Reason check_writable(const std::string& path) {
     if (attributes == INVALID_FILE_ATTRIBUTES) {
         return last_reason();
     }
-    return (attributes & FILE_ATTRIBUTE_READONLY) != 0 ? EACCES : 0;
+    // A folder may have this attribute and still take files.
+    constexpr DWORD kKind = FILE_ATTRIBUTE_READONLY | FILE_ATTRIBUTE_DIRECTORY;
+    return (attributes & kKind) == FILE_ATTRIBUTE_READONLY ? EACCES : 0;
 }
 
 Reason resolve_links(const std::string& path, std::string& real) {

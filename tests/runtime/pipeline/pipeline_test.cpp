@@ -279,16 +279,17 @@ TEST_CASE("a constant is described by the comment after it, its value and its ra
                                    "#w : F(lean + a + b + c + r);\n"}});
     const Outcome<Grammar> grammar = load_grammar("plant.lsys", {}, project);
     REQUIRE(grammar);
-    const auto text = [&](std::string_view name) {
+    const auto text = [&](std::string_view name, bool is_replaced = false) {
         for (const Constant& constant : grammar.value().program->constants) {
             if (grammar.value().names.text(constant.name) == name) {
-                return describe_constant(constant, grammar.value());
+                return describe_constant(constant, grammar.value(), is_replaced);
             }
         }
         return std::string("?");
     };
     CHECK(text("lean") == "lean, 0: straight\n0.5 in the file; from 0 to 2");
     CHECK(text("a") == "3 in the file");
+    CHECK(text("a", true) == "3 instead of the value in the file");
     CHECK(text("b") == "two statements\n4 in the file");
     CHECK(text("c") == "0.001 in the file");
     CHECK(text("r") == "random in each run");

@@ -105,22 +105,14 @@ TEST_CASE("the contact sheet draws plants beside the window, and one is taken by
         CHECK(panels.sheet.done.at(i));
     }
     CHECK(drawn[0].second.texels != drawn[1].second.texels);
-    press(Key::Right);
-    press(Key::Down);
-    press(Key::Down);
-    press(Key::Down);
-    CHECK(panels.sheet.selected == 7);
+    CHECK_FALSE(panels.sheet.are_alike());
     press(Key::Escape);
     CHECK(panels.dialog == OpenDialog::None);
     CHECK_FALSE(view.settings.seed);
 
     panels.sheet.varied = {"size"};
     press(Key::K);
-    CHECK(panels.sheet.selected == 0);
-    press(Key::Right);
-    press(Key::Down);
-    press(Key::Down);
-    press(Key::Enter);
+    take_from_sheet(7, view, panels);
     CHECK(panels.dialog == OpenDialog::None);
     REQUIRE(view.settings.definitions.size() == 1);
     CHECK(view.settings.definitions[0].value == Approx(2.75));

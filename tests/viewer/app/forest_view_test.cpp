@@ -262,6 +262,50 @@ TEST_CASE("values set in the window replace those of the scene") {
     CHECK_FALSE(viewed.forest().failed());
 }
 
+TEST_CASE("after a change of season the picture, with its shadows, is that of a new view") {
+    const std::string text = "season = 0.1\n" + wood(12);
+    const std::string bush = "#param season 0.5 {0, 1};\n#n = 4;\n#set names letters;\n"
+                             "#set width 0.1;\n#w : A;\n"
+                             "#p : A : * : F(1)[+(50)F(4*season)][-(50)F(4*season)]/(90)A;\n";
+    const WoodFolder files(text);
+    write_text(files.folder / "bush.lsys", bush);
+    ViewOptions options = forest_options(files.scene);
+    options.quality = Quality::Medium; // with shadows of branches
+    const auto settle = [](ViewedForest& viewed) {
+        viewed.forest().settings.camera = {{30.0F, 12.0F, 62.0F}, {30.0F, 2.0F, 30.0F}, 40.0F};
+        const SteadyClock::time_point start = SteadyClock::now();
+        REQUIRE(viewed.until([&] { return SteadyClock::now() - start > 1s; }));
+        return viewed.picture();
+    };
+    std::vector<std::uint8_t> changed;
+    {
+        ViewedForest viewed(options);
+        REQUIRE(viewed.until_swaps(1));
+        const std::vector<std::uint8_t> before = settle(viewed);
+        viewed.forest().settings.edits.season = 0.9F;
+        REQUIRE(viewed.until_swaps(2));
+        changed = settle(viewed);
+        CHECK(changed != before);
+        // Writing it to the scene changes one line, and not the picture.
+        CHECK(viewed.forest().is_unsaved());
+        viewed.forest().save();
+        CAPTURE(viewed.forest().note());
+        CHECK_FALSE(viewed.forest().is_unsaved());
+        CHECK(read_text(files.scene) == "season = 0.9\n" + wood(12));
+        REQUIRE(viewed.until_swaps(3));
+        CHECK(viewed.forest().document()->season == 0.9F);
+        CHECK(settle(viewed) == changed);
+    }
+    ViewedForest viewed(options);
+    REQUIRE(viewed.until_swaps(1));
+    CHECK(settle(viewed) == changed);
+    // A scene that sets the constant itself leaves nothing to the season.
+    write_text(files.scene, wood(12, "define = { season = 0.3 }\n"));
+    viewed.forest().reload();
+    REQUIRE(viewed.until_swaps(2));
+    CHECK_FALSE(viewed.forest().document()->season);
+}
+
 TEST_CASE("a forest grows from its first year to its last") {
     const WoodFolder files("key = 3\n[terrain]\nsize = 40\n[placement]\nmethod = \"domination\"\n"
                            "count = 60\nyears = 30\n[[species]]\nname = \"bush\"\n"
@@ -418,8 +462,8 @@ TEST_CASE("painted trees are saved to the scene shown, not to a scene with error
     viewed.press();
     REQUIRE(viewed.forest().painting().tree_count() == 51);
     viewed.views.open(broken);
-    CHECK(viewed.forest().file() == files.scene); // the first call only warns
-    viewed.views.open(broken);
+    CHECK(viewed.forest().file() == files.scene); // it waits for the answer about unsaved changes
+    CHECK_FALSE(viewed.views.leave());
     REQUIRE(viewed.until([&] { return viewed.forest().failed(); }));
     CHECK(viewed.forest().file() == broken);
     viewed.forest().save();
@@ -580,8 +624,10 @@ TEST_CASE("opening another scene drops the options, heroes and painting of the f
     forest.settings.tool = PaintTool::OneTree;
     viewed.press();
     REQUIRE(forest.is_unsaved());
-    viewed.views.open(second.scene); // refused
     viewed.views.open(second.scene);
+    REQUIRE(viewed.views.leaving());
+    CHECK(viewed.views.leaving()->file == second.scene);
+    CHECK_FALSE(viewed.views.leave());
     REQUIRE(viewed.until_trees(40));
     const SceneSpecies& species = forest.document()->scene.species[0];
     CHECK(species.definitions.empty());
@@ -615,20 +661,36 @@ TEST_CASE("dropped files show plants and forests in turn") {
     drop(files.scene);
     REQUIRE(viewed.views.forest() != nullptr);
     REQUIRE(viewed.until_swaps(1));
-    // If painted trees are unsaved, the first drop of a file or request to close only warns.
+    // With unsaved trees, a dropped file or a request to close asks first.
     viewed.look_at(30.0F, 30.0F);
     viewed.forest().settings.tool = PaintTool::OneTree;
     viewed.press();
     drop(files.folder / "bush.lsys");
     REQUIRE(viewed.views.forest() != nullptr);
+    CHECK(panels.dialog == OpenDialog::Unsaved);
+    const auto press = [&](Key key) {
+        WindowInput input;
+        input.presses = {{key}};
+        controls.apply(input, 0.01, area, viewed.views, panels);
+    };
+    press(Key::Escape);
+    CHECK(panels.dialog == OpenDialog::None);
+    CHECK_FALSE(viewed.views.leaving());
     WindowInput closing;
     closing.close_requested = true;
-    controls.apply(closing, 0.01, area, viewed.views, panels);
-    CHECK_FALSE(panels.quits);
-    controls.apply(closing, 0.01, area, viewed.views, panels);
-    CHECK(panels.quits);
+    for (int i = 0; i < 2; ++i) { // the second request does not close the window either
+        controls.apply(closing, 0.01, area, viewed.views, panels);
+        CHECK_FALSE(panels.quits);
+        CHECK(panels.dialog == OpenDialog::Unsaved);
+    }
+    answer_unsaved(UnsavedAnswer::Cancel, viewed.views, panels);
     drop(files.folder / "bush.lsys");
-    CHECK(viewed.views.plant() != nullptr);
+    REQUIRE(viewed.views.forest() != nullptr);
+    answer_unsaved(UnsavedAnswer::Discard, viewed.views, panels);
+    CHECK_FALSE(panels.quits);
+    CHECK(panels.dialog == OpenDialog::None);
+    REQUIRE(viewed.views.plant() != nullptr);
+    CHECK(read_text(files.scene).find("[painted]") == std::string::npos);
     CHECK(viewed.renderer->errors().empty());
 }
 

@@ -248,18 +248,18 @@ TEST_CASE("writing a changed setting to the file changes one line and not the pl
     REQUIRE(viewed.until_swaps(1));
     const std::vector<glm::vec3> square = vertices_of(viewed.view);
     CHECK_FALSE(viewed.view.has_changed_values());
-    viewed.view.write_values();
+    viewed.view.save();
     CHECK(viewed.view.note() == "no value differs from the file");
 
     viewed.view.settings.set_values = {{"angle", "32.5"}};
-    viewed.view.write_values();
+    viewed.view.save();
     CHECK(viewed.view.note() == "not written: the plant with these values is not made yet");
     CHECK(read_text(file) == text);
     const auto angle = [&] { return viewed.view.document()->grammar.bytecode.settings.angle; };
     REQUIRE(viewed.until([&] { return angle() == 32.5F; }));
     const std::vector<glm::vec3> turned = vertices_of(viewed.view);
     CHECK(turned != square);
-    viewed.view.write_values();
+    viewed.view.save();
     CHECK(viewed.view.note() == "wrote angle to " + file);
     CHECK(new_lines(text, read_text(file)) == std::vector<std::string>{"#set angle 32.5;\r"});
     CHECK_FALSE(viewed.view.has_changed_values());
@@ -274,7 +274,7 @@ TEST_CASE("writing a changed setting to the file changes one line and not the pl
     viewed.view.settings.set_values = {{"step", "0.5"}};
     REQUIRE(viewed.until(
         [&] { return viewed.view.document()->grammar.bytecode.settings.step == 0.5F; }));
-    viewed.view.write_values();
+    viewed.view.save();
     CHECK(read_text(file).find("#set step 0.5; // metres\r\n#set angle 32.5;\r\n") !=
           std::string::npos);
 }
@@ -310,7 +310,7 @@ TEST_CASE("values are not written to a file that has changed or cannot hold them
         REQUIRE(viewed.until_swaps(1));
         CHECK(viewed.view.document()->grammar.bytecode.settings.angle == 30.0F);
         write_text(folder / name, later);
-        viewed.view.write_values();
+        viewed.view.save();
         CHECK(read_text(folder / name) == later);
         CHECK(viewed.view.has_changed_values());
         return viewed.view.note();
@@ -401,13 +401,20 @@ TEST_CASE("a plant bends in the wind and stands again without wind") {
     CHECK(viewed.picture() == still);
 }
 
-TEST_CASE("another file is opened with the whole plant in view") {
-    ViewedPlant viewed(plant_options(sample("teach-param")));
+TEST_CASE("another file is opened with the whole plant in view, and without a person") {
+    ViewOptions options = plant_options(sample("teach-param"));
+    options.figure = true;
+    ViewedPlant viewed(options);
     REQUIRE(viewed.until_swaps(1));
+    const glm::vec3 first_direction = forward_of(viewed.view.settings.camera);
+    viewed.view.show_from(StandardView::Top);
     const Camera before = viewed.view.settings.camera;
+    CHECK(viewed.view.settings.figure);
     viewed.view.open(sample("teach-bending"));
     REQUIRE(viewed.until_swaps(2));
     CHECK_FALSE(viewed.view.settings.camera == before);
+    CHECK(glm::distance(forward_of(viewed.view.settings.camera), first_direction) < 1e-3F);
+    CHECK_FALSE(viewed.view.settings.figure);
     CHECK(viewed.view.document()->plant.generations == viewed.view.default_generations());
 }
 
@@ -454,7 +461,7 @@ TEST_CASE("keys change the display, and letters move the camera while flying") {
     press(Key::Escape);
     CHECK_FALSE(panels.help);
     press(Key::Q);
-    CHECK_FALSE(panels.quits);
+    CHECK_FALSE(panels.wants_to_quit);
     const Camera before = settings.camera;
     press(Key::Tab);
     press(Key::G);
@@ -472,7 +479,7 @@ TEST_CASE("keys change the display, and letters move the camera while flying") {
     press(Key::Tab);
     CHECK_FALSE(panels.flies);
     press(Key::Q, true);
-    CHECK(panels.quits);
+    CHECK(panels.wants_to_quit);
 }
 
 TEST_CASE("the mouse orbits, pans and zooms") {
@@ -618,6 +625,32 @@ TEST_CASE("a plant that takes long is reported, and cancelled together with its 
     CHECK(view.generations() == 2);
     REQUIRE(viewed.until([&] { return !view.is_busy(); }));
     CHECK(view.stats().swaps == 3);
+}
+
+TEST_CASE("values changed in the window are unsaved until they are written or taken back") {
+    const ScratchFolder folder;
+    const std::string file = folder / "plant.lsys";
+    write_text(file, "#param size 1 {0.5, 2};\n#n = 0;\n#w : F(size);\n");
+    ViewOptions options = plant_options(file);
+    options.seed = 3; // of the command line: not a change of the user
+    ViewedPlant viewed(options);
+    REQUIRE(viewed.until_swaps(1));
+    CHECK_FALSE(viewed.view.is_unsaved());
+    viewed.view.settings.definitions = {{"size", 2.0F}};
+    CHECK(viewed.view.is_unsaved());
+    viewed.view.undo();
+    CHECK_FALSE(viewed.view.is_unsaved());
+    viewed.view.redo();
+    REQUIRE(viewed.until_swaps(2));
+    CHECK(viewed.view.is_unsaved());
+    viewed.view.save();
+    CAPTURE(viewed.view.note());
+    CHECK_FALSE(viewed.view.is_unsaved());
+    CHECK(read_text(file).find("#param size 2 {0.5, 2}") != std::string::npos);
+    viewed.view.settings.set_values = {{"angle", "30"}};
+    CHECK(viewed.view.is_unsaved());
+    viewed.view.open(sample("teach-param"));
+    CHECK_FALSE(viewed.view.is_unsaved());
 }
 
 TEST_CASE("the plant shown is exported with its values, or the reason is reported") {

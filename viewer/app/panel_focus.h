@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: MIT
+// PanelFocus: which part of the window has the keyboard: the picture, a panel or a dialog. A ring
+// around a control shows that its panel or dialog has it.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+namespace lsys::view {
+
+/// A request of the user.
+enum class FocusMove : std::uint8_t { None, Next, Picture };
+
+/// The kind of the open dialog. A dialog of Controls handles keys itself, and has no ring.
+enum class DialogKeys : std::uint8_t { NoDialog, OfPanels, OfControls };
+
+class PanelFocus {
+public:
+    /// Call before the panels are drawn. FocusMove::Next gives the keyboard to the next panel, and
+    /// after the last one to the picture. A dialog gets the keyboard when it opens, and gives it
+    /// back when it closes.
+    void begin(DialogKeys dialog, FocusMove move);
+    /// Call after the panels are drawn. `dialog`: the dialog for the next frame.
+    void end(DialogKeys dialog);
+    /// Whether a panel or a dialog of ImGui has the keyboard. Does not need ImGui.
+    [[nodiscard]] bool has_keys() const { return has_keys_; }
+
+private:
+    DialogKeys dialog_ = DialogKeys::NoDialog;
+    std::string before_; // the window with the keyboard before the dialog; empty: the picture
+    bool has_keys_ = false;
+};
+
+} // namespace lsys::view

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: MIT
+// The dialog about unsaved changes, before another file is opened or the window is closed.
+#pragma once
+
+#include "viewer/app/controls.h"
+
+#include <optional>
+
+namespace lsys::view {
+
+/// Draws the dialog in the middle of the window; returns the answer once the user has given it.
+/// Precondition: ViewSwitcher::leaving().
+[[nodiscard]] std::optional<UnsavedAnswer> draw_unsaved_dialog(ViewSwitcher& switcher,
+                                                               const PanelState& panels);
+
+} // namespace lsys::view
