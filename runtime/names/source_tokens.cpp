@@ -112,17 +112,15 @@ coloured_files(const std::string& path, std::string text, const FileLoader& load
     std::vector<ColouredFile> files;
     for (std::uint32_t i = 0; i < parsed.sources.file_count(); ++i) {
         const SourceFile& file = parsed.sources.file(static_cast<FileId>(i));
-        files.push_back({file.path(),
-                         source_tokens(index, normalised_path(file.path()), file.text()),
-                         {}});
+        files.push_back(
+            {file.path(), source_tokens(index, normalised_path(file.path()), file.text()), {}});
     }
     for (const SourceSpan& statement : parsed.statements) {
         files[static_cast<std::size_t>(statement.file)].statements.push_back(statement);
     }
     for (ColouredFile& file : files) {
-        std::sort(
-            file.statements.begin(), file.statements.end(),
-            [](const SourceSpan& a, const SourceSpan& b) { return a.begin < b.begin; });
+        std::sort(file.statements.begin(), file.statements.end(),
+                  [](const SourceSpan& a, const SourceSpan& b) { return a.begin < b.begin; });
     }
     return files;
 }

@@ -4,7 +4,9 @@
 
 #include "viewer/app/camera_bookmarks.h"
 #include "viewer/app/contact_sheet.h"
+#include "viewer/app/editor.h"
 #include "viewer/app/film_export.h"
+#include "viewer/app/source_pane.h"
 #include "viewer/app/start_page.h"
 #include "viewer/app/view_switcher.h"
 #include "viewer/gl/window.h"
@@ -38,6 +40,8 @@ struct PanelState {
     CameraBookmarks bookmarks;
     ContactSheet sheet;
     bool has_open_list = false; // a list above the contact sheet is open
+    SourcePane source;
+    Editors editors;
     WindowLook look;
     std::uint32_t window_width = 0; // pixels
     std::uint32_t window_height = 0;
@@ -58,7 +62,7 @@ inline constexpr std::array<KeyHelp, 6> kStartKeys = {{
     {"F1", "This list"},
     {"Ctrl+Q", "Quit"},
 }};
-inline constexpr std::array<KeyHelp, 35> kPlantKeys = {{
+inline constexpr std::array<KeyHelp, 38> kPlantKeys = {{
     {"Left drag", "Orbit"},
     {"Click", "Describe the module and the production that wrote it"},
     {"T", "Trace of the module: why written, next step, back to the axiom"},
@@ -88,6 +92,9 @@ inline constexpr std::array<KeyHelp, 35> kPlantKeys = {{
     {"H", "Panels"},
     {"A", "Statistics"},
     {"M", "Close or show the messages"},
+    {"E", "Source of the grammar"},
+    {"F8, Shift+F8", "Next, previous message in the source"},
+    {"Ctrl+E", "Open the selected line, the clicked part or the message in the editor"},
     {"F1", "Keys"},
     {"Esc", "Cancel what is being made; close the keys, stop flying"},
     {"Ctrl+Q", "Quit"},
@@ -96,7 +103,7 @@ inline constexpr std::array<KeyHelp, 35> kPlantKeys = {{
     {"Drop a file", "Open it"},
 }};
 
-inline constexpr std::array<KeyHelp, 34> kForestKeys = {{
+inline constexpr std::array<KeyHelp, 37> kForestKeys = {{
     {"Left drag", "Orbit; with a tool: paint, Shift: erase"},
     {"Click", "Without a tool: describe the branch and its production"},
     {"Right drag", "Pan; with a tool: orbit"},
@@ -125,6 +132,9 @@ inline constexpr std::array<KeyHelp, 34> kForestKeys = {{
     {"P, Shift+P", "Picture or film; at once a PNG in the current folder"},
     {"H, A", "Panels, statistics"},
     {"M", "Close or show the messages"},
+    {"E", "Source of the grammars"},
+    {"F8, Shift+F8", "Next, previous message in the source"},
+    {"Ctrl+E", "Open the selected line, the clicked part or the message in the editor"},
     {"F1", "Keys"},
     {"Esc", "Cancel what is being made; put the tool away, close the keys, stop flying"},
     {"Ctrl+Q", "Quit"},
@@ -183,6 +193,8 @@ private:
     std::optional<glm::vec2> pressed_;
 };
 
+/// Opens a place in the editor; reports that in a note.
+void open_in_editor(const FilePosition& place, View& view, PanelState& panels);
 /// Opens the dialog for a file, in the folder of the file shown.
 void show_open_dialog(const View& view, PanelState& panels);
 /// Opens the dialog for a picture, with a name that no file has.

@@ -33,7 +33,7 @@ struct Area {
 Area picture_area(const PanelState& panels, float scale) {
     const ImVec2 size = ImGui::GetIO().DisplaySize;
     const float left = panels.panels ? std::min(panel_width(scale), size.x) : 0.0F;
-    return {{left, 0.0F}, size};
+    return {{left, 0.0F}, {size.x - source_width(panels, size.x, scale), size.y}};
 }
 
 constexpr int kNameWidth = 12; // characters
@@ -134,7 +134,8 @@ ImVec4 on_panel(const ImVec4& colour) {
 }
 
 /// A message; a click shows its source lines. `is_open`: whether it shows them at first.
-void draw_message(const ShownMessage& message, int number, bool is_open) {
+void draw_message(
+    const ShownMessage& message, int number, bool is_open, View& view, PanelState& panels) {
     ImGui::PushID(number);
     ImGui::PushStyleColor(
         ImGuiCol_Text,
@@ -146,6 +147,16 @@ void draw_message(const ShownMessage& message, int number, bool is_open) {
         if (ImGui::TreeNodeEx("message", ImGuiTreeNodeFlags_SpanFullWidth, "%s",
                               message.head.c_str())) {
             line(message.text);
+            if (message.place) {
+                if (ImGui::SmallButton("Show in the source")) {
+                    panels.source.look.is_shown = true;
+                    panels.source.show(*message.place);
+                }
+                ImGui::SameLine();
+                if (ImGui::SmallButton("Open in the editor")) {
+                    open_in_editor(*message.place, view, panels);
+                }
+            }
             ImGui::TreePop();
         }
     }
@@ -155,7 +166,7 @@ void draw_message(const ShownMessage& message, int number, bool is_open) {
 
 /// Draws the messages of the grammar or scene, of shaders and of OpenGL, unless the user closed them.
 /// Returns the upper edge of their panel, or the lower edge of the area.
-float draw_messages(const View& view, PanelState& panels, const Area& area) {
+float draw_messages(View& view, PanelState& panels, const Area& area) {
     if (!panels.closed_messages.empty()) {
         if (panels.closed_messages == view.all_messages()) {
             return area.high.y;
@@ -189,11 +200,12 @@ float draw_messages(const View& view, PanelState& panels, const Area& area) {
         for (const ShownMessage& message : view.entries()) {
             // Notes may stay for long, so they begin as one line.
             const bool is_note = message.severity == Severity::Note;
-            draw_message(message, number, number == 0 && !is_note);
+            const bool is_open = number == 0 && !is_note && !panels.source.look.is_shown;
+            draw_message(message, number, is_open, view, panels);
             ++number;
         }
         for (const ShownMessage& message : errors) {
-            draw_message(message, number++, false);
+            draw_message(message, number++, false, view, panels);
         }
         top = ImGui::GetWindowPos().y;
     }
@@ -251,7 +263,10 @@ void draw_trace_line(const TextLine& text) {
     }
 }
 
-void draw_trace_buttons(View& view) {
+/// Width of the area below which panels keep out of each other's way, pixels of the usual text.
+constexpr float kNarrowArea = 640.0F;
+
+void draw_trace_buttons(View& view, PanelState& panels, bool is_narrow) {
     const auto choice = [&view](const char* name, TraceScope scope, const char* help) {
         if (ImGui::RadioButton(name, view.trace_scope() == scope)) {
             view.trace(scope);
@@ -262,6 +277,9 @@ void draw_trace_buttons(View& view) {
     choice("Why written", TraceScope::Written, "The step that wrote the module");
     choice("Next step", TraceScope::Next, "The step that rewrites the module");
     choice("Back to the axiom", TraceScope::Back, "Every step from the axiom to the module");
+    if (is_narrow) {
+        ImGui::NewLine();
+    }
     if (ImGui::Button("Copy")) {
         std::string text;
         for (const TextLine& each : view.traced()) {
@@ -270,13 +288,20 @@ void draw_trace_buttons(View& view) {
         ImGui::SetClipboardText(text.c_str());
     }
     ImGui::SameLine();
+    if (view.picked().place) {
+        if (ImGui::Button("Editor")) {
+            open_in_editor(*view.picked().place, view, panels);
+        }
+        draw_tooltip("Open the production in the editor of $VISUAL, or in VS Code");
+        ImGui::SameLine();
+    }
     if (ImGui::Button("Close")) {
         view.forget_trace();
     }
 }
 
 /// Draws the trace of the module picked last above `bottom`.
-void draw_trace(View& view, const Area& area, float bottom) {
+void draw_trace(View& view, PanelState& panels, const Area& area, float bottom) {
     if (!view.shows_trace() || !view.picked().module) {
         return;
     }
@@ -284,7 +309,7 @@ void draw_trace(View& view, const Area& area, float bottom) {
     ImGui::SetNextWindowPos({area.low.x + 8.0F, bottom - 8.0F}, ImGuiCond_Always, {0.0F, 1.0F});
     ImGui::SetNextWindowBgAlpha(0.92F);
     if (ImGui::Begin("Trace", nullptr, kOverlay | ImGuiWindowFlags_AlwaysAutoResize)) {
-        draw_trace_buttons(view);
+        draw_trace_buttons(view, panels, width < scaled(kNarrowArea));
         const ImGuiStyle& style = ImGui::GetStyle();
         const float text_height =
             static_cast<float>(std::max<std::size_t>(view.traced().size(), 1)) *
@@ -481,6 +506,8 @@ std::string draw_side_panel(ViewSwitcher& switcher, PanelState& panels, const Ar
             show_open_dialog(switcher.current(), panels);
         }
         draw_tooltip("Open a file (Ctrl+O)");
+        ImGui::Checkbox("Source (E)", &panels.source.look.is_shown);
+        draw_tooltip("The text of the grammar with its messages, beside the plant");
         if (ImGui::Button("Picture or film (P)")) {
             show_picture_dialog(switcher.current(), panels);
         }
@@ -500,18 +527,31 @@ std::string draw_side_panel(ViewSwitcher& switcher, PanelState& panels, const Ar
 }
 
 /// Draws the panel and overlays of a plant or forest; returns the file that they want to open.
-std::string draw_view_panels(ViewSwitcher& switcher, PanelState& panels, const Area& area) {
+std::string
+draw_view_panels(ViewSwitcher& switcher, PanelState& panels, const Area& area, float scale) {
     std::string wanted;
     if (panels.panels) {
         wanted = draw_side_panel(switcher, panels, area);
     }
-    if (panels.statistics) {
+    // In a narrow area the text about the last pick would lie over the statistics.
+    const bool has_room = area.high.x - area.low.x >= scaled(kNarrowArea) ||
+                          switcher.current().picked().lines.empty();
+    if (panels.statistics && has_room) {
         draw_statistics(switcher, area);
+    }
+    if (panels.source.look.is_shown) {
+        const float width = ImGui::GetIO().DisplaySize.x - area.high.x;
+        const SourceActions actions =
+            draw_source_pane(panels.source, switcher.current(), switcher.plant(), width, scale);
+        if (actions.opens) {
+            open_in_editor(*actions.opens, switcher.current(), panels);
+        }
+        panels.source.look.is_shown = !actions.closes;
     }
     const float bottom = draw_messages(switcher.current(), panels, area);
     draw_hint(switcher, panels, area);
     draw_picked(switcher.current(), area);
-    draw_trace(switcher.current(), area, bottom);
+    draw_trace(switcher.current(), panels, area, bottom);
     draw_making(switcher.current(), panels, area);
     if (panels.help) {
         draw_help(switcher.forest() != nullptr ? std::span<const KeyHelp>(kForestKeys)
@@ -563,6 +603,15 @@ float panel_width(float scale) {
     return kPanelWidth * scale;
 }
 
+float source_width(const PanelState& panels, float window_width, float scale) {
+    if (!panels.source.look.is_shown) {
+        return 0.0F;
+    }
+    const float left = panels.panels ? std::min(panel_width(scale), window_width) : 0.0F;
+    constexpr float kMaxPart = 0.6F;
+    return std::min(panels.source.look.width * scale, kMaxPart * (window_width - left));
+}
+
 bool is_control_held() {
     return ImGui::IsAnyItemActive();
 }
@@ -572,9 +621,10 @@ void draw_panels(ViewSwitcher& switcher, PanelState& panels, float scale) {
         draw_sheet(switcher, panels);
         return;
     }
-    std::string wanted = switcher.current().file().empty()
-                             ? draw_start(switcher.current(), panels)
-                             : draw_view_panels(switcher, panels, picture_area(panels, scale));
+    std::string wanted =
+        switcher.current().file().empty()
+            ? draw_start(switcher.current(), panels)
+            : draw_view_panels(switcher, panels, picture_area(panels, scale), scale);
     if (panels.dialog == OpenDialog::File) {
         bool is_open = true;
         wanted = draw_open_dialog(panels.browser, is_open);

@@ -23,13 +23,14 @@ struct NamedKey {
     int code;
     Key key;
 };
-constexpr std::array<NamedKey, 16> kNamedKeys = {{{GLFW_KEY_ESCAPE, Key::Escape},
+constexpr std::array<NamedKey, 18> kNamedKeys = {{{GLFW_KEY_ESCAPE, Key::Escape},
                                                   {GLFW_KEY_TAB, Key::Tab},
                                                   {GLFW_KEY_PAGE_UP, Key::PageUp},
                                                   {GLFW_KEY_PAGE_DOWN, Key::PageDown},
                                                   {GLFW_KEY_LEFT_SHIFT, Key::Shift},
                                                   {GLFW_KEY_RIGHT_SHIFT, Key::Shift},
                                                   {GLFW_KEY_F1, Key::F1},
+                                                  {GLFW_KEY_F8, Key::F8},
                                                   {GLFW_KEY_SPACE, Key::Space},
                                                   {GLFW_KEY_LEFT, Key::Left},
                                                   {GLFW_KEY_RIGHT, Key::Right},
@@ -38,7 +39,8 @@ constexpr std::array<NamedKey, 16> kNamedKeys = {{{GLFW_KEY_ESCAPE, Key::Escape}
                                                   {GLFW_KEY_ENTER, Key::Enter},
                                                   {GLFW_KEY_KP_ENTER, Key::Enter},
                                                   {GLFW_KEY_BACKSPACE, Key::Backspace},
-                                                  {GLFW_KEY_HOME, Key::Home}}};
+                                                  {GLFW_KEY_HOME, Key::Home},
+                                                  {GLFW_KEY_END, Key::End}}};
 
 /// The key of a GLFW key code. Letters follow the keyboard layout, digits are the keys above them.
 Key key_of(int code, int scan_code) {
