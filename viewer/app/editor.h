@@ -38,7 +38,7 @@ class Editors {
 public:
     /// Starts the editor and returns its name at once.
     [[nodiscard]] Result<std::string> open(const FilePosition& place);
-    /// Forgets editors that have ended. Returns a message about one that failed, else an empty text.
+    /// Forgets editors that have ended. Returns a message about one that failed, else no text.
     [[nodiscard]] std::string forget_ended();
 
 private:

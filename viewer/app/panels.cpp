@@ -350,6 +350,12 @@ void draw_help(std::span<const KeyHelp> keys, PanelState& panels, const Area& ar
     ImGui::End();
 }
 
+/// Wraps the text of an overlay so that the overlay stays within the area.
+void wrap_within(const Area& area) {
+    constexpr float kMargins = 32.0F;
+    ImGui::PushTextWrapPos(std::max(area.high.x - area.low.x - kMargins, 100.0F));
+}
+
 /// Draws the lines about the last pick, in the corner opposite to the statistics, below a note.
 void draw_picked(const View& view, const Area& area) {
     if (view.picked().lines.empty()) {
@@ -359,12 +365,14 @@ void draw_picked(const View& view, const Area& area) {
     ImGui::SetNextWindowBgAlpha(0.7F);
     if (ImGui::Begin("Picked", nullptr,
                      kOverlay | ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoInputs)) {
+        wrap_within(area);
         for (const std::string& each : view.picked().lines) {
             line(each);
         }
         if (!view.picked().hint.empty()) {
             ImGui::TextDisabled("%s", view.picked().hint.c_str());
         }
+        ImGui::PopTextWrapPos();
     }
     ImGui::End();
 }
@@ -387,7 +395,9 @@ void draw_hint(ViewSwitcher& switcher, const PanelState& panels, const Area& are
     ImGui::SetNextWindowBgAlpha(0.55F);
     if (ImGui::Begin("Hint", nullptr,
                      kOverlay | ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoInputs)) {
+        wrap_within(area);
         line(text);
+        ImGui::PopTextWrapPos();
     }
     ImGui::End();
 }

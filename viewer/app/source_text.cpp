@@ -32,7 +32,7 @@ TextColour severity_colour(Severity severity) {
     return TextColour::Cyan;
 }
 
-/// Columns of the longest line. Tabs count as kPaneTabStop, so the result may be a little too large.
+/// Columns of the longest line. Tabs count as kPaneTabStop, so it may be a little too large.
 std::uint32_t columns_of(const SourceFile& file) {
     std::uint32_t most = 0;
     for (std::uint32_t line = 1; line <= file.line_count(); ++line) {

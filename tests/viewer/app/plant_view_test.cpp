@@ -704,7 +704,7 @@ TEST_CASE("undo takes back fixes of the file in turn with settings") {
 TEST_CASE("the source pane follows loads, picks, messages and keys") {
     const ScratchFolder folder;
     const std::string file = folder / "plant.lsys";
-    write_text(file, "#n = 0;\n#w : F\n  F;\n#set width 0.5;\n");
+    write_text(file, "#n = 1;\n#w : F\n  F;\n#set width 0.5;\n");
     ViewedPlant viewed(plant_options(file));
     PlantView& view = viewed.view;
     SourcePane pane;
@@ -760,15 +760,18 @@ TEST_CASE("the source pane follows loads, picks, messages and keys") {
     CHECK_FALSE(press(Key::N, false));
 
     // The new text is shown with its mistakes, beside the old plant.
-    write_text(file, "#n = 0;\n#w : F(k);\n#set width 0.5;\n\n#p q : F : * : F(m);\n");
+    write_text(file, "#n = 1;\n#w : F(k);\n#set width 0.5;\n\n#q : F : * : F(m);\n");
     view.reload();
     REQUIRE(viewed.until([&] { return view.failed(); }));
     REQUIRE(until_pane([&] { return pane.source()->messages.size() == 2; }));
     CHECK(pane.take_target() == 2U);
-    pane.lay_out(40);
+    pane.lay_out(80);
     CHECK(pane.rows()[2].kind == SourceRow::Kind::Marks);
     CHECK(pane.rows()[2].line == 2);
     CHECK(plain_text(pane.texts().at(pane.rows()[3].index)).starts_with("error: "));
+    pane.lay_out(40); // the label needs a row of its own
+    CHECK(plain_text(pane.texts().at(pane.rows()[3].index)) ==
+          "no constant of this name is defined");
     pane.go_to_message(1, view);
     CHECK(pane.selected().first == 2);
     pane.go_to_message(1, view);

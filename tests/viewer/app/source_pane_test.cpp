@@ -75,7 +75,7 @@ std::vector<FileChange> changes_of(const SourceText& text, const SourceFix& fix)
 TEST_CASE("the source of a grammar has coloured names, comments and statements of all its files") {
     const ScratchFolder folder;
     const std::string file = folder / "tree.lsys";
-    write_text(folder / "part.lsys", "#define k 2;\n#p q : A : * : F(k) A;\n");
+    write_text(folder / "part.lsys", "#define k 2;\n#q : A : * : F(k) A;\n");
     write_text(file, "// \"A\" tree\n#n = 1;\n#include \"part.lsys\"\n#set angle 30;\n"
                      "#w : A /* F\n k */ F(k);\n");
     const auto text = source_of(file);
@@ -101,7 +101,7 @@ TEST_CASE("a certain fix writes what `lsc check --fix` writes, and undo restores
     const std::string file = folder / "tree.lsys";
     // A byte order mark, CRLF, a blank at a line end, and no line end at the end of the file.
     const std::string wrong =
-        "\xEF\xBB\xBF#n = 1;\r\n#w : A(1) \r\n#p q : A(x) : * : F(x);\r\n#set angle 30;";
+        "\xEF\xBB\xBF#n = 1;\r\n#w : A(1) \r\n#q : A(x) : * : F(x);\r\n#set angle 30;";
     write_text(file, wrong);
     write_text(folder / "fixed.lsys", wrong);
     static_cast<void>(run_lsc({"check", "--fix", folder / "fixed.lsys"}, ""));
@@ -144,24 +144,31 @@ TEST_CASE("a certain fix writes what `lsc check --fix` writes, and undo restores
     CHECK(read_text(file) == fixed + "\n");
 }
 
-TEST_CASE("fixes with several meanings are offered, each with the line that it makes") {
+TEST_CASE("a repair that may be meant otherwise is offered with the line that it makes") {
     const ScratchFolder folder;
     const std::string file = folder / "tree.lsys";
-    const std::string wrong = "#n = 1;\n#w : A(3;\n#p q : A(x) : * : F(x);\n";
+    const std::string wrong =
+        "#n = 1;\n#define spread 25;\n#w : F [ +(spred) F ];\n#q : F : * : F F;\n";
     write_text(file, wrong);
+    write_text(folder / "checked.lsys", wrong);
+    static_cast<void>(run_lsc({"check", "--fix", folder / "checked.lsys"}, ""));
+    REQUIRE(read_text(folder / "checked.lsys") == wrong);
     const auto text = source_of(file);
-    std::size_t offers = 0;
-    for (const SourceMessage& message : text->files.at(0).messages) {
-        for (const SourceFix& fix : message.fixes) {
-            offers += fix.is_certain ? 0 : 1;
-            CHECK_FALSE(fix.preview.empty());
-        }
-    }
-    write_text(folder / "fixed.lsys", wrong);
-    static_cast<void>(run_lsc({"check", "--fix", folder / "fixed.lsys"}, ""));
-    const bool is_certain = read_text(folder / "fixed.lsys") != wrong;
-    CHECK(is_certain == (offers == 0));
-    CHECK(is_certain == !text->fixed.empty());
+    CHECK(text->fixed.empty());
+    CHECK(text->fix_count == 0);
+    REQUIRE(text->files.at(0).messages.size() == 1);
+    const SourceMessage& message = text->files[0].messages[0];
+    CHECK(message.line == 3);
+    CHECK(message.begin == 11);
+    CHECK(message.end == 16);
+    REQUIRE(message.fixes.size() == 1);
+    CHECK_FALSE(message.fixes[0].is_certain);
+    CHECK(texts_of(message.fixes[0].preview).front() == "  3 | #w : F [ +(spread) F ];");
+    QuietConsole quiet;
+    FileEdits edits;
+    REQUIRE(edits.apply(changes_of(*text, message.fixes[0]), quiet.console));
+    CHECK(read_text(file) ==
+          "#n = 1;\n#define spread 25;\n#w : F [ +(spread) F ];\n#q : F : * : F F;\n");
 }
 
 TEST_CASE("files that are no .lsys grammar have plain text with messages") {
