@@ -509,7 +509,7 @@ bool Controls::press_common(const KeyPress& press, View& view, PanelState& panel
             show_picture_dialog(view, panels);
         }
         return true;
-    case Key::E:
+    case Key::U:
         panels.source.look.is_shown = !panels.source.look.is_shown;
         return true;
     case Key::H:

@@ -516,7 +516,7 @@ std::string draw_side_panel(ViewSwitcher& switcher, PanelState& panels, const Ar
             show_open_dialog(switcher.current(), panels);
         }
         draw_tooltip("Open a file (Ctrl+O)");
-        ImGui::Checkbox("Source (E)", &panels.source.look.is_shown);
+        ImGui::Checkbox("Source (U)", &panels.source.look.is_shown);
         draw_tooltip("The text of the grammar with its messages, beside the plant");
         if (ImGui::Button("Picture or film (P)")) {
             show_picture_dialog(switcher.current(), panels);

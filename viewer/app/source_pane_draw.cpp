@@ -261,7 +261,7 @@ void draw_buttons(SourcePane& pane, View& view, PlantView* plant, SourceActions&
     if (ImGui::Button("Close")) {
         actions.closes = true;
     }
-    draw_tooltip("Close the source (E)");
+    draw_tooltip("Close the source (U)");
 }
 
 /// The background of a row: the selection, and the statement of the picked part.

@@ -63,6 +63,7 @@ enum class Key : std::uint8_t {
     R = 'R',
     S = 'S',
     T = 'T',
+    U = 'U',
     V = 'V',
     W = 'W',
     X = 'X',
