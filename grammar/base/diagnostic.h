@@ -52,7 +52,7 @@ struct Edit {
 };
 
 /// A repair. It is machine applicable if no other repair is plausible; `lsc check --fix` applies it
-/// under the conditions of runtime/cli/fixes.h. Other repairs are offers, shown as help. The edits
+/// under the conditions of runtime/repair/fixes.h. Other repairs are offers, shown as help. The edits
 /// do not overlap and are applied together.
 struct Fix {
     std::string title;

@@ -2,12 +2,12 @@
 #include "compiler/bytecode/module_file.h"
 #include "grammar/base/counted_text.h"
 #include "runtime/cli/commands.h"
-#include "runtime/cli/fixes.h"
 #include "runtime/cli/including_grammar.h"
 #include "runtime/cli/unified_diff.h"
 #include "runtime/pipeline/grammar.h"
 #include "runtime/program/files.h"
 #include "runtime/program/host.h"
+#include "runtime/repair/fixes.h"
 
 #include <fmt/format.h>
 
@@ -52,8 +52,8 @@ ExitStatus check_text(const std::string& path,
     if (!compiled.value().definition_error && command.messages.format == MessageFormat::Json) {
         // Readers of JSON apply machine-applicable fixes without asking, so doubtful fixes must not
         // be marked machine-applicable.
-        const Result<void> offered = offer_doubtful_fixes(
-            path, text, options, FixScope(path, command.files), project, compiled.value());
+        const Result<void> offered = repair::offer_doubtful_fixes(
+            path, text, options, repair::FixScope(path, command.files), project, compiled.value());
         if (!offered) {
             return report_error(offered.error(), console);
         }
@@ -73,7 +73,7 @@ ExitStatus check_text(const std::string& path,
 /// output.
 Result<void> write_fixed(const std::string& path,
                          const std::string& bytes,
-                         const FixedGrammar& fixed,
+                         const repair::FixedGrammar& fixed,
                          const Console& console) {
     const std::string root = shown_path(path);
     std::vector<Output> outputs;
@@ -129,11 +129,11 @@ ExitStatus fix_file(const std::string& path,
                     const CheckCommand& command,
                     const GrammarOptions& options,
                     const Console& console) {
-    FixedGrammar fixed;
+    repair::FixedGrammar fixed;
     const Project project = make_project(console, command.run);
-    const Result<void> done =
-        fix_text(path, text, options, FixScope(path, command.files), project,
-                 command.fix == "offered" ? FixChoice::Offered : FixChoice::Certain, fixed);
+    const Result<void> done = repair::fix_text(
+        path, text, options, repair::FixScope(path, command.files), project,
+        command.fix == "offered" ? repair::FixChoice::Offered : repair::FixChoice::Certain, fixed);
     if (!done) {
         return report_error(done.error(), console);
     }

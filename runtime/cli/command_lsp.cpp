@@ -2,10 +2,10 @@
 #include "grammar/base/paths.h"
 #include "runtime/cli/commands.h"
 #include "runtime/cli/explanations.h"
-#include "runtime/cli/fixes.h"
 #include "runtime/languageserver/serve_editor.h"
 #include "runtime/platform/input.h"
 #include "runtime/program/host.h"
+#include "runtime/repair/fixes.h"
 
 #include <algorithm>
 #include <array>
@@ -75,18 +75,19 @@ ExitStatus run_command(const LspCommand& /*command*/, const Console& console) {
     host.explain = explain_as_markdown;
     host.offer_doubtful = [](const CheckedText& checked, const Project& project,
                              CompiledText& compiled) {
-        const FixScope scope(checked.path, std::array{checked.path});
+        const repair::FixScope scope(checked.path, std::array{checked.path});
         // After a failure of the environment no fix is known to be certain.
-        if (!offer_doubtful_fixes(checked.path, checked.text, checked.options, scope, project,
-                                  compiled)) {
+        if (!repair::offer_doubtful_fixes(checked.path, checked.text, checked.options, scope,
+                                          project, compiled)) {
             compiled.diagnostics.offer_fixes_from(0);
         }
     };
     host.fix = [](const CheckedText& checked, const Project& project) {
-        FixedGrammar fixed;
-        const FixScope scope(checked.path, std::array{checked.path});
-        const Result<void> done = fix_text(checked.path, checked.text, checked.options, scope,
-                                           project, FixChoice::Certain, fixed);
+        repair::FixedGrammar fixed;
+        const repair::FixScope scope(checked.path, std::array{checked.path});
+        const Result<void> done =
+            repair::fix_text(checked.path, checked.text, checked.options, scope, project,
+                             repair::FixChoice::Certain, fixed);
         return done ? std::move(fixed.changed) : std::map<std::string, std::string>();
     };
     LanguageServer server(std::move(host));

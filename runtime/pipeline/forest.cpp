@@ -203,23 +203,24 @@ struct GrownStage {
     SourceSpan height_span; // of `#set height` in the grammar
     std::shared_ptr<const SourceMap> sources;
     AxiomPlace axiom;
-    bool can_reuse_branches = false;  // some branch can be replaced by a recorded one
-    std::vector<std::string> origins; // by instance; empty unless grow_stage() is asked for them
+    bool can_reuse_branches = false;   // some branch can be replaced by a recorded one
+    std::vector<BranchOrigin> origins; // by instance; empty unless grow_stage() is asked for them
 };
 
-/// Texts of the origins of the instances, by instance; empty if the cache has no origins.
-std::vector<std::string> origin_texts(const InstanceCache& cache, const Bytecode& bytecode) {
-    std::vector<std::string> texts;
+/// The origins of the instances, by instance; empty if the cache has no origins.
+std::vector<BranchOrigin> branch_origins(const InstanceCache& cache, const Bytecode& bytecode) {
+    std::vector<BranchOrigin> origins;
     OriginPrinter printer(bytecode);
     for (const Origin& origin : cache.origins) {
-        std::string& text = texts.emplace_back();
+        BranchOrigin& one = origins.emplace_back();
         if (origin.place == kNone) {
-            text = "from the axiom";
+            one.text = "from the axiom";
         } else {
-            printer.append(origin, text);
+            printer.append(origin, one.text);
+            one.place = position_of(origin, bytecode);
         }
     }
-    return texts;
+    return origins;
 }
 
 Outcome<GrownStage> grow_stage(const SceneSpecies& species,
@@ -290,7 +291,7 @@ Outcome<GrownStage> grow_stage(const SceneSpecies& species,
         return step.end(*stop);
     }
     stage.cache = std::move(outcome.cache);
-    grown.origins = origin_texts(stage.cache, grammar.bytecode);
+    grown.origins = branch_origins(stage.cache, grammar.bytecode);
     const Settings& settings = grammar.bytecode.settings;
     grown.settings = settings;
     grown.height_span = grammar.height_span;
@@ -531,10 +532,10 @@ double tallest_height(const GrownForest& grown, const Project& project) {
     return tallest_tree(grown.forest, project.threads);
 }
 
-Outcome<std::vector<std::string>> origins_of_branches(const SceneSpecies& species,
-                                                      const std::string& folder,
-                                                      std::size_t stage,
-                                                      const Project& project) {
+Outcome<std::vector<BranchOrigin>> origins_of_branches(const SceneSpecies& species,
+                                                       const std::string& folder,
+                                                       std::size_t stage,
+                                                       const Project& project) {
     Step step(project);
     const std::optional<std::uint32_t> generations =
         species.stages.empty() ? std::nullopt : std::optional(species.stages.at(stage));

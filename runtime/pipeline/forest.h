@@ -10,6 +10,7 @@
 #include "runtime/forest/instance_meshes.h"
 #include "runtime/forest/tree_heights.h"
 #include "runtime/meshing/mesh.h"
+#include "runtime/pipeline/file_position.h"
 #include "runtime/pipeline/project.h"
 #include "runtime/pipeline/scene_overrides.h"
 #include "runtime/pipeline/step.h"
@@ -106,13 +107,17 @@ place_forest(const Scene& scene, const Project& project, GrownForest& grown);
 /// Ends `step` with the `stop` of make_instance_meshes() or make_detail_mesh(), and a message.
 [[nodiscard]] Step::Ended end_mesh_of_heroes(Stop stop, Step& step);
 
-/// Texts by index of the instance in a stage's cache: "from p2 at tree.lsys:7:14, generation 3" for
-/// the production that wrote the branch, "from the axiom" for a whole plant. Reads the grammar and
-/// derives the heroes again. `folder`: LoadedScene::folder.
-[[nodiscard]] Outcome<std::vector<std::string>> origins_of_branches(const SceneSpecies& species,
-                                                                    const std::string& folder,
-                                                                    std::size_t stage,
-                                                                    const Project& project);
+/// The production that wrote a branch.
+struct BranchOrigin {
+    std::string text; // "from p2 at tree.lsys:7:14, generation 3"; "from the axiom": a whole plant
+    std::optional<FilePosition> place;
+};
+/// Origins by index of the instance in a stage's cache. Reads the grammar and derives the heroes
+/// again. `folder`: LoadedScene::folder.
+[[nodiscard]] Outcome<std::vector<BranchOrigin>> origins_of_branches(const SceneSpecies& species,
+                                                                     const std::string& folder,
+                                                                     std::size_t stage,
+                                                                     const Project& project);
 
 /// Meshes all instances. The result is by species and stage.
 [[nodiscard]] Outcome<std::vector<std::vector<InstanceMeshes>>>

@@ -88,6 +88,7 @@ Outcome<ItemOrigin> find(const PlantOptions& options,
         found.number = drawn[item.index].place;
         found.module = module_text(bytecode, word, found.number);
         OriginPrinter(bytecode).append(origins[found.number], found.origin);
+        found.place = position_of(origins[found.number], bytecode);
     }
     return step.done(std::move(found));
 }

@@ -5,18 +5,21 @@
 
 #include "grammar/base/outcome.h"
 #include "runtime/meshing/mesh_items.h"
+#include "runtime/pipeline/file_position.h"
 #include "runtime/pipeline/plant.h"
 
 #include <cstdint>
+#include <optional>
 #include <string>
 
 namespace lsys {
 
 struct ItemOrigin {
-    std::string module;           // text of the module as in a word: "F(1.5)"
-    std::uint64_t number = 0;     // position of the module in the word, from 0
-    std::uint64_t modules = 0;    // number of modules in the word
-    std::string origin;           // "from p2 at tree.lsys:7:14, generation 3"
+    std::string module;        // text of the module as in a word: "F(1.5)"
+    std::uint64_t number = 0;  // position of the module in the word, from 0
+    std::uint64_t modules = 0; // number of modules in the word
+    std::string origin;        // "from p2 at tree.lsys:7:14, generation 3"
+    std::optional<FilePosition> place;
     std::uint32_t generation = 0; // of the word
 };
 

@@ -5,9 +5,9 @@
 #include "compiler/program/program_dump.h"
 #include "grammar/format/impl/lexemes.h"
 #include "runtime/base/random.h"
-#include "runtime/cli/fixes.h"
 #include "runtime/pipeline/grammar.h"
 #include "runtime/program/host.h"
+#include "runtime/repair/fixes.h"
 #include "tests/support/lsc_run.h"
 
 #include <catch2/catch.hpp>
@@ -244,10 +244,10 @@ public:
         if (!broken.has_certain_fix) {
             return;
         }
-        lsc::FixedGrammar fixed;
-        const Result<void> done = lsc::fix_text(grammar.path, {mutant.text, Dialect::Lsys}, {},
-                                                lsc::FixScope(grammar.path, {}), disk_project(),
-                                                lsc::FixChoice::Certain, fixed);
+        repair::FixedGrammar fixed;
+        const Result<void> done = repair::fix_text(
+            grammar.path, {mutant.text, Dialect::Lsys}, {}, repair::FixScope(grammar.path, {}),
+            disk_project(), repair::FixChoice::Certain, fixed);
         REQUIRE(done);
         if (fixed.fix_count == 0) {
             keep("lost", grammar, mutant, fixed);
@@ -301,7 +301,7 @@ private:
     void keep(const char* what,
               const RightGrammar& grammar,
               const Mutant& mutant,
-              const lsc::FixedGrammar& fixed) {
+              const repair::FixedGrammar& fixed) {
         if (!keeps_all_ && (kept_.size() > 4000 || std::string_view(what) == "lost")) {
             return;
         }

@@ -73,6 +73,12 @@ void zoom(Camera& camera, float wheel) {
 
 } // namespace
 
+void open_in_editor(const FilePosition& place, View& view, PanelState& panels) {
+    const Result<std::string> editor = panels.editors.open(place);
+    view.set_note(editor ? fmt::format("opened {}:{} in {}", place.file, place.line, editor.value())
+                         : editor.error().message);
+}
+
 void show_open_dialog(const View& view, PanelState& panels) {
     panels.browser.show(std::string(folder_of_path(view.file())));
     panels.dialog = OpenDialog::File;
@@ -499,6 +505,14 @@ bool Controls::press_common(const KeyPress& press, View& view, PanelState& panel
         case Key::O:
             show_open_dialog(view, panels);
             return true;
+        case Key::E:
+            open_in_editor(panels.source.place_to_open(view), view, panels);
+            return true;
+        case Key::C:
+            if (panels.source.has_focus) {
+                ImGui::SetClipboardText(panels.source.selected_text().c_str());
+            }
+            return true;
         case Key::Z:
             press.shift ? view.redo() : view.undo();
             return true;
@@ -540,8 +554,15 @@ bool Controls::press_common(const KeyPress& press, View& view, PanelState& panel
     case Key::F1:
         panels.help = !panels.help;
         return true;
+    case Key::F8:
+        panels.source.look.is_shown = true;
+        panels.source.go_to_message(press.shift ? -1 : 1, view);
+        return true;
     default:
         break;
+    }
+    if (panels.source.look.is_shown && panels.source.has_focus && panels.source.press(press)) {
+        return true;
     }
     if (panels.flies) {
         return false; // letters move the camera
@@ -571,6 +592,9 @@ bool Controls::press_common(const KeyPress& press, View& view, PanelState& panel
         } else {
             show_picture_dialog(view, panels);
         }
+        return true;
+    case Key::U:
+        panels.source.look.is_shown = !panels.source.look.is_shown;
         return true;
     case Key::H:
         panels.panels = !panels.panels;

@@ -4,8 +4,10 @@
 
 #include "viewer/app/camera_bookmarks.h"
 #include "viewer/app/contact_sheet.h"
+#include "viewer/app/editor.h"
 #include "viewer/app/film_export.h"
 #include "viewer/app/panel_focus.h"
+#include "viewer/app/source_pane.h"
 #include "viewer/app/start_page.h"
 #include "viewer/app/view_switcher.h"
 #include "viewer/gl/window.h"
@@ -41,6 +43,8 @@ struct PanelState {
     ContactSheet sheet;
     bool has_open_list = false; // a list of a panel or dialog is open
     std::string save_failure;   // why the dialog about unsaved changes has not saved them
+    SourcePane source;
+    Editors editors;
     WindowLook look;
     std::uint32_t window_width = 0; // pixels
     std::uint32_t window_height = 0;
@@ -92,6 +96,9 @@ inline constexpr auto kPlantKeys = std::to_array<KeyHelp>({
     {"H", "Panels"},
     {"A", "Statistics"},
     {"M", "Close or show the messages"},
+    {"U", "Source of the grammar"},
+    {"F8, Shift+F8", "Next, previous message in the source"},
+    {"Ctrl+E", "Open the selected line, the clicked part or the message in the editor"},
     {"F1", "Keys"},
     {"F6", "Keyboard to the next panel, then to the picture"},
     {"in a panel", "Arrows: controls, Tab: fields, Enter or Space: use, Esc: picture"},
@@ -131,6 +138,9 @@ inline constexpr auto kForestKeys = std::to_array<KeyHelp>({
     {"P, Shift+P", "Picture or film; at once a PNG in the current folder"},
     {"H, A", "Panels, statistics"},
     {"M", "Close or show the messages"},
+    {"U", "Source of the grammars"},
+    {"F8, Shift+F8", "Next, previous message in the source"},
+    {"Ctrl+E", "Open the selected line, the clicked part or the message in the editor"},
     {"F1", "Keys"},
     {"F6", "Keyboard to the next panel, then to the picture"},
     {"in a panel", "Arrows: controls, Tab: fields, Enter or Space: use, Esc: picture"},
@@ -195,6 +205,8 @@ private:
     std::optional<glm::vec2> pressed_;
 };
 
+/// Opens a place in the editor; reports that in a note.
+void open_in_editor(const FilePosition& place, View& view, PanelState& panels);
 /// Opens the dialog for a file, in the folder of the file shown.
 void show_open_dialog(const View& view, PanelState& panels);
 /// Opens the dialog for a picture, with a name that no file has.

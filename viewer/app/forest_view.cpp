@@ -116,6 +116,12 @@ void ForestView::files_changed(const std::vector<std::string>& files,
     loader_.repeat(changed_at);
 }
 
+LoadedSources ForestView::loaded_sources() const {
+    LoadedSources loaded = common_sources();
+    loaded.files = files_;
+    return loaded;
+}
+
 void ForestView::watch_files() {
     watch_.watch(with_shader_files(files_));
 }

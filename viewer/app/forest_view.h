@@ -110,6 +110,7 @@ public:
     [[nodiscard]] ViewOptions picture_options(FilmKind kind) const override;
     [[nodiscard]] bool is_forest() const override { return true; }
     [[nodiscard]] bool has_growth() const override { return default_years() != 0; }
+    [[nodiscard]] LoadedSources loaded_sources() const override;
 
     /// Opens another scene and frames it.
     void open(const std::string& file);

@@ -39,7 +39,7 @@ struct Area {
 Area picture_area(const PanelState& panels, float scale) {
     const ImVec2 size = ImGui::GetIO().DisplaySize;
     const float left = panels.panels ? std::min(panel_width(scale), size.x) : 0.0F;
-    return {{left, 0.0F}, size};
+    return {{left, 0.0F}, {size.x - source_width(panels, size.x, scale), size.y}};
 }
 
 constexpr int kNameWidth = 12; // characters
@@ -140,7 +140,8 @@ ImVec4 on_panel(const ImVec4& colour) {
 }
 
 /// A message; a click shows its source lines. `is_open`: whether it shows them at first.
-void draw_message(const ShownMessage& message, int number, bool is_open) {
+void draw_message(
+    const ShownMessage& message, int number, bool is_open, View& view, PanelState& panels) {
     ImGui::PushID(number);
     ImGui::PushStyleColor(
         ImGuiCol_Text,
@@ -152,6 +153,16 @@ void draw_message(const ShownMessage& message, int number, bool is_open) {
         if (ImGui::TreeNodeEx("message", ImGuiTreeNodeFlags_SpanFullWidth, "%s",
                               message.head.c_str())) {
             line(message.text);
+            if (message.place) {
+                if (ImGui::SmallButton("Show in the source")) {
+                    panels.source.look.is_shown = true;
+                    panels.source.show(*message.place);
+                }
+                ImGui::SameLine();
+                if (ImGui::SmallButton("Open in the editor")) {
+                    open_in_editor(*message.place, view, panels);
+                }
+            }
             ImGui::TreePop();
         }
     }
@@ -161,7 +172,7 @@ void draw_message(const ShownMessage& message, int number, bool is_open) {
 
 /// Draws the messages of the grammar or scene, of shaders and of OpenGL, unless the user closed them.
 /// Returns the upper edge of their panel, or the lower edge of the area.
-float draw_messages(const View& view, PanelState& panels, const Area& area) {
+float draw_messages(View& view, PanelState& panels, const Area& area) {
     if (!panels.closed_messages.empty()) {
         if (panels.closed_messages == view.all_messages()) {
             return area.high.y;
@@ -195,11 +206,12 @@ float draw_messages(const View& view, PanelState& panels, const Area& area) {
         for (const ShownMessage& message : view.entries()) {
             // Notes may stay on the screen for long, so only their first line is shown at first.
             const bool is_note = message.severity == Severity::Note;
-            draw_message(message, number, number == 0 && !is_note);
+            const bool is_open = number == 0 && !is_note && !panels.source.look.is_shown;
+            draw_message(message, number, is_open, view, panels);
             ++number;
         }
         for (const ShownMessage& message : errors) {
-            draw_message(message, number++, false);
+            draw_message(message, number++, false, view, panels);
         }
         top = ImGui::GetWindowPos().y;
     }
@@ -257,7 +269,10 @@ void draw_trace_line(const TextLine& text) {
     }
 }
 
-void draw_trace_buttons(View& view) {
+/// Width of the area below which panels keep out of each other's way, pixels of the usual text.
+constexpr float kNarrowArea = 640.0F;
+
+void draw_trace_buttons(View& view, PanelState& panels, bool is_narrow) {
     const auto choice = [&view](const char* name, TraceScope scope, const char* help) {
         if (ImGui::RadioButton(name, view.trace_scope() == scope)) {
             view.trace(scope);
@@ -268,6 +283,9 @@ void draw_trace_buttons(View& view) {
     choice("Why written", TraceScope::Written, "The step that wrote the module");
     choice("Next step", TraceScope::Next, "The step that rewrites the module");
     choice("Back to the axiom", TraceScope::Back, "Every step from the axiom to the module");
+    if (is_narrow) {
+        ImGui::NewLine();
+    }
     if (ImGui::Button("Copy")) {
         std::string text;
         for (const TextLine& each : view.traced()) {
@@ -276,13 +294,20 @@ void draw_trace_buttons(View& view) {
         ImGui::SetClipboardText(text.c_str());
     }
     ImGui::SameLine();
+    if (view.picked().place) {
+        if (ImGui::Button("Editor")) {
+            open_in_editor(*view.picked().place, view, panels);
+        }
+        draw_tooltip("Open the production in the editor of $VISUAL, or in VS Code");
+        ImGui::SameLine();
+    }
     if (ImGui::Button("Close")) {
         view.forget_trace();
     }
 }
 
 /// Draws the trace of the module picked last above `bottom`.
-void draw_trace(View& view, const Area& area, float bottom) {
+void draw_trace(View& view, PanelState& panels, const Area& area, float bottom) {
     if (!view.shows_trace() || !view.picked().module) {
         return;
     }
@@ -290,7 +315,7 @@ void draw_trace(View& view, const Area& area, float bottom) {
     ImGui::SetNextWindowPos({area.low.x + 8.0F, bottom - 8.0F}, ImGuiCond_Always, {0.0F, 1.0F});
     ImGui::SetNextWindowBgAlpha(0.92F);
     if (ImGui::Begin("Trace", nullptr, kUsedOverlay | ImGuiWindowFlags_AlwaysAutoResize)) {
-        draw_trace_buttons(view);
+        draw_trace_buttons(view, panels, width < scaled(kNarrowArea));
         const ImGuiStyle& style = ImGui::GetStyle();
         const float text_height =
             static_cast<float>(std::max<std::size_t>(view.traced().size(), 1)) *
@@ -332,6 +357,12 @@ void draw_help(std::span<const KeyHelp> keys, PanelState& panels, const Area& ar
     ImGui::End();
 }
 
+/// Wraps the text of an overlay so that the overlay stays within the area.
+void wrap_within(const Area& area) {
+    constexpr float kMargins = 32.0F;
+    ImGui::PushTextWrapPos(std::max(area.high.x - area.low.x - kMargins, 100.0F));
+}
+
 /// Draws the lines about the last pick, in the corner opposite to the statistics, below a note.
 void draw_picked(const View& view, const Area& area) {
     if (view.picked().lines.empty()) {
@@ -341,12 +372,14 @@ void draw_picked(const View& view, const Area& area) {
     ImGui::SetNextWindowBgAlpha(0.7F);
     if (ImGui::Begin("Picked", nullptr,
                      kOverlay | ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoInputs)) {
+        wrap_within(area);
         for (const std::string& each : view.picked().lines) {
             line(each);
         }
         if (!view.picked().hint.empty()) {
             ImGui::TextDisabled("%s", view.picked().hint.c_str());
         }
+        ImGui::PopTextWrapPos();
     }
     ImGui::End();
 }
@@ -369,7 +402,9 @@ void draw_hint(ViewSwitcher& switcher, const PanelState& panels, const Area& are
     ImGui::SetNextWindowBgAlpha(0.55F);
     if (ImGui::Begin("Hint", nullptr,
                      kOverlay | ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoInputs)) {
+        wrap_within(area);
         line(text);
+        ImGui::PopTextWrapPos();
     }
     ImGui::End();
 }
@@ -504,7 +539,7 @@ void draw_output_buttons(ViewSwitcher& switcher, PanelState& panels) {
     draw_tooltip("Lists the keys (F1)");
 }
 
-void draw_view_buttons(View& view) {
+void draw_view_buttons(View& view, SourcePane& source) {
     if (ImGui::Button("Frame all")) {
         view.frame_all();
     }
@@ -519,6 +554,11 @@ void draw_view_buttons(View& view) {
     button("Front", "Looks from +Z (1)", StandardView::Front);
     button("Side", "Looks from the side (2)", StandardView::Side);
     button("Top", "Looks from above (3)", StandardView::Top);
+    ImGui::SameLine();
+    if (ImGui::Button("Source")) {
+        source.look.is_shown = !source.look.is_shown;
+    }
+    draw_tooltip("Shows the text of the grammar with its messages (U)");
 }
 
 /// Draws the buttons below the panel, which are always in sight; returns the file that they want to
@@ -533,7 +573,7 @@ std::string draw_buttons(ViewSwitcher& switcher, PanelState& panels) {
         }
     }
     draw_output_buttons(switcher, panels);
-    draw_view_buttons(switcher.current());
+    draw_view_buttons(switcher.current(), panels.source);
     return wanted;
 }
 
@@ -569,18 +609,31 @@ std::string draw_side_panel(ViewSwitcher& switcher, PanelState& panels, const Ar
 }
 
 /// Draws the panel and overlays of a plant or forest; returns the file that they want to open.
-std::string draw_view_panels(ViewSwitcher& switcher, PanelState& panels, const Area& area) {
+std::string
+draw_view_panels(ViewSwitcher& switcher, PanelState& panels, const Area& area, float scale) {
     std::string wanted;
     if (panels.panels) {
         wanted = draw_side_panel(switcher, panels, area);
     }
-    if (panels.statistics) {
+    // In a narrow area the text about the last pick would lie over the statistics.
+    const bool has_room = area.high.x - area.low.x >= scaled(kNarrowArea) ||
+                          switcher.current().picked().lines.empty();
+    if (panels.statistics && has_room) {
         draw_statistics(switcher, area);
+    }
+    if (panels.source.look.is_shown) {
+        const float width = ImGui::GetIO().DisplaySize.x - area.high.x;
+        const SourceActions actions =
+            draw_source_pane(panels.source, switcher.current(), switcher.plant(), width, scale);
+        if (actions.opens) {
+            open_in_editor(*actions.opens, switcher.current(), panels);
+        }
+        panels.source.look.is_shown = !actions.closes;
     }
     const float bottom = draw_messages(switcher.current(), panels, area);
     draw_hint(switcher, panels, area);
     draw_picked(switcher.current(), area);
-    draw_trace(switcher.current(), area, bottom);
+    draw_trace(switcher.current(), panels, area, bottom);
     draw_making(switcher.current(), panels, area);
     if (panels.help) {
         draw_help(switcher.forest() != nullptr ? std::span<const KeyHelp>(kForestKeys)
@@ -675,6 +728,15 @@ float panel_width(float scale) {
     return kPanelWidth * scale;
 }
 
+float source_width(const PanelState& panels, float window_width, float scale) {
+    if (!panels.source.look.is_shown) {
+        return 0.0F;
+    }
+    const float left = panels.panels ? std::min(panel_width(scale), window_width) : 0.0F;
+    constexpr float kMaxPart = 0.6F;
+    return std::min(panels.source.look.width * scale, kMaxPart * (window_width - left));
+}
+
 bool is_control_held() {
     return ImGui::IsAnyItemActive();
 }
@@ -684,9 +746,10 @@ void draw_panels(ViewSwitcher& switcher, PanelState& panels, float scale) {
     if (panels.dialog == OpenDialog::Sheet) {
         draw_sheet(switcher, panels);
     } else {
-        std::string wanted = switcher.current().file().empty()
-                                 ? draw_start(switcher.current(), panels)
-                                 : draw_view_panels(switcher, panels, picture_area(panels, scale));
+        std::string wanted =
+            switcher.current().file().empty()
+                ? draw_start(switcher.current(), panels)
+                : draw_view_panels(switcher, panels, picture_area(panels, scale), scale);
         if (std::string chosen = draw_dialog(switcher, panels); !chosen.empty()) {
             wanted = std::move(chosen);
         }

@@ -10,6 +10,10 @@ namespace lsys::view {
 /// Width of the panel on the left, pixels; the picture is beside it. `scale`: Window::scale().
 [[nodiscard]] float panel_width(float scale);
 
+/// Width of the source pane on the right, pixels; 0 if it is not shown. The picture keeps at least
+/// half of the room beside the panel on the left.
+[[nodiscard]] float source_width(const PanelState& panels, float window_width, float scale);
+
 /// Whether a control of the panels is held or edited.
 [[nodiscard]] bool is_control_held();
 

@@ -121,6 +121,7 @@ Outcome<Description> describe(const PickedTriangle& picked,
                                     grouped(origin.modules)));
         lines.push_back(origin.origin);
         description.module = {origin.number, origin.generation};
+        description.place = origin.place;
     }
     lines.push_back(item_text(*item, *picked.pose));
     lines.push_back(place_text(picked.place));
@@ -178,7 +179,7 @@ Outcome<Description> describe(const Picked& picked,
     const std::size_t stage = picked.form - document.model.first_form[picked.tree.species];
     const std::string folder =
         is_scene(file) ? std::filesystem::path(file).parent_path().string() : std::string();
-    std::vector<std::string> origins;
+    std::vector<BranchOrigin> origins;
     if (!step.take(origins_of_branches(document.scene.species[picked.tree.species], folder, stage,
                                        project),
                    origins)) {
@@ -198,7 +199,8 @@ Outcome<Description> describe(const Picked& picked,
     std::vector<std::string>& lines = description.lines;
     lines.push_back(fmt::format("branch {} of {}: id {}, age {}, hero {}", picked.instance,
                                 grouped(cache.instances.size()), slot.id, slot.age, instance.hero));
-    lines.push_back(origins[picked.instance]);
+    lines.push_back(origins[picked.instance].text);
+    description.place = origins[picked.instance].place;
     lines.push_back(fmt::format("it occurs {} in the forest, in {}",
                                 counted(count->branches, grouped(count->branches), "time"),
                                 counted(count->trees, grouped(count->trees), "tree")));

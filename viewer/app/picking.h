@@ -4,6 +4,7 @@
 // it and the trace are found by deriving again, on threads of their own in a window.
 #pragma once
 
+#include "runtime/pipeline/file_position.h"
 #include "runtime/pipeline/growth_moment.h"
 #include "runtime/pipeline/trace.h"
 #include "viewer/app/forest_document.h"
@@ -38,8 +39,9 @@ struct PickedModule {
 
 struct Description {
     std::vector<std::string> lines;
-    std::optional<PickedModule> module; // module of a plant that drew the part
-    std::string hint;                   // why there is no trace; may be empty
+    std::optional<PickedModule> module;  // module of a plant that drew the part
+    std::string hint;                    // why there is no trace; may be empty
+    std::optional<FilePosition> place{}; // place that wrote the module or branch
 };
 
 /// Describes the module, its production with place and generation, and the segment, object or

@@ -94,7 +94,8 @@ PlantViewSettings first_plant_settings(const ViewOptions& options) {
 
 bool operator==(const PlantEdits& a, const PlantEdits& b) {
     return static_cast<const PlantSource&>(a) == b && static_cast<const PlantLook&>(a) == b &&
-           a.simulates == b.simulates && is_same(a.bending, b.bending);
+           a.simulates == b.simulates && is_same(a.bending, b.bending) &&
+           a.file_steps == b.file_steps;
 }
 
 PlantView::PlantView(const ViewOptions& options,
@@ -386,6 +387,7 @@ void PlantView::undo() {
     }
     settings.plays = false;
     static_cast<PlantEdits&>(settings) = history_.undo();
+    follow_file_steps();
 }
 
 void PlantView::redo() {
@@ -396,6 +398,40 @@ void PlantView::redo() {
     }
     settings.plays = false;
     static_cast<PlantEdits&>(settings) = history_.redo();
+    follow_file_steps();
+}
+
+/// Takes back or repeats changes of files, as undo() and redo() ask for.
+void PlantView::follow_file_steps() {
+    if (settings.file_steps == file_edits_.position()) {
+        return;
+    }
+    const bool repeats = settings.file_steps > file_edits_.position();
+    const Result<void> done = file_edits_.go_to(settings.file_steps, console_);
+    set_note(
+        done
+            ? fmt::format("{} the fix of {}", repeats ? "repeated" : "took back", settings.file)
+            : fmt::format("not {}: {}", repeats ? "repeated" : "taken back", done.error().message));
+}
+
+LoadedSources PlantView::loaded_sources() const {
+    LoadedSources loaded = common_sources();
+    loaded.options = options_with_settings().grammar;
+    if (!failed() && document_ != nullptr && shown_outcome_.options.file == loaded.file) {
+        loaded.sources = document_->grammar.sources;
+    }
+    return loaded;
+}
+
+void PlantView::change_files(std::vector<FileChange> changes, const std::string& what) {
+    record_edits();
+    if (const Result<void> written = file_edits_.apply(std::move(changes), console_); !written) {
+        set_note(fmt::format("not written: {}", written.error().message));
+        return;
+    }
+    settings.file_steps = file_edits_.position();
+    record_edits();
+    set_note(what);
 }
 
 void PlantView::play_or_pause() {
@@ -638,6 +674,8 @@ void PlantView::open(const std::string& file) {
     is_new_file_ = true;
     files_ = {file};
     requested_.reset();
+    settings.file_steps = 0;
+    file_edits_.clear();
     history_ = EditHistory<PlantEdits>(settings);
     watch_files();
 }

@@ -5,6 +5,7 @@
 
 #include "runtime/pipeline/value_edits.h"
 #include "viewer/app/edit_history.h"
+#include "viewer/app/file_edits.h"
 #include "viewer/app/file_watch.h"
 #include "viewer/app/plant_export.h"
 #include "viewer/app/plant_film.h"
@@ -52,6 +53,7 @@ struct PlantLook {
 struct PlantEdits : PlantSource, PlantLook {
     bool simulates = false; // gravity and wind move the plant
     Bending bending;
+    std::size_t file_steps = 0; // FileEdits::position() of the files
 
     friend bool operator==(const PlantEdits& a, const PlantEdits& b);
 };
@@ -106,6 +108,7 @@ public:
 
     [[nodiscard]] ViewOptions picture_options(FilmKind kind) const override;
     [[nodiscard]] bool has_growth() const override { return default_generations() != 0; }
+    [[nodiscard]] LoadedSources loaded_sources() const override;
 
     /// Opens another file and frames it.
     void open(const std::string& file);
@@ -120,6 +123,9 @@ public:
     /// has changed on disk since it was read, values in included files, and values whose plant is
     /// not shown.
     void save() override;
+    /// Writes changed files of the grammar, all or none, and reports `what` in a note; undo() takes
+    /// that back. Refuses files that have changed on disk.
+    void change_files(std::vector<FileChange> changes, const std::string& what);
     /// Writes the plant shown, at rest, to settings.output.file on another thread, and reports the
     /// result in a note. Refuses moments between generations.
     void export_shown();
@@ -148,6 +154,7 @@ private:
     void bend();
     [[nodiscard]] bool check_standing();
     void drop_unknown_definitions();
+    void follow_file_steps();
     [[nodiscard]] ViewOptions options_with_settings() const;
     [[nodiscard]] Result<std::string> text_with_values(const StatementValues& values) const;
 
@@ -163,6 +170,7 @@ private:
 
     std::optional<PlantViewSettings> requested_; // last request
     EditHistory<PlantEdits> history_;
+    FileEdits file_edits_;
     LineKind shown_lines_ = LineKind::None;
     SteadyClock::time_point last_growth_;
     double growth_position_ = 0.0; // generations

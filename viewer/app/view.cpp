@@ -37,6 +37,11 @@ std::vector<ShownMessage> entries_of(const Messages& messages) {
         for (const Diagnostic& diagnostic : message.diagnostics.all()) {
             ShownMessage& entry = entries.emplace_back();
             entry.severity = diagnostic.severity;
+            if (diagnostic.span.file != kNoFile) {
+                const SourceFile& file = sources.file(diagnostic.span.file);
+                const LineColumn place = file.line_column(diagnostic.span.begin);
+                entry.place = FilePosition{file.path(), place.line, place.column};
+            }
             render(diagnostic, sources, {MessageFormat::Short}, entry.head);
             render(diagnostic, sources, {MessageFormat::Human}, entry.text);
             entry.head.erase(entry.head.find_last_not_of('\n') + 1);
@@ -63,6 +68,18 @@ void View::take_messages(const Messages& messages, bool succeeded) {
         console_.io().err << text_ << std::flush;
     }
     failed_ = !succeeded;
+    messages_ = std::make_shared<Messages>(messages);
+    loaded_file_ = file();
+    ++load_count_;
+}
+
+LoadedSources View::common_sources() const {
+    LoadedSources loaded;
+    loaded.file = loaded_file_;
+    loaded.messages = messages_;
+    loaded.run = options_.run;
+    loaded.is_forest = is_forest();
+    return loaded;
 }
 
 std::string View::all_messages() const {
@@ -162,6 +179,7 @@ bool View::take_picked() {
         return has_trace;
     }
     picked_ = std::move(*outcome);
+    ++pick_count_;
     for (const std::string& line : picked_.lines) {
         console_.detail(fmt::format("picked: {}", line));
     }

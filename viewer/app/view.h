@@ -10,6 +10,7 @@
 #include "viewer/app/making_progress.h"
 #include "viewer/app/options.h"
 #include "viewer/app/picking.h"
+#include "viewer/app/source_text.h"
 #include "viewer/app/styled_text.h"
 #include "viewer/gl/renderer.h"
 
@@ -36,6 +37,7 @@ struct ShownMessage {
     Severity severity = Severity::Note;
     std::string head; // `file:line:column: severity: message [code]`
     std::string text; // the whole message, with source lines
+    std::optional<FilePosition> place{};
 };
 
 class View {
@@ -93,6 +95,8 @@ public:
     void pick(const PicturePixel& pixel);
     /// Description of the part picked last; without lines if there is none.
     [[nodiscard]] const Description& picked() const { return picked_; }
+    /// Count of descriptions made.
+    [[nodiscard]] std::uint64_t pick_count() const { return pick_count_; }
     void forget_picked();
     /// Starts to trace the module picked last; traced() has the trace once it is made. Does nothing
     /// without a module.
@@ -134,6 +138,12 @@ public:
     [[nodiscard]] std::string all_messages() const;
     /// Messages of the last request, one by one.
     [[nodiscard]] const std::vector<ShownMessage>& entries() const { return entries_; }
+    /// The sources that the last request has read.
+    [[nodiscard]] virtual LoadedSources loaded_sources() const = 0;
+    /// Count of requests whose messages were taken; loaded_sources() changes with it.
+    [[nodiscard]] std::uint64_t load_count() const { return load_count_; }
+    /// The file of the last of these requests.
+    [[nodiscard]] const std::string& loaded_file() const { return loaded_file_; }
     /// Whether the last request failed.
     [[nodiscard]] bool failed() const { return failed_; }
     [[nodiscard]] const std::string& shader_message() const { return shader_message_; }
@@ -159,6 +169,8 @@ protected:
     /// Stores the messages of a request; prints them if they differ from the last ones.
     void take_messages(const Messages& messages, bool succeeded);
     void request_shader_reload() { shaders_changed_ = true; }
+    /// loaded_sources() with the fields that all views have.
+    [[nodiscard]] LoadedSources common_sources() const;
     /// Reloads shaders if they changed. Returns whether messages changed.
     bool reload_shaders();
     [[nodiscard]] bool is_shader(const std::string& file) const;
@@ -180,6 +192,9 @@ protected:
 private:
     std::string text_;
     std::vector<ShownMessage> entries_;
+    std::shared_ptr<const Messages> messages_; // of the last request
+    std::string loaded_file_;
+    std::uint64_t load_count_ = 0;
     std::string note_;
     SteadyClock::time_point note_since_;
     bool failed_ = false;
@@ -187,7 +202,8 @@ private:
     bool take_trace();
 
     Description picked_;
-    TraceFunction trace_function_; // traces the module picked last
+    std::uint64_t pick_count_ = 0;
+    TraceFunction trace_function_; // traces the part picked last
     TraceScope trace_scope_ = TraceScope::Written;
     std::vector<TextLine> traced_;
     bool wants_trace_ = false;            // a trace was requested and not forgotten

@@ -51,6 +51,8 @@ public:
         panels_.look = read_look(panels_.state_folder);
         look_ = panels_.look;
         window_.set_look(look_);
+        panels_.source.look = read_source_look(panels_.state_folder);
+        source_look_ = panels_.source.look;
         panels_.wake = [this] { window_.wake(); };
         panels_.add_image = [this](const Texture& picture) { return window_.add_image(picture); };
         if (!switcher_.current().file().empty()) {
@@ -95,7 +97,12 @@ public:
         if (film) {
             switcher_.current().set_note(*film);
         }
-        const bool has_news = switcher_.current().update() || film;
+        bool has_news = switcher_.current().update() || film;
+        has_news = panels_.source.update(switcher_.current(), panels_.wake) || has_news;
+        if (const std::string failure = panels_.editors.forget_ended(); !failure.empty()) {
+            switcher_.current().set_note(failure);
+            has_news = true;
+        }
         const bool dropped_note = switcher_.current().drop_old_note(now);
         if (input.any || has_news || dropped_note) {
             pictures_left_ = kPicturesAfterInput;
@@ -126,6 +133,11 @@ private:
             area.x =
                 std::min(static_cast<std::uint32_t>(panel_width(window_.scale())), area.width - 1);
             area.width -= area.x;
+        }
+        if (!switcher_.current().file().empty()) {
+            const float source =
+                source_width(panels_, static_cast<float>(window_.width()), window_.scale());
+            area.width -= std::min(static_cast<std::uint32_t>(source), area.width);
         }
         return area;
     }
@@ -172,6 +184,11 @@ private:
             write_look(panels_.state_folder, look_, console_);
             pictures_left_ = kPicturesAfterInput;
         }
+        if (panels_.source.look != source_look_ && !is_control_held()) {
+            source_look_ = panels_.source.look;
+            write_source_look(panels_.state_folder, source_look_, console_);
+            pictures_left_ = kPicturesAfterInput;
+        }
         const double seconds = std::chrono::duration<double>(Clock::now() - start).count();
         if (drew || refines_) {
             last_seconds_ = seconds;
@@ -190,7 +207,8 @@ private:
     Clock::time_point last_progress_ = last_;
     bool shows_progress_ = false;
     bool shows_sheet_ = false;
-    WindowLook look_; // look of the window
+    WindowLook look_;            // look of the window
+    SourcePaneLook source_look_; // look of the source pane, as written
     Clock::time_point last_drawn_ = last_;
     double last_seconds_ = 0.0; // that the last picture or sample took
     bool refines_ = false;

@@ -23,7 +23,7 @@ struct NamedKey {
     int code;
     Key key;
 };
-constexpr std::array<NamedKey, 17> kNamedKeys = {{{GLFW_KEY_ESCAPE, Key::Escape},
+constexpr std::array<NamedKey, 19> kNamedKeys = {{{GLFW_KEY_ESCAPE, Key::Escape},
                                                   {GLFW_KEY_TAB, Key::Tab},
                                                   {GLFW_KEY_PAGE_UP, Key::PageUp},
                                                   {GLFW_KEY_PAGE_DOWN, Key::PageDown},
@@ -31,6 +31,7 @@ constexpr std::array<NamedKey, 17> kNamedKeys = {{{GLFW_KEY_ESCAPE, Key::Escape}
                                                   {GLFW_KEY_RIGHT_SHIFT, Key::Shift},
                                                   {GLFW_KEY_F1, Key::F1},
                                                   {GLFW_KEY_F6, Key::F6},
+                                                  {GLFW_KEY_F8, Key::F8},
                                                   {GLFW_KEY_SPACE, Key::Space},
                                                   {GLFW_KEY_LEFT, Key::Left},
                                                   {GLFW_KEY_RIGHT, Key::Right},
@@ -39,7 +40,8 @@ constexpr std::array<NamedKey, 17> kNamedKeys = {{{GLFW_KEY_ESCAPE, Key::Escape}
                                                   {GLFW_KEY_ENTER, Key::Enter},
                                                   {GLFW_KEY_KP_ENTER, Key::Enter},
                                                   {GLFW_KEY_BACKSPACE, Key::Backspace},
-                                                  {GLFW_KEY_HOME, Key::Home}}};
+                                                  {GLFW_KEY_HOME, Key::Home},
+                                                  {GLFW_KEY_END, Key::End}}};
 
 /// The key of a GLFW key code. Letters follow the keyboard layout, digits are the keys above them.
 Key key_of(int code, int scan_code) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Semantic tokens, folding, and the colours of materials.
-#include "grammar/base/characters.h"
 #include "runtime/languageserver/impl/workspace.h"
+#include "runtime/names/source_tokens.h"
 
 #include <fmt/format.h>
 
@@ -15,20 +15,9 @@ namespace lsys {
 
 namespace {
 
-/// Token types of LSP: one for each NameKind in its order, then `keyword` for `#` and its word, and
-/// `property` for the key of a `#set`.
+/// Token types of LSP, by SourceTokenKind. Editors colour comments themselves.
 constexpr std::array kTokenTypes{"class",  "variable", "parameter", "function",
                                  "method", "keyword",  "property"};
-constexpr std::uint32_t kKeywordType = 5;
-constexpr std::uint32_t kPropertyType = 6;
-
-struct Token {
-    std::uint32_t begin = 0;
-    std::uint32_t end = 0;
-    std::uint32_t type = 0;
-
-    friend bool operator<(const Token& a, const Token& b) { return a.begin < b.begin; }
-};
 
 const Document& lsys_document(Workspace& workspace, const Json& params) {
     const Document& document = workspace.document(params.at("textDocument").at("uri"));
@@ -65,41 +54,13 @@ Json semantic_tokens(Workspace& workspace, const Json& params) {
     const std::string path = lsys_document(workspace, params).path;
     Places at(workspace);
     const NameIndex index = workspace.index({path}, {});
-    const std::string& text = at.text(path);
-    std::vector<Token> tokens;
-    for (const NameUse& use : index.uses) {
-        if (use.place.path == path) {
-            tokens.push_back(
-                {use.place.begin, use.place.end, static_cast<std::uint32_t>(use.kind)});
-        }
-    }
-    for (const StatementOutline& statement : index.statements) {
-        if (statement.place.path != path) {
-            continue;
-        }
-        std::uint32_t end = statement.place.begin + 1;
-        while (end < text.size() && is_word_character(text[end])) {
-            ++end;
-        }
-        const bool is_named = statement.kind == StatementKind::Production &&
-                              statement.name_place.begin == statement.place.begin + 1;
-        if (!is_named) {
-            tokens.push_back({statement.place.begin, end, kKeywordType});
-        }
-        if (statement.kind == StatementKind::Set) {
-            tokens.push_back({statement.name_place.begin, statement.name_place.end, kPropertyType});
-        }
-    }
-    std::stable_sort(tokens.begin(), tokens.end());
     Json data = Json::array();
-    std::uint32_t done = 0;
     std::uint32_t line = 0;
     std::uint32_t character = 0;
-    for (const Token& token : tokens) {
-        if (token.begin < done || token.begin == token.end) {
+    for (const SourceToken& token : source_tokens(index, path, at.text(path))) {
+        if (token.kind == SourceTokenKind::Comment) {
             continue;
         }
-        done = token.end;
         const Json range = at.range({path, token.begin, token.end});
         const auto begin_line = range.at("start").at("line").get<std::uint32_t>();
         const auto begin = range.at("start").at("character").get<std::uint32_t>();
@@ -107,7 +68,7 @@ Json semantic_tokens(Workspace& workspace, const Json& params) {
         data.push_back(begin_line - line);
         data.push_back(begin_line == line ? begin - character : begin);
         data.push_back(end - begin);
-        data.push_back(token.type);
+        data.push_back(static_cast<std::uint32_t>(token.kind));
         data.push_back(0);
         line = begin_line;
         character = begin;

@@ -3,7 +3,7 @@
 // Texts of open documents replace the files on disk everywhere.
 #pragma once
 
-#include "runtime/languageserver/impl/name_index.h"
+#include "runtime/names/name_index.h"
 #include "runtime/languageserver/language_server.h"
 #include "runtime/languageserver/text_positions.h"
 

@@ -29,11 +29,13 @@ std::string find_program(const std::string& name) {
     return {};
 }
 
-Reason run_program(const std::vector<std::string>& arguments,
-                   const std::string& messages,
-                   const std::atomic<bool>& cancelled,
-                   int& status) {
-    constexpr unsigned kWait = 20'000; // microseconds between two looks at the program
+namespace {
+
+/// Starts a program without standard input and output. `messages`: the file of its standard error.
+Reason spawn(const std::vector<std::string>& arguments,
+             const std::string& messages,
+             bool has_own_session,
+             pid_t& child) {
     constexpr mode_t kMode = 0600;
     posix_spawn_file_actions_t streams;
     ::posix_spawn_file_actions_init(&streams);
@@ -41,16 +43,42 @@ Reason run_program(const std::vector<std::string>& arguments,
     ::posix_spawn_file_actions_addopen(&streams, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
     ::posix_spawn_file_actions_addopen(&streams, STDERR_FILENO, messages.c_str(),
                                        O_WRONLY | O_CREAT | O_TRUNC, kMode);
+    posix_spawnattr_t attributes;
+    ::posix_spawnattr_init(&attributes);
+#ifdef POSIX_SPAWN_SETSID
+    if (has_own_session) {
+        ::posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSID);
+    }
+#else
+    static_cast<void>(has_own_session);
+#endif
     std::vector<char*> texts;
     texts.reserve(arguments.size() + 1);
     for (const std::string& each : arguments) {
         texts.push_back(const_cast<char*>(each.c_str())); // posix_spawn() does not change it
     }
     texts.push_back(nullptr);
-    pid_t child = 0;
-    const int reason = ::posix_spawn(&child, texts[0], &streams, nullptr, texts.data(), environ);
+    const int reason =
+        ::posix_spawn(&child, texts[0], &streams, &attributes, texts.data(), environ);
+    ::posix_spawnattr_destroy(&attributes);
     ::posix_spawn_file_actions_destroy(&streams);
-    if (reason != 0) {
+    return reason;
+}
+
+/// The exit status of a program that has ended; -1 if a signal ended it.
+int exit_status(int ended) {
+    return WIFEXITED(ended) ? WEXITSTATUS(ended) : -1;
+}
+
+} // namespace
+
+Reason run_program(const std::vector<std::string>& arguments,
+                   const std::string& messages,
+                   const std::atomic<bool>& cancelled,
+                   int& status) {
+    constexpr unsigned kWait = 20'000; // microseconds between two looks at the program
+    pid_t child = 0;
+    if (const Reason reason = spawn(arguments, messages, false, child); reason != 0) {
         return reason;
     }
     int ended = 0;
@@ -69,8 +97,22 @@ Reason run_program(const std::vector<std::string>& arguments,
             ::usleep(kWait);
         }
     }
-    status = WIFEXITED(ended) ? WEXITSTATUS(ended) : -1;
+    status = exit_status(ended);
     return 0;
+}
+
+Reason start_program(const std::vector<std::string>& arguments, Child& child) {
+    return spawn(arguments, "/dev/null", true, child.number);
+}
+
+bool has_ended(Child& child, int& status) {
+    int ended = 0;
+    if (child.number == 0 || ::waitpid(child.number, &ended, WNOHANG) != child.number) {
+        return false;
+    }
+    status = exit_status(ended);
+    child = {};
+    return true;
 }
 
 } // namespace lsys::platform

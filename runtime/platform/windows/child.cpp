@@ -16,4 +16,12 @@ Reason run_program(const std::vector<std::string>& /*arguments*/,
     return ENOSYS;
 }
 
+Reason start_program(const std::vector<std::string>& /*arguments*/, Child& /*child*/) {
+    return ENOSYS;
+}
+
+bool has_ended(Child& /*child*/, int& /*status*/) {
+    return false;
+}
+
 } // namespace lsys::platform

@@ -4,6 +4,7 @@
 #include "tests/viewer/lsview_run.h"
 #include "viewer/app/controls.h"
 #include "viewer/app/plant_view.h"
+#include "viewer/app/source_pane.h"
 #include "viewer/gl/headless_context.h"
 
 #include <catch2/catch.hpp>
@@ -691,4 +692,126 @@ TEST_CASE("the plant shown is exported with its values, or the reason is reporte
     view.export_shown();
     REQUIRE(viewed.until([&] { return view.note().find("web") != std::string::npos; }));
     CHECK_FALSE(std::filesystem::exists(scratch / "plant.stl"));
+}
+
+TEST_CASE("undo takes back fixes of the file in turn with settings") {
+    const ScratchFolder folder;
+    const std::string file = folder / "plant.lsys";
+    const std::string before = plant(2);
+    const std::string after = plant(3);
+    write_text(file, before);
+    ViewedPlant viewed(plant_options(file));
+    REQUIRE(viewed.until_swaps(1));
+    viewed.view.settings.generations = 0;
+    viewed.view.record_edits();
+    viewed.view.change_files({{file, before, after}}, "fixed it");
+    CHECK(viewed.view.note() == "fixed it");
+    CHECK(read_text(file) == after);
+    viewed.view.settings.shadows = false;
+    viewed.view.undo();
+    CHECK(viewed.view.settings.shadows);
+    CHECK(read_text(file) == after);
+    viewed.view.undo();
+    CHECK(read_text(file) == before);
+    CHECK(viewed.view.settings.generations == 0);
+    viewed.view.undo();
+    CHECK_FALSE(viewed.view.settings.generations);
+    viewed.view.redo();
+    viewed.view.redo();
+    CHECK(read_text(file) == after);
+    // A change by another program stays, and earlier steps can still be undone.
+    write_text(file, after + "\n");
+    viewed.view.undo();
+    CHECK(viewed.view.note() ==
+          "not taken back: `" + file + "` has changed on disk since it was read");
+    CHECK(read_text(file) == after + "\n");
+    viewed.view.undo();
+    CHECK_FALSE(viewed.view.settings.generations);
+    // A fix of a text that is no longer there is not written.
+    viewed.view.change_files({{file, before, after}}, "fixed it");
+    CHECK(viewed.view.note() ==
+          "not written: `" + file + "` has changed on disk since it was read");
+    CHECK(read_text(file) == after + "\n");
+}
+
+TEST_CASE("the source pane follows loads, picks, messages and keys") {
+    const ScratchFolder folder;
+    const std::string file = folder / "plant.lsys";
+    write_text(file, "#n = 1;\n#w : F\n  F;\n#set width 0.5;\n");
+    ViewedPlant viewed(plant_options(file));
+    PlantView& view = viewed.view;
+    SourcePane pane;
+    std::size_t news = 0;
+    const auto until_pane = [&](const auto& done) {
+        return viewed.until([&] {
+            if (pane.update(view, [] {})) {
+                ++news;
+            }
+            return done();
+        });
+    };
+    REQUIRE(viewed.until_swaps(1));
+    CHECK_FALSE(pane.update(view, [] {})); // it is not shown
+    pane.look.is_shown = true;
+    REQUIRE(until_pane([&] { return pane.source() != nullptr; }));
+    CHECK(news == 1);
+    pane.lay_out(40);
+    CHECK(pane.rows().size() == 5);
+    CHECK(pane.place_to_open(view).line == 1);
+
+    // A pick selects and marks the lines of the statement.
+    for (std::uint32_t x = 20; x < 44 && !view.picked().place; ++x) {
+        view.pick({x, 24});
+        REQUIRE(viewed.until([&] { return !view.is_busy(); }));
+    }
+    REQUIRE(view.picked().place);
+    REQUIRE(until_pane([&] { return pane.highlighted().first != 0; }));
+    CHECK(pane.highlighted().first == 2);
+    CHECK(pane.highlighted().last == 3);
+    CHECK(pane.selected().first == view.picked().place->line);
+    CHECK(pane.take_target() == view.picked().place->line);
+    CHECK(pane.place_to_open(view).line == view.picked().place->line);
+    view.forget_picked();
+    REQUIRE(until_pane([&] { return pane.highlighted().first == 0; }));
+
+    // Keys move the selection, and Shift extends it.
+    const auto press = [&pane](Key key, bool shift) {
+        KeyPress one;
+        one.key = key;
+        one.shift = shift;
+        return pane.press(one);
+    };
+    CHECK(press(Key::Home, false));
+    CHECK(press(Key::Up, false));
+    CHECK(press(Key::Down, false));
+    CHECK(press(Key::Down, true));
+    CHECK(pane.selected_text() == "#w : F\n  F;\n");
+    CHECK(press(Key::End, false));
+    CHECK(pane.selected().first == 5);
+    CHECK(press(Key::PageUp, false));
+    CHECK(pane.selected().first == 1);
+    CHECK_FALSE(press(Key::N, false));
+
+    // The new text is shown with its mistakes, beside the old plant.
+    write_text(file, "#n = 1;\n#w : F(k);\n#set width 0.5;\n\n#q : F : * : F(m);\n");
+    view.reload();
+    REQUIRE(viewed.until([&] { return view.failed(); }));
+    REQUIRE(until_pane([&] { return pane.source()->messages.size() == 2; }));
+    CHECK(pane.take_target() == 2U);
+    pane.lay_out(80);
+    CHECK(pane.rows()[2].kind == SourceRow::Kind::Marks);
+    CHECK(pane.rows()[2].line == 2);
+    CHECK(plain_text(pane.texts().at(pane.rows()[3].index)).starts_with("error: "));
+    pane.lay_out(40); // the label needs a row of its own
+    CHECK(plain_text(pane.texts().at(pane.rows()[3].index)) ==
+          "no constant of this name is defined");
+    pane.go_to_message(1, view);
+    CHECK(pane.selected().first == 2);
+    pane.go_to_message(1, view);
+    CHECK(pane.selected().first == 5);
+    pane.go_to_message(1, view);
+    CHECK(pane.selected().first == 2);
+    pane.go_to_message(-1, view);
+    CHECK(pane.selected().first == 5);
+    CHECK(pane.place_to_open(view).column == pane.source()->messages[1].column);
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "runtime/languageserver/impl/name_index.h"
+#include "runtime/names/name_index.h"
 
 #include "compiler/resolve/profiles.h"
 #include "grammar/ast/include_chain.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "runtime/cli/fix_scope.h"
+#include "runtime/repair/fix_scope.h"
 
 #include "grammar/base/paths.h"
 #include "runtime/pipeline/grammar.h"
@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <system_error>
 
-namespace lsys::lsc {
+namespace lsys::repair {
 
 namespace {
 
@@ -42,4 +42,4 @@ bool FixScope::contains(const std::string& path) const {
     return inner == folder_.end() || named_.contains(real);
 }
 
-} // namespace lsys::lsc
+} // namespace lsys::repair

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "runtime/cli/mistyped_signs.h"
+#include "runtime/repair/impl/mistyped_signs.h"
 
 #include "grammar/base/characters.h"
 
 #include <cstddef>
 #include <utility>
 
-namespace lsys::lsc {
+namespace lsys::repair {
 
 namespace {
 
@@ -82,4 +82,4 @@ std::vector<std::string> mistyped_texts(std::string_view text, AddedText added) 
     return texts;
 }
 
-} // namespace lsys::lsc
+} // namespace lsys::repair

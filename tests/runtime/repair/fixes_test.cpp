@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include "runtime/cli/chosen_fixes.h"
-#include "runtime/cli/fixes.h"
 #include "runtime/program/host.h"
+#include "runtime/repair/chosen_fixes.h"
+#include "runtime/repair/fixes.h"
 
 #include <catch2/catch.hpp>
 
@@ -11,7 +11,7 @@
 #include <vector>
 
 using namespace lsys;
-using namespace lsys::lsc;
+using namespace lsys::repair;
 
 namespace {
 

@@ -11,7 +11,7 @@
 #include <string_view>
 #include <vector>
 
-namespace lsys::lsc {
+namespace lsys::repair {
 
 /// Bytes [begin, end) of a text.
 struct TextPlace {
@@ -56,4 +56,4 @@ private:
 /// Whether the first line of `text` ends with CRLF.
 [[nodiscard]] bool has_carriage_returns(std::string_view text);
 
-} // namespace lsys::lsc
+} // namespace lsys::repair

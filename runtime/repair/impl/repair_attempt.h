@@ -6,11 +6,11 @@
 #include "grammar/base/diagnostic.h"
 #include "grammar/base/result.h"
 #include "grammar/base/source.h"
-#include "runtime/cli/chosen_fixes.h"
-#include "runtime/cli/edited_file.h"
-#include "runtime/cli/fixes.h"
 #include "runtime/pipeline/grammar.h"
 #include "runtime/pipeline/project.h"
+#include "runtime/repair/chosen_fixes.h"
+#include "runtime/repair/edited_file.h"
+#include "runtime/repair/fixes.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -23,7 +23,7 @@
 #include <utility>
 #include <vector>
 
-namespace lsys::lsc {
+namespace lsys::repair {
 
 inline constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
 
@@ -105,4 +105,4 @@ private:
     std::set<std::tuple<std::string, std::uint32_t, DiagnosticCode>> repaired_places_;
 };
 
-} // namespace lsys::lsc
+} // namespace lsys::repair

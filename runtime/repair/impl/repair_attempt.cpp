@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: MIT
-#include "runtime/cli/repair_attempt.h"
+#include "runtime/repair/impl/repair_attempt.h"
 
 #include "grammar/base/characters.h"
 #include "grammar/rendering/render_diagnostic.h"
-#include "runtime/cli/mistyped_signs.h"
 #include "runtime/program/host.h"
+#include "runtime/repair/impl/mistyped_signs.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 
-namespace lsys::lsc {
+namespace lsys::repair {
 
 namespace {
 
@@ -307,4 +307,4 @@ void RepairAttempt::offer_doubtful(Diagnostics& diagnostics, const SourceMap& so
     });
 }
 
-} // namespace lsys::lsc
+} // namespace lsys::repair

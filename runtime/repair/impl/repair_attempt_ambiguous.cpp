@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
 // RepairAttempt::ambiguous_statements(): comparison of repairs with their alternatives.
 #include "compiler/program/program_dump.h"
-#include "runtime/cli/alternative_repairs.h"
-#include "runtime/cli/mistyped_signs.h"
-#include "runtime/cli/repair_attempt.h"
+#include "runtime/repair/impl/alternative_repairs.h"
+#include "runtime/repair/impl/mistyped_signs.h"
+#include "runtime/repair/impl/repair_attempt.h"
 
 #include <algorithm>
 
-namespace lsys::lsc {
+namespace lsys::repair {
 
 namespace {
 
@@ -213,4 +213,4 @@ const SourceFile* RepairAttempt::find_source(const std::string& path) const {
     return nullptr;
 }
 
-} // namespace lsys::lsc
+} // namespace lsys::repair

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "runtime/cli/chosen_fixes.h"
+#include "runtime/repair/chosen_fixes.h"
 
-#include "runtime/cli/edited_file.h"
+#include "runtime/repair/edited_file.h"
 
 #include <algorithm>
 #include <iterator>
 
-namespace lsys::lsc {
+namespace lsys::repair {
 
 namespace {
 
@@ -80,4 +80,4 @@ std::string apply_edits(std::string_view text, const std::vector<const Edit*>& e
     return result;
 }
 
-} // namespace lsys::lsc
+} // namespace lsys::repair

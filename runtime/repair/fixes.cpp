@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
-#include "runtime/cli/fixes.h"
+#include "runtime/repair/fixes.h"
 
-#include "runtime/cli/repair_attempt.h"
+#include "runtime/repair/impl/repair_attempt.h"
 
 #include <algorithm>
 #include <set>
 #include <utility>
 
-namespace lsys::lsc {
+namespace lsys::repair {
 
 namespace {
 
@@ -68,4 +68,4 @@ Result<void> offer_doubtful_fixes(const std::string& path,
                   });
 }
 
-} // namespace lsys::lsc
+} // namespace lsys::repair

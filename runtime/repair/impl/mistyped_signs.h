@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-namespace lsys::lsc {
+namespace lsys::repair {
 
 /// The bytes [begin, end) that a repair added to a text.
 struct AddedText {
@@ -26,4 +26,4 @@ struct AddedText {
 /// sides as the replacement, and the replacement does not follow a `:`.
 [[nodiscard]] std::vector<std::string> mistyped_texts(std::string_view text, AddedText added);
 
-} // namespace lsys::lsc
+} // namespace lsys::repair

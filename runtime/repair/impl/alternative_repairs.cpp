@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "runtime/cli/alternative_repairs.h"
+#include "runtime/repair/impl/alternative_repairs.h"
 
 #include "grammar/ast/ast_dump.h"
 #include "grammar/base/characters.h"
@@ -11,7 +11,7 @@
 #include <set>
 #include <utility>
 
-namespace lsys::lsc {
+namespace lsys::repair {
 
 namespace {
 
@@ -259,4 +259,4 @@ std::vector<std::string> alternative_repairs(const StatementRepair& repair) {
     return others;
 }
 
-} // namespace lsys::lsc
+} // namespace lsys::repair

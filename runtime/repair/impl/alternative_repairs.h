@@ -10,7 +10,7 @@
 #include <string_view>
 #include <vector>
 
-namespace lsys::lsc {
+namespace lsys::repair {
 
 struct StatementRepair {
     DiagnosticCode code{};   // of the mistake
@@ -33,4 +33,4 @@ inline constexpr std::size_t kMaxComparedStatement = 2000; // bytes
 /// statements of more than kMaxComparedStatement bytes.
 [[nodiscard]] std::vector<std::string> alternative_repairs(const StatementRepair& repair);
 
-} // namespace lsys::lsc
+} // namespace lsys::repair

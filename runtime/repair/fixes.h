@@ -24,9 +24,9 @@
 #pragma once
 
 #include "grammar/base/result.h"
-#include "runtime/cli/fix_scope.h"
 #include "runtime/pipeline/grammar.h"
 #include "runtime/pipeline/project.h"
+#include "runtime/repair/fix_scope.h"
 
 #include <cstdint>
 #include <map>
@@ -34,7 +34,7 @@
 #include <string>
 #include <vector>
 
-namespace lsys::lsc {
+namespace lsys::repair {
 
 struct FixedGrammar {
     /// The new bytes of each changed file, by path.
@@ -75,4 +75,4 @@ enum class FixChoice : std::uint8_t { Certain, Offered };
                                                 const Project& project,
                                                 CompiledText& compiled);
 
-} // namespace lsys::lsc
+} // namespace lsys::repair

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-#include "runtime/cli/chosen_fixes.h"
-#include "runtime/cli/edited_file.h"
+#include "runtime/repair/chosen_fixes.h"
+#include "runtime/repair/edited_file.h"
 
 #include <catch2/catch.hpp>
 
@@ -8,7 +8,7 @@
 #include <vector>
 
 using namespace lsys;
-using namespace lsys::lsc;
+using namespace lsys::repair;
 
 namespace {
 

@@ -4,7 +4,7 @@
 
 #include "grammar/base/diagnostic.h"
 #include "grammar/base/source.h"
-#include "runtime/cli/fixes.h"
+#include "runtime/repair/fixes.h"
 
 #include <functional>
 #include <map>
@@ -12,7 +12,7 @@
 #include <string_view>
 #include <vector>
 
-namespace lsys::lsc {
+namespace lsys::repair {
 
 using FileEdits = std::map<std::string, std::vector<const Edit*>>;
 /// Fixes that can be applied together, with their edits by path, sorted by place.
@@ -33,4 +33,4 @@ using FixFilter = std::function<bool(const Diagnostic&, const Fix&)>;
 /// `edits` are sorted by place and do not overlap.
 [[nodiscard]] std::string apply_edits(std::string_view text, const std::vector<const Edit*>& edits);
 
-} // namespace lsys::lsc
+} // namespace lsys::repair

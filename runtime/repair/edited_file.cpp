@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include "runtime/cli/edited_file.h"
+#include "runtime/repair/edited_file.h"
 
 #include <algorithm>
 #include <utility>
 
-namespace lsys::lsc {
+namespace lsys::repair {
 
 bool has_carriage_returns(std::string_view text) {
     const std::size_t end = text.find('\n');
@@ -69,4 +69,4 @@ std::vector<std::size_t> EditedFile::original_statements_at(TextPlace place) con
     return found;
 }
 
-} // namespace lsys::lsc
+} // namespace lsys::repair

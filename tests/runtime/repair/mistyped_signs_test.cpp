@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "runtime/cli/mistyped_signs.h"
+#include "runtime/repair/impl/mistyped_signs.h"
 
 #include <catch2/catch.hpp>
 
@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-using namespace lsys::lsc;
+using namespace lsys::repair;
 
 namespace {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "runtime/cli/alternative_repairs.h"
+#include "runtime/repair/impl/alternative_repairs.h"
 
 #include <catch2/catch.hpp>
 
@@ -9,7 +9,7 @@
 #include <vector>
 
 using namespace lsys;
-using namespace lsys::lsc;
+using namespace lsys::repair;
 
 namespace {
 

@@ -7,7 +7,7 @@
 #include <span>
 #include <string>
 
-namespace lsys::lsc {
+namespace lsys::repair {
 
 /// The files that may be written: files named by the user, and files in the folder of the grammar
 /// or below. Other included files stay unchanged. Symbolic links and `..` are resolved.
@@ -25,4 +25,4 @@ private:
     std::set<std::filesystem::path> named_;
 };
 
-} // namespace lsys::lsc
+} // namespace lsys::repair

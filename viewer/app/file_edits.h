@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: MIT
+// FileEdits: changes of files on disk that undo and redo take back and repeat.
+#pragma once
+
+#include "grammar/base/result.h"
+#include "runtime/program/console.h"
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+namespace lsys::view {
+
+/// The bytes of a file before and after a change.
+struct FileChange {
+    std::string path;
+    std::string before;
+    std::string after;
+};
+
+class FileEdits {
+public:
+    /// Writes the files of a step, all or none. Error: a file on disk differs from `before`, or
+    /// cannot be written; then nothing is written.
+    [[nodiscard]] Result<void> apply(std::vector<FileChange> changes, const Console& console);
+    /// Count of steps that are applied.
+    [[nodiscard]] std::size_t position() const { return position_; }
+    /// Takes back or repeats steps until `position` are applied. Error: a file was changed since by
+    /// someone else, or cannot be written; that step is then skipped, and its files stay.
+    [[nodiscard]] Result<void> go_to(std::size_t position, const Console& console);
+    void clear();
+
+private:
+    std::vector<std::vector<FileChange>> steps_; // a step without changes was skipped
+    std::size_t position_ = 0;
+};
+
+} // namespace lsys::view
