@@ -112,19 +112,42 @@ std::string advice_for_lpy(const std::vector<Line>& lines, const Line& axiom) {
     return text;
 }
 
-/// Recognises models of L-Py and lpfg: programs with `Axiom:` and `production:`.
-std::optional<OtherLanguage> recognise_lpy(const std::vector<Line>& lines) {
+/// Recognises files of programs that have parts of a grammar, and that lsc does not read: lpfg,
+/// RubberPlant, and the panels of L-studio.
+std::optional<OtherLanguage> recognise_program(const std::vector<Line>& lines) {
+    const Line* const header = find_line(lines, begins_with("#include <lpfgall.h>"));
     const Line* const axiom = find_line(lines, begins_with("axiom:"));
-    if (has_line(lines, "#include <lpfgall.h>") ||
-        (axiom != nullptr &&
-         (has_line(lines, "module ") || has_line(lines, "derivation length:")) &&
-         find_line(lines, [](std::string_view line) {
-             return line.find("produce ") != std::string_view::npos && line.ends_with(';');
-         }) != nullptr)) {
+    const bool produces = (axiom != nullptr || has_line(lines, "module ")) &&
+                          (has_line(lines, "module ") || has_line(lines, "derivation length:")) &&
+                          find_line(lines, [](std::string_view line) {
+                              const bool has_end = line.ends_with(';') || line.ends_with('}');
+                              return line.find("produce ") != std::string_view::npos && has_end;
+                          }) != nullptr;
+    if (header != nullptr || produces) {
         return language_at(
-            axiom != nullptr ? axiom : &lines.front(), "an lpfg model",
+            axiom != nullptr    ? axiom
+            : header != nullptr ? header
+                                : &lines.front(),
+            "an lpfg model",
             "lsc does not read lpfg; its productions are C++ and have to be rewritten");
     }
+    const Line* const system = find_line(lines, [](std::string_view line) {
+        return line.starts_with("lsystem ") && line.ends_with('{');
+    });
+    if (system != nullptr) {
+        return language_at(system, "a file of RubberPlant",
+                           "lsc does not read RubberPlant; write the lines in the book's notation, "
+                           "`axiom: F`, `angle: 90` and `F -> F+F`, into a file `.ls`");
+    }
+    return lines.front().text.starts_with("panel name:")
+               ? language_at(&lines.front(), "a panel of L-studio",
+                             "a panel holds sliders; the grammar is another file of the object")
+               : std::nullopt;
+}
+
+/// Recognises models of L-Py: programs with `Axiom:` and `production:`.
+std::optional<OtherLanguage> recognise_lpy(const std::vector<Line>& lines) {
+    const Line* const axiom = find_line(lines, begins_with("axiom:"));
     const bool is_lpy = has_line(lines, "derivation length:") || has_line(lines, "production:") ||
                         has_line(lines, "endlsystem") || has_line(lines, "interpretation:") ||
                         find_line(lines, [](std::string_view line) {
@@ -170,12 +193,22 @@ std::optional<OtherLanguage> recognise_format(const std::vector<Line>& lines) {
                            "a scene has a name that ends with `.toml`: `lsc forest scene.toml`");
     }
     const bool has_heading = text.starts_with("# ") || text.starts_with("## ");
+    const bool has_fence = find_line(lines, begins_with("```")) != nullptr;
     const Line* const mark = find_line(lines, [](std::string_view line) {
         return line.starts_with("```") || line.starts_with("## ") || line.starts_with("### ") ||
                line.starts_with("- ") || line.starts_with("| ");
     });
-    if (has_heading && mark != nullptr) {
+    if (has_fence || (has_heading && mark != nullptr)) {
         return language_at(&first, "Markdown", "save the grammar alone, as plain text");
+    }
+    const Line* const scene = find_line(lines, [](std::string_view line) {
+        return line.starts_with("#declare ") || line.starts_with("#macro ") ||
+               line.starts_with("light_source") || line.starts_with("camera {") ||
+               line.starts_with("global_settings");
+    });
+    if (scene != nullptr) {
+        return language_at(scene, "a scene of POV-Ray",
+                           "a grammar has statements such as `#w : F;`");
     }
     const Line* const import = find_line(lines, [](std::string_view line) {
         return (line.starts_with("import ") || line.starts_with("from ") ||
@@ -186,8 +219,11 @@ std::optional<OtherLanguage> recognise_format(const std::vector<Line>& lines) {
         return language_at(import, "a Python program",
                            "a grammar has statements such as `#w : F;`");
     }
-    return language_at(find_line(lines, begins_with("#include <")), "a C program",
-                       "a grammar has statements such as `#w : F;`");
+    const Line* const code = find_line(lines, [](std::string_view line) {
+        return line.starts_with("#include <") || line.starts_with("int main(") ||
+               line.starts_with("void main(");
+    });
+    return language_at(code, "a C program", "a grammar has statements such as `#w : F;`");
 }
 
 /// Help text for a file in a dialect that lsc reads.
@@ -202,9 +238,14 @@ std::string reading_of(const DialectRow& row) {
 
 std::optional<OtherLanguage> recognise_other_language(std::string_view text) {
     const std::vector<Line> lines = lines_of(text);
-    if (lines.empty() || find_line(lines, [](std::string_view line) {
-                             return is_lsys_statement(line);
-                         }) != nullptr) {
+    if (lines.empty()) {
+        return std::nullopt;
+    }
+    if (std::optional<OtherLanguage> program = recognise_program(lines)) {
+        return program;
+    }
+    if (find_line(lines, [](std::string_view line) { return is_lsys_statement(line); }) !=
+        nullptr) {
         return std::nullopt;
     }
     if (const DialectRow& cpfg = row_of(Dialect::Cpfg); !cpfg.recognise(text).empty()) {
@@ -217,11 +258,26 @@ std::optional<OtherLanguage> recognise_other_language(std::string_view text) {
         }
     }
     for (const DialectRow& row : dialects()) {
-        if (row.recognise != nullptr && !row.recognise(text).empty()) {
+        // Messages of .lsys explain the lines of the book's notation one by one.
+        const bool is_explained = row.recognise == nullptr || row.dialect == Dialect::Abop;
+        if (!is_explained && !row.recognise(text).empty()) {
             return language_at(&lines.front(), std::string(row.title), reading_of(row));
         }
     }
     return recognise_format(lines);
+}
+
+bool is_other_program(std::string_view text) {
+    const std::vector<Line> lines = lines_of(text);
+    return !lines.empty() && recognise_program(lines).has_value();
+}
+
+bool is_unread_language(std::string_view text) {
+    const std::vector<Line> lines = lines_of(text);
+    return !lines.empty() &&
+           find_line(lines, [](std::string_view line) { return is_lsys_statement(line); }) ==
+               nullptr &&
+           (recognise_lpy(lines) || recognise_format(lines));
 }
 
 bool is_foreign_notation(std::string_view text) {

@@ -24,6 +24,8 @@ struct Foreign {
 
 std::vector<Foreign> foreign_samples() {
     return {
+        {"abop/rowan.ls", "", "6", ""},
+        {"abop/signal.txt", "", "12", ""},
         {"fractint/curves.l", "Snowflake", "4", "1792"},
         {"fractint/curves.l", "Dragon", "8", "1022"},
         {"fractint/curves.l", "ColourBush", "3", "1685"},
