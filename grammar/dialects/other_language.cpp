@@ -158,21 +158,6 @@ std::optional<OtherLanguage> recognise_lpy(const std::vector<Line>& lines) {
                : std::nullopt;
 }
 
-/// Recognises files of Lparser: recursion, angle and thickness, the axiom, rules, and a line `@`.
-std::optional<OtherLanguage> recognise_lparser(const std::vector<Line>& lines) {
-    std::vector<const Line*> content;
-    for (const Line& line : lines) {
-        if (!line.text.starts_with('#')) {
-            content.push_back(&line);
-        }
-    }
-    const bool has_numbers = content.size() >= 4 && is_number(content[0]->text) &&
-                             is_number(content[1]->text) && is_number(content[2]->text);
-    return has_numbers ? language_at(content[0], "an Lparser file",
-                                     "give it a name that ends with `.l`, or write `--dialect l3d`")
-                       : std::nullopt;
-}
-
 /// Recognises formats that hold no grammar.
 std::optional<OtherLanguage> recognise_format(const std::vector<Line>& lines) {
     const Line& first = lines.front();
@@ -228,7 +213,8 @@ std::optional<OtherLanguage> recognise_format(const std::vector<Line>& lines) {
 
 /// Help text for a file in a dialect that lsc reads.
 std::string reading_of(const DialectRow& row) {
-    const std::string_view extensions = row.extensions.empty() ? ".l" : row.extensions;
+    const std::string_view own = row.dialect == Dialect::Lparser ? ".ls" : ".l";
+    const std::string_view extensions = row.extensions.empty() ? own : row.extensions;
     return "give it a name that ends with `" +
            std::string(extensions.substr(0, extensions.find(' '))) + "`, or write `--dialect " +
            std::string(row.name) + "`";
@@ -252,10 +238,8 @@ std::optional<OtherLanguage> recognise_other_language(std::string_view text) {
         return language_at(find_line(lines, begins_with("lsystem")), std::string(cpfg.title),
                            reading_of(cpfg));
     }
-    for (const auto recognise : {recognise_lpy, recognise_lparser}) {
-        if (std::optional<OtherLanguage> other = recognise(lines)) {
-            return other;
-        }
+    if (std::optional<OtherLanguage> other = recognise_lpy(lines)) {
+        return other;
     }
     for (const DialectRow& row : dialects()) {
         // Messages of .lsys explain the lines of the book's notation one by one.

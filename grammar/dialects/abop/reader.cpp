@@ -683,6 +683,10 @@ private:
             suggest_key(error, name, text(name), names);
             return;
         }
+        if (is_unread_reported_) {
+            return;
+        }
+        is_unread_reported_ = true;
         Diagnostic& error = context_->diagnostics.add(DiagnosticCode::ForeignSyntax, line,
                                                       "this line is neither a setting nor a rule");
         error.help.emplace_back("a rule is `p1: A -> FA`, a comment `// text`");
@@ -693,8 +697,9 @@ private:
     AbopFile file_;
     Open open_ = Open::Nothing; // the statement that an indented line continues
     SourceSpan open_span_;
-    std::vector<SourceSpan> bare_;   // lines of symbols before the first rule
-    std::vector<SourceSpan> unread_; // lines without meaning
+    std::vector<SourceSpan> bare_;    // lines of symbols before the first rule
+    std::vector<SourceSpan> unread_;  // lines without meaning
+    bool is_unread_reported_ = false; // one such line is reported
     std::size_t statements_ = 0;
     std::size_t others_ = 0;
 };
