@@ -146,7 +146,7 @@ std::optional<OtherLanguage> recognise_program(const std::vector<Line>& lines) {
 }
 
 /// Recognises models of L-Py: programs with `Axiom:` and `production:`.
-std::optional<OtherLanguage> recognise_lpy(const std::vector<Line>& lines) {
+std::optional<OtherLanguage> recognise_lpy_lines(const std::vector<Line>& lines) {
     const Line* const axiom = find_line(lines, begins_with("axiom:"));
     const bool is_lpy = has_line(lines, "derivation length:") || has_line(lines, "production:") ||
                         has_line(lines, "endlsystem") || has_line(lines, "interpretation:") ||
@@ -238,12 +238,13 @@ std::optional<OtherLanguage> recognise_other_language(std::string_view text) {
         return language_at(find_line(lines, begins_with("lsystem")), std::string(cpfg.title),
                            reading_of(cpfg));
     }
-    if (std::optional<OtherLanguage> other = recognise_lpy(lines)) {
+    if (std::optional<OtherLanguage> other = recognise_lpy_lines(lines)) {
         return other;
     }
     for (const DialectRow& row : dialects()) {
         // Messages of .lsys explain the lines of the book's notation one by one.
-        const bool is_explained = row.recognise == nullptr || row.dialect == Dialect::Abop;
+        const bool is_explained =
+            row.recognise == nullptr || row.dialect == Dialect::Abop || row.dialect == Dialect::Lpy;
         if (!is_explained && !row.recognise(text).empty()) {
             return language_at(&lines.front(), std::string(row.title), reading_of(row));
         }
@@ -261,7 +262,7 @@ bool is_unread_language(std::string_view text) {
     return !lines.empty() &&
            find_line(lines, [](std::string_view line) { return is_lsys_statement(line); }) ==
                nullptr &&
-           (recognise_lpy(lines) || recognise_format(lines));
+           (recognise_lpy_lines(lines) || recognise_format(lines));
 }
 
 bool is_foreign_notation(std::string_view text) {
@@ -269,7 +270,7 @@ bool is_foreign_notation(std::string_view text) {
     if (lines.empty()) {
         return false;
     }
-    if (recognise_lpy(lines)) {
+    if (recognise_lpy_lines(lines)) {
         return true;
     }
     std::size_t count = 0;

@@ -40,6 +40,7 @@ std::vector<Foreign> foreign_samples() {
         {"cpfg/figure.l", "", "3", "190"},
         {"cpfg/fern.l", "", "14", "179"},
         {"cpfg/shower.l", "", "9", ""},
+        {"lpy/umbel.lpy", "", "12", ""},
         {"lparser/fern.ls", "", "8", ""},
         {"l3d/larch.l3d", "", "6", "1147"},
         {"l3d/rose.l++", "", "5", ""},

@@ -612,35 +612,8 @@ private:
             (has_chance ? rule.chance : rule.condition) = condition;
         }
         rule.head = span(left.begin + begin, left.begin + head_end);
-        split_contexts(rule);
+        split_contexts(file_, rule);
         file_.rules.push_back(rule);
-    }
-
-    /// Splits `left < predecessor > right`.
-    void split_contexts(AbopRule& rule) {
-        const std::string_view words = text(rule.head);
-        std::size_t depth = 0;
-        std::size_t less = kNone;
-        std::size_t greater = kNone;
-        for (std::size_t at = 0; at < words.size(); ++at) {
-            depth += words[at] == '(' ? 1U : 0U;
-            depth -= words[at] == ')' && depth != 0 ? 1U : 0U;
-            if (depth == 0 && words[at] == '<' && less == kNone && greater == kNone) {
-                less = at;
-            } else if (depth == 0 && words[at] == '>' && greater == kNone) {
-                greater = at;
-            }
-        }
-        const std::size_t begin = less == kNone ? 0 : less + 1;
-        const std::size_t end = std::min(greater, words.size());
-        const std::uint32_t base = rule.head.begin;
-        if (less != kNone) {
-            rule.left = span(base, base + less);
-        }
-        if (greater != kNone) {
-            rule.right = span(base + greater + 1, rule.head.end);
-        }
-        rule.predecessor = span(base + begin, base + end);
     }
 
     void finish() {
@@ -705,6 +678,34 @@ private:
 };
 
 } // namespace
+
+void split_contexts(const AbopFile& file, AbopRule& rule) {
+    const std::string_view words = file.of(rule.head);
+    std::size_t depth = 0;
+    std::size_t less = kNone;
+    std::size_t greater = kNone;
+    for (std::size_t at = 0; at < words.size(); ++at) {
+        depth += words[at] == '(' ? 1U : 0U;
+        depth -= words[at] == ')' && depth != 0 ? 1U : 0U;
+        if (depth == 0 && words[at] == '<' && less == kNone && greater == kNone) {
+            less = at;
+        } else if (depth == 0 && words[at] == '>' && greater == kNone) {
+            greater = at;
+        }
+    }
+    const std::uint32_t base = rule.head.begin;
+    const auto span = [&](std::size_t begin, std::size_t end) {
+        return trimmed_span(file.text, {rule.head.file, static_cast<std::uint32_t>(base + begin),
+                                        static_cast<std::uint32_t>(base + end)});
+    };
+    if (less != kNone) {
+        rule.left = span(0, less);
+    }
+    if (greater != kNone) {
+        rule.right = span(greater + 1, words.size());
+    }
+    rule.predecessor = span(less == kNone ? 0 : less + 1, std::min(greater, words.size()));
+}
 
 std::optional<AbopKey> abop_key(std::string_view name) {
     const auto* const found =

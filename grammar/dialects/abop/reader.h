@@ -24,6 +24,8 @@ enum class AbopKey : std::uint8_t {
     Consider
 };
 
+enum class AbopStage : std::uint8_t { Rewrite, Decompose, Interpret };
+
 struct AbopSetting {
     AbopKey key{};
     SourceSpan name;
@@ -48,6 +50,7 @@ struct AbopRule {
     std::optional<SourceSpan> chance; // a probability, perhaps with a `%`
     SourceSpan arrow;
     SourceSpan successor; // may be empty
+    AbopStage stage = AbopStage::Rewrite;
 };
 
 struct AbopFile {
@@ -56,6 +59,8 @@ struct AbopFile {
     std::vector<AbopSetting> settings;
     std::vector<AbopConstant> constants;
     std::vector<AbopRule> rules;
+    std::vector<std::string> names; // declared symbols of several characters
+    bool is_lpy = false;            // `_` is a command, functions are Python's
 
     [[nodiscard]] std::string_view of(SourceSpan span) const {
         return std::string_view(text).substr(span.begin, span.end - span.begin);
@@ -68,6 +73,8 @@ struct AbopFile {
 /// Whether most lines of a text are statements of the notation, among them an axiom and a rule.
 [[nodiscard]] bool is_abop(std::string_view text);
 
+/// Splits `left < predecessor > right`, the head of a rule.
+void split_contexts(const AbopFile& file, AbopRule& rule);
 /// The setting with a name; nullopt if there is none.
 [[nodiscard]] std::optional<AbopKey> abop_key(std::string_view name);
 /// The part of `span` without blanks at its ends.

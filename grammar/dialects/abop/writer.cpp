@@ -63,6 +63,10 @@ void AbopWriter::report(SourceSpan place, const std::string& message) {
 /// A predecessor of several letters and digits is one symbol wherever the text has it, the longest
 /// first.
 void AbopWriter::find_long_names() {
+    long_names_.insert(file_.names.begin(), file_.names.end());
+    if (file_.is_lpy) {
+        return;
+    }
     for (const AbopRule& rule : file_.rules) {
         const std::string_view predecessor = text(rule.predecessor);
         const std::size_t length = word_length(predecessor);
@@ -75,7 +79,7 @@ void AbopWriter::find_long_names() {
 std::size_t AbopWriter::long_name_length(std::string_view ahead) const {
     constexpr std::size_t kMaxLength = 16; // of a name in back quotes
     const std::size_t word = word_length(ahead.substr(0, kMaxLength));
-    if (word > 2 && ahead[1] == '_') { // a subscript: F_l
+    if (word > 2 && ahead[1] == '_' && !file_.is_lpy) { // a subscript: F_l
         std::size_t length = 3;
         while (length < word && is_digit(ahead[length])) {
             ++length;
@@ -162,7 +166,11 @@ std::string AbopWriter::label_of(const AbopRule& rule, std::size_t index) {
 
 void AbopWriter::write_rule(const AbopRule& rule, std::size_t index) {
     formals_.clear();
-    out_.put("#" + label_of(rule, index) + " : ", rule.label.value_or(rule.predecessor));
+    const std::string_view stage = rule.stage == AbopStage::Rewrite     ? "#"
+                                   : rule.stage == AbopStage::Decompose ? "#decompose "
+                                                                        : "#interpret ";
+    out_.put(std::string(stage) + label_of(rule, index) + " : ",
+             rule.label.value_or(rule.predecessor));
     const auto is_any = [&](SourceSpan context) { return text(context) == "*"; };
     if (rule.left && !is_any(*rule.left)) {
         write_modules(*rule.left, Place::Pattern);
@@ -239,7 +247,7 @@ bool AbopWriter::read_symbol(SourceSpan list, std::size_t& at, Symbol& symbol) {
         length = has_second ? 3 : has_letter ? 2 : 1;
     }
     const bool is_known = is_letter_or_digit(ahead[0]) || is_one_of(ahead[0], kSymbols) ||
-                          is_one_of(ahead[0], "@~;,#?");
+                          is_one_of(ahead[0], file_.is_lpy ? "@~;,?_" : "@~;,#?");
     symbol.span = {list.file, static_cast<std::uint32_t>(at),
                    static_cast<std::uint32_t>(at + length)};
     if (!is_known) {
@@ -269,8 +277,10 @@ void AbopWriter::name_symbol(Symbol& symbol, std::string_view written) {
     symbol.name = written;
     if (symbol.has_arguments && (written == ";" || written == ",")) {
         symbol.name = "'";
-    } else if (symbol.has_arguments && written == "#") {
+    } else if (symbol.has_arguments && (written == "#" || written == "_")) {
         symbol.name = "!";
+    } else if (!symbol.has_arguments && written == "@v") { // of cpfg
+        symbol.name = "$";
     } else if (written.size() > 1 || is_digit(written[0]) ||
                !(is_letter(written[0]) || is_one_of(written[0], kSymbols))) {
         symbol.name = "`" + std::string(written) + "`";
@@ -306,7 +316,7 @@ void AbopWriter::write_modules(SourceSpan list, Place place) {
         if (symbol.has_arguments) {
             write_arguments(symbol, place);
         }
-        const bool is_segment = written.size() > 1 && is_one_of(written[0], "Ff");
+        const bool is_segment = written.size() > 1 && is_one_of(written[0], "Ff") && !file_.is_lpy;
         if (is_segment && place != Place::List) {
             std::string head = symbol.name;
             const std::string_view inner = text(symbol.inner);
@@ -439,7 +449,16 @@ std::size_t AbopWriter::write_name(SourceSpan expression, std::size_t at) {
             return end;
         }
     }
-    if (is_call && (name == "random" || name == "rand" || name == "ran" || name == "rnd")) {
+    constexpr std::array<std::string_view, 7> kRadians{"sin",  "cos",  "tan",  "asin",
+                                                       "acos", "atan", "atan2"};
+    if (is_call && file_.is_lpy &&
+        std::find(kRadians.begin(), kRadians.end(), name) != kRadians.end()) {
+        context_.diagnostics.add(DiagnosticCode::ForeignFeature, span,
+                                 "`" + name + "` of Python has radians, that of lsc degrees");
+        return kNone;
+    }
+    if (is_call && (name == "uniform" || name == "random" || name == "rand" || name == "ran" ||
+                    name == "rnd")) {
         return write_random(span, open);
     }
     const bool is_own =

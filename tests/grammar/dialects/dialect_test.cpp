@@ -19,7 +19,7 @@ TEST_CASE("a dialect is found by its name") {
         CHECK(find_dialect(row.name) == row.dialect);
         CHECK(&row_of(row.dialect) == &row);
     }
-    CHECK(names.size() == 10);
+    CHECK(names.size() == 11);
     CHECK(dialects().front().dialect == Dialect::Lsys);
     CHECK(!find_dialect("none"));
     CHECK(!find_dialect(""));
@@ -52,6 +52,7 @@ TEST_CASE("the dialect of a text is recognised") {
         {"a.txt", "axiom: A\nangle: 30\nA -> FA\n", Dialect::Abop},
         {"a.l", "n=2\n\u03C9 : A\np1 : A \u2192 FA\n", Dialect::Abop},
         {"a.ls", "axiom: A\nA=FA\n", Dialect::Abop},
+        {"a.txt", "Axiom: A\nproduction:\nA --> FA\nendlsystem\n", Dialect::Lpy},
         {"a.ls", "3\n90\n5\nA\nA=FA\n@\n", Dialect::Lparser},
         {"a.ls", "recursion 3\naxiom A\nangle 20\nrule A = FA\n", Dialect::Lparser},
         {"a.l", "3\n90\n5\nA\nA=FA\n@\n", Dialect::L3d},
