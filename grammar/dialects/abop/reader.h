@@ -77,12 +77,5 @@ struct AbopFile {
 void split_contexts(const AbopFile& file, AbopRule& rule);
 /// The setting with a name; nullopt if there is none.
 [[nodiscard]] std::optional<AbopKey> abop_key(std::string_view name);
-/// The part of `span` without blanks at its ends.
-[[nodiscard]] SourceSpan trimmed_span(std::string_view text, SourceSpan span);
-/// The index of the `)` that closes the `(` at `at`; npos if none does before `end`.
-[[nodiscard]] std::size_t
-closing_parenthesis(std::string_view text, std::size_t at, std::size_t end);
-/// ASCII name of the Greek letter at the start of `text`, "alpha"; empty if there is none.
-[[nodiscard]] std::string_view greek_letter(std::string_view text);
 
 } // namespace lsys

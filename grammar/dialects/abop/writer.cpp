@@ -5,6 +5,7 @@
 #include "grammar/ast/reports.h"
 #include "grammar/base/characters.h"
 #include "grammar/base/utf8.h"
+#include "grammar/dialects/abop/text.h"
 #include "grammar/dialects/impl/letter_modules.h"
 #include "grammar/dialects/impl/syntax_message.h"
 #include "grammar/dialects/impl/text.h"
@@ -164,7 +165,32 @@ std::string AbopWriter::label_of(const AbopRule& rule, std::size_t index) {
     return name;
 }
 
+/// Whether the left side of a rule is one symbol that rules may replace; reports others.
+bool AbopWriter::check_predecessor(const AbopRule& rule) {
+    const SourceSpan span = rule.predecessor;
+    std::size_t at = span.begin;
+    Symbol symbol;
+    if (span.begin != span.end && !read_symbol(span, at, symbol)) {
+        return false;
+    }
+    const bool is_one = span.begin != span.end && at >= span.end;
+    if (is_one && !is_one_of(file_.text[span.begin], "[]{}.")) {
+        return true;
+    }
+    // The rules of one head of L-Py have one message.
+    if (!reported_head_ || reported_head_->begin != rule.head.begin) {
+        reported_head_ = rule.head;
+        report(span.begin == span.end ? rule.arrow : span,
+               is_one ? "a rule cannot replace brackets, braces and dots"
+                      : "the left side of a rule is one symbol");
+    }
+    return false;
+}
+
 void AbopWriter::write_rule(const AbopRule& rule, std::size_t index) {
+    if (!check_predecessor(rule)) {
+        return;
+    }
     formals_.clear();
     const std::string_view stage = rule.stage == AbopStage::Rewrite     ? "#"
                                    : rule.stage == AbopStage::Decompose ? "#decompose "

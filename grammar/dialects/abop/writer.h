@@ -7,6 +7,7 @@
 
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <set>
 #include <string>
 #include <string_view>
@@ -42,6 +43,7 @@ private:
 
     void find_long_names();
     void write_setting(AbopKey key, std::string_view before);
+    [[nodiscard]] bool check_predecessor(const AbopRule& rule);
     void write_rule(const AbopRule& rule, std::size_t index);
     void write_chance(SourceSpan chance);
     [[nodiscard]] std::string label_of(const AbopRule& rule, std::size_t index);
@@ -70,7 +72,8 @@ private:
     std::set<std::string, std::less<>> formals_;     // of the rule that is written
     std::map<std::size_t, Parentheses> parentheses_; // of expressions, by position
     std::set<std::size_t> range_ends_;               // `)` of random numbers
-    std::uint32_t depth_ = 0;                        // settings within settings
+    std::optional<SourceSpan> reported_head_;
+    std::uint32_t depth_ = 0; // settings within settings
 };
 
 } // namespace lsys

@@ -17,6 +17,7 @@
 #include <string>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 namespace lsys {
 
@@ -75,6 +76,7 @@ public:
             at = end + 1;
         }
         end_block();
+        report_python();
         return std::move(file_);
     }
 
@@ -84,12 +86,30 @@ private:
         return {root_, begin, begin + static_cast<std::uint32_t>(part.size())};
     }
 
-    void report_python(std::string_view line) {
-        context_.diagnostics.add(DiagnosticCode::ForeignFeature, span(line),
-                                 "this line is Python, which lsc does not run");
+    /// Reports the lines of Python since the last other line, as one mistake.
+    void report_python() {
+        if (python_.empty()) {
+            return;
+        }
+        Diagnostic& error = context_.diagnostics.add(
+            DiagnosticCode::ForeignFeature, python_.front(),
+            python_.size() == 1 ? "this line is Python, which lsc does not run"
+                                : "these lines are Python, which lsc does not run");
+        for (std::size_t i = 1; i < python_.size(); ++i) {
+            error.labels.push_back({python_[i], "and this one"});
+        }
+        python_.clear();
     }
 
     void read_line(std::string_view line, bool is_indented) {
+        const std::size_t before = python_.size();
+        read_statement(line, is_indented);
+        if (python_.size() == before) {
+            report_python();
+        }
+    }
+
+    void read_statement(std::string_view line, bool is_indented) {
         if (is_indented && block_) {
             read_block_line(line);
             return;
@@ -102,7 +122,7 @@ private:
                 context_.diagnostics.add(DiagnosticCode::ForeignIgnored, span(line),
                                          "this import of Python has no effect here");
             } else {
-                report_python(line);
+                python_.push_back(span(line));
             }
         }
     }
@@ -236,7 +256,7 @@ private:
             return;
         }
         has_produced_ = true;
-        report_python(line);
+        python_.push_back(span(line));
     }
 
     void end_block() {
@@ -273,6 +293,7 @@ private:
     std::optional<AbopRule> block_;       // the rule whose indented lines follow
     std::optional<SourceSpan> condition_; // of the next `produce`
     bool has_produced_ = false;
+    std::vector<SourceSpan> python_; // lines that are not reported yet
 };
 
 } // namespace
