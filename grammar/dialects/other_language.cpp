@@ -92,7 +92,9 @@ bool has_line(const std::vector<Line>& lines, std::string_view word) {
 
 /// The .lsys equivalents of the statements of an L-Py model, with the names of the model.
 std::string advice_for_lpy(const std::vector<Line>& lines, const Line& axiom) {
-    std::string text = "lsc does not read L-Py; rewrite the model: `" + std::string(axiom.text) +
+    std::string text = "give it a name that ends with `.lpy`, and lsc reads all but its Python; or "
+                       "rewrite the model: `" +
+                       std::string(axiom.text) +
                        "` is `#w : " + std::string(trimmed(axiom.text.substr(6))) + ";`";
     if (const Line* const length = find_line(lines, begins_with("derivation length:"))) {
         text += ", `" + std::string(length->text) +

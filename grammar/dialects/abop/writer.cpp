@@ -249,6 +249,12 @@ void AbopWriter::write_drawings() {
     for (const auto& [name, span] : leaves_) {
         out_.put("#object " + name + " LEAF;\n", span);
     }
+    if (sphere_) { // around the position; an object begins at the position
+        out_.put("#object `sphere` SPHERE;\n#interpret draw" + std::to_string(++index) +
+                     " : `@O`(d) : * : " +
+                     (file_.is_lpy ? "[f(-d)`sphere`(2*d)];\n" : "[f(-d/2)`sphere`(d)];\n"),
+                 *sphere_);
+    }
     for (const auto& [head, span] : segments_) {
         const std::size_t open = head.find('(');
         const char forward = head[1]; // after the back quote
@@ -313,6 +319,8 @@ void AbopWriter::name_symbol(Symbol& symbol, std::string_view written) {
     }
     if (written[0] == '~' && written.size() > 1) {
         leaves_.emplace(symbol.name, symbol.span);
+    } else if (written == "@O" && symbol.has_arguments && !sphere_) {
+        sphere_ = symbol.span;
     }
 }
 

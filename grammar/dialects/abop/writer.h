@@ -72,6 +72,7 @@ private:
     std::set<std::string, std::less<>> formals_;     // of the rule that is written
     std::map<std::size_t, Parentheses> parentheses_; // of expressions, by position
     std::set<std::size_t> range_ends_;               // `)` of random numbers
+    std::optional<SourceSpan> sphere_;               // the first `@O(d)`
     std::optional<SourceSpan> reported_head_;
     std::uint32_t depth_ = 0; // settings within settings
 };
