@@ -404,6 +404,10 @@ private:
         const bool has_argument = module.arguments.begin != module.arguments.end;
         const std::string_view symbol = text(module.span);
         if (symbol == "(" || symbol == ")") {
+            if (has_stray_ && symbol == ")") {
+                return; // of the `(` that has been reported
+            }
+            has_stray_ = true;
             context_.diagnostics.add(DiagnosticCode::ForeignFeature, module.span,
                                      "a parameter without a symbol: Lparser replaces text, and "
                                      "gives it to the symbol before");
@@ -482,6 +486,7 @@ private:
     std::map<char, SourceSpan> drawn_;              // rewritten commands of several modules
     std::map<std::string, SourceSpan> idle_;        // symbols that do nothing
     bool has_warned_ = false;
+    bool has_stray_ = false; // a `(` without a symbol has been reported
 };
 
 } // namespace
