@@ -551,7 +551,7 @@ private:
         }
         const std::size_t colon = words.find_first_of(":=");
         const SourceSpan name = span(line.begin, line.begin + std::min(colon, words.size()));
-        if (colon != kNone) {
+        if (colon != kNone && name.begin != name.end) {
             Diagnostic& error = context_->diagnostics.add(
                 DiagnosticCode::ForeignKey, name,
                 "`" + shown(text(name)) + "` is not a setting, and a rule has an arrow");

@@ -81,9 +81,9 @@ std::string without_comments(FileId file, std::string_view text, const ParseCont
                     context->diagnostics.add(DiagnosticCode::ForeignSyntax,
                                              {file, place, place + 2}, "`/*` is never closed");
                 }
-                close = text.size();
+                close = end; // the statements behind it are read
             }
-            const std::size_t after = std::min(close + 2, text.size());
+            const std::size_t after = close == end ? end : close + 2;
             blank(at, after);
             at = after;
             continue;

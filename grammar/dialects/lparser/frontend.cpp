@@ -19,6 +19,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace lsys {
@@ -208,7 +209,8 @@ private:
         const std::string_view left = trimmed(line.substr(0, std::min(equals, line.size())));
         if (equals == std::string_view::npos || left.size() != 1) {
             const std::string_view place = equals == std::string_view::npos ? line : left;
-            if (!report_foreign_look_alike(span(place), context_)) {
+            if (!std::exchange(has_other_, true) &&
+                !report_foreign_look_alike(span(place), context_)) {
                 context_.diagnostics.add(DiagnosticCode::ForeignSyntax, span(place),
                                          "a rule is one symbol, `=` and its replacement");
             }
@@ -250,6 +252,7 @@ private:
     const ParseContext& context_;
     std::string_view text_;
     LparserFile file_;
+    bool has_other_ = false; // one line that is no rule is reported
 };
 
 class LparserWriter {
