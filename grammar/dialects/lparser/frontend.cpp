@@ -18,6 +18,7 @@
 #include <array>
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -105,7 +106,7 @@ const Command* find_command(char32_t symbol) {
 
 /// Whether a command is one module, which a rule can replace.
 bool is_single(const Command& command) {
-    return command.bare.size() == 1 || command.symbol == '%';
+    return command.symbol == '%' || (command.bare.size() == 1 && command.symbol != 'z');
 }
 
 const Keyword* find_keyword(std::string_view line) {
@@ -263,6 +264,7 @@ public:
             const auto symbol = static_cast<unsigned char>(text(rule.left)[0]);
             rewritten_.insert({symbol, rule.left});
         }
+        find_parameters();
     }
 
     void write(std::string_view turtle) {
@@ -283,7 +285,13 @@ public:
                                          "Lparser takes the first of two rules for a symbol");
                 continue;
             }
-            write_rule(rule, index);
+            const bool has_parameter = with_parameter_.contains(text(rule.left)[0]);
+            if (!has_parameter || without_.contains(text(rule.left)[0])) {
+                write_rule(rule, "#r" + std::to_string(index), {});
+            }
+            if (has_parameter) {
+                write_rule(rule, "#r" + std::to_string(index) + "p", "x");
+            }
         }
         write_drawings();
         for (const auto& [name, span] : idle_) {
@@ -359,7 +367,45 @@ private:
         return is_letter_name || spelled[0] == '`' ? spelled : "`_" + spelled + "`";
     }
 
-    void write_rule(const Rule& rule, std::size_t index) {
+    /// Finds the symbols that occur with and without a parameter. Lparser replaces text, so the
+    /// parameter of a symbol becomes one of the last symbol of its replacement.
+    void find_parameters() {
+        std::map<char, std::string_view> right_sides;
+        for (const Rule& rule : file_.rules) {
+            right_sides.emplace(text(rule.left)[0], text(rule.right));
+        }
+        std::vector<std::pair<char, bool>> open; // symbols, with a parameter or without
+        const auto add = [&](char symbol, bool has_parameter) {
+            if ((has_parameter ? with_parameter_ : without_).insert(symbol).second) {
+                open.emplace_back(symbol, has_parameter);
+            }
+        };
+        // `last_has`: whether the last symbol gets a parameter.
+        const auto add_all = [&](std::string_view list, bool last_has) {
+            for (std::size_t at = 0; at < list.size();) {
+                const std::size_t next = list.find_first_not_of(kBlanks, at + 1);
+                const bool is_last = next == std::string_view::npos;
+                const bool has_own = !is_last && list[next] == '(';
+                add(list[at], has_own || (is_last && last_has));
+                const std::size_t close = has_own ? list.find(')', next) : next;
+                at = close == std::string_view::npos ? list.size() : has_own ? close + 1 : next;
+                at = std::min(list.find_first_not_of(kBlanks, at), list.size());
+            }
+        };
+        if (file_.axiom) {
+            add_all(text(*file_.axiom), false);
+        }
+        while (!open.empty()) {
+            const auto [symbol, has_parameter] = open.back();
+            open.pop_back();
+            if (const auto rule = right_sides.find(symbol); rule != right_sides.end()) {
+                add_all(rule->second, has_parameter);
+            }
+        }
+    }
+
+    /// Writes a production for a symbol without a parameter, or with the parameter `parameter`.
+    void write_rule(const Rule& rule, const std::string& label, std::string_view parameter) {
         const auto symbol = static_cast<unsigned char>(text(rule.left)[0]);
         const Command* const command = find_command(symbol);
         if (is_one_of(static_cast<char>(symbol), "[]{}.()")) {
@@ -367,13 +413,23 @@ private:
                                      "a rule for a bracket, a dot or a parenthesis");
             return;
         }
-        out_.put("#r" + std::to_string(index) + " : ", rule.left);
+        out_.put(label + " : ", rule.left);
         out_.put(command != nullptr && is_single(*command) ? std::string(command->bare)
                                                            : name_of(symbol),
                  rule.left);
+        out_.put(parameter.empty() ? "" : "(" + std::string(parameter) + ")", rule.left);
         out_.put(" : * : ", rule.left);
-        write_modules(rule.right);
+        write_modules(rule.right, parameter);
         out_.put(";\n", {out_.file(), rule.right.end, rule.right.end});
+    }
+
+    /// Whether a command stays a module of its own, which an `#interpret` production draws.
+    [[nodiscard]] bool is_deferred(const Command& command) const {
+        const auto has_rule = [&](char symbol) {
+            return rewritten_.contains(static_cast<unsigned char>(symbol));
+        };
+        return (has_rule(command.symbol) && !is_single(command)) ||
+               (command.symbol == 'z' && has_rule('f')) || (command.symbol == 'Z' && has_rule('F'));
     }
 
     /// Writes a command, whose parameter is `argument`, as modules of the turtle.
@@ -394,16 +450,18 @@ private:
         return modules;
     }
 
-    void write_modules(SourceSpan list) {
+    /// `tail`: parameter of the last module, if it has none of its own and is no bracket.
+    void write_modules(SourceSpan list, std::string_view tail = {}) {
         std::size_t polygons = 0; // open `{`
         read_letter_modules(list, context_, [&](const LetterModule& module) {
             polygons += module.character == '{' ? 1U : 0U;
             polygons -= module.character == '}' && polygons != 0 ? 1U : 0U;
-            write_module(module, polygons != 0);
+            const bool is_last = module.arguments.end == list.end;
+            write_module(module, polygons != 0, is_last ? tail : std::string_view());
         });
     }
 
-    void write_module(const LetterModule& module, bool in_polygon) {
+    void write_module(const LetterModule& module, bool in_polygon, std::string_view tail) {
         const bool has_argument = module.arguments.begin != module.arguments.end;
         const std::string_view symbol = text(module.span);
         if (symbol == "(" || symbol == ")") {
@@ -416,7 +474,7 @@ private:
                                      "gives it to the symbol before");
             return;
         }
-        std::string_view argument;
+        std::string_view argument = is_one_of(symbol[0], "[]{}.|$%") ? std::string_view() : tail;
         if (has_argument) {
             const std::string_view inner = text(module.arguments);
             argument = trimmed(inner.substr(1, inner.size() - 2));
@@ -429,23 +487,15 @@ private:
         const Command* const command = find_command(module.character);
         const bool is_rewritten = module.character < 0x100 &&
                                   rewritten_.contains(static_cast<unsigned char>(module.character));
-        if (has_argument && is_rewritten) {
-            Diagnostic& error = context_.diagnostics.add(
-                DiagnosticCode::ForeignFeature, module.arguments,
-                "`" + shown(symbol) +
-                    "` has a rule: Lparser replaces it, and leaves this parameter behind the "
-                    "replacement");
-            error.help.emplace_back("give the parameter to the last symbol of the replacement");
-            return;
-        }
         if (command == nullptr) {
             write_symbol(module, argument, is_rewritten);
             return;
         }
-        if (is_rewritten && !is_single(*command)) {
-            const std::string name = name_of(module.character);
+        if (is_deferred(*command)) {
             drawn_.insert_or_assign(command->symbol, module.span);
-            out_.put(name, module.span);
+            out_.put(name_of(module.character) +
+                         (argument.empty() ? "" : "(" + std::string(argument) + ")"),
+                     module.span);
         } else {
             out_.put(modules_of(*command, argument), module.span);
         }
@@ -457,7 +507,7 @@ private:
         const std::string name = name_of(module.character);
         out_.put(name, module.span);
         if (!argument.empty()) {
-            out_.put("(" + std::string(argument) + ")", module.arguments);
+            out_.put("(" + std::string(argument) + ")", module.span);
         }
         if (module.character == 't' && !is_rewritten && !has_warned_) {
             has_warned_ = true;
@@ -475,10 +525,16 @@ private:
         std::size_t index = 0;
         for (const auto& [symbol, span] : drawn_) {
             const Command& command = *find_command(static_cast<unsigned char>(symbol));
-            out_.put("#interpret draw" + std::to_string(++index) + " : " +
-                         name_of(static_cast<unsigned char>(symbol)) +
-                         " : * : " + std::string(command.bare) + ";\n",
-                     span);
+            for (const std::string_view parameter : {"", "x"}) {
+                if (!(parameter.empty() ? without_ : with_parameter_).contains(symbol)) {
+                    continue;
+                }
+                out_.put("#interpret draw" + std::to_string(++index) + " : " +
+                             name_of(static_cast<unsigned char>(symbol)) +
+                             (parameter.empty() ? "" : "(x)") +
+                             " : * : " + modules_of(command, parameter) + ";\n",
+                         span);
+            }
         }
     }
 
@@ -486,6 +542,8 @@ private:
     const ParseContext& context_;
     Translation& out_;
     std::map<unsigned char, SourceSpan> rewritten_; // symbols with a rule: the first
+    std::set<char> without_;                        // symbols that occur without a parameter
+    std::set<char> with_parameter_;                 // symbols that can have a parameter
     std::map<char, SourceSpan> drawn_;              // rewritten commands of several modules
     std::map<std::string, SourceSpan> idle_;        // symbols that do nothing
     bool has_warned_ = false;
