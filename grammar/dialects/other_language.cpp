@@ -243,6 +243,9 @@ std::optional<OtherLanguage> recognise_other_language(std::string_view text) {
     if (std::optional<OtherLanguage> other = recognise_lpy_lines(lines)) {
         return other;
     }
+    if (const DialectRow& lparser = row_of(Dialect::Lparser); !lparser.recognise(text).empty()) {
+        return language_at(&lines.front(), std::string(lparser.title), reading_of(lparser));
+    }
     for (const DialectRow& row : dialects()) {
         // Messages of .lsys explain the lines of the book's notation one by one.
         const bool is_explained =
