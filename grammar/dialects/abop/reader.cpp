@@ -180,6 +180,7 @@ private:
         const Found arrow = find_arrow(words);
         const bool has_arrow = arrow.begin != kNone || find_arrow(words, true).begin != kNone;
         if (read_define(line) || read_keys(line, has_arrow)) {
+            read_more();
             return;
         }
         if (has_arrow && arrow.begin == kNone) {
@@ -199,6 +200,7 @@ private:
             return;
         }
         if (read_constants(line)) {
+            read_more();
             return;
         }
         end_statement();
@@ -269,7 +271,8 @@ private:
     bool read_keys(SourceSpan line, bool has_arrow) {
         std::string_view words = text(line);
         std::size_t end = key_end(words);
-        std::string name = lowered(trimmed(words.substr(0, std::min(end, words.size()))));
+        constexpr std::size_t kMaxName = 40;
+        std::string name = lowered(trimmed(words.substr(0, std::min(end, kMaxName))));
         const Key* key = nullptr;
         if (end == kNone && (name.starts_with("#ignore ") || name.starts_with("#consider "))) {
             end = name.find(' ');
@@ -293,16 +296,20 @@ private:
         const SourceSpan rest = span(line.begin + value_end, line.end);
         add_setting(*key, span(line.begin, line.begin + end),
                     span(line.begin + end + 1, line.begin + value_end));
-        read_more(rest);
+        more_ = rest;
         return true;
     }
 
-    void read_more(SourceSpan rest) {
-        while (rest.begin != rest.end && is_one_of(file_.text[rest.begin], ",;")) {
-            rest = span(rest.begin + 1, rest.end);
-        }
-        if (rest.begin != rest.end && !read_keys(rest, false)) {
-            read_constants(rest);
+    /// Reads the settings of a line after its first one.
+    void read_more() {
+        while (more_.begin != more_.end) {
+            SourceSpan rest = std::exchange(more_, SourceSpan{});
+            while (rest.begin != rest.end && is_one_of(file_.text[rest.begin], ",;")) {
+                rest = span(rest.begin + 1, rest.end);
+            }
+            if (rest.begin != rest.end && !read_keys(rest, false)) {
+                read_constants(rest);
+            }
         }
     }
 
@@ -326,8 +333,9 @@ private:
             }
             const std::string_view rest = trimmed(words.substr(at + 1));
             const std::size_t next = key_end(rest);
-            const std::string name = lowered(trimmed(rest.substr(0, std::min(next, rest.size()))));
-            if (rest.empty() || (next != kNone && (find_key(name) != nullptr || is_name(name)))) {
+            const std::string name =
+                next == kNone ? std::string() : lowered(trimmed(rest.substr(0, next)));
+            if (rest.empty() || find_key(name) != nullptr || is_name(name)) {
                 return at;
             }
         }
@@ -426,7 +434,7 @@ private:
         } else {
             file_.constants.push_back({name, value});
         }
-        read_more(span(line.begin + value_end, line.end));
+        more_ = span(line.begin + value_end, line.end);
         return true;
     }
 
@@ -578,6 +586,7 @@ private:
     AbopFile file_;
     Open open_ = Open::Nothing; // the statement that an indented line continues
     SourceSpan open_span_;
+    SourceSpan more_;                 // the rest of the line after a setting
     std::vector<SourceSpan> bare_;    // lines of symbols before the first rule
     std::vector<SourceSpan> unread_;  // lines without meaning
     bool is_unread_reported_ = false; // one such line is reported
