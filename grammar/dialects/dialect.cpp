@@ -66,16 +66,23 @@ std::optional<Dialect> find_dialect(std::string_view name) {
 
 DetectedDialect detect_dialect(std::string_view path, std::string_view text) {
     // The extension alone decides, since mistakes and comments may make a text look like another
-    // dialect. Only `.l` is the extension of several programs.
+    // dialect. Only `.l` and `.ls` are extensions of several programs.
+    const bool is_shared = path.ends_with(".l") || path.ends_with(".ls");
     for (const DialectRow& row : kRows) {
-        if (!path.ends_with(".l") && has_extension(path, row.extensions)) {
+        if (!is_shared && has_extension(path, row.extensions)) {
             return {row.dialect, "its name"};
         }
+    }
+    if (is_other_program(text)) {
+        return {Dialect::Lsys, "its content"}; // its front end names the language
     }
     // If the text fits several dialects, the extension decides.
     DetectedDialect found;
     for (const DialectRow& row : kRows) {
-        if (row.recognise == nullptr || (found.dialect && !has_extension(path, row.extensions))) {
+        const bool has_own = has_extension(path, row.extensions);
+        // Formats with extensions of their own have no files `.ls`.
+        const bool has_other = path.ends_with(".ls") && !row.extensions.empty() && !has_own;
+        if (row.recognise == nullptr || has_other || (found.dialect && !has_own)) {
             continue;
         }
         if (const std::string_view by = row.recognise(text); !by.empty()) {
@@ -84,6 +91,9 @@ DetectedDialect detect_dialect(std::string_view path, std::string_view text) {
     }
     if (found.dialect) {
         return found;
+    }
+    if (is_unread_language(text)) {
+        return {Dialect::Lsys, "its content"};
     }
     for (const DialectRow& row : kRows) {
         if (has_extension(path, row.extensions)) {

@@ -53,8 +53,8 @@ struct DetectedDialect {
     std::string_view evidence;      // for messages: "its first word, `LSYSTEM`"
 };
 /// Detects the dialect from the extension of `path`; if no dialect has the extension, or if it is
-/// `.l`, which several programs use, from the content of `text`. A `.l` file of unknown content is
-/// L3D.
+/// `.l` or `.ls`, which several programs use, from the content of `text`. A `.l` file of unknown
+/// content is L3D. A text of a language that lsc does not read is .lsys, whose front end names it.
 [[nodiscard]] DetectedDialect detect_dialect(std::string_view path, std::string_view text);
 
 /// Names of the systems of `text`, in order; none for dialects whose files hold one system.

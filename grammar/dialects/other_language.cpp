@@ -92,7 +92,9 @@ bool has_line(const std::vector<Line>& lines, std::string_view word) {
 
 /// The .lsys equivalents of the statements of an L-Py model, with the names of the model.
 std::string advice_for_lpy(const std::vector<Line>& lines, const Line& axiom) {
-    std::string text = "lsc does not read L-Py; rewrite the model: `" + std::string(axiom.text) +
+    std::string text = "give it a name that ends with `.lpy`, and lsc reads all but its Python; or "
+                       "rewrite the model: `" +
+                       std::string(axiom.text) +
                        "` is `#w : " + std::string(trimmed(axiom.text.substr(6))) + ";`";
     if (const Line* const length = find_line(lines, begins_with("derivation length:"))) {
         text += ", `" + std::string(length->text) +
@@ -112,19 +114,42 @@ std::string advice_for_lpy(const std::vector<Line>& lines, const Line& axiom) {
     return text;
 }
 
-/// Recognises models of L-Py and lpfg: programs with `Axiom:` and `production:`.
-std::optional<OtherLanguage> recognise_lpy(const std::vector<Line>& lines) {
+/// Recognises files of programs that have parts of a grammar, and that lsc does not read: lpfg,
+/// RubberPlant, and the panels of L-studio.
+std::optional<OtherLanguage> recognise_program(const std::vector<Line>& lines) {
+    const Line* const header = find_line(lines, begins_with("#include <lpfgall.h>"));
     const Line* const axiom = find_line(lines, begins_with("axiom:"));
-    if (has_line(lines, "#include <lpfgall.h>") ||
-        (axiom != nullptr &&
-         (has_line(lines, "module ") || has_line(lines, "derivation length:")) &&
-         find_line(lines, [](std::string_view line) {
-             return line.find("produce ") != std::string_view::npos && line.ends_with(';');
-         }) != nullptr)) {
+    const bool produces = (axiom != nullptr || has_line(lines, "module ")) &&
+                          (has_line(lines, "module ") || has_line(lines, "derivation length:")) &&
+                          find_line(lines, [](std::string_view line) {
+                              const bool has_end = line.ends_with(';') || line.ends_with('}');
+                              return line.find("produce ") != std::string_view::npos && has_end;
+                          }) != nullptr;
+    if (header != nullptr || produces) {
         return language_at(
-            axiom != nullptr ? axiom : &lines.front(), "an lpfg model",
+            axiom != nullptr    ? axiom
+            : header != nullptr ? header
+                                : &lines.front(),
+            "an lpfg model",
             "lsc does not read lpfg; its productions are C++ and have to be rewritten");
     }
+    const Line* const system = find_line(lines, [](std::string_view line) {
+        return line.starts_with("lsystem ") && line.ends_with('{');
+    });
+    if (system != nullptr) {
+        return language_at(system, "a file of RubberPlant",
+                           "lsc does not read RubberPlant; write the lines in the book's notation, "
+                           "`axiom: F`, `angle: 90` and `F -> F+F`, into a file `.ls`");
+    }
+    return lines.front().text.starts_with("panel name:")
+               ? language_at(&lines.front(), "a panel of L-studio",
+                             "a panel holds sliders; the grammar is another file of the object")
+               : std::nullopt;
+}
+
+/// Recognises models of L-Py: programs with `Axiom:` and `production:`.
+std::optional<OtherLanguage> recognise_lpy_lines(const std::vector<Line>& lines) {
+    const Line* const axiom = find_line(lines, begins_with("axiom:"));
     const bool is_lpy = has_line(lines, "derivation length:") || has_line(lines, "production:") ||
                         has_line(lines, "endlsystem") || has_line(lines, "interpretation:") ||
                         find_line(lines, [](std::string_view line) {
@@ -133,21 +158,6 @@ std::optional<OtherLanguage> recognise_lpy(const std::vector<Line>& lines) {
     return axiom != nullptr && is_lpy
                ? language_at(axiom, "an L-Py model", advice_for_lpy(lines, *axiom))
                : std::nullopt;
-}
-
-/// Recognises files of Lparser: recursion, angle and thickness, the axiom, rules, and a line `@`.
-std::optional<OtherLanguage> recognise_lparser(const std::vector<Line>& lines) {
-    std::vector<const Line*> content;
-    for (const Line& line : lines) {
-        if (!line.text.starts_with('#')) {
-            content.push_back(&line);
-        }
-    }
-    const bool has_numbers = content.size() >= 4 && is_number(content[0]->text) &&
-                             is_number(content[1]->text) && is_number(content[2]->text);
-    return has_numbers ? language_at(content[0], "an Lparser file",
-                                     "give it a name that ends with `.l`, or write `--dialect l3d`")
-                       : std::nullopt;
 }
 
 /// Recognises formats that hold no grammar.
@@ -170,12 +180,22 @@ std::optional<OtherLanguage> recognise_format(const std::vector<Line>& lines) {
                            "a scene has a name that ends with `.toml`: `lsc forest scene.toml`");
     }
     const bool has_heading = text.starts_with("# ") || text.starts_with("## ");
+    const bool has_fence = find_line(lines, begins_with("```")) != nullptr;
     const Line* const mark = find_line(lines, [](std::string_view line) {
         return line.starts_with("```") || line.starts_with("## ") || line.starts_with("### ") ||
                line.starts_with("- ") || line.starts_with("| ");
     });
-    if (has_heading && mark != nullptr) {
+    if (has_fence || (has_heading && mark != nullptr)) {
         return language_at(&first, "Markdown", "save the grammar alone, as plain text");
+    }
+    const Line* const scene = find_line(lines, [](std::string_view line) {
+        return line.starts_with("#declare ") || line.starts_with("#macro ") ||
+               line.starts_with("light_source") || line.starts_with("camera {") ||
+               line.starts_with("global_settings");
+    });
+    if (scene != nullptr) {
+        return language_at(scene, "a scene of POV-Ray",
+                           "a grammar has statements such as `#w : F;`");
     }
     const Line* const import = find_line(lines, [](std::string_view line) {
         return (line.starts_with("import ") || line.starts_with("from ") ||
@@ -186,13 +206,17 @@ std::optional<OtherLanguage> recognise_format(const std::vector<Line>& lines) {
         return language_at(import, "a Python program",
                            "a grammar has statements such as `#w : F;`");
     }
-    return language_at(find_line(lines, begins_with("#include <")), "a C program",
-                       "a grammar has statements such as `#w : F;`");
+    const Line* const code = find_line(lines, [](std::string_view line) {
+        return line.starts_with("#include <") || line.starts_with("int main(") ||
+               line.starts_with("void main(");
+    });
+    return language_at(code, "a C program", "a grammar has statements such as `#w : F;`");
 }
 
 /// Help text for a file in a dialect that lsc reads.
 std::string reading_of(const DialectRow& row) {
-    const std::string_view extensions = row.extensions.empty() ? ".l" : row.extensions;
+    const std::string_view own = row.dialect == Dialect::Lparser ? ".ls" : ".l";
+    const std::string_view extensions = row.extensions.empty() ? own : row.extensions;
     return "give it a name that ends with `" +
            std::string(extensions.substr(0, extensions.find(' '))) + "`, or write `--dialect " +
            std::string(row.name) + "`";
@@ -202,26 +226,48 @@ std::string reading_of(const DialectRow& row) {
 
 std::optional<OtherLanguage> recognise_other_language(std::string_view text) {
     const std::vector<Line> lines = lines_of(text);
-    if (lines.empty() || find_line(lines, [](std::string_view line) {
-                             return is_lsys_statement(line);
-                         }) != nullptr) {
+    if (lines.empty()) {
+        return std::nullopt;
+    }
+    if (std::optional<OtherLanguage> program = recognise_program(lines)) {
+        return program;
+    }
+    if (find_line(lines, [](std::string_view line) { return is_lsys_statement(line); }) !=
+        nullptr) {
         return std::nullopt;
     }
     if (const DialectRow& cpfg = row_of(Dialect::Cpfg); !cpfg.recognise(text).empty()) {
         return language_at(find_line(lines, begins_with("lsystem")), std::string(cpfg.title),
                            reading_of(cpfg));
     }
-    for (const auto recognise : {recognise_lpy, recognise_lparser}) {
-        if (std::optional<OtherLanguage> other = recognise(lines)) {
-            return other;
-        }
+    if (std::optional<OtherLanguage> other = recognise_lpy_lines(lines)) {
+        return other;
+    }
+    if (const DialectRow& lparser = row_of(Dialect::Lparser); !lparser.recognise(text).empty()) {
+        return language_at(&lines.front(), std::string(lparser.title), reading_of(lparser));
     }
     for (const DialectRow& row : dialects()) {
-        if (row.recognise != nullptr && !row.recognise(text).empty()) {
+        // Messages of .lsys explain the lines of the book's notation one by one.
+        const bool is_explained =
+            row.recognise == nullptr || row.dialect == Dialect::Abop || row.dialect == Dialect::Lpy;
+        if (!is_explained && !row.recognise(text).empty()) {
             return language_at(&lines.front(), std::string(row.title), reading_of(row));
         }
     }
     return recognise_format(lines);
+}
+
+bool is_other_program(std::string_view text) {
+    const std::vector<Line> lines = lines_of(text);
+    return !lines.empty() && recognise_program(lines).has_value();
+}
+
+bool is_unread_language(std::string_view text) {
+    const std::vector<Line> lines = lines_of(text);
+    return !lines.empty() &&
+           find_line(lines, [](std::string_view line) { return is_lsys_statement(line); }) ==
+               nullptr &&
+           (recognise_lpy_lines(lines) || recognise_format(lines));
 }
 
 bool is_foreign_notation(std::string_view text) {
@@ -229,7 +275,7 @@ bool is_foreign_notation(std::string_view text) {
     if (lines.empty()) {
         return false;
     }
-    if (recognise_lpy(lines)) {
+    if (recognise_lpy_lines(lines)) {
         return true;
     }
     std::size_t count = 0;

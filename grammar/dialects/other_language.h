@@ -20,8 +20,13 @@ struct OtherLanguage {
 
 /// The language of a text without any statement of .lsys; nullopt if no line shows it.
 [[nodiscard]] std::optional<OtherLanguage> recognise_other_language(std::string_view text);
-/// Whether a text whose name does not show its language is in the notation of papers or of L-Py. No
-/// dialect reads these notations, but messages explain them.
+/// Whether a text is of a program that no dialect reads, although parts of it may look like one:
+/// lpfg, RubberPlant, a panel of L-studio.
+[[nodiscard]] bool is_other_program(std::string_view text);
+/// Whether a text that no dialect recognises is of a language that lsc does not read: JSON, C ...
+[[nodiscard]] bool is_unread_language(std::string_view text);
+/// Whether a text whose name does not show its language is in the notation of papers or of L-Py.
+/// Messages explain the lines of these notations that no dialect reads.
 [[nodiscard]] bool is_foreign_notation(std::string_view text);
 
 } // namespace lsys

@@ -59,7 +59,7 @@ Result<Dialect> dialect_of(const std::string& path,
         return requested ? Result<Dialect>(*requested)
                          : Error{fmt::format("there is no dialect `{}`", dialect)};
     }
-    if (path.ends_with(kModuleExtension)) {
+    if (path.ends_with(kModuleExtension) || path.ends_with(".toml")) {
         return unknown_dialect(path);
     }
     if (is_module_file(bytes)) {

@@ -24,6 +24,8 @@ struct Foreign {
 
 std::vector<Foreign> foreign_samples() {
     return {
+        {"abop/rowan.ls", "", "6", ""},
+        {"abop/signal.txt", "", "12", ""},
         {"fractint/curves.l", "Snowflake", "4", "1792"},
         {"fractint/curves.l", "Dragon", "8", "1022"},
         {"fractint/curves.l", "ColourBush", "3", "1685"},
@@ -38,6 +40,8 @@ std::vector<Foreign> foreign_samples() {
         {"cpfg/figure.l", "", "3", "190"},
         {"cpfg/fern.l", "", "14", "179"},
         {"cpfg/shower.l", "", "9", ""},
+        {"lpy/umbel.lpy", "", "12", ""},
+        {"lparser/fern.ls", "", "8", ""},
         {"l3d/larch.l3d", "", "6", "1147"},
         {"l3d/rose.l++", "", "5", ""},
     };

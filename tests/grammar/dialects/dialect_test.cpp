@@ -19,7 +19,7 @@ TEST_CASE("a dialect is found by its name") {
         CHECK(find_dialect(row.name) == row.dialect);
         CHECK(&row_of(row.dialect) == &row);
     }
-    CHECK(names.size() == 8);
+    CHECK(names.size() == 11);
     CHECK(dialects().front().dialect == Dialect::Lsys);
     CHECK(!find_dialect("none"));
     CHECK(!find_dialect(""));
@@ -49,6 +49,16 @@ TEST_CASE("the dialect of a text is recognised") {
         {"a.txt", "A\nA=FA\n", Dialect::Houdini},
         {"a.rules", "A\nA=FA\n", Dialect::Carey},
         {"a", "axiom: A\nangle: 30\nA=FA\n", Dialect::Carey},
+        {"a.txt", "axiom: A\nangle: 30\nA -> FA\n", Dialect::Abop},
+        {"a.l", "n=2\n\u03C9 : A\np1 : A \u2192 FA\n", Dialect::Abop},
+        {"a.ls", "axiom: A\nA=FA\n", Dialect::Abop},
+        {"a.txt", "Axiom: A\nproduction:\nA --> FA\nendlsystem\n", Dialect::Lpy},
+        {"a.ls", "3\n90\n5\nA\nA=FA\n@\n", Dialect::Lparser},
+        {"a.ls", "recursion 3\naxiom A\nangle 20\nrule A = FA\n", Dialect::Lparser},
+        {"a.l", "3\n90\n5\nA\nA=FA\n@\n", Dialect::L3d},
+        {"a.l", "#include <lpfgall.h>\nmodule A();\n", Dialect::Lsys},
+        {"a.ls", "lsystem one {\n axiom : F;\n r: F -> FF;\n}\n", Dialect::Lsys},
+        {"a.json", "{\n\"axiom\": \"F\"\n}\n", Dialect::Lsys},
         {"a.l", "Lsystem: 1\nAxiom: A\n", Dialect::Cpfg},
         {"a.l", "one { axiom A }\n", Dialect::Fractint},
         {"a.txt", "3 90 5\nA\nA=FA\n@\n", Dialect::L3d},

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: MIT
+// Writes a text in the notation of the book as .lsys text.
+#pragma once
+
+#include "grammar/ast/translation.h"
+#include "grammar/dialects/abop/reader.h"
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <set>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace lsys {
+
+class AbopWriter {
+public:
+    AbopWriter(const AbopFile& file, const ParseContext& context, Translation& out);
+
+    /// Writes all statements. `turtle`: name of the profile in `#set turtle`.
+    void write(std::string_view turtle);
+
+private:
+    enum class Place : std::uint8_t { Word, Pattern, List };
+    struct Symbol {
+        SourceSpan span;
+        std::string name; // in .lsys, in back quotes where necessary
+        SourceSpan inner; // between the parentheses; empty: there are none
+        bool has_arguments = false;
+    };
+
+    struct Parentheses {
+        std::size_t close = 0;
+        bool is_empty = true;
+        bool has_comma = false; // between two arguments
+    };
+
+    [[nodiscard]] std::string_view text(SourceSpan span) const { return file_.of(span); }
+    [[nodiscard]] SourceSpan part(std::size_t begin, std::size_t end) const;
+    void report(SourceSpan place, const std::string& message);
+
+    void find_long_names();
+    void write_setting(AbopKey key, std::string_view before);
+    [[nodiscard]] bool check_predecessor(const AbopRule& rule);
+    void write_rule(const AbopRule& rule, std::size_t index);
+    void write_chance(SourceSpan chance);
+    [[nodiscard]] std::string label_of(const AbopRule& rule, std::size_t index);
+    void write_drawings();
+
+    void write_modules(SourceSpan list, Place place);
+    [[nodiscard]] bool read_symbol(SourceSpan list, std::size_t& at, Symbol& symbol);
+    [[nodiscard]] std::size_t long_name_length(std::string_view ahead) const;
+    void name_symbol(Symbol& symbol, std::string_view written);
+    void write_arguments(const Symbol& symbol, Place place);
+
+    [[nodiscard]] bool find_parentheses(SourceSpan expression);
+    /// `is_condition`: a single `=` compares.
+    void write_expression(SourceSpan expression, bool is_condition);
+    [[nodiscard]] std::size_t write_name(SourceSpan expression, std::size_t at);
+    [[nodiscard]] std::size_t write_random(SourceSpan name, std::size_t open);
+    [[nodiscard]] std::size_t write_operator(std::size_t at, std::size_t end, bool is_condition);
+
+    const AbopFile& file_;
+    const ParseContext& context_;
+    Translation& out_;
+    std::set<std::string, std::less<>> long_names_; // symbols of several characters
+    std::map<std::string, SourceSpan> leaves_;      // surfaces `~X`
+    std::map<std::string, SourceSpan> segments_;    // heads that draw as F or f, in .lsys
+    std::set<std::string> labels_;
+    std::set<std::string, std::less<>> formals_;     // of the rule that is written
+    std::map<std::size_t, Parentheses> parentheses_; // of expressions, by position
+    std::set<std::size_t> range_ends_;               // `)` of random numbers
+    std::optional<SourceSpan> sphere_;               // the first `@O(d)`
+    std::optional<SourceSpan> reported_head_;
+    std::uint32_t depth_ = 0; // settings within settings
+};
+
+} // namespace lsys

@@ -1,0 +1,5 @@
+import turtle
+axiom = "F"
+rules = {"F": "F-F"}
+def draw():
+    pass

@@ -1,0 +1,12 @@
+// a curve
+lsystem dragon {
+    vocabulary {
+        L, R: draw;
+    }
+    rules {
+        axiom -> L;
+        L -> L+R+;
+        R -> -L-R;
+    }
+    angle = 90;
+}
