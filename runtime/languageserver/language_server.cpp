@@ -210,25 +210,24 @@ void LanguageServer::State::open(const Json& params) {
 
 void LanguageServer::State::change(const Json& params) {
     Document& document = workspace.document(params.at("textDocument").at("uri"));
-    const std::vector<std::string> included = included_files(document.path, document.text);
+    std::string text = document.text; // unchanged if a change is malformed
     for (const Json& change : params.at("contentChanges")) {
-        const auto text = change.at("text").get<std::string>();
+        const auto replacement = change.at("text").get<std::string>();
         if (!change.contains("range")) {
-            document.text = text;
+            text = replacement;
             continue;
         }
-        const TextPositions positions(document.text, workspace.editor.encoding);
-        const auto offset = [&](const Json& position) {
-            return positions.offset({position.at("line").get<std::uint32_t>(),
-                                     position.at("character").get<std::uint32_t>()});
-        };
-        const std::size_t begin = offset(change.at("range").at("start"));
-        const std::size_t end = std::max(begin, offset(change.at("range").at("end")));
-        document.text.replace(begin, end - begin, text);
+        const TextPositions positions(text, workspace.editor.encoding);
+        const std::size_t begin = positions.offset(position_of(change.at("range").at("start")));
+        const std::size_t end =
+            std::max(begin, positions.offset(position_of(change.at("range").at("end"))));
+        text.replace(begin, end - begin, replacement);
     }
-    document.version = params.at("textDocument").value("version", document.version + 1);
     // A file that is no longer included, or included now, is checked differently.
-    const bool includes_same = included == included_files(document.path, document.text);
+    const bool includes_same =
+        included_files(document.path, document.text) == included_files(document.path, text);
+    document.version = params.at("textDocument").value("version", document.version + 1);
+    document.text = std::move(text);
     mark(includes_same ? document.path : std::string());
 }
 

@@ -189,6 +189,8 @@ Json code_actions(Workspace& workspace, const Json& params) {
     Document& document = workspace.document(params.at("textDocument").at("uri"));
     const Json& context = params.at("context");
     const Json& range = params.at("range");
+    static_cast<void>(position_of(range.at("start")));
+    static_cast<void>(position_of(range.at("end")));
     Json actions = Json::array();
     bool has_certain = context.contains("only");
     if (is_wanted(context, "quickfix")) {

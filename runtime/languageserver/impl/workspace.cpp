@@ -376,10 +376,22 @@ Json Places::location(const TextPlace& place) {
     return {{"uri", workspace_.uri_of(place.path)}, {"range", range(place)}};
 }
 
+TextPosition position_of(const Json& position) {
+    const auto number = [&](const char* name) {
+        const Json& value = position.at(name);
+        if (!value.is_number_unsigned()) {
+            throw RequestError(RpcError::InvalidParams,
+                               std::string("`") + name + "` is no whole number from 0");
+        }
+        constexpr std::uint64_t kMax = 0x7FFFFFFF; // as in the specification
+        return static_cast<std::uint32_t>(std::min(value.get<std::uint64_t>(), kMax));
+    };
+    return {number("line"), number("character")};
+}
+
 std::uint32_t Places::offset(const std::string& path, const Json& position) {
     const File& in = file(path);
-    const std::size_t found = in.positions->offset(
-        {position.at("line").get<std::uint32_t>(), position.at("character").get<std::uint32_t>()});
+    const std::size_t found = in.positions->offset(position_of(position));
     return static_cast<std::uint32_t>(std::max(found, in.mark) - in.mark);
 }
 

@@ -140,6 +140,9 @@ private:
 [[nodiscard]] std::vector<std::string> included_files(const std::string& path,
                                                       std::string_view text);
 
+/// A `Position`. Throws RequestError if its numbers are not whole, or below 0.
+[[nodiscard]] TextPosition position_of(const Json& position);
+
 /// Converts places of files to JSON, and reads each file once.
 class Places {
 public:
