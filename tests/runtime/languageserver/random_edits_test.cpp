@@ -108,30 +108,47 @@ constexpr std::array kMethodsInBatches{"textDocument/documentSymbol", "textDocum
                                        "textDocument/diagnostic", "textDocument/codeLens"};
 constexpr std::array<const char*, 3> kLanguages{"lsys", "lsys", "cpfg"};
 
-/// Notifications and requests that must have no effect; requests get an error.
-const std::array kMistakes{
-    R"({"jsonrpc":"2.0","method":"textDocument/didChange","params":{"textDocument":{"uri":"file:///p/closed.lsys","version":2},"contentChanges":[{"text":""}]}})",
-    R"({"jsonrpc":"2.0","method":"textDocument/didChange","params":{"textDocument":{"uri":"file:///p/a.lsys"}}})",
-    R"({"jsonrpc":"2.0","method":"textDocument/didChange","params":[]})",
-    R"({"jsonrpc":"2.0","method":"textDocument/didClose","params":{"textDocument":{"uri":"file:///p/closed.lsys"}}})",
-    R"({"jsonrpc":"2.0","method":"textDocument/didOpen","params":{"textDocument":{"uri":"file:///p/a.lsys"}}})",
-    R"({"jsonrpc":"2.0","method":"textDocument/didOpen"})",
-    R"({"jsonrpc":"2.0","method":"workspace/didChangeWorkspaceFolders","params":{"event":{}}})",
-    R"({"jsonrpc":"2.0","method":"initialized","params":{}})",
-    R"({"jsonrpc":"2.0","method":"$/cancelRequest","params":{"id":[1]}})",
-    R"({"jsonrpc":"2.0","id":0,"method":"initialize","params":{"capabilities":{}}})",
-    R"({"jsonrpc":"2.0","id":0,"method":"textDocument/hover","params":{"textDocument":{"uri":"file:///p/a.lsys"},"position":{"line":-1}}})",
-    R"({"jsonrpc":"2.0","id":0,"method":"textDocument/hover","params":{"textDocument":{"uri":4},"position":{"line":0,"character":0}}})",
-    R"({"jsonrpc":"2.0","id":0,"method":"textDocument/hover","params":{"textDocument":{"uri":"file:///p/closed.lsys"},"position":{"line":0,"character":0}}})",
-    R"({"jsonrpc":"2.0","id":0,"method":"textDocument/rename","params":{"textDocument":{"uri":"file:///p/a.lsys"},"position":{"line":0,"character":0}}})",
-    R"({"jsonrpc":"2.0","id":0,"method":"textDocument/codeAction","params":{"textDocument":{"uri":"file:///p/a.lsys"},"range":0,"context":{}}})",
-    R"({"jsonrpc":"2.0","id":0,"method":"no/such/method","params":{}})",
-    R"({"jsonrpc":"2.0","id":0})",
-    R"({"jsonrpc":"2.0","id":0,"method":7})",
-    R"([{"jsonrpc":"2.0","id":0,"method":"shutdown"}])",
-    R"("shutdown")",
-    "\xFF\xFE",
+/// A message; without a number it is a notification.
+struct Mistake {
+    const char* method;
+    const char* params; // JSON
+    bool is_request;
 };
+/// Messages that must have no effect; requests get an error.
+const std::array kMistakes{
+    Mistake{"textDocument/didChange",
+            R"({"textDocument":{"uri":"file:///p/closed.lsys"},"contentChanges":[{"text":""}]})",
+            false},
+    Mistake{"textDocument/didChange", R"({"textDocument":{"uri":"file:///p/a.lsys"}})", false},
+    Mistake{"textDocument/didChange",
+            R"({"textDocument":{"uri":"file:///p/a.lsys"},"contentChanges":[{"text":""},{}]})",
+            false},
+    Mistake{"textDocument/didChange", "[]", false},
+    Mistake{"textDocument/didClose", R"({"textDocument":{"uri":"file:///p/closed.lsys"}})", false},
+    Mistake{"textDocument/didOpen", R"({"textDocument":{"uri":"file:///p/a.lsys"}})", false},
+    Mistake{"textDocument/didOpen", "null", false},
+    Mistake{"workspace/didChangeWorkspaceFolders", R"({"event":{}})", false},
+    Mistake{"initialized", "{}", false},
+    Mistake{"$/cancelRequest", R"({"id":[1]})", false},
+    Mistake{"initialize", R"({"capabilities":{}})", true},
+    Mistake{"textDocument/hover",
+            R"({"textDocument":{"uri":"file:///p/a.lsys"},"position":{"line":-1,"character":0}})",
+            true},
+    Mistake{"textDocument/hover",
+            R"({"textDocument":{"uri":4},"position":{"line":0,"character":0}})", true},
+    Mistake{"textDocument/hover",
+            R"({"textDocument":{"uri":"file:///p/no"},"position":{"line":0,"character":0}})", true},
+    Mistake{"textDocument/rename",
+            R"({"textDocument":{"uri":"file:///p/a.lsys"},"position":{"line":0,"character":0}})",
+            true},
+    Mistake{"textDocument/codeAction",
+            R"({"textDocument":{"uri":"file:///p/a.lsys"},"range":0,"context":{}})", true},
+    Mistake{"no/such/method", "{}", true},
+};
+/// Bodies that are no messages.
+const std::array kNonsense{"\xFF\xFE", "\"shutdown\"", "{",
+                           R"({"jsonrpc":"2.0","id":1,"method":7})",
+                           R"([{"jsonrpc":"2.0","id":1,"method":"shutdown"}])"};
 
 class FuzzedClient {
 public:
@@ -272,14 +289,21 @@ private:
     }
 
     void mistake() {
-        const std::string body = one_of(kMistakes);
-        editor_.responses.clear();
-        send_bytes(framed(body));
-        if (body.find(R"({"jsonrpc":"2.0","id":0)") == 0) {
-            CAPTURE(body);
-            REQUIRE(editor_.responses.contains(0));
-            CHECK(editor_.responses.at(0).contains("error"));
+        if (below(5) == 0) {
+            send_bytes(framed(one_of(kNonsense)));
+            return;
         }
+        const Mistake& wrong = one_of(kMistakes);
+        Json message{
+            {"jsonrpc", "2.0"}, {"method", wrong.method}, {"params", Json::parse(wrong.params)}};
+        if (wrong.is_request) {
+            message["id"] = 0;
+        }
+        editor_.responses.clear();
+        send_bytes(framed(message.dump()));
+        CAPTURE(message);
+        CHECK(editor_.responses.contains(0) == wrong.is_request);
+        CHECK((!wrong.is_request || editor_.responses.at(0).contains("error")));
     }
 
     void reopen() {
