@@ -417,6 +417,11 @@ void add_modules(const NameIndex& index, Completion& items) {
             }
         }
     }
+    for (const NameUse& use : index.uses) { // further names of one `#module`
+        if (use.kind == NameKind::Module && use.is_definition) {
+            items.add(use.name, ItemKind::Class, "");
+        }
+    }
     for (const TurtleCommand& command : turtle_commands(index.profile)) {
         items.add_documented(command.name, ItemKind::Operator,
                              call_text(command.name, command.parameters),

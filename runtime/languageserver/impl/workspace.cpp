@@ -181,6 +181,11 @@ FileLoader Workspace::loader() const {
     return make_loader(host.project, host.project.limits.max_bytes);
 }
 
+bool Workspace::is_lsys_text(const std::string& path) const {
+    const auto open = documents.find(path);
+    return open != documents.end() ? open->second.has_lsys_text() : path.ends_with(".lsys");
+}
+
 std::shared_ptr<const IndexedGrammar> Workspace::parse(const std::string& root,
                                                        const FileLoader& load) const {
     auto grammar = std::make_shared<IndexedGrammar>();
@@ -194,12 +199,10 @@ std::shared_ptr<const IndexedGrammar> Workspace::parse(const std::string& root,
     if (!text) {
         return nullptr;
     }
-    const auto open = documents.find(root);
-    const bool is_lsys =
-        open != documents.end() ? open->second.has_lsys_text() : root.ends_with(".lsys");
+    grammar->is_lsys = is_lsys_text(root);
     const Dialect dialect =
-        is_lsys ? Dialect::Lsys
-                : detect_dialect(root, text.value()).dialect.value_or(Dialect::Lsys);
+        grammar->is_lsys ? Dialect::Lsys
+                         : detect_dialect(root, text.value()).dialect.value_or(Dialect::Lsys);
     parse_grammar(root, text.value(), dialect, record, grammar->parsed);
     grammar->index = index_names(grammar->parsed);
     return grammar;
@@ -209,10 +212,12 @@ std::shared_ptr<const IndexedGrammar> Workspace::grammar(const std::string& root
     constexpr std::size_t kMaxGrammars = 32;
     const FileLoader load = loader();
     const auto is_current = [&](const IndexedGrammar& grammar) {
-        return std::all_of(grammar.texts.begin(), grammar.texts.end(), [&](const auto& read) {
+        const auto is_same = [&](const auto& read) {
             const Result<std::string> text = load(read.first);
             return text ? read.second == text.value() : !read.second;
-        });
+        };
+        return grammar.is_lsys == is_lsys_text(root) &&
+               std::all_of(grammar.texts.begin(), grammar.texts.end(), is_same);
     };
     const auto found = std::find_if(grammars_.begin(), grammars_.end(),
                                     [&](const auto& one) { return one.first == root; });

@@ -80,6 +80,7 @@ struct CheckedDocument {
 /// A parsed grammar with its names.
 struct IndexedGrammar {
     std::map<std::string, std::optional<std::string>> texts; // that were read; nullopt: failed
+    bool is_lsys = true;                                     // parsed as .lsys
     ParsedGrammar parsed;
     NameIndex index;
 };
@@ -125,6 +126,7 @@ private:
     [[nodiscard]] GrammarOptions options_of(const Document& document) const;
     [[nodiscard]] CheckedDocument check_anew(const Document& document) const;
     [[nodiscard]] FileLoader loader() const;
+    [[nodiscard]] bool is_lsys_text(const std::string& path) const;
     /// Parses a file; null if it cannot be read.
     [[nodiscard]] std::shared_ptr<const IndexedGrammar> parse(const std::string& root,
                                                               const FileLoader& load) const;
