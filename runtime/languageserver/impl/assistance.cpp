@@ -496,6 +496,13 @@ Json signature(const std::string& label, std::string_view parameters, std::uint3
             {"activeParameter", active}};
 }
 
+Json named_signature(const std::string& name,
+                     const std::vector<std::string>& formals,
+                     std::uint32_t active) {
+    const std::string list = fmt::format("{}", fmt::join(formals, ", "));
+    return signature(fmt::format("{}({})", name, list), list, active);
+}
+
 } // namespace
 
 Json hover(Workspace& workspace, const Json& params) {
@@ -643,9 +650,12 @@ Json signature_help(Workspace& workspace, const Json& params) {
         const bool is_callee = context.is_module_call ? statement.kind == StatementKind::Module
                                                       : statement.kind == StatementKind::Function;
         if (is_callee && statement.name == context.callee) {
-            const std::string formals = fmt::format("{}", fmt::join(statement.formals, ", "));
-            return signature(fmt::format("{}({})", statement.name, formals), formals,
-                             context.argument_index);
+            return named_signature(statement.name, statement.formals, context.argument_index);
+        }
+        for (const ModuleHead& head : statement.heads) {
+            if (context.is_module_call && head.name == context.callee && !head.formals.empty()) {
+                return named_signature(head.name, head.formals, context.argument_index);
+            }
         }
         if (!context.is_module_call && statement.kind == StatementKind::Curve &&
             statement.name == context.callee) {
