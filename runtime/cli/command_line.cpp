@@ -381,7 +381,9 @@ void add_lsp(CLI::App& app, LspCommand& command) {
     // Clients of other servers pass this option; standard input and output are used anyway.
     app.add_flag("--stdio", command.stdio, "Use standard input and output, as always");
     app.footer("Reads and writes messages of the Language Server Protocol 3.17. Editors start it "
-               "themselves;\n"
+               "themselves: it answers with\n"
+               "messages, repairs, completion, hints, predicted lengths, definitions and renaming, "
+               "also across included files.\n"
                "docs/editors.md has settings for Neovim, Vim, Emacs, Kate and VS Code.\n"
                "Example: vim.lsp.start_client({ cmd = { 'lsc', 'lsp' } })");
 }

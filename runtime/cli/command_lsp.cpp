@@ -65,6 +65,24 @@ std::string explain_as_markdown(std::string_view code) {
     return {};
 }
 
+/// The explanations of all messages as a file: the installed one, or that of the sources if the
+/// program is in its build folder. Empty if neither is found.
+std::string explanations_file() {
+    std::error_code failed;
+    const fs::path program = fs::read_symlink("/proc/self/exe", failed);
+    if (failed) {
+        return {};
+    }
+    const fs::path folder = program.parent_path();
+    for (const fs::path& file : {folder / ".." / LSC_DOCUMENTS / "grammar" / "explanations.md",
+                                 folder / ".." / ".." / "grammar" / "explanations.md"}) {
+        if (fs::exists(file, failed)) {
+            return path_text(file.lexically_normal());
+        }
+    }
+    return {};
+}
+
 } // namespace
 
 ExitStatus run_command(const LspCommand& /*command*/, const Console& console) {
@@ -73,6 +91,9 @@ ExitStatus run_command(const LspCommand& /*command*/, const Console& console) {
     host.version = LSC_VERSION;
     host.grammars_below = grammars_below;
     host.explain = explain_as_markdown;
+    host.explanation_uri = [file = explanations_file()](std::string_view code) {
+        return file.empty() ? std::string() : uri_of_path(file) + "#" + std::string(code);
+    };
     host.offer_doubtful = [](const CheckedText& checked, const Project& project,
                              CompiledText& compiled) {
         const repair::FixScope scope(checked.path, std::array{checked.path});

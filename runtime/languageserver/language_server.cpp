@@ -27,6 +27,10 @@ constexpr std::array kRequests{
     RequestRow{"textDocument/diagnostic", pull_diagnostics},
     RequestRow{"textDocument/codeAction", code_actions},
     RequestRow{"textDocument/formatting", format_document},
+    RequestRow{"textDocument/rangeFormatting", format_range},
+    RequestRow{"textDocument/onTypeFormatting", format_on_type},
+    RequestRow{"textDocument/inlayHint", inlay_hints},
+    RequestRow{"textDocument/codeLens", code_lenses},
     RequestRow{"textDocument/documentSymbol", document_symbols},
     RequestRow{"workspace/symbol", workspace_symbols},
     RequestRow{"textDocument/definition", go_to_definition},
@@ -75,6 +79,8 @@ EditorFeatures features_of(const Json& capabilities) {
         capabilities, {"textDocument", "documentSymbol", "hierarchicalDocumentSymbolSupport"}));
     features.snippets = is_true(
         member(capabilities, {"textDocument", "completion", "completionItem", "snippetSupport"}));
+    features.registers_watchers = is_true(
+        member(capabilities, {"workspace", "didChangeWatchedFiles", "dynamicRegistration"}));
     for (const Json& encoding : member(capabilities, {"general", "positionEncodings"})) {
         if (encoding == "utf-8") { // offsets of the server are bytes
             features.encoding = PositionEncoding::Utf8;
@@ -91,6 +97,10 @@ Json server_capabilities(const EditorFeatures& editor) {
          {{"identifier", "lsc"}, {"interFileDependencies", true}, {"workspaceDiagnostics", false}}},
         {"codeActionProvider", {{"codeActionKinds", Json::array({"quickfix", "source.fixAll"})}}},
         {"documentFormattingProvider", true},
+        {"documentRangeFormattingProvider", true},
+        {"documentOnTypeFormattingProvider", {{"firstTriggerCharacter", ";"}}},
+        {"inlayHintProvider", true},
+        {"codeLensProvider", Json::object()},
         {"documentSymbolProvider", true},
         {"workspaceSymbolProvider", true},
         {"definitionProvider", true},
@@ -136,6 +146,8 @@ struct LanguageServer::State {
     void change(const Json& params);
     void close(const Json& params);
     void change_folders(const Json& params);
+    /// Asks the editor to report changes of files that are not open.
+    void register_watchers();
     /// Marks the documents that read the file for a new check; all, if `path` is empty.
     void mark(const std::string& path);
     void publish();
@@ -145,6 +157,8 @@ void LanguageServer::State::mark(const std::string& path) {
     for (auto& [open, document] : workspace.documents) {
         if (path.empty() || open == path || document.inputs.contains(path)) {
             document.is_dirty = true;
+            document.is_published = false;
+            document.checked.reset();
         }
     }
 }
@@ -154,7 +168,8 @@ void LanguageServer::State::publish() {
         return;
     }
     for (auto& [path, document] : workspace.documents) {
-        if (document.is_dirty) {
+        if (!document.is_published) {
+            document.is_published = true;
             Json all = document_diagnostics(workspace, document);
             send({{"jsonrpc", "2.0"},
                   {"method", "textDocument/publishDiagnostics"},
@@ -195,23 +210,25 @@ void LanguageServer::State::open(const Json& params) {
 
 void LanguageServer::State::change(const Json& params) {
     Document& document = workspace.document(params.at("textDocument").at("uri"));
+    std::string text = document.text; // unchanged if a change is malformed
     for (const Json& change : params.at("contentChanges")) {
-        const auto text = change.at("text").get<std::string>();
+        const auto replacement = change.at("text").get<std::string>();
         if (!change.contains("range")) {
-            document.text = text;
+            text = replacement;
             continue;
         }
-        const TextPositions positions(document.text, workspace.editor.encoding);
-        const auto offset = [&](const Json& position) {
-            return positions.offset({position.at("line").get<std::uint32_t>(),
-                                     position.at("character").get<std::uint32_t>()});
-        };
-        const std::size_t begin = offset(change.at("range").at("start"));
-        const std::size_t end = std::max(begin, offset(change.at("range").at("end")));
-        document.text.replace(begin, end - begin, text);
+        const TextPositions positions(text, workspace.editor.encoding);
+        const std::size_t begin = positions.offset(position_of(change.at("range").at("start")));
+        const std::size_t end =
+            std::max(begin, positions.offset(position_of(change.at("range").at("end"))));
+        text.replace(begin, end - begin, replacement);
     }
+    // A file that is no longer included, or included now, is checked differently.
+    const bool includes_same =
+        included_files(document.path, document.text) == included_files(document.path, text);
     document.version = params.at("textDocument").value("version", document.version + 1);
-    mark(document.path);
+    document.text = std::move(text);
+    mark(includes_same ? document.path : std::string());
 }
 
 void LanguageServer::State::close(const Json& params) {
@@ -219,7 +236,7 @@ void LanguageServer::State::close(const Json& params) {
     const std::string path = document.path;
     const std::string uri = document.uri;
     workspace.documents.erase(path);
-    mark(path);
+    mark({});
     if (!workspace.editor.pulls_diagnostics) {
         send({{"jsonrpc", "2.0"},
               {"method", "textDocument/publishDiagnostics"},
@@ -234,6 +251,21 @@ void LanguageServer::State::change_folders(const Json& params) {
     }
     for (const Json& folder : event.at("added")) {
         workspace.folders.push_back(path_of_uri(folder.at("uri").get<std::string>()));
+    }
+}
+
+void LanguageServer::State::register_watchers() {
+    if (workspace.editor.registers_watchers) {
+        send({{"jsonrpc", "2.0"},
+              {"id", "watch"},
+              {"method", "client/registerCapability"},
+              {"params",
+               {{"registrations",
+                 Json::array(
+                     {{{"id", "watch"},
+                       {"method", "workspace/didChangeWatchedFiles"},
+                       {"registerOptions",
+                        {{"watchers", Json::array({{{"globPattern", "**/*.lsys"}}})}}}}})}}}});
     }
 }
 
@@ -270,7 +302,9 @@ void LanguageServer::State::notify(const std::string& method, const Json& params
     if (phase != Phase::Running) {
         return;
     }
-    if (method == "textDocument/didOpen") {
+    if (method == "initialized") {
+        register_watchers();
+    } else if (method == "textDocument/didOpen") {
         open(params);
     } else if (method == "textDocument/didChange") {
         change(params);

@@ -23,6 +23,9 @@ struct CheckedText {
     const GrammarOptions& options;
 };
 
+/// The `file:` URI of a path.
+[[nodiscard]] std::string uri_of_path(std::string_view path);
+
 /// Services of the program that runs the server.
 struct LanguageServerHost {
     Project project; // reads files that are not open in the editor
@@ -31,6 +34,8 @@ struct LanguageServerHost {
     std::function<std::vector<std::string>(const std::string& folder)> grammars_below;
     /// The explanation of a code as Markdown; empty if there is none.
     std::function<std::string(std::string_view code)> explain;
+    /// The URI of a page about a code; empty if there is none.
+    std::function<std::string(std::string_view code)> explanation_uri;
     /// Turns fixes of `compiled` that are not certain into offers, as `lsc check --fix` does.
     std::function<void(const CheckedText&, const Project&, CompiledText& compiled)> offer_doubtful;
     /// The new bytes of each file that `lsc check --fix` changes, by path.

@@ -3,12 +3,14 @@
 
 #include <algorithm>
 #include <charconv>
+#include <utility>
 
 namespace lsys {
 
 namespace {
 
 constexpr std::string_view kHeaderEnd = "\r\n\r\n";
+constexpr std::size_t kMaxHeaderEnd = 64; // bytes of a `Content-Length` with the end of the header
 
 bool equal_ignoring_case(std::string_view text, std::string_view lower) {
     return std::equal(text.begin(), text.end(), lower.begin(), lower.end(), [](char a, char b) {
@@ -43,6 +45,14 @@ std::optional<std::size_t> content_length(std::string_view header) {
     return length;
 }
 
+/// The offset of a header within a line: it follows the rest of a message that was cut. npos if
+/// there is none.
+std::size_t header_after_cut(std::string_view bytes) {
+    const std::size_t found = bytes.rfind("Content-Length:");
+    const bool is_within = found != std::string_view::npos && found > 0 && bytes[found - 1] != '\n';
+    return is_within && content_length(bytes.substr(found)) ? found : std::string_view::npos;
+}
+
 } // namespace
 
 void MessageReader::add(std::string_view bytes) {
@@ -65,8 +75,8 @@ std::optional<ReadMessage> MessageReader::read_header() {
     const std::size_t end = rest.find(kHeaderEnd);
     if (end == std::string_view::npos) {
         if (rest.size() > kMaxHeaderBytes) {
-            // Keep the last bytes, with which the end of the header may begin.
-            begin_ = buffer_.size() - (kHeaderEnd.size() - 1);
+            // Keep the last bytes, with which the end of the header, or another header, may begin.
+            begin_ = buffer_.size() - kMaxHeaderEnd;
             if (!in_long_header_) {
                 in_long_header_ = true;
                 return ReadMessage{{}, "the header of a message is too long"};
@@ -75,18 +85,17 @@ std::optional<ReadMessage> MessageReader::read_header() {
         return std::nullopt;
     }
     const std::string_view header = rest.substr(0, end);
-    begin_ += end + kHeaderEnd.size();
-    if (in_long_header_) {
-        in_long_header_ = false;
-        return next();
-    }
-    if (header.size() > kMaxHeaderBytes) {
-        return ReadMessage{{}, "the header of a message is too long"};
-    }
-    const std::optional<std::size_t> length = content_length(header);
+    const bool was_reported = std::exchange(in_long_header_, false);
+    const bool is_long = was_reported || header.size() > kMaxHeaderBytes;
+    const std::optional<std::size_t> length = is_long ? std::nullopt : content_length(header);
     if (!length) {
-        return ReadMessage{{}, "the header of a message has no valid Content-Length"};
+        const std::size_t next_header = header_after_cut(header);
+        begin_ += next_header != std::string_view::npos ? next_header : end + kHeaderEnd.size();
+        return was_reported ? next()
+               : is_long    ? ReadMessage{{}, "the header of a message is too long"}
+                         : ReadMessage{{}, "the header of a message has no valid Content-Length"};
     }
+    begin_ += end + kHeaderEnd.size();
     if (*length > kMaxMessageBytes) {
         const std::size_t here = std::min(*length, buffer_.size() - begin_);
         begin_ += here;

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 // MessageReader: splits a stream of bytes into the messages of the base protocol of LSP 3.17, each
 // with a header `Content-Length: N`. Memory is bounded: headers of at most kMaxHeaderBytes,
-// messages of at most kMaxMessageBytes; larger ones are skipped and reported.
+// messages of at most kMaxMessageBytes; larger ones are skipped and reported. After a message that
+// was cut, reading goes on with the next header.
 #pragma once
 
 #include <cstddef>

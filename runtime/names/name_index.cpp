@@ -130,7 +130,10 @@ private:
     }
     void put_definition(NameKind kind, NameId name, SourceSpan span) {
         put(kind, names_.text(name), span, true);
-        outline_.name = names_.text(name);
+        const bool is_written =
+            span.file != kNoFile && parsed_.sources.text(span) == names_.text(name);
+        outline_.name =
+            parsed_.is_translated && !is_written ? outline_.detail : std::string(names_.text(name));
         outline_.name_place = place(span);
     }
 
@@ -275,11 +278,27 @@ private:
         }
     }
 
+    void add_heads(ModuleList list) {
+        for (ModuleCursor cursor(ast_, names_, parsed_.sources, list); !cursor.done();
+             cursor.next()) {
+            const ModuleView module = cursor.view();
+            ModuleHead head{std::string(names_.text(module.name)), {}};
+            for (std::uint32_t i = 0; i < module.arguments.count; ++i) {
+                const ExpressionId id = ast_.expression_lists[module.arguments.first + i];
+                const SourceSpan span = ast_.expression(id).span();
+                head.formals.emplace_back(span.file == kNoFile ? std::string_view()
+                                                               : parsed_.sources.text(span));
+            }
+            outline_.heads.push_back(std::move(head));
+        }
+    }
+
     void add_production(const ProductionNode& node) {
         outline_.stage = node.stage;
         put_definition(NameKind::Production, node.name, node.name_span);
         add_modules(node.left, false, Arguments::Formals);
         add_modules(node.predecessor, true, Arguments::Formals);
+        add_heads(node.predecessor);
         add_modules(node.right, false, Arguments::Formals);
         add_expression(node.condition.condition);
         add_expression(node.condition.probability);
@@ -347,8 +366,11 @@ private:
             break;
         case StatementKind::Axiom:
             outline_.name = "w";
-            outline_.name_place = {outline_.place.path, outline_.place.begin + 1,
-                                   outline_.place.begin + 2};
+            outline_.name_place = outline_.place;
+            if (!parsed_.is_translated) {
+                outline_.name_place.begin = outline_.place.begin + 1;
+                outline_.name_place.end = outline_.place.begin + 2;
+            }
             add_expression(ast_.axioms[i].probability);
             add_modules(ast_.axioms[i].modules, false, Arguments::Values);
             break;
@@ -383,19 +405,22 @@ private:
 
 void parse_grammar(const std::string& path,
                    std::string text,
+                   Dialect dialect,
                    const FileLoader& load,
                    ParsedGrammar& parsed) {
     const FileId root = parsed.sources.add(path, std::move(text));
     const ParseContext context{parsed.sources, parsed.names, parsed.diagnostics, load,
                                false,          {},           &parsed.statements};
-    parsed.ast = parse_lsys(root, context);
+    parsed.is_translated = dialect != Dialect::Lsys;
+    parsed.ast = dialect == Dialect::Lsys ? parse_lsys(root, context)
+                                          : parse_dialect(root, dialect, context);
 }
 
 NameIndex index_names(const ParsedGrammar& parsed) {
     return Indexer(parsed).run();
 }
 
-void NameIndex::merge(NameIndex other) {
+void NameIndex::merge(const NameIndex& other) {
     uses.insert(uses.end(), other.uses.begin(), other.uses.end());
     std::sort(uses.begin(), uses.end());
     uses.erase(std::unique(uses.begin(), uses.end()), uses.end());
@@ -403,9 +428,9 @@ void NameIndex::merge(NameIndex other) {
     for (const StatementOutline& statement : statements) {
         places.insert(statement.place);
     }
-    for (StatementOutline& statement : other.statements) {
+    for (const StatementOutline& statement : other.statements) {
         if (places.insert(statement.place).second) {
-            statements.push_back(std::move(statement));
+            statements.push_back(statement);
         }
     }
 }

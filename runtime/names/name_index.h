@@ -6,6 +6,7 @@
 #include "compiler/bytecode/settings.h"
 #include "grammar/ast/ast.h"
 #include "grammar/ast/parse_context.h"
+#include "grammar/dialects/dialect.h"
 
 #include <compare>
 #include <cstdint>
@@ -40,6 +41,12 @@ struct NameUse {
     friend auto operator<=>(const NameUse&, const NameUse&) = default;
 };
 
+/// A module that a production rewrites, with its formals.
+struct ModuleHead {
+    std::string name;
+    std::vector<std::string> formals;
+};
+
 /// A statement with its places, for outlines and hovers.
 struct StatementOutline {
     StatementKind kind{};
@@ -49,6 +56,7 @@ struct StatementOutline {
     std::string name;                 // empty for statements without a name
     std::string detail;               // the text without the name, on one line, cut
     std::vector<std::string> formals; // formals of a production, function or module
+    std::vector<ModuleHead> heads;    // heads of a production
 };
 
 /// A parsed grammar: the syntax tree and the tables that its ids refer to.
@@ -58,6 +66,7 @@ struct ParsedGrammar {
     Diagnostics diagnostics;
     Ast ast;
     std::vector<SourceSpan> statements;
+    bool is_translated = false; // from another dialect: names may be made up
 };
 
 struct NameIndex {
@@ -66,16 +75,18 @@ struct NameIndex {
     TurtleProfile profile = TurtleProfile::Lsys;
 
     /// Adds the uses and statements of another grammar of the same project.
-    void merge(NameIndex other);
+    void merge(const NameIndex& other);
     /// The use at an offset, which may be its end; null if there is none.
     [[nodiscard]] const NameUse* at(const std::string& path, std::size_t offset) const;
     /// Whether two uses refer to the same thing.
     [[nodiscard]] static bool are_same(const NameUse& a, const NameUse& b);
 };
 
-/// Parses a .lsys text and its included files.
+/// Parses a grammar and its included files. The places of a grammar of another program are in its
+/// own text.
 void parse_grammar(const std::string& path,
                    std::string text,
+                   Dialect dialect,
                    const FileLoader& load,
                    ParsedGrammar& parsed);
 [[nodiscard]] NameIndex index_names(const ParsedGrammar& parsed);

@@ -28,6 +28,9 @@ void add_names(const NameIndex& index, const std::string& path, std::vector<Sour
 void add_words(const StatementOutline& statement,
                std::string_view text,
                std::vector<SourceToken>& tokens) {
+    if (text.substr(statement.place.begin, 1) != "#") {
+        return; // a statement of a translation has no keyword in the text
+    }
     std::uint32_t end = statement.place.begin + 1;
     while (end < text.size() && is_word_character(text[end])) {
         ++end;
@@ -107,7 +110,7 @@ source_tokens(const NameIndex& index, const std::string& path, std::string_view 
 std::vector<ColouredFile>
 coloured_files(const std::string& path, std::string text, const FileLoader& load) {
     ParsedGrammar parsed;
-    parse_grammar(path, std::move(text), load, parsed);
+    parse_grammar(path, std::move(text), Dialect::Lsys, load, parsed);
     const NameIndex index = index_names(parsed);
     std::vector<ColouredFile> files;
     for (std::uint32_t i = 0; i < parsed.sources.file_count(); ++i) {

@@ -163,6 +163,11 @@ private:
     [[nodiscard]] char char_at(std::size_t at) const {
         return at < draft_.masked.size() ? draft_.masked[at] : '\0';
     }
+    /// The offset of `what` in the statement from `from` on; npos if there is none.
+    template <typename Text>
+    [[nodiscard]] std::size_t find(Text what, std::size_t from) const {
+        return text().substr(0, statement_.end).find(what, from);
+    }
     Diagnostic& report(Piece piece, std::string message) {
         return draft_.report(DiagnosticCode::ForeignForm, draft_.span(piece.begin, piece.end),
                              std::move(message));
@@ -176,8 +181,8 @@ private:
 
     /// `#function f(x) { return x; }` and `#function f(x): return x;`.
     std::size_t repair_function() {
-        const std::size_t open = text().find('(', body_);
-        if (open == std::string_view::npos || open >= statement_.end) {
+        const std::size_t open = find('(', body_);
+        if (open == std::string_view::npos) {
             return after();
         }
         const std::size_t close = closing_of(text(), open, statement_.end);
@@ -531,8 +536,8 @@ private:
     // --- productions
 
     std::size_t production() {
-        const std::size_t colon = text().find(':', body_);
-        if (colon == std::string_view::npos || colon >= statement_.end) {
+        const std::size_t colon = find(':', body_);
+        if (colon == std::string_view::npos) {
             return after();
         }
         choices();
@@ -557,13 +562,13 @@ private:
 
     /// Repairs the local values after `let`.
     void local_values() {
-        std::size_t let = text().find("let", body_);
-        while (let < statement_.end &&
+        std::size_t let = find("let", body_);
+        while (let != std::string_view::npos &&
                (is_word_character(char_at(let + 3)) || is_word_character(char_at(let - 1)) ||
                 char_at(std::min(text().find_last_not_of(kWhitespace, let - 1), let)) != ':')) {
-            let = text().find("let", let + 3);
+            let = find("let", let + 3);
         }
-        if (let >= statement_.end) {
+        if (let == std::string_view::npos) {
             return;
         }
         // `let a = 1; b = 2 :`
@@ -594,7 +599,7 @@ private:
             draft_.put(statement_.end, is_end ? ' ' : ',');
             statement_ = statement_at(text(), statement_.begin);
         }
-        const std::size_t end = std::min(text().find(':', let), statement_.end);
+        const std::size_t end = std::min(find(':', let), statement_.end);
         const std::vector<Piece> locals = split(text(), let + 3, end, ',', true);
         unpacked(let, end);
         for (const Piece& local : locals) {
@@ -615,7 +620,7 @@ private:
 
     /// `let a, b = x, y`.
     void unpacked(std::size_t let, std::size_t end) {
-        const std::size_t sign = text().find('=', let);
+        const std::size_t sign = find('=', let);
         if (sign >= end) {
             return;
         }
@@ -821,8 +826,8 @@ private:
 
     /// `c ? a : b`.
     void choices() {
-        const auto question = text().find('?', body_);
-        if (question >= statement_.end) {
+        const auto question = find('?', body_);
+        if (question == std::string_view::npos) {
             return;
         }
         std::size_t begin = question;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Semantic tokens, folding, and the colours of materials.
+// Semantic tokens, folding, and colours of materials and modules.
+#include "grammar/ast/include_chain.h"
 #include "runtime/languageserver/impl/workspace.h"
 #include "runtime/names/source_tokens.h"
 
@@ -19,30 +20,90 @@ namespace {
 constexpr std::array kTokenTypes{"class",  "variable", "parameter", "function",
                                  "method", "keyword",  "property"};
 
-const Document& lsys_document(Workspace& workspace, const Json& params) {
-    const Document& document = workspace.document(params.at("textDocument").at("uri"));
-    if (!document.is_lsys && !document.path.ends_with(".lsys")) {
-        throw RequestError(RpcError::RequestFailed, "the document is no .lsys file");
-    }
-    return document;
+/// The value of a number from 0 to 1 that is written as such.
+std::optional<float> written_part(const Ast& ast, ExpressionId id) {
+    const bool is_number = id != kNoExpression && ast.expression(id).kind == ExpressionKind::Number;
+    const float value = is_number ? ast.expression(id).value : -1.0F;
+    return value >= 0.0F && value <= 1.0F ? std::optional(value) : std::nullopt;
 }
 
-/// The three numbers after the key `colour` at `index`, or nothing.
-std::optional<std::array<float, 3>>
-colour_at(const Ast& ast, std::uint32_t index, std::uint32_t end) {
-    std::array<float, 3> colour{};
-    for (std::uint32_t i = 0; i < 3; ++i) {
-        if (index + i >= end || ast.set_values[index + i].value == kNoExpression) {
-            return std::nullopt;
+/// Collects the colours of one file that are written as three numbers.
+class ColourFinder {
+public:
+    ColourFinder(const ParsedGrammar& parsed, std::string path, Places& at)
+        : parsed_(parsed), ast_(parsed.ast), path_(std::move(path)), at_(at) {}
+
+    Json find() {
+        for (const Statement& statement : ast_.statements) {
+            if (statement.kind == StatementKind::Material) {
+                find_in_values(ast_.materials[statement.index].values);
+            } else if (statement.kind == StatementKind::Axiom) {
+                find_in_modules(ast_.axioms[statement.index].modules);
+            } else if (statement.kind == StatementKind::Production) {
+                find_in_modules(ast_.productions[statement.index].successor);
+            }
         }
-        const Expression& value = ast.expression(ast.set_values[index + i].value);
-        if (value.kind != ExpressionKind::Number || value.value < 0.0F || value.value > 1.0F) {
-            return std::nullopt;
-        }
-        colour[i] = value.value;
+        return std::move(colours_);
     }
-    return colour;
-}
+
+private:
+    void add(const std::array<ExpressionId, 3>& parts) {
+        std::array<float, 3> colour{};
+        for (std::size_t i = 0; i < parts.size(); ++i) {
+            const std::optional<float> part = written_part(ast_, parts[i]);
+            if (!part) {
+                return;
+            }
+            colour[i] = *part;
+        }
+        const SourceSpan first = ast_.expression(parts[0]).span();
+        const SourceSpan last = ast_.expression(parts[2]).span();
+        if (first.file == kNoFile || first.file != last.file ||
+            normalised_path(parsed_.sources.file(first.file).path()) != path_) {
+            return;
+        }
+        colours_.push_back(
+            {{"range", at_.range({path_, first.begin, last.end})},
+             {"color",
+              {{"red", colour[0]}, {"green", colour[1]}, {"blue", colour[2]}, {"alpha", 1}}}});
+    }
+
+    /// The numbers after `colour`.
+    void find_in_values(ListRange values) {
+        for (std::uint32_t i = values.first; i + 3 < values.first + values.count; ++i) {
+            const SetValue& key = ast_.set_values[i];
+            const std::string_view name =
+                key.is_word && !key.is_file ? parsed_.names.text(key.word) : std::string_view();
+            if (name == "colour" || name == "color") {
+                add({ast_.set_values[i + 1].value, ast_.set_values[i + 2].value,
+                     ast_.set_values[i + 3].value});
+            }
+        }
+    }
+
+    /// `'(r, g, b)`.
+    void find_in_modules(ModuleList list) {
+        for (ModuleCursor cursor(ast_, parsed_.names, parsed_.sources, list); !cursor.done();
+             cursor.next()) {
+            if (parsed_.names.text(cursor.name()) != "'") {
+                continue;
+            }
+            const ListRange arguments = cursor.view().arguments;
+            if (arguments.count == 3) {
+                const auto id = [&](std::uint32_t i) {
+                    return ast_.expression_lists[arguments.first + i];
+                };
+                add({id(0), id(1), id(2)});
+            }
+        }
+    }
+
+    const ParsedGrammar& parsed_;
+    const Ast& ast_;
+    std::string path_;
+    Places& at_;
+    Json colours_ = Json::array();
+};
 
 } // namespace
 
@@ -51,33 +112,34 @@ Json token_legend() {
 }
 
 Json semantic_tokens(Workspace& workspace, const Json& params) {
-    const std::string path = lsys_document(workspace, params).path;
+    const std::string path = workspace.document(params.at("textDocument").at("uri")).path;
     Places at(workspace);
-    const NameIndex index = workspace.index({path}, {});
+    const std::shared_ptr<const NameIndex> index = workspace.names({path});
     Json data = Json::array();
     std::uint32_t line = 0;
     std::uint32_t character = 0;
-    for (const SourceToken& token : source_tokens(index, path, at.text(path))) {
+    for (const SourceToken& token : source_tokens(*index, path, at.text(path))) {
         if (token.kind == SourceTokenKind::Comment) {
             continue;
         }
-        const Json range = at.range({path, token.begin, token.end});
-        const auto begin_line = range.at("start").at("line").get<std::uint32_t>();
-        const auto begin = range.at("start").at("character").get<std::uint32_t>();
-        const auto end = range.at("end").at("character").get<std::uint32_t>();
-        data.push_back(begin_line - line);
-        data.push_back(begin_line == line ? begin - character : begin);
-        data.push_back(end - begin);
+        const TextPosition begin = at.position(path, token.begin);
+        const TextPosition end = at.position(path, token.end);
+        if (begin.line != end.line) {
+            continue; // a token is in one line
+        }
+        data.push_back(begin.line - line);
+        data.push_back(begin.line == line ? begin.character - character : begin.character);
+        data.push_back(end.character - begin.character);
         data.push_back(static_cast<std::uint32_t>(token.kind));
         data.push_back(0);
-        line = begin_line;
-        character = begin;
+        line = begin.line;
+        character = begin.character;
     }
     return {{"data", std::move(data)}};
 }
 
 Json folding_ranges(Workspace& workspace, const Json& params) {
-    const std::string path = lsys_document(workspace, params).path;
+    const std::string path = workspace.document(params.at("textDocument").at("uri")).path;
     Places at(workspace);
     Json ranges = Json::array();
     const auto add = [&](std::uint32_t begin, std::uint32_t end, const char* kind) {
@@ -104,7 +166,8 @@ Json folding_ranges(Workspace& workspace, const Json& params) {
             begin = text.find("/*", close + 2);
         }
     };
-    for (const StatementOutline& statement : workspace.index({path}, {}).statements) {
+    const std::shared_ptr<const NameIndex> index = workspace.names({path});
+    for (const StatementOutline& statement : index->statements) {
         if (statement.place.path == path) {
             add_comments(statement.place.begin);
             add(statement.place.begin, statement.place.end, "");
@@ -116,47 +179,27 @@ Json folding_ranges(Workspace& workspace, const Json& params) {
 }
 
 Json document_colours(Workspace& workspace, const Json& params) {
-    const std::string path = lsys_document(workspace, params).path;
+    const std::string path = workspace.document(params.at("textDocument").at("uri")).path;
     Places at(workspace);
-    ParsedGrammar parsed;
-    const FileLoader none = [](const std::string& /*path*/) {
-        return Result<std::string>(Error{"not read"});
-    };
-    parse_grammar(path, at.text(path), none, parsed);
-    Json colours = Json::array();
-    for (const MaterialNode& material : parsed.ast.materials) {
-        const std::uint32_t end = material.values.first + material.values.count;
-        for (std::uint32_t i = material.values.first; i < end; ++i) {
-            const SetValue& key = parsed.ast.set_values[i];
-            if (!key.is_word || key.is_file) {
-                continue;
-            }
-            const std::string_view name = parsed.names.text(key.word);
-            const auto colour = name == "colour" || name == "color"
-                                    ? colour_at(parsed.ast, i + 1, end)
-                                    : std::nullopt;
-            if (colour) {
-                colours.push_back(
-                    {{"range", at.range({path, parsed.ast.set_values[i + 1].span.begin,
-                                         parsed.ast.set_values[i + 3].span.end})},
-                     {"color",
-                      {{"red", (*colour)[0]},
-                       {"green", (*colour)[1]},
-                       {"blue", (*colour)[2]},
-                       {"alpha", 1}}}});
-            }
-        }
-    }
-    return colours;
+    const std::shared_ptr<const IndexedGrammar> grammar = workspace.grammar(path);
+    return grammar ? ColourFinder(grammar->parsed, path, at).find() : Json::array();
 }
 
-Json colour_presentations(Workspace& /*workspace*/, const Json& params) {
+Json colour_presentations(Workspace& workspace, const Json& params) {
     const auto part = [&](const char* name) {
         const double value = params.at("color").at(name).get<double>();
         return std::round(std::clamp(value, 0.0, 1.0) * 1000.0) / 1000.0;
     };
-    return Json::array(
-        {Json{{"label", fmt::format("{} {} {}", part("red"), part("green"), part("blue"))}}});
+    // The numbers of a module are separated by commas, those of a `#material` by blanks.
+    const std::string path = workspace.document(params.at("textDocument").at("uri")).path;
+    Places at(workspace);
+    const std::uint32_t begin = at.offset(path, params.at("range").at("start"));
+    const std::uint32_t end = at.offset(path, params.at("range").at("end"));
+    const std::string_view replaced =
+        std::string_view(at.text(path)).substr(begin, std::max(begin, end) - begin);
+    const std::string_view separator = replaced.find(',') != std::string_view::npos ? ", " : " ";
+    return Json::array({Json{{"label", fmt::format("{}{}{}{}{}", part("red"), separator,
+                                                   part("green"), separator, part("blue"))}}});
 }
 
 } // namespace lsys

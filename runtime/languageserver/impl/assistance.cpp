@@ -3,14 +3,18 @@
 // the syntax tree, so its text determines what completion offers.
 #include "compiler/bytecode/turtle_operation.h"
 #include "compiler/resolve/profiles.h"
+#include "grammar/ast/include_chain.h"
 #include "grammar/base/characters.h"
+#include "grammar/base/names.h"
 #include "grammar/base/paths.h"
+#include "runtime/languageserver/impl/predictions.h"
 #include "runtime/languageserver/impl/vocabulary.h"
 #include "runtime/languageserver/impl/workspace.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <set>
 #include <string>
 #include <utility>
@@ -291,6 +295,43 @@ std::string name_text(const NameUse& use, const NameIndex& index, const std::str
     return text;
 }
 
+/// The value of a constant: a number, or the range from which it is drawn.
+std::string constant_value(const CheckedDocument& checked, std::string_view name) {
+    const Grammar& grammar = checked.compiled.grammar;
+    if (!grammar.program) {
+        return {};
+    }
+    for (const Constant& constant : grammar.program->constants) {
+        if (grammar.names.text(constant.name) == name) {
+            return constant.is_random ? "drawn once, when the derivation starts"
+                                      : fmt::format("value: {}", constant.value);
+        }
+    }
+    return {};
+}
+
+/// The colour of the `#material` at `place` in CSS notation.
+std::string material_text(const CheckedDocument& checked, const TextPlace& place) {
+    const Grammar& grammar = checked.compiled.grammar;
+    if (!grammar.program) {
+        return {};
+    }
+    for (const ProgramMaterial& material : grammar.program->materials) {
+        const SourceSpan span = material.span;
+        if (!material.colour || span.file == kNoFile || span.begin < place.begin ||
+            span.end > place.end ||
+            normalised_path(grammar.sources->file(span.file).path()) != place.path) {
+            continue;
+        }
+        const auto byte = [&](std::size_t part) {
+            return static_cast<int>(std::lround((*material.colour)[part] * 255.0F));
+        };
+        return fmt::format("colour {}: `#{:02x}{:02x}{:02x}`", material.index, byte(0), byte(1),
+                           byte(2));
+    }
+    return {};
+}
+
 /// Kinds of completion items of LSP.
 enum class ItemKind : int {
     Function = 3,
@@ -305,51 +346,86 @@ enum class ItemKind : int {
 
 class Completion {
 public:
-    explicit Completion(Json range) : range_(std::move(range)) {}
+    Completion(Json range, bool takes_snippets)
+        : range_(std::move(range)), takes_snippets_(takes_snippets) {}
 
-    void add(std::string_view label, ItemKind kind, std::string_view detail) {
+    /// Returns whether the label is new.
+    bool add(std::string_view label, ItemKind kind, std::string_view detail) {
         if (!added_.emplace(label).second) {
-            return;
+            return false;
         }
         items_.push_back({{"label", label},
                           {"kind", static_cast<int>(kind)},
                           {"detail", detail},
                           {"textEdit", {{"range", range_}, {"newText", label}}}});
+        return true;
     }
-    /// Adds `documentation` to the last item.
-    void document(std::string_view text) {
-        items_.back()["documentation"] = {{"kind", "markdown"}, {"value", text}};
+    void add_documented(std::string_view label,
+                        ItemKind kind,
+                        std::string_view detail,
+                        std::string_view text) {
+        if (add(label, kind, detail)) {
+            items_.back()["documentation"] = {{"kind", "markdown"}, {"value", text}};
+        }
+    }
+    /// Adds a name that is called, with placeholders for its parameters.
+    void add_call(std::string_view name,
+                  ItemKind kind,
+                  const std::vector<std::string>& formals,
+                  std::string_view text) {
+        const std::string call = formals.empty()
+                                     ? std::string(name)
+                                     : fmt::format("{}({})", name, fmt::join(formals, ", "));
+        if (!add(name, kind, call)) {
+            return;
+        }
+        Json& item = items_.back();
+        item["documentation"] = {{"kind", "markdown"}, {"value", text}};
+        const bool are_names = std::all_of(formals.begin(), formals.end(),
+                                           [](const auto& each) { return is_identifier(each); });
+        if (takes_snippets_ && !formals.empty() && are_names) {
+            std::vector<std::string> holes;
+            for (std::size_t i = 0; i < formals.size(); ++i) {
+                holes.push_back(fmt::format("${{{}:{}}}", i + 1, formals[i]));
+            }
+            item["textEdit"]["newText"] = fmt::format("{}({})", name, fmt::join(holes, ", "));
+            item["insertTextFormat"] = 2; // a snippet
+        }
     }
     [[nodiscard]] Json take() { return std::move(items_); }
 
 private:
     Json range_;
+    bool takes_snippets_;
     Json items_ = Json::array();
     std::set<std::string> added_;
 };
 
+std::string code_block(std::string_view text) {
+    return fmt::format("```lsys\n{}\n```", text);
+}
+
 void add_modules(const NameIndex& index, Completion& items) {
     for (const StatementOutline& statement : index.statements) {
         if (statement.kind == StatementKind::Object || statement.kind == StatementKind::Module) {
-            items.add(statement.name, ItemKind::Class, statement.detail);
+            items.add_call(statement.name, ItemKind::Class, statement.formals,
+                           code_block(statement.detail));
+        } else if (statement.kind == StatementKind::Production) {
+            for (const ModuleHead& head : statement.heads) {
+                items.add_call(head.name, ItemKind::Class, head.formals,
+                               code_block(statement.detail));
+            }
         }
     }
-    for (const NameUse& use : index.uses) {
+    for (const NameUse& use : index.uses) { // further names of one `#module`
         if (use.kind == NameKind::Module && use.is_definition) {
-            const auto rule = std::find_if(index.statements.begin(), index.statements.end(),
-                                           [&](const StatementOutline& statement) {
-                                               return statement.place.path == use.place.path &&
-                                                      statement.place.begin <= use.place.begin &&
-                                                      use.place.end <= statement.place.end;
-                                           });
-            items.add(use.name, ItemKind::Class,
-                      rule != index.statements.end() ? rule->detail : std::string());
+            items.add(use.name, ItemKind::Class, "");
         }
     }
     for (const TurtleCommand& command : turtle_commands(index.profile)) {
-        items.add(command.name, ItemKind::Operator,
-                  fmt::format("{}: {}", call_text(command.name, command.parameters),
-                              info(command.operation).name));
+        items.add_documented(command.name, ItemKind::Operator,
+                             call_text(command.name, command.parameters),
+                             turtle_text(command, index.profile));
     }
 }
 
@@ -359,16 +435,41 @@ void add_values(const NameIndex& index, const CursorContext& context, Completion
     }
     for (const StatementOutline& statement : index.statements) {
         if (statement.kind == StatementKind::Define || statement.kind == StatementKind::Param) {
-            items.add(statement.name, ItemKind::Constant, statement.detail);
-        } else if (statement.kind == StatementKind::Function ||
-                   statement.kind == StatementKind::Curve) {
-            items.add(statement.name, ItemKind::Function, statement.detail);
+            items.add_documented(statement.name, ItemKind::Constant, statement.detail,
+                                 code_block(statement.detail));
+        } else if (statement.kind == StatementKind::Function) {
+            items.add_call(statement.name, ItemKind::Function, statement.formals,
+                           code_block(statement.detail));
+        } else if (statement.kind == StatementKind::Curve) {
+            items.add_call(statement.name, ItemKind::Function, {"x"}, code_block(statement.detail));
         }
     }
     for (const FunctionHelp& row : function_helps()) {
-        items.add(row.name, ItemKind::Function,
-                  fmt::format("{}({}): {}", row.name, row.parameters, row.meaning));
+        items.add_documented(row.name, ItemKind::Function,
+                             fmt::format("{}({})", row.name, row.parameters), row.meaning);
     }
+}
+
+/// The modules and constants of a grammar of another program.
+Json complete_foreign(Workspace& workspace,
+                      const Document& document,
+                      Places& at,
+                      std::uint32_t offset) {
+    const std::size_t begin = word_begin(at.text(document.path), offset);
+    Completion items(at.range({document.path, static_cast<std::uint32_t>(begin), offset}), false);
+    const std::shared_ptr<const NameIndex> names = workspace.names({document.path});
+    for (const NameUse& use : names->uses) {
+        if (use.kind == NameKind::Module || use.kind == NameKind::Constant) {
+            items.add(use.name, use.kind == NameKind::Module ? ItemKind::Class : ItemKind::Constant,
+                      "");
+        }
+    }
+    for (const TurtleCommand& command : turtle_commands(names->profile)) {
+        items.add_documented(command.name, ItemKind::Operator,
+                             call_text(command.name, command.parameters),
+                             turtle_text(command, names->profile));
+    }
+    return items.take();
 }
 
 /// Whether a range of LSP contains a position.
@@ -395,6 +496,13 @@ Json signature(const std::string& label, std::string_view parameters, std::uint3
             {"activeParameter", active}};
 }
 
+Json named_signature(const std::string& name,
+                     const std::vector<std::string>& formals,
+                     std::uint32_t active) {
+    const std::string list = fmt::format("{}", fmt::join(formals, ", "));
+    return signature(fmt::format("{}({})", name, list), list, active);
+}
+
 } // namespace
 
 Json hover(Workspace& workspace, const Json& params) {
@@ -404,12 +512,20 @@ Json hover(Workspace& workspace, const Json& params) {
     const std::uint32_t offset = at.offset(document.path, position);
     std::vector<std::string> parts;
     Json range;
-    if (document.is_lsys || document.path.ends_with(".lsys")) {
-        const NameIndex index = workspace.index(workspace.roots_of(document.path), {});
+    {
+        const std::shared_ptr<const NameIndex> names =
+            workspace.names(workspace.roots_of(document.path));
+        const NameIndex& index = *names;
         if (const NameUse* const use = index.at(document.path, offset)) {
             range = at.range(use->place);
             if (std::string text = name_text(*use, index, document.path); !text.empty()) {
                 parts.push_back(std::move(text));
+            }
+            if (use->kind == NameKind::Constant) {
+                if (std::string text = constant_value(workspace.check(document), use->name);
+                    !text.empty()) {
+                    parts.push_back(std::move(text));
+                }
             }
         }
         const std::string& text = at.text(document.path);
@@ -426,6 +542,21 @@ Json hover(Workspace& workspace, const Json& params) {
             }
         }
         for (const StatementOutline& statement : index.statements) {
+            const bool is_here = statement.place.path == document.path &&
+                                 statement.place.begin <= offset && offset <= statement.place.end;
+            if (is_here && (statement.kind == StatementKind::Generations ||
+                            statement.kind == StatementKind::Axiom)) {
+                if (std::string length = predicted_length(workspace.check(document).compiled);
+                    !length.empty()) {
+                    parts.push_back(std::move(length));
+                }
+            }
+            if (is_here && statement.kind == StatementKind::Material) {
+                if (std::string colour = material_text(workspace.check(document), statement.place);
+                    !colour.empty()) {
+                    parts.push_back(std::move(colour));
+                }
+            }
             if (statement.kind == StatementKind::Set &&
                 statement.name_place.path == document.path &&
                 statement.name_place.begin <= offset && offset <= statement.name_place.end) {
@@ -460,40 +591,44 @@ Json hover(Workspace& workspace, const Json& params) {
 
 Json complete(Workspace& workspace, const Json& params) {
     const Document& document = workspace.document(params.at("textDocument").at("uri"));
-    if (!document.is_lsys && !document.path.ends_with(".lsys")) {
-        return Json::array();
-    }
     Places at(workspace);
     const std::uint32_t offset = at.offset(document.path, params.at("position"));
+    if (!document.has_lsys_text()) {
+        return complete_foreign(workspace, document, at, offset);
+    }
     const CursorContext context =
         context_at(std::string_view(at.text(document.path)).substr(0, offset));
-    Completion items(at.range(
-        {document.path, offset - static_cast<std::uint32_t>(context.prefix.size()), offset}));
+    Completion items(at.range({document.path,
+                               offset - static_cast<std::uint32_t>(context.prefix.size()), offset}),
+                     workspace.editor.snippets);
     if (context.slot == Slot::Modules || context.slot == Slot::Expression ||
         context.slot == Slot::SettingValue) {
-        const NameIndex index = workspace.index(workspace.roots_of(document.path), {});
+        const std::shared_ptr<const NameIndex> names =
+            workspace.names(workspace.roots_of(document.path));
+        const NameIndex& index = *names;
         if (context.slot == Slot::Modules) {
             add_modules(index, items);
         } else if (const auto setting = find_setting_help(context.key);
                    setting && !setting->values.empty()) {
             for (const std::string& value : setting->values) {
-                items.add(value, ItemKind::Value, setting->name);
+                items.add_documented(value, ItemKind::Value, setting->name, setting->meaning);
             }
         } else {
             add_values(index, context, items);
         }
     } else if (context.slot == Slot::Statement) {
         for (const StatementHelp& row : statement_helps()) {
-            items.add(row.name, ItemKind::Keyword, row.form);
-            items.document(row.meaning);
+            items.add_documented(row.name, ItemKind::Keyword, row.form, row.meaning);
         }
     } else if (context.slot == Slot::SettingKey) {
         for (const SettingHelp& setting : setting_helps()) {
-            items.add(setting.name, ItemKind::Property, setting.meaning);
+            items.add_documented(setting.name, ItemKind::Property, setting.meaning,
+                                 setting.meaning);
         }
     } else if (context.slot == Slot::Object) {
         for (const TurtleObject& object : turtle_objects()) {
-            items.add(object.name, ItemKind::Value, "object");
+            items.add_documented(object.name, ItemKind::Value, "object",
+                                 info(object.operation).name);
         }
     }
     return items.take();
@@ -505,17 +640,22 @@ Json signature_help(Workspace& workspace, const Json& params) {
     const std::uint32_t offset = at.offset(document.path, params.at("position"));
     const CursorContext context =
         context_at(std::string_view(at.text(document.path)).substr(0, offset));
-    if (context.callee.empty() || (!document.is_lsys && !document.path.ends_with(".lsys"))) {
+    if (context.callee.empty() || !document.has_lsys_text()) {
         return nullptr;
     }
-    const NameIndex index = workspace.index(workspace.roots_of(document.path), {});
+    const std::shared_ptr<const NameIndex> names =
+        workspace.names(workspace.roots_of(document.path));
+    const NameIndex& index = *names;
     for (const StatementOutline& statement : index.statements) {
         const bool is_callee = context.is_module_call ? statement.kind == StatementKind::Module
                                                       : statement.kind == StatementKind::Function;
         if (is_callee && statement.name == context.callee) {
-            const std::string formals = fmt::format("{}", fmt::join(statement.formals, ", "));
-            return signature(fmt::format("{}({})", statement.name, formals), formals,
-                             context.argument_index);
+            return named_signature(statement.name, statement.formals, context.argument_index);
+        }
+        for (const ModuleHead& head : statement.heads) {
+            if (context.is_module_call && head.name == context.callee && !head.formals.empty()) {
+                return named_signature(head.name, head.formals, context.argument_index);
+            }
         }
         if (!context.is_module_call && statement.kind == StatementKind::Curve &&
             statement.name == context.callee) {

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Diagnostics and their fixes as JSON of LSP.
+// Diagnostics, their fixes and code actions as JSON of LSP.
 #include "grammar/ast/include_chain.h"
-#include "grammar/format/format.h"
 #include "runtime/languageserver/impl/workspace.h"
 
 #include <algorithm>
@@ -41,6 +40,12 @@ public:
         Json out{{"severity", severity_number(diagnostic.severity)},
                  {"code", info(diagnostic.code).name},
                  {"source", "lsc"}};
+        if (workspace_.host.explanation_uri) {
+            if (const std::string uri = workspace_.host.explanation_uri(info(diagnostic.code).name);
+                !uri.empty()) {
+                out["codeDescription"] = {{"href", uri}};
+            }
+        }
         std::string message = diagnostic.message;
         Json related = Json::array();
         const auto relate = [&](SourceSpan span, const std::string& text) {
@@ -100,7 +105,7 @@ private:
     /// The place of the `#include` in the document through which it reads `path`.
     TextPlace include_of(const std::string& path) {
         if (!includes_) {
-            includes_ = workspace_.index({document_.path}, {});
+            includes_ = workspace_.names({document_.path});
         }
         TextPlace first{document_.path, 0, 0};
         bool is_first = true;
@@ -126,7 +131,7 @@ private:
     const Document& document_;
     const SourceMap& sources_;
     Places at_;
-    std::optional<NameIndex> includes_;
+    std::shared_ptr<const NameIndex> includes_;
 };
 
 bool is_before(const Json& a, const Json& b) {
@@ -160,7 +165,7 @@ Json document_diagnostics(Workspace& workspace, Document& document) {
     }
     document.is_dirty = false;
     Json all = Json::array();
-    const CheckedDocument checked = workspace.check(document, false);
+    const CheckedDocument& checked = workspace.check(document);
     if (!checked.failure.empty()) {
         Places at(workspace);
         all.push_back({{"range", at.range({document.path, 0, 0})},
@@ -184,10 +189,12 @@ Json code_actions(Workspace& workspace, const Json& params) {
     Document& document = workspace.document(params.at("textDocument").at("uri"));
     const Json& context = params.at("context");
     const Json& range = params.at("range");
+    static_cast<void>(position_of(range.at("start")));
+    static_cast<void>(position_of(range.at("end")));
     Json actions = Json::array();
     bool has_certain = context.contains("only");
     if (is_wanted(context, "quickfix")) {
-        const CheckedDocument checked = workspace.check(document, true);
+        const CheckedDocument checked = workspace.check_with_offers(document);
         if (!checked.failure.empty()) {
             return actions;
         }
@@ -235,32 +242,6 @@ Json code_actions(Workspace& workspace, const Json& params) {
         }
     }
     return actions;
-}
-
-Json format_document(Workspace& workspace, const Json& params) {
-    const Document& document = workspace.document(params.at("textDocument").at("uri"));
-    if (!document.is_lsys && !document.path.ends_with(".lsys")) {
-        throw RequestError(RpcError::RequestFailed, "only .lsys files are laid out");
-    }
-    Places at(workspace);
-    const std::string& before = at.text(document.path);
-    SourceMap sources;
-    Names names;
-    Diagnostics diagnostics;
-    const FileLoader load =
-        make_loader(workspace.host.project, workspace.host.project.limits.max_bytes);
-    const FileId file = sources.add(document.path, before);
-    const ParseContext context{sources, names, diagnostics, load};
-    const std::optional<std::string> after =
-        check_is_lsys(file, context) ? format_lsys(file, context) : std::nullopt;
-    if (!after) {
-        throw RequestError(RpcError::RequestFailed, "a text with syntax errors is not laid out");
-    }
-    Json edits = Json::array();
-    if (*after != before) {
-        edits.push_back(changing_edit(document.path, before, *after, at));
-    }
-    return edits;
 }
 
 } // namespace lsys

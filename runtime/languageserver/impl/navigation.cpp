@@ -64,18 +64,29 @@ bool is_shown(const StatementOutline& statement) {
 
 /// The name at a position, and all its uses in the project.
 struct NameAt {
-    NameIndex index;
+    std::shared_ptr<const NameIndex> index;
     std::vector<std::string> roots;
     const NameUse* use = nullptr; // in `index`; null: no name
     std::string path;
+
+    /// All uses of the name, definitions too, in ascending order.
+    [[nodiscard]] std::vector<const NameUse*> uses() const {
+        std::vector<const NameUse*> all;
+        for (const NameUse& each : index->uses) {
+            if (use != nullptr && NameIndex::are_same(each, *use)) {
+                all.push_back(&each);
+            }
+        }
+        return all;
+    }
 };
 
 void find_name(Workspace& workspace, const Json& params, Places& at, NameAt& found) {
     found.path = workspace.document(params.at("textDocument").at("uri")).path;
     const std::uint32_t offset = at.offset(found.path, params.at("position"));
     found.roots = workspace.roots_of(found.path);
-    found.index = workspace.index(found.roots, {});
-    found.use = found.index.at(found.path, offset);
+    found.index = workspace.names(found.roots);
+    found.use = found.index->at(found.path, offset);
 }
 
 [[noreturn]] void refuse(const std::string& reason) {
@@ -89,24 +100,22 @@ std::string quoted(const std::string& name) {
 /// Why the name cannot be renamed; empty if it can.
 std::string reason_against(const NameAt& at) {
     const NameUse& use = *at.use;
-    const auto is_same = [&](const NameUse& each) { return NameIndex::are_same(each, use); };
-    const bool is_defined =
-        std::any_of(at.index.uses.begin(), at.index.uses.end(),
-                    [&](const NameUse& each) { return is_same(each) && each.is_definition; });
+    const std::vector<const NameUse*> uses = at.uses();
+    const bool is_defined = std::any_of(uses.begin(), uses.end(),
+                                        [](const NameUse* each) { return each->is_definition; });
     if (use.kind == NameKind::Module) {
         const bool is_bound = std::any_of(
-            at.index.statements.begin(), at.index.statements.end(), [&](const auto& statement) {
+            at.index->statements.begin(), at.index->statements.end(), [&](const auto& statement) {
                 return statement.kind == StatementKind::Object && statement.name == use.name;
             });
-        if (!is_bound && find_turtle_command(at.index.profile, use.name) != nullptr) {
+        if (!is_bound && find_turtle_command(at.index->profile, use.name) != nullptr) {
             return quoted(use.name) + " is a command of the turtle";
         }
-        const auto part =
-            std::find_if(at.index.uses.begin(), at.index.uses.end(),
-                         [&](const NameUse& each) { return is_same(each) && each.is_part; });
-        if (part != at.index.uses.end()) {
+        const auto part = std::find_if(uses.begin(), uses.end(),
+                                       [](const NameUse* each) { return each->is_part; });
+        if (part != uses.end()) {
             return quoted(use.name) + " is written together with other names in " +
-                   quoted(std::string(name_of_path(part->place.path))) +
+                   quoted(std::string(name_of_path((*part)->place.path))) +
                    "; separate them by blanks first";
         }
         return {};
@@ -145,10 +154,6 @@ bool is_kept(const NameIndex& before,
     return true;
 }
 
-bool is_definition_of(const NameUse& each, const NameUse& use) {
-    return each.is_definition && NameIndex::are_same(each, use);
-}
-
 std::string lower(std::string text) {
     std::transform(text.begin(), text.end(), text.begin(),
                    [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
@@ -161,7 +166,8 @@ Json document_symbols(Workspace& workspace, const Json& params) {
     const Document& document = workspace.document(params.at("textDocument").at("uri"));
     Places at(workspace);
     Json symbols = Json::array();
-    for (const StatementOutline& statement : workspace.index({document.path}, {}).statements) {
+    const std::shared_ptr<const NameIndex> names = workspace.names({document.path});
+    for (const StatementOutline& statement : names->statements) {
         if (statement.place.path != document.path || !is_shown(statement)) {
             continue;
         }
@@ -185,7 +191,8 @@ Json workspace_symbols(Workspace& workspace, const Json& params) {
     Places at(workspace);
     Json symbols = Json::array();
     for (const std::string& path : workspace.known_grammars({})) {
-        for (const StatementOutline& statement : workspace.index({path}, {}).statements) {
+        const std::shared_ptr<const NameIndex> names = workspace.names({path});
+        for (const StatementOutline& statement : names->statements) {
             if (statement.place.path != path || !is_shown(statement) ||
                 statement.kind == StatementKind::Include ||
                 lower(statement.name).find(query) == std::string::npos) {
@@ -208,17 +215,17 @@ Json go_to_definition(Workspace& workspace, const Json& params) {
     NameAt found;
     find_name(workspace, params, at, found);
     Json locations = Json::array();
-    if (found.use != nullptr) {
-        for (const NameUse& each : found.index.uses) {
-            if (is_definition_of(each, *found.use)) {
-                locations.push_back(at.location(each.place));
-            }
+    for (const NameUse* each : found.uses()) {
+        if (each->is_definition) {
+            locations.push_back(at.location(each->place));
         }
+    }
+    if (found.use != nullptr) {
         return locations;
     }
     // The file of an `#include`.
     const std::uint32_t offset = at.offset(found.path, params.at("position"));
-    for (const StatementOutline& statement : found.index.statements) {
+    for (const StatementOutline& statement : found.index->statements) {
         if (statement.kind == StatementKind::Include && statement.name_place.path == found.path &&
             statement.name_place.begin <= offset && offset <= statement.name_place.end) {
             locations.push_back(
@@ -234,10 +241,9 @@ Json find_references(Workspace& workspace, const Json& params) {
     NameAt found;
     find_name(workspace, params, at, found);
     Json locations = Json::array();
-    for (const NameUse& each : found.index.uses) {
-        if (found.use != nullptr && NameIndex::are_same(each, *found.use) &&
-            (with_definitions || !each.is_definition)) {
-            locations.push_back(at.location(each.place));
+    for (const NameUse* each : found.uses()) {
+        if (with_definitions || !each->is_definition) {
+            locations.push_back(at.location(each->place));
         }
     }
     return locations;
@@ -248,11 +254,10 @@ Json highlight_name(Workspace& workspace, const Json& params) {
     NameAt found;
     find_name(workspace, params, at, found);
     Json highlights = Json::array();
-    for (const NameUse& each : found.index.uses) {
-        if (found.use != nullptr && each.place.path == found.path &&
-            NameIndex::are_same(each, *found.use)) {
-            highlights.push_back({{"range", at.range(each.place)},
-                                  {"kind", each.is_definition ? 3 : 2}}); // write, read
+    for (const NameUse* each : found.uses()) {
+        if (each->place.path == found.path) {
+            highlights.push_back({{"range", at.range(each->place)},
+                                  {"kind", each->is_definition ? 3 : 2}}); // write, read
         }
     }
     return highlights;
@@ -291,10 +296,10 @@ Json rename_name(Workspace& workspace, const Json& params) {
         return {{"changes", Json::object()}};
     }
     if (use.kind == NameKind::Module &&
-        find_turtle_command(found.index.profile, new_name) != nullptr) {
+        find_turtle_command(found.index->profile, new_name) != nullptr) {
         refuse(quoted(new_name) + " is a command of the turtle");
     }
-    for (const NameUse& each : found.index.uses) {
+    for (const NameUse& each : found.index->uses) {
         if (each.kind == use.kind && each.name == new_name && each.scope == use.scope) {
             refuse(quoted(new_name) + " exists already");
         }
@@ -302,17 +307,15 @@ Json rename_name(Workspace& workspace, const Json& params) {
     Json changes = Json::object();
     std::map<std::string, std::string> changed;
     // Replace from the last place to the first, so that the places before stay valid.
-    for (auto each = found.index.uses.rbegin(); each != found.index.uses.rend(); ++each) {
-        if (!NameIndex::are_same(*each, use)) {
-            continue;
-        }
-        const TextPlace& place = each->place;
+    const std::vector<const NameUse*> uses = found.uses();
+    for (auto each = uses.rbegin(); each != uses.rend(); ++each) {
+        const TextPlace& place = (*each)->place;
         std::string& text = changed.try_emplace(place.path, at.text(place.path)).first->second;
         text.replace(place.begin, place.end - place.begin, new_name);
         changes[workspace.uri_of(place.path)].push_back(
             {{"range", at.range(place)}, {"newText", new_name}});
     }
-    if (!is_kept(found.index, workspace.index(found.roots, changed), use, new_name)) {
+    if (!is_kept(*found.index, workspace.names_if(found.roots, changed), use, new_name)) {
         refuse("with the name " + quoted(new_name) + " the grammar would have another meaning");
     }
     return {{"changes", std::move(changes)}};

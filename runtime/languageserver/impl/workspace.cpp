@@ -31,7 +31,8 @@ bool has_drive(std::string_view path) {
     return path.size() > 2 && path[0] == '/' && is_letter(path[1]) && path[2] == ':';
 }
 
-/// The files that a text includes, normalised.
+} // namespace
+
 std::vector<std::string> included_files(const std::string& path, std::string_view text) {
     std::vector<std::string> files;
     for (const std::string_view name : included_names(text)) {
@@ -39,8 +40,6 @@ std::vector<std::string> included_files(const std::string& path, std::string_vie
     }
     return files;
 }
-
-} // namespace
 
 std::string path_of_uri(std::string_view uri) {
     if (!uri.starts_with(kFileScheme)) {
@@ -63,10 +62,7 @@ std::string path_of_uri(std::string_view uri) {
     return normalised_path(has_drive(path) ? std::string_view(path).substr(1) : path);
 }
 
-std::string Workspace::uri_of(const std::string& path) const {
-    if (const auto open = documents.find(path); open != documents.end()) {
-        return open->second.uri;
-    }
+std::string uri_of_path(std::string_view path) {
     constexpr std::string_view kHex = "0123456789ABCDEF";
     std::string uri(kFileScheme);
     uri += path.starts_with('/') ? "" : "/";
@@ -81,6 +77,11 @@ std::string Workspace::uri_of(const std::string& path) const {
         }
     }
     return uri;
+}
+
+std::string Workspace::uri_of(const std::string& path) const {
+    const auto open = documents.find(path);
+    return open != documents.end() ? open->second.uri : uri_of_path(path);
 }
 
 Workspace::Workspace(LanguageServerHost own_host) : host(std::move(own_host)) {
@@ -124,7 +125,7 @@ std::optional<std::string> Workspace::text_of(const std::string& path) const {
 std::vector<std::string> Workspace::known_grammars(const std::string& path) const {
     std::set<std::string> known;
     for (const auto& [open, document] : documents) {
-        if (document.is_lsys || open.ends_with(".lsys")) {
+        if (document.has_lsys_text()) {
             known.insert(open);
         }
     }
@@ -181,8 +182,81 @@ FileLoader Workspace::loader() const {
     return make_loader(host.project, host.project.limits.max_bytes);
 }
 
-NameIndex Workspace::index(const std::vector<std::string>& roots,
-                           const std::map<std::string, std::string>& changed) const {
+bool Workspace::is_lsys_text(const std::string& path) const {
+    const auto open = documents.find(path);
+    return open != documents.end() ? open->second.has_lsys_text() : path.ends_with(".lsys");
+}
+
+std::shared_ptr<const IndexedGrammar> Workspace::parse(const std::string& root,
+                                                       const FileLoader& load) const {
+    auto grammar = std::make_shared<IndexedGrammar>();
+    const FileLoader record = [&](const std::string& path) {
+        Result<std::string> text = load(path);
+        grammar->texts.insert_or_assign(path, text ? std::optional(text.value())
+                                                   : std::optional<std::string>());
+        return text;
+    };
+    const Result<std::string> text = record(root);
+    if (!text) {
+        return nullptr;
+    }
+    grammar->is_lsys = is_lsys_text(root);
+    const Dialect dialect =
+        grammar->is_lsys ? Dialect::Lsys
+                         : detect_dialect(root, text.value()).dialect.value_or(Dialect::Lsys);
+    parse_grammar(root, text.value(), dialect, record, grammar->parsed);
+    grammar->index = index_names(grammar->parsed);
+    return grammar;
+}
+
+std::shared_ptr<const IndexedGrammar> Workspace::grammar(const std::string& root) {
+    constexpr std::size_t kMaxGrammars = 32;
+    const FileLoader load = loader();
+    const auto is_current = [&](const IndexedGrammar& grammar) {
+        const auto is_same = [&](const auto& read) {
+            const Result<std::string> text = load(read.first);
+            return text ? read.second == text.value() : !read.second;
+        };
+        return grammar.is_lsys == is_lsys_text(root) &&
+               std::all_of(grammar.texts.begin(), grammar.texts.end(), is_same);
+    };
+    const auto found = std::find_if(grammars_.begin(), grammars_.end(),
+                                    [&](const auto& one) { return one.first == root; });
+    std::shared_ptr<const IndexedGrammar> grammar;
+    if (found != grammars_.end()) {
+        grammar = is_current(*found->second) ? found->second : nullptr;
+        grammars_.erase(found);
+    }
+    if (!grammar) {
+        grammar = parse(root, loader());
+    }
+    if (grammar) {
+        if (grammars_.size() == kMaxGrammars) {
+            grammars_.erase(grammars_.begin());
+        }
+        grammars_.emplace_back(root, grammar);
+    }
+    return grammar;
+}
+
+std::shared_ptr<const NameIndex> Workspace::names(const std::vector<std::string>& roots) {
+    if (roots.size() == 1) {
+        if (const std::shared_ptr<const IndexedGrammar> one = grammar(roots.front())) {
+            return {one, &one->index};
+        }
+    }
+    auto all = std::make_shared<NameIndex>();
+    for (const std::string& root : roots) {
+        if (const std::shared_ptr<const IndexedGrammar> one = grammar(root)) {
+            all->profile = one->index.profile;
+            all->merge(one->index);
+        }
+    }
+    return all;
+}
+
+NameIndex Workspace::names_if(const std::vector<std::string>& roots,
+                              const std::map<std::string, std::string>& changed) const {
     const FileLoader disk = loader();
     const FileLoader load = [&](const std::string& path) {
         const auto found = changed.find(normalised_path(path));
@@ -190,15 +264,10 @@ NameIndex Workspace::index(const std::vector<std::string>& roots,
     };
     NameIndex all;
     for (const std::string& root : roots) {
-        const Result<std::string> text = load(root);
-        if (!text) {
-            continue;
+        if (const std::shared_ptr<const IndexedGrammar> one = parse(root, load)) {
+            all.profile = one->index.profile;
+            all.merge(one->index);
         }
-        ParsedGrammar parsed;
-        parse_grammar(root, text.value(), load, parsed);
-        NameIndex one = index_names(parsed);
-        all.profile = one.profile;
-        all.merge(std::move(one));
     }
     return all;
 }
@@ -219,37 +288,50 @@ GrammarText Workspace::grammar_text(const Document& document, std::string& failu
 
 GrammarOptions Workspace::options_of(const Document& document) const {
     GrammarOptions options;
-    const bool is_lsys = document.is_lsys || document.path.ends_with(".lsys");
-    if (is_lsys && document.text.find("#w") == std::string::npos) {
+    if (document.has_lsys_text() && document.text.find("#w") == std::string::npos) {
         const std::vector<std::string> roots = roots_of(document.path);
         options.part = roots.size() > 1 || roots.front() != document.path;
     }
     return options;
 }
 
-CheckedDocument Workspace::check(Document& document, bool offers_doubtful) {
+CheckedDocument Workspace::check_anew(const Document& document) const {
     CheckedDocument checked;
     checked.text = grammar_text(document, checked.failure);
     if (!checked.failure.empty()) {
         return checked;
     }
-    const GrammarOptions options = options_of(document);
-    Result<CompiledText> compiled = compile_text(document.path, checked.text, options,
+    Result<CompiledText> compiled = compile_text(document.path, checked.text, options_of(document),
                                                  host.project.limits.max_modules, loader());
     if (!compiled) {
         checked.failure = compiled.error().message;
         return checked;
     }
     checked.compiled = std::move(compiled.value());
-    if (offers_doubtful && host.offer_doubtful) {
-        host.offer_doubtful({document.path, checked.text, options}, host.project, checked.compiled);
+    return checked;
+}
+
+const CheckedDocument& Workspace::check(Document& document) {
+    if (!document.checked) {
+        CheckedDocument checked = check_anew(document);
+        checked.compiled.diagnostics.sort_by_place();
+        const SourceMap& sources = *checked.compiled.grammar.sources;
+        document.inputs.clear();
+        for (std::uint32_t i = 0; i < sources.file_count(); ++i) {
+            document.inputs.insert(normalised_path(sources.file(static_cast<FileId>(i)).path()));
+        }
+        document.checked = std::make_shared<const CheckedDocument>(std::move(checked));
+    }
+    return *document.checked;
+}
+
+CheckedDocument Workspace::check_with_offers(Document& document) {
+    CheckedDocument checked = check_anew(document);
+    if (checked.failure.empty() && host.offer_doubtful) {
+        host.offer_doubtful({document.path, checked.text, options_of(document)}, host.project,
+                            checked.compiled);
     }
     checked.compiled.diagnostics.sort_by_place();
-    const SourceMap& sources = *checked.compiled.grammar.sources;
-    document.inputs.clear();
-    for (std::uint32_t i = 0; i < sources.file_count(); ++i) {
-        document.inputs.insert(normalised_path(sources.file(static_cast<FileId>(i)).path()));
-    }
     return checked;
 }
 
@@ -283,23 +365,39 @@ const std::string& Places::text(const std::string& path) {
     return file(path).unmarked;
 }
 
+TextPosition Places::position(const std::string& path, std::uint32_t offset) {
+    const File& in = file(path);
+    return in.positions->position(offset + in.mark);
+}
+
 Json Places::range(const TextPlace& place) {
-    const File& in = file(place.path);
-    const auto position = [&](std::uint32_t offset) {
-        const TextPosition found = in.positions->position(offset + in.mark);
+    const auto json = [&](std::uint32_t offset) {
+        const TextPosition found = position(place.path, offset);
         return Json{{"line", found.line}, {"character", found.character}};
     };
-    return {{"start", position(place.begin)}, {"end", position(place.end)}};
+    return {{"start", json(place.begin)}, {"end", json(place.end)}};
 }
 
 Json Places::location(const TextPlace& place) {
     return {{"uri", workspace_.uri_of(place.path)}, {"range", range(place)}};
 }
 
+TextPosition position_of(const Json& position) {
+    const auto number = [&](const char* name) {
+        const Json& value = position.at(name);
+        if (!value.is_number_unsigned()) {
+            throw RequestError(RpcError::InvalidParams,
+                               std::string("`") + name + "` is no whole number from 0");
+        }
+        constexpr std::uint64_t kMax = 0x7FFFFFFF; // as in the specification
+        return static_cast<std::uint32_t>(std::min(value.get<std::uint64_t>(), kMax));
+    };
+    return {number("line"), number("character")};
+}
+
 std::uint32_t Places::offset(const std::string& path, const Json& position) {
     const File& in = file(path);
-    const std::size_t found = in.positions->offset(
-        {position.at("line").get<std::uint32_t>(), position.at("character").get<std::uint32_t>()});
+    const std::size_t found = in.positions->offset(position_of(position));
     return static_cast<std::uint32_t>(std::max(found, in.mark) - in.mark);
 }
 

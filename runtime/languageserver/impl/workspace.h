@@ -11,11 +11,13 @@
 
 #include <cstdint>
 #include <map>
+#include <memory>
 #include <optional>
 #include <set>
 #include <stdexcept>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace lsys {
@@ -40,6 +42,8 @@ struct RequestError : std::runtime_error {
     RpcError code;
 };
 
+struct CheckedDocument;
+
 struct Document {
     std::string uri; // as the editor writes it
     std::string path;
@@ -47,8 +51,13 @@ struct Document {
     std::int64_t version = 0;
     bool is_lsys = false;         // the editor calls the language `lsys`
     bool is_dirty = true;         // the diagnostics are out of date
+    bool is_published = false;    // the editor has these diagnostics, unless it pulls them
     std::set<std::string> inputs; // files read by the last check
     Json diagnostics = Json::array();
+    std::shared_ptr<const CheckedDocument> checked; // null: is to be checked
+
+    /// Whether the text is .lsys, not a grammar of another program.
+    [[nodiscard]] bool has_lsys_text() const { return is_lsys || path.ends_with(".lsys"); }
 };
 
 /// Features of the editor.
@@ -57,6 +66,7 @@ struct EditorFeatures {
     bool related_information = false;
     bool nested_symbols = false;
     bool snippets = false;
+    bool registers_watchers = false; // reports changes of files if it is asked to
     PositionEncoding encoding = PositionEncoding::Utf16;
 };
 
@@ -65,6 +75,14 @@ struct CheckedDocument {
     GrammarText text;
     CompiledText compiled;
     std::string failure; // why the document could not be checked; empty if it was
+};
+
+/// A parsed grammar with its names.
+struct IndexedGrammar {
+    std::map<std::string, std::optional<std::string>> texts; // that were read; nullopt: failed
+    bool is_lsys = true;                                     // parsed as .lsys
+    ParsedGrammar parsed;
+    NameIndex index;
 };
 
 class Workspace {
@@ -87,12 +105,17 @@ public:
     [[nodiscard]] std::vector<std::string> roots_of(const std::string& path) const;
     /// All grammars: open documents, files below the folders, or else files beside `path`.
     [[nodiscard]] std::vector<std::string> known_grammars(const std::string& path) const;
-    /// The names in the grammars `roots` and their included files. `changed`: texts that replace
-    /// those of files, by path.
-    [[nodiscard]] NameIndex index(const std::vector<std::string>& roots,
-                                  const std::map<std::string, std::string>& changed) const;
-    /// Checks a document as `lsc check` does. `offers_doubtful`: turns doubtful fixes into offers.
-    [[nodiscard]] CheckedDocument check(Document& document, bool offers_doubtful);
+    /// The parsed file with its included files. Kept until one of the texts changes.
+    [[nodiscard]] std::shared_ptr<const IndexedGrammar> grammar(const std::string& root);
+    /// The names of all grammars with these roots.
+    [[nodiscard]] std::shared_ptr<const NameIndex> names(const std::vector<std::string>& roots);
+    /// The same, with other texts for some paths.
+    [[nodiscard]] NameIndex names_if(const std::vector<std::string>& roots,
+                                     const std::map<std::string, std::string>& changed) const;
+    /// Checks a document as `lsc check` does. Kept until the document or one of its inputs changes.
+    [[nodiscard]] const CheckedDocument& check(Document& document);
+    /// The same, with doubtful fixes as offers.
+    [[nodiscard]] CheckedDocument check_with_offers(Document& document);
     /// The bytes that `lsc check --fix` writes, by path.
     [[nodiscard]] std::map<std::string, std::string> fixed(Document& document);
 
@@ -101,16 +124,32 @@ public:
 private:
     [[nodiscard]] GrammarText grammar_text(const Document& document, std::string& failure) const;
     [[nodiscard]] GrammarOptions options_of(const Document& document) const;
+    [[nodiscard]] CheckedDocument check_anew(const Document& document) const;
     [[nodiscard]] FileLoader loader() const;
+    [[nodiscard]] bool is_lsys_text(const std::string& path) const;
+    /// Parses a file; null if it cannot be read.
+    [[nodiscard]] std::shared_ptr<const IndexedGrammar> parse(const std::string& root,
+                                                              const FileLoader& load) const;
+
+    std::vector<std::pair<std::string, std::shared_ptr<const IndexedGrammar>>>
+        grammars_; // by root, the last used one last
 };
 
 /// The path that a URI names, normalised; the URI itself if it names no file.
 [[nodiscard]] std::string path_of_uri(std::string_view uri);
 
+/// The files that the text of `path` includes, normalised.
+[[nodiscard]] std::vector<std::string> included_files(const std::string& path,
+                                                      std::string_view text);
+
+/// A `Position`. Throws RequestError if its numbers are not whole, or below 0.
+[[nodiscard]] TextPosition position_of(const Json& position);
+
 /// Converts places of files to JSON, and reads each file once.
 class Places {
 public:
     explicit Places(const Workspace& workspace) : workspace_(workspace) {}
+    [[nodiscard]] TextPosition position(const std::string& path, std::uint32_t offset);
     [[nodiscard]] Json range(const TextPlace& place);
     [[nodiscard]] Json location(const TextPlace& place);
     /// The byte offset of a `Position` in the text without its byte order mark.
@@ -141,6 +180,8 @@ changing_edit(const std::string& path, std::string_view before, std::string_view
 [[nodiscard]] Json document_diagnostics(Workspace& workspace, Document& document);
 [[nodiscard]] Json code_actions(Workspace& workspace, const Json& params);
 [[nodiscard]] Json format_document(Workspace& workspace, const Json& params);
+[[nodiscard]] Json format_range(Workspace& workspace, const Json& params);
+[[nodiscard]] Json format_on_type(Workspace& workspace, const Json& params);
 [[nodiscard]] Json document_symbols(Workspace& workspace, const Json& params);
 [[nodiscard]] Json workspace_symbols(Workspace& workspace, const Json& params);
 [[nodiscard]] Json go_to_definition(Workspace& workspace, const Json& params);
@@ -151,6 +192,8 @@ changing_edit(const std::string& path, std::string_view before, std::string_view
 [[nodiscard]] Json hover(Workspace& workspace, const Json& params);
 [[nodiscard]] Json complete(Workspace& workspace, const Json& params);
 [[nodiscard]] Json signature_help(Workspace& workspace, const Json& params);
+[[nodiscard]] Json inlay_hints(Workspace& workspace, const Json& params);
+[[nodiscard]] Json code_lenses(Workspace& workspace, const Json& params);
 [[nodiscard]] Json semantic_tokens(Workspace& workspace, const Json& params);
 [[nodiscard]] Json folding_ranges(Workspace& workspace, const Json& params);
 [[nodiscard]] Json document_colours(Workspace& workspace, const Json& params);

@@ -68,4 +68,11 @@ TEST_CASE("colours of materials are shown and written") {
     const Json texts = editor.request("textDocument/colorPresentation", params);
     REQUIRE(texts.size() == 1);
     CHECK(texts[0].at("label") == "0.123 0 1");
+
+    editor.change(kShown, "#w : '(0.5, 0.25, 1) F '(3) '(k, 0, 0);\n#p : A : * : '(1, 0, 0);\n");
+    const Json modules = editor.request("textDocument/documentColor", Editor::in(kShown));
+    REQUIRE(modules.size() == 2);
+    CHECK(modules[0].at("range") == Editor::range(0, 7, 19));
+    params["range"] = Editor::range(0, 7, 19);
+    CHECK(editor.request("textDocument/colorPresentation", params)[0].at("label") == "0.123, 0, 1");
 }

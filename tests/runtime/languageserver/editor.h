@@ -47,6 +47,7 @@ public:
             return paths;
         };
         host.explain = [](std::string_view code) { return "text of " + std::string(code); };
+        host.explanation_uri = [](std::string_view code) { return "doc:" + std::string(code); };
         server_ = std::make_unique<LanguageServer>(std::move(host));
         answer =
             request("initialize",
@@ -88,6 +89,10 @@ public:
         for (const Json& message : messages) {
             bodies.push_back({message.dump(-1, ' ', false, Json::error_handler_t::replace), {}});
         }
+        take(bodies);
+    }
+    /// Passes messages to the server and sorts its answers.
+    void take(const std::vector<ReadMessage>& bodies) {
         for (const std::string& body : server_->receive(bodies)) {
             const Json message = Json::parse(body);
             if (message.contains("id") && message.at("id").is_number_integer()) {

@@ -154,6 +154,22 @@ TEST_CASE("several changes that arrive together are checked once") {
     CHECK(editor.publish_count == before + 1);
 }
 
+TEST_CASE("a hover that arrives with a change does not keep the diagnostics back") {
+    Editor editor(kNoFeatures);
+    editor.open(kTree, "#n = 1;\n#w : F(zz);\n");
+    editor.send_all(
+        {{{"jsonrpc", "2.0"},
+          {"method", "textDocument/didChange"},
+          {"params",
+           {{"textDocument", {{"uri", Editor::uri(kTree)}, {"version", 2}}},
+            {"contentChanges", Json::array({Json{{"text", "#n = 1;\n#w : F(1);\n"}}})}}}},
+         {{"jsonrpc", "2.0"},
+          {"id", 80},
+          {"method", "textDocument/hover"},
+          {"params", Editor::at(kTree, 1, 5)}}});
+    CHECK(editor.diagnostics.at(Editor::uri(kTree)).empty());
+}
+
 TEST_CASE("diagnostics are pulled by editors that can") {
     Editor editor(Json{{"textDocument", {{"diagnostic", Json::object()}}}});
     editor.open(kTree, "#n = 1;\n#w : F(zz);\n");

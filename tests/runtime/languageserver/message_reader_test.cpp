@@ -63,6 +63,20 @@ TEST_CASE("headers and messages that are too long are skipped") {
           std::vector<std::string>{"! a message is longer than 64 MiB", "{}"});
 }
 
+TEST_CASE("after a cut message reading goes on with the next one but one") {
+    const std::string cut = framed("{\"method\":\"cut\"}");
+    const std::string swallowed = framed("{\"padding\":\"" + std::string(5000, ' ') + "\"}");
+    for (std::size_t size = 1; size < cut.size(); ++size) {
+        for (const std::size_t piece : {1UL, 7UL, 10'000UL}) {
+            CAPTURE(size, piece);
+            const std::vector<std::string> all =
+                read_all(cut.substr(0, size) + swallowed + framed("{}"), piece);
+            REQUIRE(all.size() >= 2);
+            CHECK(all.back() == "{}");
+        }
+    }
+}
+
 TEST_CASE("a cut message is not between messages") {
     const std::string bytes = framed("{}");
     for (std::size_t size = 0; size <= bytes.size(); ++size) {
