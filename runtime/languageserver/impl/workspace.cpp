@@ -228,6 +228,7 @@ GrammarOptions Workspace::options_of(const Document& document) const {
 
 CheckedDocument Workspace::check(Document& document, bool offers_doubtful) {
     CheckedDocument checked;
+    checked.path = document.path;
     checked.text = grammar_text(document, checked.failure);
     if (!checked.failure.empty()) {
         return checked;
@@ -249,6 +250,28 @@ CheckedDocument Workspace::check(Document& document, bool offers_doubtful) {
     for (std::uint32_t i = 0; i < sources.file_count(); ++i) {
         document.inputs.insert(normalised_path(sources.file(static_cast<FileId>(i)).path()));
     }
+    return checked;
+}
+
+CheckedDocument Workspace::check_whole(const Document& document,
+                                       const GrammarOptions& options) const {
+    Document whole;
+    whole.path = options_of(document).part ? roots_of(document.path).front() : document.path;
+    whole.is_lsys = document.is_lsys;
+    CheckedDocument checked;
+    checked.path = whole.path;
+    checked.text = grammar_text(whole, checked.failure);
+    if (!checked.failure.empty()) {
+        return checked;
+    }
+    Result<CompiledText> compiled =
+        compile_text(whole.path, checked.text, options, host.project.limits.max_modules, loader());
+    if (!compiled) {
+        checked.failure = compiled.error().message;
+        return checked;
+    }
+    checked.compiled = std::move(compiled.value());
+    checked.compiled.diagnostics.sort_by_place();
     return checked;
 }
 

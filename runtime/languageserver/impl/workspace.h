@@ -30,6 +30,7 @@ enum class RpcError : int {
     InvalidParams = -32602,
     ServerNotInitialized = -32002,
     RequestCancelled = -32800,
+    ServerCancelled = -32802,
     RequestFailed = -32803,
 };
 
@@ -62,6 +63,7 @@ struct EditorFeatures {
 
 /// The result of checking a document.
 struct CheckedDocument {
+    std::string path; // of the checked file
     GrammarText text;
     CompiledText compiled;
     std::string failure; // why the document could not be checked; empty if it was
@@ -92,6 +94,10 @@ public:
                                   const std::map<std::string, std::string>& changed) const;
     /// Checks a document as `lsc check` does. `offers_doubtful`: turns doubtful fixes into offers.
     [[nodiscard]] CheckedDocument check(Document& document, bool offers_doubtful);
+    /// Checks the grammar of a document with `options`: the document itself, or, if it is only a
+    /// part, the first grammar that includes it.
+    [[nodiscard]] CheckedDocument check_whole(const Document& document,
+                                              const GrammarOptions& options) const;
     /// The bytes that `lsc check --fix` writes, by path.
     [[nodiscard]] std::map<std::string, std::string> fixed(Document& document);
 
