@@ -111,6 +111,8 @@ element('button', buttons, {
 });
 
 let shownSeed = 0;
+let lastInfo: PlantInfo | undefined;
+let lastGeneration: number | null = null;
 const generations = new NumberRow(
   'Generations',
   (value) => {
@@ -183,19 +185,23 @@ function showParameters(parameters: Parameter[]): void {
 }
 
 function showValues(message: Extract<ToPage, { type: 'plant' | 'problem' }>): void {
-  // The page may have sent newer options meanwhile; their answer follows.
-  const info: PlantInfo | undefined = message.type === 'plant' ? message.info : undefined;
-  const shown = options.generations ?? info?.generations ?? message.lastGeneration ?? 0;
+  // The page may have sent newer options meanwhile; their answer follows. A grammar with a mistake
+  // leaves the values of the last plant.
+  if (message.type === 'plant') {
+    lastInfo = message.info;
+    lastGeneration = message.lastGeneration;
+  }
+  const shown = options.generations ?? lastInfo?.generations ?? 0;
   generations.show(
     shown,
     0,
-    Math.max(message.lastGeneration ?? 0, shown, 1),
+    Math.max(lastGeneration ?? 0, shown, 1),
     1,
     options.generations !== undefined,
-    message.lastGeneration === null ? 'the grammar has no #n' : `#n = ${message.lastGeneration}`,
+    lastGeneration === null ? 'the grammar has no #n' : `#n = ${lastGeneration}`,
     false,
   );
-  shownSeed = options.seed ?? info?.seed ?? shownSeed;
+  shownSeed = options.seed ?? lastInfo?.seed ?? 0;
   seed.show(shownSeed, 0, undefined, 1, options.seed !== undefined, 'seed of random numbers');
   if (message.parameters.length > 0 || message.type === 'plant') {
     showParameters(message.parameters);

@@ -149,7 +149,7 @@ TEST_CASE("lsys/plant follows the text, its options and included files") {
 }
 
 TEST_CASE("lsys/plant counts characters as the editor does") {
-    Editor editor({{"general", {{"positionEncodings", {"utf-8"}}}}});
+    Editor editor(Json{{"general", {{"positionEncodings", Json::array({"utf-8"})}}}});
     editor.open("/p/a.lsys", "/* 🌳 */ #w : F;\n");
     const Json result = plant_of(editor, {{"generations", 0}});
     CHECK(result.at("plant").at("sources").at(0).at("range") == Editor::range(0, 16, 17));

@@ -135,7 +135,7 @@ test('the plant is drawn, follows the text and the sliders, and is clicked', asy
   await page.waitForFunction(() => true);
   assert.deepEqual(selected, [
     [uri, { start: { line: 6, character: 0 }, end: { line: 6, character: 20 } }],
-    [uri, { start: { line: 7, character: 0 }, end: { line: 7, character: 82 } }],
+    [uri, { start: { line: 7, character: 0 }, end: { line: 7, character: 80 } }],
     [uri, { start: { line: 7, character: 19 }, end: { line: 7, character: 23 } }],
   ]);
 
@@ -171,6 +171,7 @@ test('the plant is drawn, follows the text and the sliders, and is clicked', asy
   await picture('mistake');
   assert.match(await page.textContent('.status'), /^line \d+: /);
   assert.ok(await placeOf(page, 0), 'the last plant stays');
+  assert.equal(await page.locator('input[type=range]').nth(0).inputValue(), '3');
   assert.deepEqual(problems, []);
   await page.close();
   assert.equal(await server.stop(), 0);
