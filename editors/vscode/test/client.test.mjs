@@ -33,8 +33,9 @@ test('the server announces plants and checks grammars', async () => {
   const server = await startServer();
   assert.equal(server.capabilities.experimental.lsysPlant, true);
   await server.open(uri, '#w : F;\n#p : A : x : F;\n');
-  await server.connection.sendRequest('textDocument/documentSymbol', { textDocument: { uri } });
-  assert.ok(server.diagnostics.get(uri).length > 0);
+  const published = await server.diagnostics();
+  assert.equal(published.uri, uri);
+  assert.ok(published.diagnostics.length > 0);
   assert.equal(await server.stop(), 0);
 });
 
