@@ -18,6 +18,18 @@ function setting<T>(name: string): T | undefined {
   return vscode.workspace.getConfiguration('lsys').get<T>(name);
 }
 
+async function offerSettings(problem: string): Promise<void> {
+  const open = 'Open Settings';
+  const answer = await vscode.window.showErrorMessage(
+    `L-system grammars need the compiler lsc. ${problem} ` +
+      'Install it, or set `lsys.path` to its path, such as `~/.local/bin/lsc`.',
+    open,
+  );
+  if (answer === open) {
+    await vscode.commands.executeCommand('workbench.action.openSettings', 'lsys.path');
+  }
+}
+
 async function startServer(): Promise<void> {
   const found = findProgram(setting<string>('path') ?? 'lsc', {
     home: homedir(),
@@ -26,15 +38,7 @@ async function startServer(): Promise<void> {
     windows: process.platform === 'win32',
   });
   if ('problem' in found) {
-    const open = 'Open Settings';
-    const answer = await vscode.window.showErrorMessage(
-      `L-system grammars need the compiler lsc. ${found.problem} ` +
-        'Install it, or set `lsys.path` to its path, such as `~/.local/bin/lsc`.',
-      open,
-    );
-    if (answer === open) {
-      await vscode.commands.executeCommand('workbench.action.openSettings', 'lsys.path');
-    }
+    void offerSettings(found.problem); // waits for the user
     return;
   }
   client = new LanguageClient(

@@ -35,6 +35,7 @@ export class PlantSession {
   private sources: Source[] = [];
   private lastRequest = 0;
   private shown: ToPage | undefined;
+  private cursor: { uri: string; position: Position } | undefined;
 
   constructor(
     readonly uri: string,
@@ -79,6 +80,7 @@ export class PlantSession {
       options: this.options,
       title: this.title,
     });
+    this.highlight(); // by the sources of this plant
   }
 
   /** Handles a message of the page. */
@@ -101,11 +103,20 @@ export class PlantSession {
 
   /** Highlights the parts that the module or production at a position drew. */
   moveCursor(uri: string, position: Position): void {
-    this.host.post({ type: 'highlight', sources: sourcesAt(this.sources, uri, position) });
+    this.cursor = { uri, position };
+    this.highlight();
   }
 
   clearHighlight(): void {
-    this.host.post({ type: 'highlight', sources: [] });
+    this.cursor = undefined;
+    this.highlight();
+  }
+
+  private highlight(): void {
+    const { uri, position } = this.cursor ?? {};
+    const sources =
+      uri !== undefined && position !== undefined ? sourcesAt(this.sources, uri, position) : [];
+    this.host.post({ type: 'highlight', sources });
   }
 
   private reveal(number: number, exact: boolean): void {

@@ -44,7 +44,7 @@ test('a page that is ready gets the plant, and later each change of the text', a
   await server.open(uri, tree);
   const { session, posted, last } = recordedSession(server);
   await session.receive({ type: 'ready' });
-  assert.deepEqual(posted.map((each) => each.type), ['busy', 'plant']);
+  assert.deepEqual(posted.map((each) => each.type), ['busy', 'plant', 'highlight']);
   const plant = posted[1];
   assert.equal(Buffer.from(plant.glb).subarray(0, 4).toString(), 'glTF');
   assert.equal(plant.info.generations, 4);
@@ -105,7 +105,7 @@ test('each key press asks again; only the last plant is shown', async () => {
     all.push(session.refresh());
   }
   await Promise.all(all);
-  const plants = posted.filter((each) => each.type !== 'busy');
+  const plants = posted.filter((each) => each.type === 'plant' || each.type === 'problem');
   assert.equal(plants.length, 1);
   assert.equal(plants[0].info.generations, 5);
   assert.equal(await server.stop(), 0);
@@ -139,6 +139,14 @@ test('a click selects the production, with Alt the module; the cursor finds the 
   session.moveCursor(uri, { line: 0, character: 2 });
   assert.deepEqual(last('highlight').sources, []);
   session.moveCursor('file:///p/other.lsys', { line: 3, character: 17 });
+  assert.deepEqual(last('highlight').sources, []);
+
+  // A new plant has other numbers; the highlight follows.
+  session.moveCursor(uri, { line: 3, character: 17 });
+  await server.change(uri, tree.replace('F(1) A', 'f(1) A'));
+  await session.refresh();
+  assert.deepEqual(last('highlight').sources, [0]);
+  session.clearHighlight();
   assert.deepEqual(last('highlight').sources, []);
   assert.equal(await server.stop(), 0);
 });
