@@ -129,12 +129,60 @@ Json stopped(const PlantJob& job, Stop stop, const Messages& messages) {
     return failed(job.answer, is_limit ? "limit" : "grammar", text_of(messages));
 }
 
+/// A file of a grammar, whose places become ranges.
+class FilePlaces {
+public:
+    FilePlaces(const SourceFile& file, std::string uri, PositionEncoding encoding)
+        : uri_(std::move(uri)), mark_(file.has_byte_order_mark() ? 3 : 0),
+          text_((file.has_byte_order_mark() ? "\xEF\xBB\xBF" : "") + std::string(file.text())),
+          positions_(text_, encoding) {}
+    FilePlaces(const FilePlaces&) = delete;
+    FilePlaces& operator=(const FilePlaces&) = delete;
+
+    /// Adds a statement; sort() follows the last one.
+    void add(const SourceSpan& statement) { statements_.push_back(statement); }
+    void sort() {
+        std::sort(statements_.begin(), statements_.end(),
+                  [](const SourceSpan& a, const SourceSpan& b) { return a.begin < b.begin; });
+    }
+    [[nodiscard]] const std::string& uri() const { return uri_; }
+    /// The statement around a module; the module itself if there is none.
+    [[nodiscard]] SourceSpan statement_of(const SourceSpan& module) const {
+        auto after = std::upper_bound(
+            statements_.begin(), statements_.end(), module.begin,
+            [](std::uint32_t place, const SourceSpan& each) { return place < each.begin; });
+        return after != statements_.begin() && module.end <= (--after)->end ? *after : module;
+    }
+    [[nodiscard]] Json range(const SourceSpan& span) const {
+        const auto position = [this](std::uint32_t offset) {
+            const TextPosition at = positions_.position(offset + mark_);
+            return Json{{"line", at.line}, {"character", at.character}};
+        };
+        return {{"start", position(span.begin)}, {"end", position(span.end)}};
+    }
+
+private:
+    std::string uri_;
+    std::size_t mark_; // bytes of the byte order mark
+    std::string text_; // with the byte order mark
+    TextPositions positions_;
+    std::vector<SourceSpan> statements_; // do not overlap
+};
+
 /// The places in the grammar that wrote the drawn modules.
 class Sources {
 public:
-    Sources(const PlantJob& job, const Bytecode& bytecode) : job_(job), bytecode_(bytecode) {
-        for (std::uint32_t i = 0; i < job.grammar.sources->file_count(); ++i) {
-            files_.emplace(job.grammar.sources->file(static_cast<FileId>(i)).path(), i);
+    Sources(const PlantJob& job, const Bytecode& bytecode) : bytecode_(bytecode) {
+        const SourceMap& sources = *job.grammar.sources;
+        for (std::uint32_t i = 0; i < sources.file_count(); ++i) {
+            const SourceFile& file = sources.file(static_cast<FileId>(i));
+            files_.try_emplace(file.path(), file, job.uris.at(file.path()), job.encoding);
+        }
+        for (const SourceSpan& statement : job.statements) {
+            files_.at(sources.file(statement.file).path()).add(statement);
+        }
+        for (auto& [path, file] : files_) {
+            file.sort();
         }
         numbers_.assign(bytecode.template_codes.size(), kNoSegment);
     }
@@ -161,44 +209,21 @@ private:
             source["production"] = bytecode_.productions[static_cast<std::size_t>(writer)].name;
         }
         const std::optional<Site> site = place_of(bytecode_, place);
-        if (!site) {
-            return source;
+        const auto found =
+            site ? files_.find(bytecode_.files[static_cast<std::size_t>(site->span.file)])
+                 : files_.end();
+        if (found != files_.end()) {
+            const FilePlaces& file = found->second;
+            source["uri"] = file.uri();
+            source["range"] = file.range(site->span);
+            source["statement"] = file.range(file.statement_of(site->span));
         }
-        const std::string& path = bytecode_.files[static_cast<std::size_t>(site->span.file)];
-        const auto found = files_.find(path);
-        if (found == files_.end()) {
-            return source;
-        }
-        const SourceSpan module{static_cast<FileId>(found->second), site->span.begin,
-                                site->span.end};
-        SourceSpan statement = module;
-        for (const SourceSpan& each : job_.statements) {
-            if (each.file == module.file && each.begin <= module.begin && module.end <= each.end) {
-                statement = each;
-            }
-        }
-        source["uri"] = job_.uris.at(path);
-        source["range"] = range(module);
-        source["statement"] = range(statement);
         return source;
     }
-    [[nodiscard]] Json range(const SourceSpan& span) const {
-        const SourceFile& file = job_.grammar.sources->file(span.file);
-        const std::string text =
-            (file.has_byte_order_mark() ? "\xEF\xBB\xBF" : "") + std::string(file.text());
-        const std::size_t mark = text.size() - file.text().size();
-        const TextPositions positions(text, job_.encoding);
-        const auto position = [&](std::uint32_t offset) {
-            const TextPosition at = positions.position(offset + mark);
-            return Json{{"line", at.line}, {"character", at.character}};
-        };
-        return {{"start", position(span.begin)}, {"end", position(span.end)}};
-    }
 
-    const PlantJob& job_;
     const Bytecode& bytecode_;
-    std::map<std::string, std::uint32_t> files_; // numbers of files of the SourceMap, by path
-    std::vector<std::uint32_t> numbers_;         // by place
+    std::map<std::string, FilePlaces> files_; // by path
+    std::vector<std::uint32_t> numbers_;      // by place
     Json all_ = Json::array();
 };
 
