@@ -288,15 +288,6 @@ void LanguageServer::State::change_folders(const Json& params) {
     }
 }
 
-void LanguageServer::State::require_running() const {
-    if (phase == Phase::Created) {
-        throw RequestError(RpcError::ServerNotInitialized, "the server is not initialized");
-    }
-    if (phase == Phase::ShutDown) {
-        throw RequestError(RpcError::InvalidRequest, "the server is shut down");
-    }
-}
-
 Json LanguageServer::State::answer(const std::string& method, const Json& params) {
     if (method == "initialize") {
         if (phase != Phase::Created) {
@@ -317,6 +308,15 @@ Json LanguageServer::State::answer(const std::string& method, const Json& params
         throw RequestError(RpcError::MethodNotFound, "there is no method `" + method + "`");
     }
     return found->answer(workspace, params);
+}
+
+void LanguageServer::State::require_running() const {
+    if (phase == Phase::Created) {
+        throw RequestError(RpcError::ServerNotInitialized, "the server is not initialized");
+    }
+    if (phase == Phase::ShutDown) {
+        throw RequestError(RpcError::InvalidRequest, "the server is shut down");
+    }
 }
 
 void LanguageServer::State::notify(const std::string& method, const Json& params) {

@@ -94,14 +94,14 @@ public:
                                   const std::map<std::string, std::string>& changed) const;
     /// Checks a document as `lsc check` does. `offers_doubtful`: turns doubtful fixes into offers.
     [[nodiscard]] CheckedDocument check(Document& document, bool offers_doubtful);
-    /// Checks the grammar of a document with `options`: the document itself, or, if it is only a
-    /// part, the first grammar that includes it.
-    [[nodiscard]] CheckedDocument check_whole(const Document& document,
-                                              const GrammarOptions& options) const;
     /// The bytes that `lsc check --fix` writes, by path.
     [[nodiscard]] std::map<std::string, std::string> fixed(Document& document);
 
     [[nodiscard]] std::string uri_of(const std::string& path) const;
+    /// Checks the grammar of a document with `options`: the document itself, or, if it is only a
+    /// part, the first grammar that includes it.
+    [[nodiscard]] CheckedDocument check_whole(const Document& document,
+                                              const GrammarOptions& options) const;
 
 private:
     [[nodiscard]] GrammarText grammar_text(const Document& document, std::string& failure) const;
