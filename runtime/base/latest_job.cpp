@@ -18,6 +18,7 @@ using JobClock = std::chrono::steady_clock;
 
 struct LatestJob::State {
     struct Entry {
+        std::string key;
         Job job;
         std::chrono::milliseconds max_time{};
         std::atomic<bool> cancelled{false};
@@ -27,7 +28,7 @@ struct LatestJob::State {
         {
             const std::lock_guard lock(mutex);
             stops = true;
-            cancel_all();
+            cancel(nullptr);
         }
         changed.notify_all();
         for (std::thread* const thread : {&worker, &timer}) {
@@ -37,10 +38,12 @@ struct LatestJob::State {
         }
     }
 
-    /// Precondition: `mutex` is locked.
-    void cancel_all() {
+    /// Cancels the jobs with a key; all, if it is null. Precondition: `mutex` is locked.
+    void cancel(const std::string* key) {
         for (Entry& entry : entries) {
-            entry.cancelled = true;
+            if (key == nullptr || entry.key == *key) {
+                entry.cancelled = true;
+            }
         }
     }
     /// Runs the jobs in their order. The first of `entries` is the one that runs.
@@ -90,12 +93,13 @@ struct LatestJob::State {
 LatestJob::LatestJob() : state_(std::make_unique<State>()) {}
 LatestJob::~LatestJob() = default;
 
-void LatestJob::start(Job job, std::chrono::milliseconds max_time) {
+void LatestJob::start(const std::string& key, Job job, std::chrono::milliseconds max_time) {
     State& state = *state_;
     {
         const std::lock_guard lock(state.mutex);
-        state.cancel_all();
+        state.cancel(&key);
         State::Entry& entry = state.entries.emplace_back();
+        entry.key = key;
         entry.job = std::move(job);
         entry.max_time = max_time;
         if (!state.worker.joinable()) {
@@ -106,9 +110,14 @@ void LatestJob::start(Job job, std::chrono::milliseconds max_time) {
     state.changed.notify_all();
 }
 
-void LatestJob::cancel() {
+void LatestJob::cancel(const std::string& key) {
     const std::lock_guard lock(state_->mutex);
-    state_->cancel_all();
+    state_->cancel(&key);
+}
+
+void LatestJob::cancel_all() {
+    const std::lock_guard lock(state_->mutex);
+    state_->cancel(nullptr);
 }
 
 void LatestJob::wait() {
@@ -123,12 +132,14 @@ struct LatestJob::State {};
 LatestJob::LatestJob() = default;
 LatestJob::~LatestJob() = default;
 
-void LatestJob::start(Job job, std::chrono::milliseconds /*max_time*/) {
+void LatestJob::start(const std::string& /*key*/, Job job, std::chrono::milliseconds /*max_time*/) {
     const std::atomic<bool> cancelled{false};
     job(cancelled);
 }
 
-void LatestJob::cancel() {}
+void LatestJob::cancel(const std::string& /*key*/) {}
+
+void LatestJob::cancel_all() {}
 
 void LatestJob::wait() {}
 

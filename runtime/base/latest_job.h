@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: MIT
 // LatestJob: runs jobs one after another on a thread of its own, each for a limited time. A new job
-// cancels those before it, because only the result of the last one is wanted.
+// cancels those before it with the same key, because only the result of the last one is wanted.
 #pragma once
 
 #include <atomic>
 #include <chrono>
 #include <functional>
 #include <memory>
+#include <string>
 
 namespace lsys {
 
@@ -20,15 +21,16 @@ public:
     LatestJob();
     LatestJob(const LatestJob&) = delete;
     LatestJob& operator=(const LatestJob&) = delete;
-    /// Like cancel() and wait().
+    /// Like cancel_all() and wait().
     ~LatestJob();
 
-    /// Cancels all earlier jobs, and runs `job` when they have ended. Every job is called exactly
-    /// once; if it was cancelled before it began, with a flag that is true. `max_time` after its
-    /// begin the job is cancelled.
-    void start(Job job, std::chrono::milliseconds max_time);
-    /// Cancels all jobs.
-    void cancel();
+    /// Cancels the earlier jobs with this key, and runs `job` when all earlier jobs have ended.
+    /// Every job is called exactly once; if it was cancelled before it began, with a flag that is
+    /// true. `max_time` after its begin the job is cancelled.
+    void start(const std::string& key, Job job, std::chrono::milliseconds max_time);
+    /// Cancels the jobs with this key.
+    void cancel(const std::string& key);
+    void cancel_all();
     /// Returns when all jobs have ended.
     void wait();
 

@@ -46,7 +46,8 @@ async function startServer(): Promise<void> {
     'L-system grammars',
     { command: found.program, args: ['lsp'] },
     {
-      documentSelector: [{ language: 'lsys' }],
+      // Grammars of other programs get messages.
+      documentSelector: [{ language: 'lsys' }, { scheme: 'file', pattern: '**/*.{hlsys,l3d,l++,lss}' }],
       revealOutputChannelOn: RevealOutputChannelOn.Never,
       synchronize: { fileEvents: vscode.workspace.createFileSystemWatcher('**/*.lsys') },
     },

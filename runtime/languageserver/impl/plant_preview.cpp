@@ -353,7 +353,7 @@ void PlantPreview::start(const Json& id, const Json& params, Workspace& workspac
             !checked.failure.empty()
                 ? checked.failure
                 : text_of(checked.compiled.diagnostics, checked.compiled.grammar.sources.get());
-        jobs_.cancel();
+        jobs_.cancel(document->path);
         send_({{"jsonrpc", "2.0"},
                {"id", id},
                {"result", failed(std::move(job->answer), "grammar", message)}});
@@ -369,10 +369,9 @@ void PlantPreview::start(const Json& id, const Json& params, Workspace& workspac
     job->grammar = std::move(grammar);
     {
         const std::lock_guard lock(mutex_);
-        running_ = id.dump();
-        is_cancelled_by_client_ = false;
+        running_[document->path] = {id.dump(), false};
     }
-    const auto run = [this, job, id](const std::atomic<bool>& cancelled) {
+    const auto run = [this, job, id, path = document->path](const std::atomic<bool>& cancelled) {
         const Stopwatch watch;
         Project project = files_;
         project.host.cancelled = &cancelled;
@@ -387,9 +386,10 @@ void PlantPreview::start(const Json& id, const Json& params, Workspace& workspac
         bool by_client = false;
         {
             const std::lock_guard lock(mutex_);
-            if (running_ == id.dump()) {
-                running_.clear();
-                by_client = is_cancelled_by_client_;
+            const auto running = running_.find(path);
+            if (running != running_.end() && running->second.id == id.dump()) {
+                by_client = running->second.is_cancelled_by_client;
+                running_.erase(running);
             }
         }
         Json response{{"jsonrpc", "2.0"}, {"id", id}};
@@ -406,18 +406,18 @@ void PlantPreview::start(const Json& id, const Json& params, Workspace& workspac
         }
         send_(response);
     };
-    jobs_.start(run, std::chrono::milliseconds(std::llround(job->max_seconds * 1000.0)));
+    jobs_.start(document->path, run,
+                std::chrono::milliseconds(std::llround(job->max_seconds * 1000.0)));
 }
 
 void PlantPreview::cancel(const Json& id) {
-    {
-        const std::lock_guard lock(mutex_);
-        if (running_.empty() || running_ != id.dump()) {
-            return;
+    const std::lock_guard lock(mutex_);
+    for (auto& [path, running] : running_) {
+        if (running.id == id.dump()) {
+            running.is_cancelled_by_client = true;
+            jobs_.cancel(path);
         }
-        is_cancelled_by_client_ = true;
     }
-    jobs_.cancel();
 }
 
 } // namespace lsys

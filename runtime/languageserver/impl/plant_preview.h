@@ -26,14 +26,14 @@ public:
     PlantPreview(Project files, std::string generator, Send send)
         : files_(std::move(files)), generator_(std::move(generator)), send_(std::move(send)) {}
 
-    /// Begins to grow the plant of a request, and ends the plants of earlier requests, which are
-    /// answered with RpcError::ServerCancelled. Throws RequestError, and exceptions of Json, for
+    /// Begins to grow the plant of a request, and ends the plants of earlier requests for the same
+    /// document, which are answered with RpcError::ServerCancelled. Throws RequestError, and exceptions of Json, for
     /// invalid parameters; such a request ends no other.
     void start(const Json& id, const Json& params, Workspace& workspace);
     /// Cancels the request with this id, if it is not answered yet.
     void cancel(const Json& id);
     /// Cancels all requests.
-    void cancel_all() { jobs_.cancel(); }
+    void cancel_all() { jobs_.cancel_all(); }
     /// Returns when all requests are answered.
     void wait() { jobs_.wait(); }
 
@@ -41,10 +41,14 @@ private:
     Project files_;
     std::string generator_;
     Send send_;
-    std::mutex mutex_;
-    std::string running_; // JSON of the id of the last request, until it is answered
-    bool is_cancelled_by_client_ = false;
-    LatestJob jobs_; // last member: jobs use the others
+    /// The last request of a document, until it is answered.
+    struct Running {
+        std::string id; // JSON
+        bool is_cancelled_by_client = false;
+    };
+    std::mutex mutex_;                       // guards `running_`
+    std::map<std::string, Running> running_; // by path of the document
+    LatestJob jobs_;                         // last member: jobs use the others
 };
 
 } // namespace lsys

@@ -30,6 +30,7 @@ TEST_CASE("a newer job cancels those before it, and each runs once, in order") {
     LatestJob jobs;
     for (const char name : {'a', 'b', 'c'}) {
         jobs.start(
+            "key",
             [&log, name](const std::atomic<bool>& cancelled) {
                 if (name != 'c') {
                     run_until_cancelled(cancelled);
@@ -43,6 +44,22 @@ TEST_CASE("a newer job cancels those before it, and each runs once, in order") {
     CHECK(log == "a-b-c+");
 }
 
+TEST_CASE("jobs with different keys run one after another") {
+    std::string log;
+    LatestJob jobs;
+    for (const char name : {'a', 'b', 'c'}) {
+        jobs.start(
+            std::string(1, name),
+            [&log, name](const std::atomic<bool>& cancelled) {
+                log += name;
+                log += cancelled ? '-' : '+';
+            },
+            kLong);
+    }
+    jobs.wait();
+    CHECK(log == "a+b+c+");
+}
+
 TEST_CASE("a job is cancelled by hand, after its time, and at the end") {
     std::atomic<int> ended{0};
     {
@@ -51,14 +68,15 @@ TEST_CASE("a job is cancelled by hand, after its time, and at the end") {
             run_until_cancelled(cancelled);
             ++ended;
         };
-        jobs.start(job, kLong);
-        jobs.cancel();
+        jobs.start("key", job, kLong);
+        jobs.cancel("other");
+        jobs.cancel("key");
         jobs.wait();
         CHECK(ended == 1);
-        jobs.start(job, std::chrono::milliseconds(20));
+        jobs.start("key", job, std::chrono::milliseconds(20));
         jobs.wait();
         CHECK(ended == 2);
-        jobs.start(job, kLong);
+        jobs.start("key", job, kLong);
     }
     CHECK(ended == 3);
 }

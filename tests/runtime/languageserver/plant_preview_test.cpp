@@ -264,6 +264,21 @@ TEST_CASE("lsys/plant does not block the server, and a newer request ends an old
     editor.notify("$/cancelRequest", {{"id", 1003}}); // too late: no effect
 }
 
+TEST_CASE("plants of different documents do not end each other") {
+    Editor editor(Json::object());
+    editor.open("/p/a.lsys", kEndless);
+    editor.open("/p/b.lsys", kTree);
+    Late late(editor.server());
+    ask(editor, 1001, {{"maxSeconds", 0.2}});
+    editor.send({{"jsonrpc", "2.0"},
+                 {"id", 1002},
+                 {"method", "lsys/plant"},
+                 {"params", Editor::in("/p/b.lsys")}});
+    editor.notify("$/cancelRequest", {{"id", 999}}); // unknown
+    CHECK(late.response(1001).at("result").at("reason") == "limit");
+    CHECK(late.response(1002).at("result").at("plant").is_object());
+}
+
 TEST_CASE("lsys/plant ends after the wanted time") {
     Editor editor(Json::object());
     editor.open("/p/a.lsys", kEndless);
