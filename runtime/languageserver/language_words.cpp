@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "runtime/languageserver/language_words.h"
 
-#include "compiler/resolve/material_keys.h"
+#include "compiler/resolve/known_words.h"
 #include "compiler/resolve/profiles.h"
 #include "grammar/base/characters.h"
+#include "grammar/lsys/statement_names.h"
 #include "runtime/languageserver/impl/vocabulary.h"
 
 #include <algorithm>
@@ -24,11 +25,11 @@ void tidy(std::vector<std::string>& words) {
 
 LanguageWords language_words() {
     LanguageWords words;
-    for (const StatementHelp& row : statement_helps()) {
-        words.statements.emplace_back(row.name.substr(1));
+    for (const std::string_view name : statement_names()) {
+        words.statements.emplace_back(name);
     }
-    for (const FunctionHelp& row : function_helps()) {
-        words.functions.emplace_back(row.name);
+    for (const std::string_view name : function_names()) {
+        words.functions.emplace_back(name);
     }
     for (const SettingHelp& row : setting_helps()) {
         words.settings.push_back(row.name);

@@ -2,7 +2,7 @@
 #include "compiler/resolve/impl/materials.h"
 
 #include "compiler/resolve/impl/definitions.h"
-#include "compiler/resolve/material_keys.h"
+#include "compiler/resolve/known_words.h"
 #include "grammar/base/counted_text.h"
 #include "grammar/base/paths.h"
 
