@@ -110,9 +110,16 @@ export class PlantView {
     sun.position.set(2, 4, 3);
     this.scene.add(sun);
     this.controls = new OrbitControls(this.camera, canvas);
-    this.controls.addEventListener('change', () => this.requestDraw());
+    let isHeld = false;
     this.controls.addEventListener('start', () => {
-      this.cameraIsOfUser = true;
+      isHeld = true;
+    });
+    this.controls.addEventListener('end', () => {
+      isHeld = false;
+    });
+    this.controls.addEventListener('change', () => {
+      this.cameraIsOfUser ||= isHeld; // a click alone moves nothing
+      this.requestDraw();
     });
     let pressed: [number, number] | undefined;
     canvas.addEventListener('pointerdown', (event) => {
@@ -214,6 +221,11 @@ export class PlantView {
       }
     });
     return count;
+  }
+
+  /** Whether the user has moved the camera since fit(). */
+  isMovedByUser(): boolean {
+    return this.cameraIsOfUser;
   }
 
   /** Draws now. */

@@ -139,6 +139,18 @@ test('the plant is drawn, follows the text and the sliders, and is clicked', asy
     [uri, { start: { line: 7, character: 19 }, end: { line: 7, character: 23 } }],
   ]);
 
+  // A click leaves the camera to the plant; a drag does not.
+  const isMoved = () => page.evaluate(() => globalThis.plantView.isMovedByUser());
+  assert.equal(await isMoved(), false);
+  await page.mouse.move(600, 300);
+  await page.mouse.down();
+  await page.mouse.move(660, 300, { steps: 4 });
+  await page.mouse.up();
+  assert.equal(await isMoved(), true);
+  assert.equal(selected.length, 3, 'a drag is no click');
+  await page.getByText('Fit').click();
+  assert.equal(await isMoved(), false);
+
   // The leaf under the cursor.
   session.moveCursor(uri, { line: 7, character: tree.split('\n')[7].indexOf('L(0.6)') });
   await page.waitForFunction(() => globalThis.plantView.highlightedTriangles() > 0);
