@@ -35,7 +35,7 @@ set(LSYS_LAYERS
   "runtime/tiles: grammar/base runtime/base runtime/turtle runtime/meshing runtime/forest runtime/terrain runtime/placement runtime/scene runtime/export runtime/pipeline"
   "runtime/serve: grammar/base runtime/base runtime/tiles"
   "runtime/names: grammar/base grammar/ast grammar/lsys grammar/dialects compiler/bytecode compiler/resolve"
-  "runtime/languageserver: grammar/base grammar/ast grammar/lsys grammar/format grammar/dialects compiler/bytecode compiler/growth compiler/program compiler/resolve runtime/base runtime/pipeline runtime/names"
+  "runtime/languageserver: grammar/base grammar/ast grammar/lsys grammar/format grammar/dialects compiler/bytecode compiler/growth compiler/program compiler/resolve runtime/base runtime/derive runtime/turtle runtime/meshing runtime/export runtime/pipeline runtime/names"
   "runtime/program: grammar/base grammar/rendering grammar/dialects compiler/bytecode compiler/program runtime/platform runtime/base runtime/derive runtime/turtle runtime/meshing runtime/physics runtime/placement runtime/scene runtime/pipeline"
   "runtime/repair: grammar/base grammar/rendering grammar/ast grammar/lsys grammar/dialects compiler/program runtime/pipeline runtime/program"
   "runtime/output: grammar/base runtime/base runtime/derive runtime/turtle runtime/meshing runtime/physics runtime/forest runtime/terrain runtime/placement runtime/scene runtime/export runtime/pipeline runtime/program"

@@ -6,7 +6,6 @@
 #include "compiler/resolve/impl/declarations.h"
 #include "compiler/resolve/impl/definitions.h"
 #include "compiler/resolve/impl/expressions.h"
-#include "compiler/resolve/impl/folding_faults.h"
 #include "compiler/resolve/impl/materials.h"
 #include "compiler/resolve/impl/productions.h"
 #include "compiler/resolve/impl/resolution.h"
@@ -16,6 +15,7 @@
 #include "compiler/resolve/impl/symbols.h"
 #include "compiler/resolve/impl/values.h"
 #include "compiler/resolve/impl/words.h"
+#include "compiler/resolve/known_words.h"
 #include "compiler/resolve/profiles.h"
 #include "grammar/base/synonyms.h"
 

@@ -159,6 +159,9 @@ struct ExportInfo {
     /// Numbers for shaders that move the plant in wind (impl/wind_data.h), for
     /// FormatTraits::wind_data. Precondition: Mesh::segments has an item for each vertex.
     bool wind_data = false;
+    /// Write the numbers of Mesh::segments in glTF files, as the attribute `_ITEMS` of two floats;
+    /// -1 for kNoSegment. Precondition: Mesh::segments has an item for each vertex.
+    bool item_numbers = false;
     UpAxis up = UpAxis::Y; // for FormatTraits::up_axes
     /// Write the triangles of two-sided materials a second time, reversed and with reversed
     /// normals, for readers that draw front faces only; for FormatTraits::back_faces.

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "runtime/languageserver/language_server.h"
 
+#include "runtime/languageserver/impl/plant_preview.h"
 #include "runtime/languageserver/impl/workspace.h"
 
 #include <algorithm>
 #include <array>
+#include <mutex>
 #include <set>
 #include <utility>
 
@@ -113,8 +115,35 @@ Json server_capabilities(const EditorFeatures& editor) {
         {"colorProvider", true},
         {"completionProvider", {{"triggerCharacters", Json::array({"#", " ", "(", ":"})}}},
         {"signatureHelpProvider", {{"triggerCharacters", Json::array({"(", ","})}}},
+        {"experimental", {{"lsysPlant", true}}},
         {"workspace", {{"workspaceFolders", {{"supported", true}, {"changeNotifications", true}}}}},
     };
+}
+
+/// The request with an answer that is made on another thread.
+constexpr std::string_view kPlantRequest = "lsys/plant";
+
+/// A host whose functions may be called from two threads at once.
+Host shared_host(Host host) {
+    const auto mutex = std::make_shared<std::mutex>();
+    const auto guarded = [&mutex](auto read) {
+        return [mutex, read](const std::string& path, const ReadLimit& limit) {
+            const std::lock_guard lock(*mutex);
+            return read(path, limit);
+        };
+    };
+    host.read_file = guarded(host.read_file);
+    host.read_referenced_file = guarded(host.read_referenced_file);
+    host.file_exists = [mutex, exists = host.file_exists](const std::string& path) {
+        const std::lock_guard lock(*mutex);
+        return exists(path);
+    };
+    return host;
+}
+
+LanguageServerHost with_shared_files(LanguageServerHost host) {
+    host.project.host = shared_host(std::move(host.project.host));
+    return host;
 }
 
 bool is_id(const Json& id) {
@@ -124,7 +153,12 @@ bool is_id(const Json& id) {
 } // namespace
 
 struct LanguageServer::State {
-    explicit State(LanguageServerHost host) : workspace(std::move(host)) {}
+    /// `host` has functions of shared_host().
+    explicit State(const LanguageServerHost& host)
+        : workspace(host),
+          preview(host.project, "lsc " + host.version, [this](const Json& response) {
+              send_late(response);
+          }) {}
 
     enum class Phase { Created, Running, ShutDown, Exited };
 
@@ -132,14 +166,31 @@ struct LanguageServer::State {
     Phase phase = Phase::Created;
     bool was_shut_down = false;
     std::vector<std::string> output;
+    std::mutex late_mutex; // guards the two members below
+    std::function<void(const std::string&)> deliver;
+    std::vector<std::string> late_output; // not delivered
+    PlantPreview preview;                 // last member: its thread uses the others
 
-    void send(const Json& message) {
-        // Paths and texts of an author may hold bytes that are no UTF-8.
-        output.push_back(message.dump(-1, ' ', false, Json::error_handler_t::replace));
+    /// Paths and texts of an author may hold bytes that are no UTF-8.
+    [[nodiscard]] static std::string text_of(const Json& message) {
+        return message.dump(-1, ' ', false, Json::error_handler_t::replace);
+    }
+    void send(const Json& message) { output.push_back(text_of(message)); }
+    /// Sends a message from another thread.
+    void send_late(const Json& message) {
+        const std::string text = text_of(message);
+        const std::lock_guard lock(late_mutex);
+        if (deliver) {
+            deliver(text);
+        } else {
+            late_output.push_back(text);
+        }
     }
 
     void receive(const Json& message, const std::set<std::string>& cancelled);
     [[nodiscard]] Json answer(const std::string& method, const Json& params);
+    /// Throws RequestError unless the server answers requests on documents.
+    void require_running() const;
     void notify(const std::string& method, const Json& params);
     [[nodiscard]] Json initialize(const Json& params);
     void open(const Json& params);
@@ -276,13 +327,9 @@ Json LanguageServer::State::answer(const std::string& method, const Json& params
         }
         return initialize(params);
     }
-    if (phase == Phase::Created) {
-        throw RequestError(RpcError::ServerNotInitialized, "the server is not initialized");
-    }
-    if (phase == Phase::ShutDown) {
-        throw RequestError(RpcError::InvalidRequest, "the server is shut down");
-    }
+    require_running();
     if (method == "shutdown") {
+        preview.cancel_all();
         phase = Phase::ShutDown;
         was_shut_down = true;
         return nullptr;
@@ -293,6 +340,15 @@ Json LanguageServer::State::answer(const std::string& method, const Json& params
         throw RequestError(RpcError::MethodNotFound, "there is no method `" + method + "`");
     }
     return found->answer(workspace, params);
+}
+
+void LanguageServer::State::require_running() const {
+    if (phase == Phase::Created) {
+        throw RequestError(RpcError::ServerNotInitialized, "the server is not initialized");
+    }
+    if (phase == Phase::ShutDown) {
+        throw RequestError(RpcError::InvalidRequest, "the server is shut down");
+    }
 }
 
 void LanguageServer::State::notify(const std::string& method, const Json& params) {
@@ -314,6 +370,8 @@ void LanguageServer::State::notify(const std::string& method, const Json& params
         mark({});
     } else if (method == "workspace/didChangeWorkspaceFolders") {
         change_folders(params);
+    } else if (method == "$/cancelRequest") {
+        preview.cancel(params.at("id"));
     } // other notifications, also unknown ones, have no effect
 }
 
@@ -347,7 +405,10 @@ void LanguageServer::State::receive(const Json& message, const std::set<std::str
         return;
     }
     try {
-        if (is_request) {
+        if (is_request && method == kPlantRequest) {
+            require_running();
+            preview.start(id, member(message, {"params"}), workspace);
+        } else if (is_request) {
             Json result = answer(method.get<std::string>(), member(message, {"params"}));
             send({{"jsonrpc", "2.0"}, {"id", id}, {"result", std::move(result)}});
         } else {
@@ -362,7 +423,7 @@ void LanguageServer::State::receive(const Json& message, const std::set<std::str
 }
 
 LanguageServer::LanguageServer(LanguageServerHost host)
-    : state_(std::make_unique<State>(std::move(host))) {}
+    : state_(std::make_unique<State>(with_shared_files(std::move(host)))) {}
 
 LanguageServer::~LanguageServer() = default;
 
@@ -388,7 +449,28 @@ std::vector<std::string> LanguageServer::receive(const std::vector<ReadMessage>&
         }
     }
     state_->publish();
+    bool waits = false;
+    {
+        const std::lock_guard lock(state_->late_mutex);
+        waits = !state_->deliver;
+    }
+    if (waits) {
+        state_->preview.wait();
+        const std::lock_guard lock(state_->late_mutex);
+        for (std::string& late : std::exchange(state_->late_output, {})) {
+            state_->output.push_back(std::move(late));
+        }
+    }
     return std::exchange(state_->output, {});
+}
+
+void LanguageServer::deliver_late(std::function<void(const std::string& body)> deliver) {
+    if (!deliver) {
+        state_->preview.cancel_all();
+        state_->preview.wait();
+    }
+    const std::lock_guard lock(state_->late_mutex);
+    state_->deliver = std::move(deliver);
 }
 
 bool LanguageServer::has_exited() const {

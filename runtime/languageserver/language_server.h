@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // LanguageServer: `lsc lsp` without its streams. Takes the JSON texts of messages (LSP 3.17) and
-// returns the JSON texts of its own. Checks grammars by the pipeline and never derives them.
+// returns the JSON texts of its own. Checks grammars by the pipeline. Derives them only for
+// `lsys/plant`, on a thread of its own.
 #pragma once
 
 #include "runtime/languageserver/message_reader.h"
@@ -53,6 +54,10 @@ public:
     /// run, and diagnostics are computed once, after the last change. Returns the bodies of the
     /// responses and notifications to send, in order.
     [[nodiscard]] std::vector<std::string> receive(const std::vector<ReadMessage>& messages);
+    /// Sends responses of `lsys/plant` by `deliver`, which is called on another thread, as soon as
+    /// they are made. With an empty function, cancels the requests that are not answered yet;
+    /// from then on, as at first, receive() waits for these responses and returns them.
+    void deliver_late(std::function<void(const std::string& body)> deliver);
     /// Whether `exit` was received; messages after it are ignored.
     [[nodiscard]] bool has_exited() const;
     /// The exit status of the process: 0 after `shutdown`, otherwise 1.

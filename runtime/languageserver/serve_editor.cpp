@@ -3,18 +3,43 @@
 
 #include <algorithm>
 #include <istream>
+#include <mutex>
 #include <optional>
 #include <ostream>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
 
 namespace lsys {
 
+namespace {
+
+/// Ends the delivery of late responses, which uses the stream.
+struct LateDelivery {
+    explicit LateDelivery(LanguageServer& own_server) : server(own_server) {}
+    LateDelivery(const LateDelivery&) = delete;
+    LateDelivery& operator=(const LateDelivery&) = delete;
+    ~LateDelivery() { server.deliver_late({}); }
+    LanguageServer& server;
+};
+
+} // namespace
+
 int serve_editor(LanguageServer& server,
                  std::istream& in,
                  std::ostream& out,
                  const std::function<bool()>& wait) {
+    std::mutex writing; // guards `out`
+    const auto write = [&](std::span<const std::string> bodies) {
+        const std::lock_guard lock(writing);
+        for (const std::string& body : bodies) {
+            out << framed(body);
+        }
+        return static_cast<bool>(out.flush());
+    };
+    server.deliver_late([&](const std::string& body) { static_cast<void>(write({&body, 1})); });
+    const LateDelivery delivery{server};
     MessageReader reader;
     std::string piece;
     while (!server.has_exited() && (in.rdbuf()->in_avail() > 0 || wait()) &&
@@ -31,10 +56,7 @@ int serve_editor(LanguageServer& server,
         if (messages.empty()) {
             continue;
         }
-        for (const std::string& answer : server.receive(messages)) {
-            out << framed(answer);
-        }
-        if (!out.flush()) {
+        if (!write(server.receive(messages))) {
             return 1;
         }
     }

@@ -28,12 +28,14 @@ std::string_view comment_after(std::string_view text, std::size_t place) {
 
 } // namespace
 
+std::string_view comment_of(const Constant& constant, const Grammar& grammar) {
+    return constant.span.file == kNoFile
+               ? std::string_view()
+               : comment_after(grammar.sources->file(constant.span.file).text(), constant.span.end);
+}
+
 std::string describe_constant(const Constant& constant, const Grammar& grammar, bool is_replaced) {
-    std::string text;
-    if (constant.span.file != kNoFile) {
-        const SourceFile& file = grammar.sources->file(constant.span.file);
-        text = comment_after(file.text(), constant.span.end);
-    }
+    std::string text(comment_of(constant, grammar));
     text += text.empty() ? "" : "\n";
     text += constant.is_random ? "random in each run"
             : is_replaced ? fmt::format("{:g} instead of the value in the file", constant.value)

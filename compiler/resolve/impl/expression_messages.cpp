@@ -3,6 +3,7 @@
 #include "compiler/bytecode/distributions.h"
 #include "compiler/resolve/impl/expressions.h"
 #include "compiler/resolve/impl/folding_faults.h"
+#include "compiler/resolve/known_words.h"
 #include "grammar/base/characters.h"
 #include "grammar/base/synonyms.h"
 

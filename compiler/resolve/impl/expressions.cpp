@@ -4,6 +4,7 @@
 #include "compiler/bytecode/distributions.h"
 #include "compiler/bytecode/instructions.h"
 #include "compiler/resolve/impl/folding_faults.h"
+#include "compiler/resolve/known_words.h"
 #include "grammar/base/contract.h"
 
 #include <fmt/format.h>

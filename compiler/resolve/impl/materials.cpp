@@ -2,6 +2,7 @@
 #include "compiler/resolve/impl/materials.h"
 
 #include "compiler/resolve/impl/definitions.h"
+#include "compiler/resolve/known_words.h"
 #include "grammar/base/counted_text.h"
 #include "grammar/base/paths.h"
 
@@ -41,6 +42,14 @@ constexpr std::array<MaterialKey, 7> kKeys{{
 constexpr std::size_t kListedKeys = 6; // without `color`
 
 } // namespace
+
+std::vector<std::string_view> material_keys() {
+    std::vector<std::string_view> names;
+    for (std::size_t i = 0; i < kListedKeys; ++i) {
+        names.emplace_back(kKeys[i].name);
+    }
+    return names;
+}
 
 void MaterialResolver::material(const MaterialNode& node, SourceSpan statement) {
     expressions_.begin_statement();

@@ -5,6 +5,7 @@
 #include "grammar/base/diagnostic.h"
 #include "grammar/base/find_any.h"
 #include "grammar/base/synonyms.h"
+#include "grammar/lsys/statement_names.h"
 
 #include <algorithm>
 #include <array>
@@ -131,6 +132,10 @@ std::uint32_t count_colons(std::string_view text, std::uint32_t begin) {
 
 bool has_more_colons(std::string_view text, std::uint32_t begin, std::uint32_t count) {
     return count_colons_up_to(text, begin, count + 1) > count;
+}
+
+std::vector<std::string_view> statement_names() {
+    return {kSpellings.begin() + 1, kSpellings.end()};
 }
 
 std::string_view spelling(Keyword keyword) {

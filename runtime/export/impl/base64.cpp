@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "runtime/export/impl/base64.h"
 
+#include "runtime/export/base64.h"
+
 #include <algorithm>
 #include <cstring>
 
@@ -67,6 +69,21 @@ void Base64Writer::finish() {
         out_.used(at + 4);
         pending_size_ = 0;
     }
+}
+
+std::string base64(std::string_view bytes) {
+    std::string text;
+    text.reserve((bytes.size() + 2) / 3 * 4);
+    const ByteSink sink = [&text](std::string_view piece) {
+        text += piece;
+        return true;
+    };
+    PieceWriter out(sink);
+    Base64Writer writer(out);
+    writer.put(std::as_bytes(std::span(bytes)));
+    writer.finish();
+    static_cast<void>(out.finish());
+    return text;
 }
 
 } // namespace lsys

@@ -38,7 +38,7 @@ struct Contents {
     [[nodiscard]] std::uint64_t bytes() const { return streams.bytes + collision.byte_count(); }
     [[nodiscard]] const GltfMotion* moving() const { return motion ? &*motion : nullptr; }
     [[nodiscard]] GltfPlant plant(const ExportJob& job) const {
-        return {job.mesh, moving(), wind ? &*wind : nullptr, job.info.film};
+        return {job.mesh, moving(), wind ? &*wind : nullptr, job.info.film, job.info.item_numbers};
     }
 };
 

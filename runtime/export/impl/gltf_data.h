@@ -21,6 +21,7 @@ enum class GltfArray : std::uint8_t {
     Weights,
     WindPivots,
     WindMotions,
+    Items,           // numbers of Mesh::segments
     PositionChanges, // of morph targets
     NormalChanges,
     Indices,

@@ -162,6 +162,11 @@ void write_quantized(const Mesh& mesh,
     }
 }
 
+/// The float of a number of Mesh::segments: exact up to 2^24; -1 for kNoSegment.
+float item_number(std::uint32_t number) {
+    return number == kNoSegment ? -1.0F : static_cast<float>(number);
+}
+
 } // namespace
 
 GltfTextureForm
@@ -239,6 +244,8 @@ GltfItem item_of(GltfArray array, const GltfForm& form) {
     case GltfArray::WindMotions:
         return quantized ? GltfItem{kGltfUnsignedShort, "VEC2", true, 4}
                          : GltfItem{kGltfFloat, "VEC2", false, 8};
+    case GltfArray::Items:
+        return {kGltfFloat, "VEC2", false, 8};
     case GltfArray::Joints:
         return {kGltfUnsignedByte, "VEC4", false, 4};
     default: // colours, weights
@@ -247,9 +254,9 @@ GltfItem item_of(GltfArray array, const GltfForm& form) {
 }
 
 std::string_view attribute_name(GltfArray array) {
-    constexpr std::array<std::string_view, 11> kNames{
-        "POSITION",  "NORMAL",     "TEXCOORD_0", "TANGENT",  "COLOR_0", "JOINTS_0",
-        "WEIGHTS_0", "TEXCOORD_1", "TEXCOORD_2", "POSITION", "NORMAL",
+    constexpr std::array<std::string_view, 12> kNames{
+        "POSITION",  "NORMAL",     "TEXCOORD_0", "TANGENT", "COLOR_0",  "JOINTS_0",
+        "WEIGHTS_0", "TEXCOORD_1", "TEXCOORD_2", "_ITEMS",  "POSITION", "NORMAL",
     };
     static_assert(kNames.size() == static_cast<std::size_t>(GltfArray::Indices));
     return kNames[static_cast<std::size_t>(array)];
@@ -268,7 +275,8 @@ void write_items(const Mesh& mesh,
                  GltfArray array,
                  const GltfForm& form,
                  const GltfBytes& write) {
-    const bool quantized = array == GltfArray::Positions            ? form.step > 0.0F
+    const bool quantized = array == GltfArray::Items                ? false
+                           : array == GltfArray::Positions          ? form.step > 0.0F
                            : array == GltfArray::TextureCoordinates ? form.texture.quantized
                                                                     : form.quantized();
     if (array == GltfArray::Colours) {
@@ -283,6 +291,11 @@ void write_items(const Mesh& mesh,
     } else if (array == GltfArray::TextureCoordinates) {
         write_each(vertices, write,
                    [&](std::uint32_t vertex) { return mesh.texture_coordinates[vertex]; });
+    } else if (array == GltfArray::Items) {
+        write_each(vertices, write, [&](std::uint32_t vertex) {
+            const VertexSegments& items = mesh.segments[vertex];
+            return glm::vec2(item_number(items[0]), item_number(items[1]));
+        });
     } else {
         write_each(vertices, write,
                    [&](std::uint32_t vertex) { return valid_tangent(mesh.tangents[vertex]); });

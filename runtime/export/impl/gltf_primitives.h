@@ -67,7 +67,7 @@ inline constexpr std::size_t kMinMergedMaterials = 4;
 /// Attributes of the vertices of a file besides position and normal.
 struct GltfVertexUse {
     const Pictures& pictures; // of materials
-    bool segments = false;    // vertices have joints or wind data
+    bool segments = false;    // vertices have joints, wind data or item numbers
     /// The order of the vertices and triangles of a mesh with one part; null: it is computed.
     const MeshOrder* order = nullptr;
 };

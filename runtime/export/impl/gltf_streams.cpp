@@ -170,6 +170,9 @@ public:
             add(GltfArray::WindPivots);
             add(GltfArray::WindMotions);
         }
+        if (plant_.items) {
+            add(GltfArray::Items);
+        }
         if (plant_.film != nullptr) {
             add_morph_targets(number);
         }
@@ -287,7 +290,8 @@ GltfStreams plan_gltf_streams(const GltfPlant& plant,
     std::optional<GltfVertexUse> compressed;
     if (info.compression == ExportCompression::Meshopt) {
         compressed.emplace(
-            GltfVertexUse{pictures, plant.motion != nullptr || plant.wind != nullptr, plant.order});
+            GltfVertexUse{pictures, plant.motion != nullptr || plant.wind != nullptr || plant.items,
+                          plant.order});
     }
     streams.primitives = plan_gltf_primitives(mesh, compressed, plant.film);
     streams.images = std::move(images);

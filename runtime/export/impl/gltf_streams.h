@@ -27,6 +27,7 @@ struct GltfPlant {
     const GltfMotion* motion = nullptr; // null: no skin
     const WindData* wind = nullptr;     // null: no wind data; else texture coordinates are complete
     const MeshFilm* film = nullptr;     // null: no film; else `mesh` is the mesh of the film
+    bool items = false;                 // whether vertices have the numbers of Mesh::segments
     const MeshOrder* order = nullptr;   // null: the order is computed for compressed files
 };
 

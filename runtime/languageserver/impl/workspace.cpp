@@ -297,6 +297,7 @@ GrammarOptions Workspace::options_of(const Document& document) const {
 
 CheckedDocument Workspace::check_anew(const Document& document) const {
     CheckedDocument checked;
+    checked.path = document.path;
     checked.text = grammar_text(document, checked.failure);
     if (!checked.failure.empty()) {
         return checked;
@@ -331,6 +332,28 @@ CheckedDocument Workspace::check_with_offers(Document& document) {
         host.offer_doubtful({document.path, checked.text, options_of(document)}, host.project,
                             checked.compiled);
     }
+    checked.compiled.diagnostics.sort_by_place();
+    return checked;
+}
+
+CheckedDocument Workspace::check_whole(const Document& document,
+                                       const GrammarOptions& options) const {
+    Document whole;
+    whole.path = options_of(document).part ? roots_of(document.path).front() : document.path;
+    whole.is_lsys = document.is_lsys;
+    CheckedDocument checked;
+    checked.path = whole.path;
+    checked.text = grammar_text(whole, checked.failure);
+    if (!checked.failure.empty()) {
+        return checked;
+    }
+    Result<CompiledText> compiled =
+        compile_text(whole.path, checked.text, options, host.project.limits.max_modules, loader());
+    if (!compiled) {
+        checked.failure = compiled.error().message;
+        return checked;
+    }
+    checked.compiled = std::move(compiled.value());
     checked.compiled.diagnostics.sort_by_place();
     return checked;
 }

@@ -32,6 +32,7 @@ enum class RpcError : int {
     InvalidParams = -32602,
     ServerNotInitialized = -32002,
     RequestCancelled = -32800,
+    ServerCancelled = -32802,
     RequestFailed = -32803,
 };
 
@@ -72,6 +73,7 @@ struct EditorFeatures {
 
 /// The result of checking a document.
 struct CheckedDocument {
+    std::string path; // of the checked file
     GrammarText text;
     CompiledText compiled;
     std::string failure; // why the document could not be checked; empty if it was
@@ -120,6 +122,10 @@ public:
     [[nodiscard]] std::map<std::string, std::string> fixed(Document& document);
 
     [[nodiscard]] std::string uri_of(const std::string& path) const;
+    /// Checks the grammar of a document with `options`: the document itself, or, if it is only a
+    /// part, the first grammar that includes it.
+    [[nodiscard]] CheckedDocument check_whole(const Document& document,
+                                              const GrammarOptions& options) const;
 
 private:
     [[nodiscard]] GrammarText grammar_text(const Document& document, std::string& failure) const;

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: MIT
+// The messages between the extension and the page of the preview.
+
+import type { Parameter } from './protocol';
+
+/** Values that the user has set in the preview; unset values are those of the grammar. */
+export interface PreviewOptions {
+  generations?: number;
+  seed?: number;
+  definitions: Record<string, number>;
+}
+
+export interface PlantInfo {
+  modules: number;
+  triangles: number;
+  level: number;
+  generations: number;
+  seed: number;
+  seconds: number;
+}
+
+export type ToPage =
+  | {
+      type: 'plant';
+      /** A GLB file; empty if the plant draws nothing. */
+      glb: ArrayBuffer;
+      info: PlantInfo;
+      parameters: Parameter[];
+      lastGeneration: number | null;
+      options: PreviewOptions;
+      title: string;
+    }
+  | {
+      /** The last plant stays. */
+      type: 'problem';
+      message: string;
+      parameters: Parameter[];
+      lastGeneration: number | null;
+      options: PreviewOptions;
+      title: string;
+    }
+  | { type: 'busy' }
+  | { type: 'highlight'; sources: number[] };
+
+export type FromPage =
+  | { type: 'ready' }
+  | { type: 'options'; options: PreviewOptions }
+  | { type: 'pick'; source: number; exact: boolean }
+  | { type: 'failure'; message: string };

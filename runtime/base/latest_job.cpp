@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: MIT
+#include "runtime/base/latest_job.h"
+
+#if LSYS_THREADS
+#include <condition_variable>
+#include <deque>
+#include <mutex>
+#include <optional>
+#include <thread>
+#include <utility>
+#endif
+
+namespace lsys {
+
+#if LSYS_THREADS
+
+using JobClock = std::chrono::steady_clock;
+
+struct LatestJob::State {
+    struct Entry {
+        std::string key;
+        Job job;
+        std::chrono::milliseconds max_time{};
+        std::atomic<bool> cancelled{false};
+    };
+
+    ~State() {
+        {
+            const std::lock_guard lock(mutex);
+            stops = true;
+            cancel(nullptr);
+        }
+        changed.notify_all();
+        for (std::thread* const thread : {&worker, &timer}) {
+            if (thread->joinable()) {
+                thread->join();
+            }
+        }
+    }
+
+    /// Cancels the jobs with a key; all, if it is null. Precondition: `mutex` is locked.
+    void cancel(const std::string* key) {
+        for (Entry& entry : entries) {
+            if (key == nullptr || entry.key == *key) {
+                entry.cancelled = true;
+            }
+        }
+    }
+    /// Runs the jobs in their order. The first of `entries` is the one that runs.
+    void run_jobs() {
+        std::unique_lock lock(mutex);
+        while (true) {
+            changed.wait(lock, [this] { return stops || !entries.empty(); });
+            if (entries.empty()) {
+                return;
+            }
+            Entry& entry = entries.front();
+            deadline = JobClock::now() + entry.max_time;
+            changed.notify_all();
+            lock.unlock();
+            entry.job(entry.cancelled);
+            lock.lock();
+            deadline.reset();
+            entries.pop_front();
+            changed.notify_all();
+        }
+    }
+    /// Cancels jobs whose time is up.
+    void watch_time() {
+        std::unique_lock lock(mutex);
+        while (!stops) {
+            if (!deadline) {
+                changed.wait(lock);
+            } else if (JobClock::now() >= *deadline) {
+                entries.front().cancelled = true;
+                deadline.reset();
+            } else {
+                const JobClock::time_point until = *deadline;
+                changed.wait_until(lock, until);
+            }
+        }
+    }
+
+    std::mutex mutex; // guards the members below
+    std::condition_variable changed;
+    std::deque<Entry> entries;                    // references to entries stay valid
+    std::optional<JobClock::time_point> deadline; // of the running job, unless its time is up
+    bool stops = false;
+    std::thread worker;
+    std::thread timer;
+};
+
+LatestJob::LatestJob() : state_(std::make_unique<State>()) {}
+LatestJob::~LatestJob() = default;
+
+void LatestJob::start(const std::string& key, Job job, std::chrono::milliseconds max_time) {
+    State& state = *state_;
+    {
+        const std::lock_guard lock(state.mutex);
+        state.cancel(&key);
+        State::Entry& entry = state.entries.emplace_back();
+        entry.key = key;
+        entry.job = std::move(job);
+        entry.max_time = max_time;
+        if (!state.worker.joinable()) {
+            state.worker = std::thread([&state] { state.run_jobs(); });
+            state.timer = std::thread([&state] { state.watch_time(); });
+        }
+    }
+    state.changed.notify_all();
+}
+
+void LatestJob::cancel(const std::string& key) {
+    const std::lock_guard lock(state_->mutex);
+    state_->cancel(&key);
+}
+
+void LatestJob::cancel_all() {
+    const std::lock_guard lock(state_->mutex);
+    state_->cancel(nullptr);
+}
+
+void LatestJob::wait() {
+    std::unique_lock lock(state_->mutex);
+    state_->changed.wait(lock, [this] { return state_->entries.empty(); });
+}
+
+#else
+
+struct LatestJob::State {};
+
+LatestJob::LatestJob() = default;
+LatestJob::~LatestJob() = default;
+
+void LatestJob::start(const std::string& /*key*/, Job job, std::chrono::milliseconds /*max_time*/) {
+    const std::atomic<bool> cancelled{false};
+    job(cancelled);
+}
+
+void LatestJob::cancel(const std::string& /*key*/) {}
+
+void LatestJob::cancel_all() {}
+
+void LatestJob::wait() {}
+
+#endif
+
+} // namespace lsys

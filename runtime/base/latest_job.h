@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: MIT
+// LatestJob: runs jobs one after another on a thread of its own, each for a limited time. A new job
+// cancels those before it with the same key, because only the result of the last one is wanted.
+#pragma once
+
+#include <atomic>
+#include <chrono>
+#include <functional>
+#include <memory>
+#include <string>
+
+namespace lsys {
+
+class LatestJob {
+public:
+    /// Ends soon after `cancelled` becomes true. Must not throw.
+    using Job = std::function<void(const std::atomic<bool>& cancelled)>;
+
+    /// The thread is started by the first job. Builds without threads (LSYS_THREADS=OFF) run each
+    /// job on the calling thread, without a limit of time.
+    LatestJob();
+    LatestJob(const LatestJob&) = delete;
+    LatestJob& operator=(const LatestJob&) = delete;
+    /// Like cancel_all() and wait().
+    ~LatestJob();
+
+    /// Cancels the earlier jobs with this key, and runs `job` when all earlier jobs have ended.
+    /// Every job is called exactly once; if it was cancelled before it began, with a flag that is
+    /// true. `max_time` after its begin the job is cancelled.
+    void start(const std::string& key, Job job, std::chrono::milliseconds max_time);
+    /// Cancels the jobs with this key.
+    void cancel(const std::string& key);
+    void cancel_all();
+    /// Returns when all jobs have ended.
+    void wait();
+
+private:
+    struct State;
+    std::unique_ptr<State> state_;
+};
+
+} // namespace lsys
