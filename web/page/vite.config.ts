@@ -38,6 +38,24 @@ function serviceWorker(): Plugin {
   };
 }
 
+/** Lets the browser load the library together with the script, not after it. */
+function preload(): Plugin {
+  return {
+    name: 'preload',
+    transformIndexHtml: {
+      order: 'post',
+      handler: (_html, { bundle }) =>
+        Object.keys(bundle ?? {})
+          .filter((name) => name.endsWith('.wasm'))
+          .map((name) => ({
+            tag: 'link',
+            attrs: { rel: 'preload', as: 'fetch', href: `./${name}`, crossorigin: true },
+            injectTo: 'head',
+          })),
+    },
+  };
+}
+
 export default defineConfig({
   root: folder('.'),
   base: './',
@@ -50,5 +68,5 @@ export default defineConfig({
     chunkSizeWarningLimit: 1000,
   },
   worker: { format: 'es' },
-  plugins: [serviceWorker()],
+  plugins: [preload(), serviceWorker()],
 });

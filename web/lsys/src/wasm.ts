@@ -11,7 +11,14 @@ interface Exports {
   lsys_reserve(size: number): number;
   lsys_answer(requestSize: number, size: number): number;
   lsys_release(): void;
+  __indirect_function_table: WebAssembly.Table;
+  stackSave(): number;
+  stackRestore(at: number): void;
+  setThrew(threw: number, value: number): void;
 }
+
+/** Thrown by longjmp(), which the readers and writers of PNG use. */
+class LongJump {}
 
 /** The head of an answer and its blocks, copied out of the module. */
 export interface RawAnswer {
@@ -24,6 +31,7 @@ export class Instance {
 
   constructor(module: WebAssembly.Module, onProgress?: (progress: Progress) => void) {
     let memory: WebAssembly.Memory | undefined;
+    let upperHalf = 0; // of a result of 64 bits
     const view = () => new DataView(memory!.buffer);
     const known: Record<string, (...values: any[]) => any> = {
       progress: (generation: number, generations: number, modules: number) =>
@@ -53,15 +61,34 @@ export class Instance {
       },
       environ_get: () => 0,
       emscripten_notify_memory_growth: () => undefined,
+      setTempRet0: (value: number) => (upperHalf = value),
+      getTempRet0: () => upperHalf,
+      _emscripten_throw_longjmp: () => {
+        throw new LongJump();
+      },
       proc_exit: (status: number) => {
         throw new WebAssembly.RuntimeError(`the module ended with status ${status}`);
       },
+    };
+    /** Calls a function of the module that may call longjmp(). */
+    const invoke = (index: number, ...values: unknown[]) => {
+      const { __indirect_function_table: table, stackSave, stackRestore, setThrew } = this.exports;
+      const stack = stackSave();
+      try {
+        return table.get(index)(...values);
+      } catch (error) {
+        stackRestore(stack);
+        if (!(error instanceof LongJump)) throw error;
+        setThrew(1, 0);
+        return 0;
+      }
     };
     // There is no file system: calls of the system fail.
     const imports: WebAssembly.Imports = {};
     for (const item of WebAssembly.Module.imports(module)) {
       const missing = item.module === 'env' ? -ENOSYS : ENOSYS;
-      (imports[item.module] ??= {})[item.name] = known[item.name] ?? (() => missing);
+      const stub = item.name.startsWith('invoke_') ? invoke : () => missing;
+      (imports[item.module] ??= {})[item.name] = known[item.name] ?? stub;
     }
     this.exports = new WebAssembly.Instance(module, imports).exports as unknown as Exports;
     memory = this.exports.memory;
