@@ -64,6 +64,7 @@ Outcome<void> Session::run(std::string_view text, std::string_view files, Answer
         if (const auto list = request.find("files"); list != request.end()) {
             take_files(*list, files);
         }
+        project_.limits.max_modules = request.value("maxModules", Limits{}.max_modules);
         const std::string name = request.at("op").get<std::string>();
         const Operation operation = find_operation(name);
         return operation != nullptr ? operation(*this, request, answer)

@@ -142,7 +142,11 @@ await part('failures', () => {
   };
   check(status(() => lsys.derive('#w : F')) === 'diagnosed', 'a syntax error');
   check(
-    status(() => lsys.derive('#n = 60; #w : F; #p : F : ~ 0.9 : F F; #q : F : ~ 0.1 : F;')) === 'limit',
+    status(() =>
+      lsys.derive('#n = 60; #w : F; #p : F : ~ 0.9 : F F; #q : F : ~ 0.1 : F;', {
+        maxModules: 1e6,
+      }),
+    ) === 'limit',
     'a word that is too long',
   );
   check(status(() => lsys.derive('#n = 1; #w : F;')) === 'ok', 'an instance after a failure');

@@ -233,8 +233,8 @@ export class Lsys {
   }
 
   private grammar(options: GrammarOptions): Record<string, unknown> {
-    const { name, dialect, system, definitions, settings } = options;
-    return { name: name ?? kName, dialect, system, definitions, settings };
+    const { name, dialect, system, definitions, settings, maxModules } = options;
+    return { name: name ?? kName, dialect, system, definitions, settings, maxModules };
   }
 
   private plant(options: PlantOptions): Record<string, unknown> {

@@ -49,6 +49,8 @@ export interface GrammarOptions {
   dialect?: string;
   /** The system in a file with several systems. */
   system?: string;
+  /** Max number of modules of a word; default 2^32. */
+  maxModules?: number;
   /** Values of `#define` and `#param` by name. */
   definitions?: Record<string, number>;
   /** Values of `#set` by key, in the syntax of the language: `{ angle: '22.5' }`. */

@@ -27,6 +27,14 @@ const kStyle = `
 .cm-editor .cm-cursor { border-left-color: var(--ink); }
 .cm-editor .cm-tooltip, .cm-editor .cm-panels { background: var(--panel); color: var(--ink); border: 1px solid var(--line); }
 .cm-editor .cm-diagnosticAction { background: var(--accent); color: var(--accent-ink); }
+.cm-editor .cm-lintRange { background-image: none; text-decoration: underline wavy 1.5px; text-underline-offset: 3px; }
+.cm-editor .cm-lintRange.cm-lintRange-error { text-decoration-color: var(--error); }
+.cm-editor .cm-lintRange.cm-lintRange-warning { text-decoration-color: var(--warning); }
+.cm-editor .cm-lintRange.cm-lintRange-info { text-decoration-color: var(--soft); }
+.cm-editor .cm-lint-marker::before { content: '●'; font-size: 0.8rem; }
+.cm-editor .cm-lint-marker.cm-lint-marker-error { content: normal; color: var(--error); }
+.cm-editor .cm-lint-marker.cm-lint-marker-warning { content: normal; color: var(--warning); }
+.cm-editor .cm-lint-marker.cm-lint-marker-info { content: normal; color: var(--soft); }
 .tok-comment { color: var(--soft); font-style: italic; }
 .tok-keyword { color: var(--accent); font-weight: 600; }
 .tok-name { color: light-dark(#7a4a00, #e7b96b); }
@@ -143,6 +151,10 @@ export class Editor {
       });
     }
     this.view.dispatch(setDiagnostics(this.view.state, marks));
+  }
+
+  focus(): void {
+    this.view.focus();
   }
 
   goTo(place: Place): void {

@@ -41,7 +41,13 @@ export class Engine {
   private started = 0;
   private count = 0;
 
-  constructor(private readonly module: Promise<WebAssembly.Module>) {}
+  /** Starts a worker at once, so that it is ready for the first call. */
+  constructor(private readonly module: Promise<WebAssembly.Module>) {
+    module.then(
+      (compiled) => (this.worker ??= this.start(compiled)),
+      () => undefined, // the first call reports it
+    );
+  }
 
   /** Milliseconds since the running call began; 0: none runs. */
   get busyFor(): number {

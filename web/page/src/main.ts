@@ -263,9 +263,13 @@ async function grow(): Promise<void> {
   try {
     await engine.call('beginGrowth', editor.text, options());
     const seconds = Math.min(Math.max(last * 0.6, 3), 12);
-    const begin = performance.now();
+    // Slow machines take longer, so that the growth stays smooth.
+    const kLongestStep = 1 / 30;
+    let before = performance.now();
     for (let part = 0; playing && part < 1; ) {
-      part = Math.min((performance.now() - begin) / 1000 / seconds, 1);
+      const now = performance.now();
+      part = Math.min(part + Math.min((now - before) / 1000 / seconds, kLongestStep), 1);
+      before = now;
       const mesh = await engine.call('growthAt', part * last);
       if (!playing) break;
       stage.showPlant(mesh, false);
@@ -448,6 +452,10 @@ async function openFirst(): Promise<void> {
   await attempt(() => open(first.text, first.title, first.sample));
 }
 addEventListener('hashchange', () => void openFirst());
+document.querySelector('.skip')!.addEventListener('click', (event) => {
+  event.preventDefault();
+  editor.focus();
+});
 void openFirst();
 
 if ('serviceWorker' in navigator && import.meta.env.PROD)

@@ -41,11 +41,13 @@ export class Stage {
   private readonly scene = new Scene();
   private readonly camera = new PerspectiveCamera(32, 1, 0.01, 1000);
   private readonly controls: OrbitControls;
-  private readonly sun = new DirectionalLight(0xfff2dd, 2.6);
+  private readonly sun = new DirectionalLight(0xfff2dd, 3.4);
   private readonly ground: ThreeMesh<CircleGeometry, ShadowMaterial>;
   private readonly textures = new Map<string, DataTexture>(); // of pictures with an id
   private shown: Object3D | null = null;
   private bounds = new Sphere();
+  private box = new Box3();
+  private isForest = false;
   private framed = 0; // radius that the camera was last fitted to; 0: never
   private pending = false;
 
@@ -58,7 +60,7 @@ export class Stage {
     });
     this.renderer.shadowMap.enabled = true;
     this.renderer.shadowMap.type = PCFSoftShadowMap;
-    this.scene.add(new HemisphereLight(0xdfeaf5, 0x8a8f78, 1.5), new AmbientLight(0xffffff, 0.25));
+    this.scene.add(new HemisphereLight(0xe6eff8, 0x9a9c84, 2.4), new AmbientLight(0xffffff, 0.5));
     this.sun.castShadow = true;
     this.sun.shadow.mapSize.set(1024, 1024);
     this.sun.shadow.bias = -0.002;
@@ -91,6 +93,7 @@ export class Stage {
     const object = new ThreeMesh(geometry, materials);
     object.castShadow = true;
     object.receiveShadow = true;
+    this.isForest = false;
     this.replace(object, fit);
   }
 
@@ -98,6 +101,7 @@ export class Stage {
   async showForest(glb: Uint8Array): Promise<void> {
     const { GLTFLoader } = await import('three/examples/jsm/loaders/GLTFLoader.js');
     const file = await new GLTFLoader().parseAsync(glb.buffer as ArrayBuffer, '');
+    this.isForest = true;
     this.replace(file.scene, true);
   }
 
@@ -105,18 +109,32 @@ export class Stage {
     this.replace(new Group(), false);
   }
 
-  /** Moves the camera so that everything is in view. */
+  /** Moves the camera so that everything is in view, above the bar of the growth. */
   fit(): void {
     const { center, radius } = this.bounds;
     if (!(radius > 0)) return;
     this.framed = radius;
-    const angle = (this.camera.fov * Math.PI) / 360;
-    const narrow = Math.atan(Math.tan(angle) * Math.min(this.camera.aspect, 1));
-    const distance = (radius / Math.sin(narrow)) * 0.92;
-    this.camera.position
-      .copy(center)
-      .add(new Vector3(0.35, 0.16, 1).normalize().multiplyScalar(distance));
+    const size = this.box.getSize(new Vector3());
+    const kBar = 120; // pixels at the bottom
+    const kMargin = 1.12;
+    const { clientHeight } = this.canvas;
+    const free = Math.max(1 - kBar / clientHeight, 0.5); // part of the height
+    const slope = Math.tan((this.camera.fov * Math.PI) / 360);
+    const width = Math.hypot(size.x, size.z);
+    const direction = this.isForest ? new Vector3(0.3, 0.3, 1) : new Vector3(0.35, 0.14, 1);
+    direction.normalize();
+    // A forest is wide and flat: it is seen from near its edge.
+    const distance = this.isForest
+      ? radius * 1.25
+      : Math.max(
+          (size.y * kMargin) / free / (2 * slope),
+          (width * kMargin) / (2 * slope * this.camera.aspect),
+        ) +
+        width / 3;
+    const down = distance * slope * (1 - free) * 0.8;
     this.controls.target.copy(center);
+    this.controls.target.y -= down;
+    this.camera.position.copy(this.controls.target).add(direction.multiplyScalar(distance));
     this.controls.update();
     this.draw();
   }
@@ -134,7 +152,7 @@ export class Stage {
     if (old) this.scene.remove(old);
     this.scene.add(object);
     if (old) this.dispose(old);
-    const box = new Box3().setFromObject(object);
+    const box = this.box.setFromObject(object);
     this.bounds = box.isEmpty() ? new Sphere() : box.getBoundingSphere(new Sphere());
     const { center, radius } = this.bounds;
     this.ground.position.set(center.x, box.isEmpty() ? 0 : box.min.y, center.z);
