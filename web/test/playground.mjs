@@ -174,10 +174,12 @@ await part('a slider', async () => {
     const found = /#param turn ([\d.]+)/.exec(lines);
     return found && Number(found[1]) > 55;
   });
-  const value = await page.$eval('#value-0', (element) => element.valueAsNumber);
-  check((await textOf(page)).includes(`#param turn ${value} {5, 80};`), await textOf(page));
-  await page.waitForFunction((old) => Number(document.body.dataset.drawn) > old, {}, 2);
-  await pause(300);
+  await page.waitForFunction(() => {
+    const { value } = document.querySelector('#value-0');
+    const { textContent } = document.querySelector('#editor').shadowRoot;
+    return textContent.includes(`#param turn ${value} {5, 80};`);
+  });
+  await pause(500);
   check((await pixels(page)).sum !== before.sum, 'the picture does not change');
 });
 
@@ -199,9 +201,15 @@ await part('a mistake and its fix', async () => {
   await page.click('#messages .fixes button');
   await page.waitForFunction(() => document.querySelector('#messages').childElementCount === 0);
   check(/x >= 1|x <= 1/.test(await textOf(page)), await textOf(page));
+  await pause(500);
   const good = await pixels(page);
-  await type(page, '#n = 2;\n#w : F;\n#p : F : * : F[+(25)F]F');
+  await page.click('#editor');
+  await page.keyboard.down('Control');
+  await page.keyboard.press('End');
+  await page.keyboard.up('Control');
+  await page.keyboard.type('#r : A(');
   await page.waitForSelector('#messages .error');
+  await pause(300);
   check((await pixels(page)).sum === good.sum, 'the last plant does not stay');
 });
 
@@ -297,6 +305,12 @@ await part('downloads', async () => {
 });
 
 await part('a forest of 1,000 plants', async () => {
+  await page.goto('about:blank');
+  await page.evaluate(() => undefined);
+  await page.goto(server.url);
+  await page.evaluate(() => localStorage.clear());
+  await page.reload();
+  await waitForPlant(page);
   const before = await drawn(page);
   const start = performance.now();
   await page.click('#show-forest');

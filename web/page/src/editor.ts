@@ -99,6 +99,7 @@ export class Editor {
             'aria-label': 'Grammar',
             autocapitalize: 'off',
             spellcheck: 'false',
+            tabindex: '0',
           }),
           own,
           keymap.of([

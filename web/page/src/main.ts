@@ -137,10 +137,12 @@ async function showForest(text: string): Promise<void> {
   const [lowX, , lowZ] = one.plant.low;
   const [highX, , highZ] = one.plant.high;
   const width = Math.max(highX - lowX, highZ - lowZ, one.plant.height * 0.4) || 1;
+  const side = Number((width * Math.sqrt(1000) * 0.85).toPrecision(4));
+  const eye = [0.6 * side, 0.13 * side, 1.12 * side].map((each) => each.toPrecision(4));
   const { files: written } = await engine.call('forest', text, 'forest.glb', {
     ...options(),
-    scene: { count: 1000, size: Number((width * 31.6 * 0.85).toPrecision(4)), heroes: 5 },
-    file: { instances: 'lods' },
+    scene: { count: 1000, size: side, heroes: 5 },
+    file: { instances: 'lods', viewpoint: eye.join(',') },
   });
   await stage?.showForest(written[0]!.bytes);
   isNew = false;

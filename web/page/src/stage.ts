@@ -115,22 +115,31 @@ export class Stage {
     if (!(radius > 0)) return;
     this.framed = radius;
     const size = this.box.getSize(new Vector3());
+    if (this.isForest) {
+      // From a little above the front edge, where the trees have their details.
+      this.controls.target.set(center.x, this.box.min.y + size.y * 0.4, center.z + size.z * 0.1);
+      this.camera.position.set(
+        center.x + size.x * 0.1,
+        this.box.min.y + Math.max(size.x * 0.13, size.y * 1.25),
+        this.box.max.z + size.z * 0.12,
+      );
+      this.controls.update();
+      this.draw();
+      return;
+    }
     const kBar = 120; // pixels at the bottom
     const kMargin = 1.12;
     const { clientHeight } = this.canvas;
     const free = Math.max(1 - kBar / clientHeight, 0.5); // part of the height
     const slope = Math.tan((this.camera.fov * Math.PI) / 360);
     const width = Math.hypot(size.x, size.z);
-    const direction = this.isForest ? new Vector3(0.3, 0.3, 1) : new Vector3(0.35, 0.14, 1);
-    direction.normalize();
-    // A forest is wide and flat: it is seen from near its edge.
-    const distance = this.isForest
-      ? radius * 1.25
-      : Math.max(
-          (size.y * kMargin) / free / (2 * slope),
-          (width * kMargin) / (2 * slope * this.camera.aspect),
-        ) +
-        width / 3;
+    const direction = new Vector3(0.35, 0.14, 1).normalize();
+    const distance =
+      width / 3 +
+      Math.max(
+        (size.y * kMargin) / free / (2 * slope),
+        (width * kMargin) / (2 * slope * this.camera.aspect),
+      );
     const down = distance * slope * (1 - free) * 0.8;
     this.controls.target.copy(center);
     this.controls.target.y -= down;
