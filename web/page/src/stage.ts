@@ -127,20 +127,21 @@ export class Stage {
       this.draw();
       return;
     }
-    const kBar = 120; // pixels at the bottom
-    const kMargin = 1.12;
+    const kTop = 55; // pixels of the buttons, and of the bar of the growth
+    const kBottom = 85;
+    const kMargin = 1.05;
     const { clientHeight } = this.canvas;
-    const free = Math.max(1 - kBar / clientHeight, 0.5); // part of the height
+    const free = Math.max(1 - (kTop + kBottom) / clientHeight, 0.5); // part of the height
     const slope = Math.tan((this.camera.fov * Math.PI) / 360);
     const width = Math.hypot(size.x, size.z);
     const direction = new Vector3(0.35, 0.14, 1).normalize();
     const distance =
-      width / 3 +
+      width * 0.2 +
       Math.max(
         (size.y * kMargin) / free / (2 * slope),
         (width * kMargin) / (2 * slope * this.camera.aspect),
       );
-    const down = distance * slope * (1 - free) * 0.8;
+    const down = (distance * slope * (kBottom - kTop)) / clientHeight;
     this.controls.target.copy(center);
     this.controls.target.y -= down;
     this.camera.position.copy(this.controls.target).add(direction.multiplyScalar(distance));
