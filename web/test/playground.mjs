@@ -196,6 +196,8 @@ await part('a mistake and its fix', async () => {
   await type(page, '#n = 6;\n#set angle 25;\n#w : A(8);\n#p : A(x) : x > 1 : F(x) [+ A(x/2)] [- A(x/2)] A(x - 2);\n#q : A(x) : x < 1 : F(1);');
   await page.waitForSelector('#messages .fixes button');
   check((await messagesOf(page)).includes('matches no production'), await messagesOf(page));
+  await page.click('#messages .reason summary');
+  await page.waitForSelector('#messages .reason pre.right');
   await shoot(page, 'mistake');
   await accessible(page, 'with a message');
   await page.click('#messages .fixes button');
@@ -236,6 +238,13 @@ await part('a link opens in a second page', async () => {
   await waitForPlant(other);
   check((await textOf(other)) === (await textOf(page)), 'the texts differ');
   await other.waitForFunction(() => /3,125 segments/.test(document.querySelector('#facts').textContent));
+  // A change of the author is kept for the next visit; a link does not replace it.
+  await type(other, '#n = 1;\n#w : F F F F F;');
+  await other.waitForFunction(() => /\b5 segments/.test(document.querySelector('#facts').textContent));
+  check((await other.evaluate(() => location.hash)) === '', 'the address has the old link');
+  await other.goto('about:blank');
+  await other.goto(server.url);
+  await other.waitForFunction(() => /\b5 segments/.test(document.querySelector('#facts').textContent));
   await other.goto(`${server.url}#g=damaged`);
   await other.reload();
   await other.waitForFunction(() => /damaged/.test(document.querySelector('#toast').textContent));

@@ -76,9 +76,20 @@ function options(): PlantOptions {
 
 // --- from text to plant
 
+/** Stores the text after a change by the author, who finds it again at the next visit. */
+function keep(): void {
+  history.replaceState(null, '', location.pathname + location.search); // the link has another text
+  try {
+    localStorage.setItem(kDraft, JSON.stringify({ text: editor.text, title, sample }));
+  } catch {
+    // without storage there is no draft
+  }
+}
+
 let typing = 0;
 function onTyped(): void {
   endGrowth();
+  keep();
   clearTimeout(typing);
   typing = window.setTimeout(() => refresh(), kTypingPause);
 }
@@ -87,11 +98,6 @@ function onTyped(): void {
 function refresh(): void {
   ++wanted;
   isStopped = false;
-  try {
-    localStorage.setItem(kDraft, JSON.stringify({ text: editor.text, title, sample }));
-  } catch {
-    // without storage there is no draft
-  }
   if (running && engine.busyFor > kPatience) engine.stop();
   void run();
 }
@@ -188,6 +194,7 @@ function failure(message: string): Diagnostic {
 function say(diagnostics: Diagnostic[]): void {
   const apply = (fix: Fix) => {
     editor.setText(applyFix(editor.text, fix, kName));
+    keep();
     refresh();
   };
   editor.mark(diagnostics, kName, apply);
@@ -197,6 +204,7 @@ function say(diagnostics: Diagnostic[]): void {
 async function format(): Promise<void> {
   await attempt(async () => {
     editor.setText(await engine.call('format', editor.text, options()));
+    keep();
     refresh();
   });
 }
@@ -233,6 +241,7 @@ async function changeValues(next: Change & { generations?: number }): Promise<vo
       const before = editor.text;
       const after = await engine.call('edit', before, { ...options(), ...values });
       if (editor.text === before) editor.setText(after);
+      keep();
       refresh();
     }
   });
@@ -304,13 +313,14 @@ engine.onProgress = ({ generation, generations: all, modules }) => {
 };
 let progress = '';
 setInterval(() => {
-  const isBusy = engine.busyFor > 500 && !playing;
+  const isBusy = engine.busyFor > (playing ? 2000 : 500);
   if (!isBusy) progress = '';
   find('busy').hidden = !isBusy;
   const text = progress || 'Drawing';
   if (isBusy && find('busy-text').textContent !== text) find('busy-text').textContent = text;
 }, 200);
 find('stop').addEventListener('click', () => {
+  endGrowth();
   isStopped = true;
   shown = wanted;
   engine.stop();
@@ -366,8 +376,10 @@ find('open-gallery').addEventListener('click', () => {
   void attempt(() =>
     fillGallery(find('gallery-items'), (chosen) => {
       gallery.close();
-      history.replaceState(null, '', location.pathname + location.search);
-      void attempt(async () => open(await grammarOf(chosen), chosen.title, chosen.id));
+      void attempt(async () => {
+        await open(await grammarOf(chosen), chosen.title, chosen.id);
+        keep();
+      });
     }),
   );
 });

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The list of messages below the editor, with buttons for their fixes.
 import type { Diagnostic, Fix, Place } from 'lsys';
+import { explain } from './explanations.js';
 
 const kMaxShown = 50;
 
@@ -20,6 +21,31 @@ function appendText(parent: HTMLElement, text: string): void {
       parent.append(code);
     }
   });
+}
+
+/** Opens to the explanation of a message. */
+function reasonOf(code: string): HTMLElement {
+  const details = document.createElement('details');
+  details.className = 'reason';
+  const summary = document.createElement('summary');
+  summary.textContent = 'Why?';
+  details.append(summary);
+  details.addEventListener('toggle', async () => {
+    if (!details.open || details.childElementCount > 1) return;
+    for (const piece of await explain(code)) {
+      if (piece.example) {
+        const example = document.createElement('pre');
+        example.className = piece.example;
+        example.textContent = `// ${piece.example}\n${piece.text}`;
+        details.append(example);
+      } else {
+        const paragraph = document.createElement('p');
+        appendText(paragraph, piece.text);
+        details.append(paragraph);
+      }
+    }
+  });
+  return details;
 }
 
 function itemOf(diagnostic: Diagnostic, events: MessageEvents): HTMLElement {
@@ -62,6 +88,7 @@ function itemOf(diagnostic: Diagnostic, events: MessageEvents): HTMLElement {
     }
     item.append(fixes);
   }
+  if (diagnostic.code) item.append(reasonOf(diagnostic.code));
   return item;
 }
 
