@@ -266,7 +266,7 @@ await part('gallery', async () => {
         .click();
     }, title);
     await waitForPlant(page, before);
-    await page.waitForFunction((text) => document.querySelector('#title').textContent === text, {}, title);
+    await page.waitForFunction((text) => document.querySelector('#title').value === text, {}, title);
     await pause(400);
     check((await messagesOf(page)).trim() === '', `${title}: ${await messagesOf(page)}`);
     check((await pixels(page)).solid > 0.01, `${title} is not visible`);
@@ -300,7 +300,7 @@ await part('downloads', async () => {
       .find((card) => card.querySelector('span').textContent === 'Fern')
       .click();
   });
-  await page.waitForFunction(() => document.querySelector('#title').textContent === 'Fern');
+  await page.waitForFunction(() => document.querySelector('#title').value === 'Fern');
   await pause(500);
   const glb = await download(page, 'glb');
   const report = await validator.validateBytes(new Uint8Array(glb.bytes));

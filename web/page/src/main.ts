@@ -58,6 +58,7 @@ try {
   find('facts').textContent = 'This browser shows no 3D graphics: WebGL 2 is missing.';
 }
 
+const titleInput = find<HTMLInputElement>('title');
 let title = '';
 let sample = '';
 let files: Files = {};
@@ -351,12 +352,17 @@ find('frame').addEventListener('click', () => stage?.fit());
 
 // --- gallery, links, downloads, help
 
+titleInput.addEventListener('input', () => {
+  title = titleInput.value;
+  keep();
+});
+
 async function open(text: string, newTitle: string, newSample: string): Promise<void> {
   endGrowth();
   title = newTitle;
   sample = newSample;
   files = newSample ? await filesOf(newSample) : {};
-  find('title').textContent = title;
+  titleInput.value = title;
   isNew = true;
   editor.setText(text, true);
   refresh();

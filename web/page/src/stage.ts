@@ -49,6 +49,7 @@ export class Stage {
   private box = new Box3();
   private isForest = false;
   private framed = 0; // radius that the camera was last fitted to; 0: never
+  private readonly framedCenter = new Vector3();
   private pending = false;
 
   constructor(private readonly canvas: HTMLCanvasElement) {
@@ -114,6 +115,7 @@ export class Stage {
     const { center, radius } = this.bounds;
     if (!(radius > 0)) return;
     this.framed = radius;
+    this.framedCenter.copy(center);
     const size = this.box.getSize(new Vector3());
     if (this.isForest) {
       // From a little above the front edge, where the trees have their details.
@@ -129,14 +131,14 @@ export class Stage {
     }
     const kTop = 55; // pixels of the buttons, and of the bar of the growth
     const kBottom = 85;
-    const kMargin = 1.05;
+    const kMargin = 1.02;
     const { clientHeight } = this.canvas;
     const free = Math.max(1 - (kTop + kBottom) / clientHeight, 0.5); // part of the height
     const slope = Math.tan((this.camera.fov * Math.PI) / 360);
     const width = Math.hypot(size.x, size.z);
     const direction = new Vector3(0.35, 0.14, 1).normalize();
     const distance =
-      width * 0.2 +
+      width * 0.12 +
       Math.max(
         (size.y * kMargin) / free / (2 * slope),
         (width * kMargin) / (2 * slope * this.camera.aspect),
@@ -178,7 +180,10 @@ export class Stage {
     this.camera.near = Math.max(radius / 500, 1e-5);
     this.camera.far = radius * 60 || 1000;
     this.camera.updateProjectionMatrix();
-    const changed = radius > this.framed * 1.7 || radius < this.framed * 0.45;
+    const changed =
+      radius > this.framed * 1.7 ||
+      radius < this.framed * 0.45 ||
+      center.distanceTo(this.framedCenter) > this.framed * 0.6;
     if (radius > 0 && (fit || this.framed === 0 || changed)) this.fit();
     this.draw();
   }
