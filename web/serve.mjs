@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: MIT
-// Serves the built page. Usage: node serve.mjs [PORT]     default 8000
+// A plain file server for the built page. Usage: node serve.mjs [PORT]     default 8000
 import { createReadStream, statSync } from 'node:fs';
 import { createServer } from 'node:http';
 import { extname, join, normalize } from 'node:path';
 import { fileURLToPath } from 'node:url';
 
 const site = fileURLToPath(new URL('../build/playground', import.meta.url));
-const port = Number(process.argv[2] ?? 8000);
 const types = {
   '.html': 'text/html; charset=utf-8',
   '.js': 'text/javascript',
@@ -19,13 +18,44 @@ const types = {
   '.webmanifest': 'application/manifest+json',
 };
 
-createServer((request, response) => {
-  const { pathname } = new URL(request.url, 'http://localhost');
-  const path = join(site, normalize(decodeURIComponent(pathname)).replace(/\/$/, '/index.html'));
-  if (!path.startsWith(site) || !statSync(path, { throwIfNoEntry: false })?.isFile()) {
-    response.writeHead(404).end();
-    return;
-  }
-  response.writeHead(200, { 'Content-Type': types[extname(path)] ?? 'application/octet-stream' });
-  createReadStream(path).pipe(response);
-}).listen(port, '127.0.0.1', () => console.log(`http://127.0.0.1:${port}/`));
+/**
+ * Serves the page below the path `base`. `headers`: further headers of every answer. `plainTypes`:
+ * leaves out the type of WebAssembly. `log` receives the name and the path of each file. The port 0
+ * is any free port.
+ */
+export function serve({
+  port = 0,
+  base = '/',
+  headers = {},
+  plainTypes = false,
+  log = () => undefined,
+} = {}) {
+  const server = createServer((request, response) => {
+    const pathname = decodeURIComponent(new URL(request.url, 'http://localhost').pathname);
+    const name = pathname.startsWith(base) ? pathname.slice(base.length) || 'index.html' : '';
+    const path = join(site, normalize(name));
+    if (!name || !path.startsWith(site) || !statSync(path, { throwIfNoEntry: false })?.isFile()) {
+      response.writeHead(404).end();
+      return;
+    }
+    log(name, path);
+    const type = plainTypes && extname(path) === '.wasm' ? undefined : types[extname(path)];
+    response.writeHead(200, { ...headers, 'Content-Type': type ?? 'application/octet-stream' });
+    createReadStream(path).pipe(response);
+  });
+  return new Promise((resolve) =>
+    server.listen(port, '127.0.0.1', () =>
+      resolve({
+        url: `http://127.0.0.1:${server.address().port}${base}`,
+        close: () =>
+          new Promise((done) => {
+            server.closeAllConnections?.();
+            server.close(done);
+          }),
+      }),
+    ),
+  );
+}
+
+if (process.argv[1] === fileURLToPath(import.meta.url))
+  serve({ port: Number(process.argv[2] ?? 8000) }).then(({ url }) => console.log(url));
