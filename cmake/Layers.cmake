@@ -43,6 +43,7 @@ set(LSYS_LAYERS
   "runtime/mpi: grammar/base runtime/platform runtime/base runtime/tiles runtime/program runtime/cli"
   "runtime/library: grammar/base grammar/rendering compiler/bytecode compiler/growth compiler/program runtime/base runtime/derive runtime/turtle runtime/meshing runtime/forest runtime/terrain runtime/scene runtime/export runtime/pipeline runtime/program runtime/output"
   "runtime/python:"
+  "web/binding: grammar/base grammar/rendering grammar/ast grammar/lsys grammar/format compiler/bytecode compiler/program runtime/base runtime/derive runtime/turtle runtime/meshing runtime/forest runtime/terrain runtime/placement runtime/scene runtime/export runtime/pipeline runtime/program runtime/output"
   "packaging/pages: grammar/base grammar/dialects runtime/export runtime/cli runtime/mpi viewer/app"
   "viewer/scene: grammar/base runtime/base runtime/turtle runtime/physics runtime/forest runtime/terrain runtime/scene"
   "viewer/gl: grammar/base runtime/platform runtime/meshing runtime/physics viewer/scene"

@@ -48,6 +48,9 @@ target_compile_options(lsys_warnings INTERFACE
   # Some integers have 64 bits on Linux and 32 on Windows, where casts to 32 bits are useless.
   $<$<AND:$<CXX_COMPILER_ID:GNU>,$<NOT:$<BOOL:${WIN32}>>>:-Wuseless-cast>
   $<$<CXX_COMPILER_ID:Clang>:-Wconditional-uninitialized>
+  # With addresses of 32 bits, indexes of 64 bits are converted wherever they meet the standard library; words and
+  # meshes that do not fit in the memory end with an error before.
+  $<$<BOOL:${EMSCRIPTEN}>:-Wno-shorten-64-to-32 -Wno-sign-conversion -Wno-c++11-narrowing>
   $<$<BOOL:${LSYS_WERROR}>:-Werror>)
 
 # lsys_shareable(TARGET): objects of a library may be part of the shared library, which exports the declarations marked
@@ -129,6 +132,9 @@ function(lsys_folder folder)
     endif()
   endforeach()
   list(FILTER sources EXCLUDE REGEX "/main\\.cpp$|/sanitizers/|/runtime/platform/(${LSYS_OTHER_SYSTEMS})/|/portable_chars\\.cpp$")
+  if(EMSCRIPTEN)
+    list(FILTER sources EXCLUDE REGEX "/runtime/platform/posix/memory\\.cpp$") # web/memory.cpp replaces it
+  endif()
   lsys_library(${name} ${sources})
   lsys_layer_includes(${folder} included)
   foreach(other ${included})

@@ -10,7 +10,11 @@ set(CMAKE_FIND_ROOT_PATH_MODE_PROGRAM NEVER)
 set(CMAKE_FIND_ROOT_PATH_MODE_LIBRARY ONLY)
 set(CMAKE_FIND_ROOT_PATH_MODE_INCLUDE ONLY)
 set(CMAKE_FIND_ROOT_PATH_MODE_PACKAGE ONLY)
-# -fexceptions: running out of memory throws an exception, which the libraries catch (runtime/README.md, Memory).
-set(CMAKE_CXX_FLAGS_INIT "-fexceptions -include ${CMAKE_CURRENT_LIST_DIR}/libcxx13.h")
+# Running out of memory throws an exception, which the libraries catch (runtime/README.md, Memory). Exceptions of
+# WebAssembly cost nothing until one is thrown; those that Emscripten makes of JavaScript slow every call.
+set(CMAKE_CXX_FLAGS_INIT "-fwasm-exceptions -include ${CMAKE_CURRENT_LIST_DIR}/libcxx13.h")
 set(CMAKE_EXE_LINKER_FLAGS_INIT
-  "-fexceptions -sALLOW_MEMORY_GROWTH=1 -sMAXIMUM_MEMORY=4GB -sTOTAL_STACK=8MB -sNODERAWFS=1 -sEXIT_RUNTIME=1 -sENVIRONMENT=node")
+  "-fwasm-exceptions -sALLOW_MEMORY_GROWTH=1 -sMAXIMUM_MEMORY=4GB -sTOTAL_STACK=8MB")
+# Emscripten runs its optimiser of JavaScript with any Node.js; the modules that it needs are in Debian's folder.
+set(CMAKE_CXX_LINKER_LAUNCHER env NODE_PATH=/usr/share/nodejs)
+set(ENV{NODE_PATH} /usr/share/nodejs)

@@ -336,7 +336,9 @@ private:
         const auto limit = static_cast<std::int64_t>(count);
         if (problem != std::errc() || value == 0 || value > limit || value < -limit) {
             fail(line, fmt::format("face refers to {} {} of {}", what,
-                                   std::string_view(rest.data(), stop), count));
+                                   std::string_view(rest.data(),
+                                                    static_cast<std::size_t>(stop - rest.data())),
+                                   count));
             return false;
         }
         index = static_cast<std::uint32_t>(value > 0 ? value - 1 : limit + value);

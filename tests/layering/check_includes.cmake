@@ -7,7 +7,8 @@ include("${CMAKE_CURRENT_LIST_DIR}/../../cmake/Layers.cmake")
 
 set(failures "")
 file(GLOB_RECURSE sources RELATIVE "${ROOT}"
-  "${ROOT}/grammar/*" "${ROOT}/compiler/*" "${ROOT}/runtime/*" "${ROOT}/viewer/*" "${ROOT}/packaging/pages/*")
+  "${ROOT}/grammar/*" "${ROOT}/compiler/*" "${ROOT}/runtime/*" "${ROOT}/viewer/*" "${ROOT}/packaging/pages/*"
+  "${ROOT}/web/binding/*")
 foreach(path ${sources})
   if(NOT path MATCHES "\\.(h|cpp|def|ll|yy)$")
     continue()

@@ -327,7 +327,9 @@ void ForestDocument::compress_views() {
     });
     Workers workers(info_.threads);
     workers.for_each(tasks.size(), [&](std::uint64_t i) {
-        const auto& [surface, material, view] = tasks[i];
+        const ForestSurface& surface = tasks[i].surface;
+        const std::size_t material = tasks[i].material;
+        ForestView& view = tasks[i].view;
         if (view.array != GltfArray::Indices) {
             const GltfBuffer items = written_items(view.item_bytes(), [&](const GltfBytes& write) {
                 write_view(surface, material, view, write);

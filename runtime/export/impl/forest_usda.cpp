@@ -137,16 +137,11 @@ private:
             const std::span<const std::uint32_t> vertices = own.of(i);
             const std::span<const MeshPart> parts = stage.meshes->parts_of(i);
             const std::vector<std::string> names = names_of(parts, materials);
+            const std::string prim = fmt::format("I{}", i);
+            const UsdaDigits digits{.points = place_digits(sizes[prototypes_[i]])};
             put_usda_surface(
                 *out_,
-                {stage.meshes->mesh,
-                 fmt::format("I{}", i),
-                 vertices.size(),
-                 parts,
-                 names,
-                 "/Forest",
-                 {},
-                 UsdaDigits{.points = place_digits(sizes[prototypes_[i]])}},
+                {stage.meshes->mesh, prim, vertices.size(), parts, names, "/Forest", {}, digits},
                 [vertices](std::uint64_t k) { return vertices[k]; },
                 [&](const glm::vec3& v, bool place) {
                     return glm::vec3(

@@ -21,7 +21,7 @@ void PieceWriter::flush() {
 }
 
 void PieceWriter::put(std::string_view text) {
-    put_bytes(std::as_bytes(std::span(text)));
+    put_bytes(std::as_bytes(std::span(text.data(), text.size())));
 }
 
 void PieceWriter::put_bytes(std::span<const std::byte> bytes) {

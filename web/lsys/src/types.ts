@@ -1,0 +1,237 @@
+// SPDX-License-Identifier: MIT
+// The values of the package.
+
+/** A range of characters. Lines and columns count from 1; a column is a UTF-16 code unit. */
+export interface Place {
+  file: string;
+  line: number;
+  column: number;
+  endLine: number;
+  endColumn: number;
+}
+
+export interface Edit {
+  place: Place;
+  replacement: string;
+}
+
+/** A repair: edits that do not overlap, applied together. */
+export interface Fix {
+  title: string;
+  /** Whether no other repair is plausible. */
+  certain: boolean;
+  edits: Edit[];
+}
+
+export interface Diagnostic {
+  severity: 'note' | 'warning' | 'error';
+  /** Stable name, `unknown-name`; empty for failures that are no mistake of the grammar. */
+  code: string;
+  message: string;
+  place: Place | null;
+  /** Text at the place; may be empty. */
+  label: string;
+  labels: { place: Place; text: string }[];
+  notes: string[];
+  help: string[];
+  fixes: Fix[];
+  /** The message with its lines of source, as `lsc` prints it. */
+  text?: string;
+}
+
+/** Files that the grammar names: included grammars, meshes, pictures. Keys are paths. */
+export type Files = Record<string, string | Uint8Array>;
+
+export interface GrammarOptions {
+  /** File name of the grammar; its extension selects the dialect. Default: `plant.lsys`. */
+  name?: string;
+  files?: Files;
+  dialect?: string;
+  /** The system in a file with several systems. */
+  system?: string;
+  /** Max number of modules of a word; default 2^32. */
+  maxModules?: number;
+  /** Values of `#define` and `#param` by name. */
+  definitions?: Record<string, number>;
+  /** Values of `#set` by key, in the syntax of the language: `{ angle: '22.5' }`. */
+  settings?: Record<string, string>;
+}
+
+export interface PlantOptions extends GrammarOptions {
+  /** Default: `#n` of the grammar. */
+  generations?: number;
+  /** Default: `#set seed` of the grammar, else 0. */
+  seed?: number;
+  /** Metres; the plant is scaled to this height. */
+  height?: number;
+}
+
+export interface MeshOptions extends PlantOptions {
+  mesh?: {
+    method?: 'default' | 'tubes' | 'cylinders' | 'boxes' | 'solid';
+    /** Max distance in metres of a ring of a tube from its circle; 0: the sides of the grammar. */
+    deviation?: number;
+    sides?: number;
+    smoothJoints?: boolean;
+  };
+}
+
+export interface Constant {
+  name: string;
+  isParameter: boolean;
+  /** Drawn for each seed, so it has no value. */
+  isRandom: boolean;
+  value: number;
+  min: number;
+  max: number;
+  /** The comment after its statement, its value and range, in lines. */
+  text: string;
+}
+
+export interface Setting {
+  key: string;
+  kind: 'number' | 'count' | 'vector' | 'word';
+  numbers: number[];
+  /** "an angle in degrees" */
+  accepts: string;
+  word: string;
+  words: string[];
+  /** Range of a slider; none unless `max` is above `min`. */
+  min: number;
+  max: number;
+}
+
+export interface Grammar {
+  generations: number | null;
+  seed: number;
+  constants: Constant[];
+  settings: Setting[];
+  /** The .lsys text of a grammar in another dialect; else empty. */
+  translation: string;
+  diagnostics: Diagnostic[];
+}
+
+export interface Word {
+  text: string;
+  /** False if `maxBytes` has cut the text. */
+  isWhole: boolean;
+  modules: number;
+  generations: number;
+  seed: number;
+  diagnostics: Diagnostic[];
+}
+
+export interface PlantFacts {
+  modules: number;
+  generations: number;
+  seed: number;
+  segments: number;
+  objects: number;
+  polygons: number;
+  /** Metres. */
+  height: number;
+  /** Corners of the box around the axes, without radii. */
+  low: [number, number, number];
+  high: [number, number, number];
+}
+
+/** Items of `n` numbers each are one after the other: `start` has x, y, z of each segment. */
+export interface Skeleton {
+  segments: {
+    count: number;
+    start: Float32Array;
+    end: Float32Array;
+    /** At the base and at the tip. */
+    radii: Float32Array;
+    /** The segment before it on its path; 0xFFFFFFFF: none. */
+    parent: Uint32Array;
+    /** Number of open brackets: 0 is the trunk. */
+    order: Uint32Array;
+    /** Index of the palette, or 0x01000000 + RGB. */
+    colour: Uint32Array;
+  };
+  objects: {
+    count: number;
+    position: Float32Array;
+    /** Quaternions x, y, z, w; the object points along +Y. */
+    frame: Float32Array;
+    size: Float32Array;
+    /** Index in `kinds`. */
+    kind: Uint32Array;
+    colour: Uint32Array;
+    kinds: string[];
+  };
+  polygons: {
+    count: number;
+    cornerCounts: Uint32Array;
+    /** Corners of all polygons, x, y, z each. */
+    corners: Float32Array;
+    colour: Uint32Array;
+  };
+  plant: PlantFacts;
+  diagnostics: Diagnostic[];
+}
+
+export interface Picture {
+  /** Set for pictures that are the same in all plants: `bark`, `bark-normals`, `leaf`. */
+  id: string | null;
+  width: number;
+  height: number;
+  /** Rows from v = 0 on, red, green, blue (sRGB) and opacity. */
+  texels: Uint8Array;
+}
+
+export interface Material {
+  name: string;
+  /** Linear red, green, blue, opacity, from 0 to 1; multiplies the picture. */
+  colour: [number, number, number, number];
+  roughness: number;
+  translucency: number | null;
+  twoSided: boolean;
+  /** Texels below half opacity are discarded. */
+  cutOut: boolean;
+  /** Indexes of `Mesh.pictures`. */
+  picture: number | null;
+  normals: number | null;
+}
+
+/** Triangles, counter-clockwise seen from outside; metres, +Y up. */
+export interface Mesh {
+  positions: Float32Array;
+  normals: Float32Array;
+  /** v goes down, as in glTF. */
+  textureCoordinates: Float32Array;
+  indices: Uint32Array;
+  /** Indices `first` to `first + count` have this material. */
+  parts: { material: number; first: number; count: number }[];
+  materials: Material[];
+  pictures: Picture[];
+  plant: PlantFacts;
+  diagnostics: Diagnostic[];
+}
+
+export interface NamedFile {
+  name: string;
+  bytes: Uint8Array;
+}
+
+export interface WrittenFiles {
+  files: NamedFile[];
+  diagnostics: Diagnostic[];
+}
+
+/** Options of `lsc export` and `lsc forest` by name without dashes; `true` for flags. */
+export type FileOptions = Record<string, string | number | true>;
+
+export interface ForestOptions extends GrammarOptions {
+  /** Options of the scene: `{ count: 1000, heroes: 5, placement: 'poisson' }`. */
+  scene?: FileOptions;
+  /** Options of the file. */
+  file?: FileOptions;
+}
+
+export interface Progress {
+  generation: number;
+  generations: number;
+  modules: number;
+}
