@@ -150,7 +150,7 @@ private:
     BranchColours colours_ = BranchColours::Natural;
     bool is_windy_ = false;
     bool has_one_sample_ = false; // per pixel, in the prepared frame
-    Wind wind_; // of the prepared frame
+    Wind wind_;                   // of the prepared frame
     std::array<NearCasters, kNearMaps> near_casters_;
     // Map of crowns: made when first needed.
     ProgramObject crown_program_;

@@ -14,7 +14,7 @@ struct BranchPrograms {
     ProgramObject plain;
     ProgramObject cut_out;
     ProgramObject one_sample_cut_out; // `cut_out` for pictures with one sample per pixel
-    ProgramObject bumpy_cut_out; // pictures with holes and a normal map; from QUALITY 1 on
+    ProgramObject bumpy_cut_out;      // pictures with holes and a normal map; from QUALITY 1 on
 };
 
 struct ForestPrograms {
