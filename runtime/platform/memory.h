@@ -37,6 +37,12 @@ void advise_huge_pages(void* address, std::size_t bytes);
 /// first written. Precondition: `address` and `bytes` are multiples of kPage.
 void populate_pages(void* address, std::size_t bytes);
 
+/// Lets the allocator keep up to 128 MiB of freed memory, and serve blocks of up to 32 MiB from it.
+/// Otherwise work that allocates the same memory again and again, such as each picture of a
+/// software renderer, returns it to the system and pays for the faults of its pages each time. No
+/// effect where the allocator has no such settings.
+void keep_freed_memory();
+
 /// Memory of the machine in bytes; 2^64 - 1 if unknown.
 [[nodiscard]] std::uint64_t physical_memory();
 /// Peak memory of this process so far, in bytes; 0 if unknown.

@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: MIT
 // Puts the pictures of scripts/pairs into an order that does not tell which program drew them.
-// Usage: node shuffle.mjs PAIRS FOLDER
+// Usage: node shuffle.mjs SEED FOLDER QUESTION < LIST
+//   LIST has one line for each pair: NUMBER, a description of our picture and one of the other, separated by tabs.
 //   Reads FOLDER/parts/NUMBER-ours.png and NUMBER-other.png; writes FOLDER/pair-NN-left.png and pair-NN-right.png,
 //   FOLDER/index.html and FOLDER/key.txt.
 import { existsSync, readFileSync } from 'node:fs';
 import { copyFile, writeFile } from 'node:fs/promises';
 import { join } from 'node:path';
 
-const [description, folder] = process.argv.slice(2);
-const { seed, pairs } = JSON.parse(readFileSync(description, 'utf8'));
-let state = seed;
+const [seed, folder, question] = process.argv.slice(2);
+const pairs = readFileSync(0, 'utf8').trimEnd().split('\n').map(line => line.split('\t'));
+let state = Number(seed);
 function random() { // mulberry32: a number from 0 to 1, without 1
     state = (state + 0x6d2b79f5) | 0;
     let bits = Math.imul(state ^ (state >>> 15), state | 1);
@@ -29,9 +30,9 @@ const isOursLeft = shuffle(pairs.map((_, i) => i % 2 === 0)); // one half of the
 const rows = [];
 const key = [];
 for (const [place, index] of order.entries()) {
-    const { preset, species } = pairs[index];
-    const ours = join(folder, `parts/${index + 1}-ours.png`);
-    const other = join(folder, `parts/${index + 1}-other.png`);
+    const [pair, oursIs, otherIs] = pairs[index];
+    const ours = join(folder, `parts/${pair}-ours.png`);
+    const other = join(folder, `parts/${pair}-other.png`);
     if (!existsSync(ours) || !existsSync(other)) {
         continue;
     }
@@ -42,17 +43,17 @@ for (const [place, index] of order.entries()) {
     const images = ['left', 'right'].map(side => `<img src="pair-${number}-${side}.png" alt="${side}">`);
     rows.push(`<h2>${number}</h2>\n<div>${images.join('')}</div>`);
     const [ourSide, otherSide] = isLeft ? ['left', 'right'] : ['right', 'left'];
-    key.push(`pair-${number}: lsview ${species} is ${ourSide}, ez-tree ${preset} ${otherSide}`);
+    key.push(`pair-${number}: ${oursIs} is ${ourSide}, ${otherIs} ${otherSide}`);
 }
 await writeFile(join(folder, 'index.html'), `<!doctype html>
-<html lang="en"><meta charset="utf-8"><title>Pairs of trees</title>
+<html lang="en"><meta charset="utf-8"><title>Pairs of pictures</title>
 <style>
 body { margin: 1em; font: 16px sans-serif }
 div { display: flex; gap: 8px }
 img { width: 50%; min-width: 0 }
 h2 { margin: 1em 0 .3em }
 </style>
-<p>Which picture of each pair shows the better tree?</p>
+<p>${question}</p>
 ${rows.join('\n')}
 </html>
 `);

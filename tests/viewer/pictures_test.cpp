@@ -268,6 +268,35 @@ TEST_CASE("the edges of cut-out leaves are smooth with several samples") {
     CHECK(difference.mean < 2.0); // the leaf covers about the same area
 }
 
+TEST_CASE("forests with one sample per pixel look as with several") {
+    // Impostors and branches of trees; pictures with holes.
+    const std::vector<std::vector<std::string>> forests = {
+        {scene("mixed-forest"), "--camera", "eye -10,40,-20 target 110,5,110"},
+        {LSYS_SOURCE_DIR "/samples/species/male-fern/male-fern.lsys", "--count", "40",
+         "--forest-size", "8", "--heroes", "2", "--camera", "eye 4,1,-1 target 4,0.3,4"}};
+    for (const std::vector<std::string>& forest : forests) {
+        CAPTURE(forest[0]);
+        const auto view = [&forest](const char* samples) {
+            std::vector<std::string> arguments = forest;
+            arguments.insert(arguments.end(), {"--size", "320x240", "--samples", samples});
+            return decode_picture(drawn(arguments));
+        };
+        CHECK(difference_by_square(view("1"), view("4"), 10).mean < 1.2);
+    }
+}
+
+TEST_CASE("from medium quality on, pictures of the ground show no rows of tiles") {
+    const auto view = [](double x, const char* quality) {
+        return decode_picture(
+            drawn({LSYS_SOURCE_DIR "/samples/carey-type-0/carey-type-0.lsys", "--count", "1",
+                   "--ground-picture", LSYS_SOURCE_DIR "/samples/scenes/stone-field/stones.png",
+                   "--ground-tile", "3", "--no-shadows", "--size", "160x120", "--quality", quality,
+                   "--camera", fmt::format("eye {},12,300 target {},0,300.1 fov 60", x, x)}));
+    };
+    CHECK(difference_of(view(300.0, "low"), view(303.0, "low")).mean < 1.0);
+    CHECK(difference_of(view(300.0, "medium"), view(303.0, "medium")).mean > 4.0);
+}
+
 TEST_CASE("the sky has no bands of equal colour") {
     const Picture picture =
         decode_picture(drawn({scene("mixed-forest"), "--size", "320x240", "--camera",

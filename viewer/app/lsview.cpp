@@ -2,6 +2,7 @@
 #include "viewer/app/lsview.h"
 
 #include "runtime/base/out_of_memory.h"
+#include "runtime/platform/memory.h"
 #include "runtime/program/build_info.h"
 #include "runtime/program/console.h"
 #include "runtime/program/host.h"
@@ -154,6 +155,7 @@ ExitStatus run_pictures(const ViewOptions& options, const Console& console) {
 }
 
 int run(std::span<const std::string> arguments, const Io& io) {
+    platform::keep_freed_memory();
     return catch_out_of_memory(
         [&] { return static_cast<int>(std::visit(Dispatch{io}, parse_options(arguments))); },
         [&] { return report_out_of_memory(io); });

@@ -364,6 +364,7 @@ private:
         }
         if (is_forest_ && device_.quality() > 0) {
             block.crowns = forest_.draw_crowns(frame.camera.eye);
+            block.sky.w *= forest_.exposure_below_crowns(frame.camera.eye);
         }
         frame_.fill(std::span<const FrameBlock>(&block, 1));
         glBindBufferBase(GL_UNIFORM_BUFFER, kFrameBinding, frame_.name());

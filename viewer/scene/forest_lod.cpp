@@ -156,6 +156,30 @@ void ForestLod::find_within(const Bounds& box, std::vector<std::uint32_t>& trees
         [&](std::uint32_t slot) { trees.push_back(first_added() + slot); });
 }
 
+float ForestLod::crown_cover(const glm::vec3& eye) const {
+    constexpr float kRange = 15.0F; // m
+    constexpr float kLow = 1.0F;    // m above the eye: tops of crowns that count for nothing
+    constexpr float kHigh = 5.0F;   // and of those that count as a whole
+    Bounds box;
+    box.add(eye - kRange);
+    box.add(eye + kRange);
+    std::vector<std::uint32_t> numbers;
+    find_within(box, numbers);
+    float covered = 0.0F; // area of crowns over pi, m^2
+    for (const std::uint32_t number : numbers) {
+        const LodTree& tree = lod_tree(number);
+        const TreeForm& form = model_.forms[tree.form];
+        const glm::vec2 away(tree.position.x - eye.x, tree.position.z - eye.z);
+        const float nearness = std::max(1.0F - glm::dot(away, away) / (kRange * kRange), 0.0F);
+        const float top = tree.position.y + tree.scale * form.high - eye.y;
+        const float radius = tree.scale * form.radius;
+        covered +=
+            nearness * std::clamp((top - kLow) / (kHigh - kLow), 0.0F, 1.0F) * radius * radius;
+    }
+    constexpr float kMeanNearness = 0.5F; // within the range
+    return 1.0F - std::exp(-covered / (kMeanNearness * kRange * kRange));
+}
+
 void ForestLod::list_whole_trees(std::span<const std::uint32_t> trees,
                                  std::uint32_t level,
                                  std::vector<PoolBranch>& branches,

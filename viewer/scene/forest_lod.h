@@ -240,6 +240,9 @@ public:
                           DrawLists& lists);
     /// Appends the trees of all cells that overlap a box seen from above.
     void find_within(const Bounds& box, std::vector<std::uint32_t>& trees) const;
+    /// Fraction of the sky above `eye` that crowns hide, 0 to 1. Near crowns count more; those whose
+    /// tops are less than a metre above the eye do not count.
+    [[nodiscard]] float crown_cover(const glm::vec3& eye) const;
     [[nodiscard]] Sphere bounding_sphere(const LodTree& tree, float yaw) const {
         return view::bounding_sphere(model_, tree, yaw);
     }

@@ -6,6 +6,25 @@
 bool is_in_range(float threshold, vec2 range) {
     return threshold >= range.x && threshold < range.y;
 }
+#ifdef ONE_SAMPLE
+// The functions below for pixels with one sample. A sample mask, even a full one, is costly for
+// software renderers.
+void keep_range(vec2 range) {
+    if (!is_in_range(dither_threshold(), range)) {
+        discard;
+    }
+}
+void keep_cover(float opacity) {
+    if (opacity < 0.5) {
+        discard;
+    }
+}
+void keep_cover_in_range(float opacity, vec2 range) {
+    if (opacity < 0.5 || !is_in_range(dither_threshold(), range)) {
+        discard;
+    }
+}
+#else
 // Keeps the samples of a pixel whose thresholds are in `range`. Sample thresholds are evenly spaced,
 // from the threshold of the pixel on.
 void keep_range(vec2 range) {
@@ -34,3 +53,4 @@ void keep_cover(float opacity) {
 void keep_cover_in_range(float opacity, vec2 range) {
     keep_range(vec2(range.x, min(range.y, cut_out_cover(opacity))));
 }
+#endif

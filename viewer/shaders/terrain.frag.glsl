@@ -19,15 +19,46 @@ in vec3 fog; // xy: fog_to(); z: distance, m
 in float cover;
 out vec4 colour;
 #ifdef PICTURE
+#if QUALITY > 0
+// Noise of 0 to 1 with a period of 1 between its random values.
+float random_at(vec2 cell) {
+    return fract(52.9829189 * fract(dot(mod(cell, 289.0), vec2(0.06711056, 0.37583715))));
+}
+float noise_at(vec2 at) {
+    vec2 cell = floor(at), part = smoothstep(0.0, 1.0, at - cell);
+    return mix(mix(random_at(cell), random_at(cell + vec2(1.0, 0.0)), part.x),
+               mix(random_at(cell + vec2(0.0, 1.0)), random_at(cell + vec2(1.0)), part.x), part.y);
+}
+#endif
 void main() {
     vec3 up = normalize(world_normal);
     vec2 uv = (world_position.xz - tiles.xy) / tiles.zw;
     vec3 normal = up;
     // Far away, use the mean colour: repeated tiles would be visible as rows.
     float far = smoothstep(25.0, 100.0, fog.z * inversesqrt(tiles.z * tiles.w));
-    vec3 albedo = mix(texture(colours, uv).rgb, mean, far);
+    vec3 near_albedo = texture(colours, uv).rgb;
+#if QUALITY > 0
+    // In patches the picture is turned by the angle of a 3-4-5 triangle, so that no rows of tiles
+    // show; wider patches are lighter and darker.
+    const mat2 kTurn = mat2(0.8, 0.6, -0.6, 0.8);
+    vec2 turned_uv = kTurn * uv + vec2(0.37, 0.71);
+    float turned = smoothstep(0.45, 0.55, noise_at(0.7 * uv));
+    near_albedo = mix(near_albedo, texture(colours, turned_uv).rgb, turned);
+    vec2 place = world_position.xz;
+    float lightness = 0.8 + 0.25 * noise_at(place * (1.0 / 6.1)) +
+                      0.15 * noise_at(kTurn * place * (1.0 / 23.0) + 7.3);
+    vec3 albedo = lightness * mix(near_albedo, mean, far);
+#else
+    vec3 albedo = mix(near_albedo, mean, far);
+#endif
     if (has_normal_map != 0) {
         vec3 bump = texture(normal_map, uv).xyz * 2.0 - 1.0;
+#if QUALITY > 0
+        vec3 turned_bump = texture(normal_map, turned_uv).xyz * 2.0 - 1.0;
+        // y of the normals points against the rows of the picture.
+        vec2 along_uv = vec2(turned_bump.x, -turned_bump.y) * kTurn;
+        bump = mix(bump, vec3(along_uv.x, -along_uv.y, turned_bump.z), turned);
+#endif
         vec3 along = normalize(vec3(up.y, -up.x, 0.0)); // x of the picture
         normal = normalize(along * bump.x + cross(up, along) * bump.y + up * bump.z);
         normal = normalize(mix(normal, up, far));

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "runtime/platform/memory.h"
 
+#include <malloc.h>
 #include <sys/mman.h>
 #include <sys/resource.h>
 
@@ -16,6 +17,13 @@ void populate_pages(void* address, std::size_t bytes) {
 #else
     static_cast<void>(address);
     static_cast<void>(bytes);
+#endif
+}
+
+void keep_freed_memory() {
+#ifdef __GLIBC__
+    static_cast<void>(::mallopt(M_TRIM_THRESHOLD, 128 << 20));
+    static_cast<void>(::mallopt(M_MMAP_THRESHOLD, 32 << 20)); // the max that glibc accepts
 #endif
 }
 

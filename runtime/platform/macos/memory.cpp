@@ -13,6 +13,10 @@ void populate_pages(void* /*address*/, std::size_t /*bytes*/) {
     // macOS has no call that populates pages.
 }
 
+void keep_freed_memory() {
+    // macOS has no such settings.
+}
+
 std::uint64_t peak_memory() {
     rusage usage{};
     ::getrusage(RUSAGE_SELF, &usage);

@@ -35,6 +35,10 @@ std::uint64_t physical_memory() {
     return std::uint64_t{4} << 30; // MAXIMUM_MEMORY of cmake/toolchains/web.cmake
 }
 
+void keep_freed_memory() {
+    // The heap never shrinks.
+}
+
 std::uint64_t peak_memory() {
     return ::emscripten_get_heap_size(); // the heap never shrinks
 }

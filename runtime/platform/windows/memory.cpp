@@ -59,6 +59,10 @@ std::uint64_t physical_memory() {
                                                 : std::numeric_limits<std::uint64_t>::max();
 }
 
+void keep_freed_memory() {
+    // The C library of Windows has no such settings.
+}
+
 std::uint64_t peak_memory() {
     PROCESS_MEMORY_COUNTERS counters{};
     counters.cb = sizeof counters;

@@ -16,7 +16,7 @@ draw = random.Random(91)
 
 def tufted(card, place, direction, length, bend, needles):
     """A thin twig with short shoots, each with a tuft of soft needles."""
-    steps = max(3, round(length / 0.048))
+    steps = max(3, round(length / 0.043))
     heading = direction
     for i in range(steps):
         heading += bend / steps
@@ -26,11 +26,14 @@ def tufted(card, place, direction, length, bend, needles):
         if not needles:
             card.line([along(place, heading + 90, 0.012), along(place, heading - 90, 0.012)], 0.014, (122, 94, 66))
             continue
-        tone = draw.uniform(0.72, 1)
-        for k in range(26):
+        tone = draw.uniform(0.8, 1)
+        # The needles of a tuft spread forwards; single needles stand between the tufts.
+        for k in range(32):
             shade = tone * draw.uniform(0.85, 1.15)
-            card.line([place, along(place, draw.uniform(0, 360), draw.uniform(0.032, 0.055))], 0.0052,
-                      (206 * shade, 222 * shade, 178 * shade))
+            aside = draw.triangular(8, 165, 50)
+            foot = place if k < 26 else along(place, heading + 180, draw.uniform(0.008, 0.036))
+            tip = along(foot, heading + draw.choice((-1, 1)) * aside, draw.uniform(0.034, 0.068) * (1 - aside / 420))
+            card.line([foot, tip], 0.004, (206 * shade, 222 * shade, 178 * shade))
 
 
 for name, needles in (("spray.png", True), ("twig.png", False)):

@@ -6,6 +6,12 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <vector>
+
+#if defined(__GLIBC__) && !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+#define LSYS_HAS_MALLOPT
+#include <sys/resource.h>
+#endif
 
 using namespace lsys::platform;
 
@@ -48,3 +54,23 @@ TEST_CASE("the machine and the process have memory") {
     CHECK(peak_memory() >= before);
     release_memory(memory, kBytes);
 }
+
+#ifdef LSYS_HAS_MALLOPT
+TEST_CASE("freed memory is allocated again without faults of its pages") {
+    keep_freed_memory();
+    constexpr std::size_t kBytes = std::size_t{24} << 20;
+    const auto faults_of_a_block = [] {
+        const auto faults = [] {
+            rusage usage{};
+            ::getrusage(RUSAGE_SELF, &usage);
+            return usage.ru_minflt;
+        };
+        const long before = faults();
+        const std::vector<unsigned char> block(kBytes, static_cast<unsigned char>(before));
+        CHECK(block[kBytes / 2] == static_cast<unsigned char>(before));
+        return faults() - before;
+    };
+    faults_of_a_block();
+    CHECK(faults_of_a_block() < static_cast<long>(kBytes / kPage / 10));
+}
+#endif

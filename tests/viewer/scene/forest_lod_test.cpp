@@ -55,6 +55,19 @@ std::vector<std::array<std::uint32_t, 3>> branches_of(ForestLod& lod, const Draw
 
 } // namespace
 
+TEST_CASE("crowns hide the sky of an eye below them") {
+    const auto wood = make_wood(3000, 200.0F); // a tree on 13 m^2
+    const ForestLod lod(wood->model);
+    const LodTree& tree = lod.trees()[1500];
+    const float top = tree.position.y + tree.scale * wood->model.forms[tree.form].high;
+    const glm::vec3 below = tree.position + glm::vec3(0.5F, 0.2F, 0.0F);
+    CHECK(lod.crown_cover(below) > 0.2F);
+    CHECK(lod.crown_cover(below) <= 1.0F);
+    CHECK(lod.crown_cover({below.x, 0.5F * (below.y + top), below.z}) <= lod.crown_cover(below));
+    CHECK(lod.crown_cover({below.x, top + 100.0F, below.z}) == 0.0F);
+    CHECK(lod.crown_cover({-200.0F, below.y, -200.0F}) == 0.0F);
+}
+
 TEST_CASE("every pixel of a tree in view is drawn by exactly one LOD band") {
     const auto wood = make_wood(3000, 200.0F);
     ForestLod lod(wood->model);

@@ -306,6 +306,7 @@ void ForestPass::prepare(const Frame& frame) {
     constexpr float kStill = 1e-4F; // m/s
     is_windy_ = glm::length(frame.wind.velocity) >= kStill;
     wind_ = frame.wind;
+    has_one_sample_ = frame.samples == 1;
     has_old_clusters_ = has_old_clusters_ && !impostors_.is_done();
     options.cluster_pixels = has_clusters_ && !has_old_clusters_ ? options.cluster_pixels : 0.0F;
     terrain_.prepare(frustum_, frame.tree_range);
@@ -338,6 +339,14 @@ void ForestPass::select_on_device() {
     cull_cpu_seconds_ += platform::thread_cpu_seconds() - cpu_start;
 }
 
+const ProgramObject& ForestPass::impostor_depth(bool blends) const {
+    if (has_one_sample_) {
+        return blends ? programs().one_sample_blending_impostor_depth
+                      : programs().one_sample_impostor_depth;
+    }
+    return blends ? programs().blending_impostor_depth : programs().impostor_depth;
+}
+
 void ForestPass::draw_impostors(std::span<const ImpostorEntry> trees, FrameStats& stats) {
     if (trees.empty()) {
         return;
@@ -350,8 +359,8 @@ void ForestPass::draw_impostors(std::span<const ImpostorEntry> trees, FrameStats
         std::partition_point(trees.begin(), trees.end(),
                              [](const ImpostorEntry& tree) { return tree.range.is_whole(); }) -
         trees.begin());
-    stats.draws += draw_quads(programs().impostor_depth, 0, whole);
-    stats.draws += draw_quads(programs().blending_impostor_depth, whole, trees.size() - whole);
+    stats.draws += draw_quads(impostor_depth(false), 0, whole);
+    stats.draws += draw_quads(impostor_depth(true), whole, trees.size() - whole);
     glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
     glDepthFunc(GL_EQUAL);
     glDepthMask(GL_FALSE);
@@ -398,8 +407,8 @@ std::uint64_t ForestPass::draw_device_quads(const ProgramObject& program,
 void ForestPass::draw_device_impostors(bool clusters, FrameStats& stats) {
     // Depth pass first, as in draw_impostors().
     glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
-    stats.draws += draw_device_quads(programs().impostor_depth, clusters, 0, 1);
-    stats.draws += draw_device_quads(programs().blending_impostor_depth, clusters, 1, 1);
+    stats.draws += draw_device_quads(impostor_depth(false), clusters, 0, 1);
+    stats.draws += draw_device_quads(impostor_depth(true), clusters, 1, 1);
     glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
     glDepthFunc(GL_EQUAL);
     glDepthMask(GL_FALSE);
@@ -486,6 +495,12 @@ glm::vec4 ForestPass::draw_crowns(const glm::vec3& eye) {
     return area;
 }
 
+float ForestPass::exposure_below_crowns(const glm::vec3& eye) const {
+    constexpr float kMax = 2.2F; // below closed crowns
+    const float cover = lod_->crown_cover(eye);
+    return 1.0F + (kMax - 1.0F) * cover * cover;
+}
+
 void ForestPass::list_casters(const glm::mat4& shadow_from_world,
                               std::uint32_t level,
                               NearCasters& casters) {
@@ -548,11 +563,12 @@ void ForestPass::draw_branches(const BranchPrograms& programs, bool blends, Fram
     stats.draws += buffers_.draw(BranchClass::TwoSided, blends);
     glUseProgram(programs.plain.name());
     stats.draws += buffers_.draw(BranchClass::Plain, blends);
-    glUseProgram(programs.cut_out.name());
+    const ProgramObject& cut_out = has_one_sample_ ? programs.one_sample_cut_out : programs.cut_out;
+    glUseProgram(cut_out.name());
     stats.draws += buffers_.draw(BranchClass::CutOut, blends);
     stats.draws += buffers_.draw_pictures(
-        programs.solid.name(), programs.cut_out.name(),
-        (programs.bumpy_cut_out ? programs.bumpy_cut_out : programs.cut_out).name(), blends);
+        programs.solid.name(), cut_out.name(),
+        (programs.bumpy_cut_out ? programs.bumpy_cut_out : cut_out).name(), blends);
 }
 
 void ForestPass::draw(MaterialTextures& textures, ForestFrameStats& stats) {

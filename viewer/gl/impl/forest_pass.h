@@ -75,6 +75,9 @@ public:
     /// Draws the crowns around the eye, seen from above, into a texture for shaders/crowns.glsl, and
     /// binds it. Call after prepare(). Returns FrameBlock::crowns.
     [[nodiscard]] glm::vec4 draw_crowns(const glm::vec3& eye);
+    /// Factor of the exposure for an eye below crowns, which adapts to their shade. Call after
+    /// prepare().
+    [[nodiscard]] float exposure_below_crowns(const glm::vec3& eye) const;
     /// Draws the trees in shadow map number `map` (below kNearMaps) as branches of a level into the
     /// bound framebuffer, moved by the wind of the prepared frame. The bound FrameBlock must have
     /// `shadow_from_world` as its view_projection.
@@ -116,6 +119,8 @@ private:
     /// Lowest and highest place of ground and trees near the middle of a shadow map.
     [[nodiscard]] std::array<float, 2> altitudes_near(const glm::vec2& middle, float half) const;
     [[nodiscard]] const ForestPrograms& programs() const { return programs_[is_windy_ ? 1 : 0]; }
+    /// Program of the depth pass of impostors, for the samples of the prepared frame.
+    [[nodiscard]] const ProgramObject& impostor_depth(bool blends) const;
     void draw_branches(const BranchPrograms& programs, bool blends, FrameStats& stats);
     /// Draws impostors of trees or clusters.
     void draw_impostors(std::span<const ImpostorEntry> trees, FrameStats& stats);
@@ -144,7 +149,10 @@ private:
     std::optional<PickPrograms> pick_programs_;
     BranchColours colours_ = BranchColours::Natural;
     bool is_windy_ = false;
-    Wind wind_; // wind of the prepared frame
+    bool has_one_sample_ = false; // per pixel, in the prepared frame
+    Wind wind_;                   // of the prepared frame
+    bool has_one_sample_ = false; // whether the prepared frame has one sample per pixel
+    Wind wind_;                   // wind of the prepared frame
     std::array<NearCasters, kNearMaps> near_casters_;
     // Map of crowns: made when first needed.
     ProgramObject crown_program_;

@@ -21,16 +21,20 @@ make_forest_programs(Device& device, const ShaderSource& shaders, bool windy) {
     };
     constexpr const char* kBranch = "branch.vert.glsl";
     constexpr const char* kImpostor = "impostor.vert.glsl";
-    const std::array<ProgramSpec, 14> wanted = {
+    const std::array<ProgramSpec, 18> wanted = {
         {{&programs.branches.solid, kBranch, "branch.frag.glsl", ""},
          {&programs.branches.plain, kBranch, "leaf.frag.glsl", "#define LIT_AT_CORNERS\n"},
          {&programs.branches.cut_out, kBranch, "leaf.frag.glsl",
           "#define LIT_AT_CORNERS\n#define CUT_OUT\n"},
+         {&programs.branches.one_sample_cut_out, kBranch, "leaf.frag.glsl",
+          "#define LIT_AT_CORNERS\n#define CUT_OUT\n#define ONE_SAMPLE\n"},
          {&programs.blending_branches.solid, kBranch, "branch.frag.glsl", "#define BLENDS\n"},
          {&programs.blending_branches.plain, kBranch, "leaf.frag.glsl",
           "#define LIT_AT_CORNERS\n#define BLENDS\n"},
          {&programs.blending_branches.cut_out, kBranch, "leaf.frag.glsl",
           "#define LIT_AT_CORNERS\n#define CUT_OUT\n#define BLENDS\n"},
+         {&programs.blending_branches.one_sample_cut_out, kBranch, "leaf.frag.glsl",
+          "#define LIT_AT_CORNERS\n#define CUT_OUT\n#define BLENDS\n#define ONE_SAMPLE\n"},
          {&programs.branches.bumpy_cut_out, kBranch, "branch.frag.glsl", "#define CUT_OUT\n", true},
          {&programs.blending_branches.bumpy_cut_out, kBranch, "branch.frag.glsl",
           "#define CUT_OUT\n#define BLENDS\n", true},
@@ -41,6 +45,10 @@ make_forest_programs(Device& device, const ShaderSource& shaders, bool windy) {
          {&programs.impostor_depth, kImpostor, "impostor.frag.glsl", "#define DEPTH\n"},
          {&programs.blending_impostor_depth, kImpostor, "impostor.frag.glsl",
           "#define DEPTH\n#define BLENDS\n"},
+         {&programs.one_sample_impostor_depth, kImpostor, "impostor.frag.glsl",
+          "#define DEPTH\n#define ONE_SAMPLE\n"},
+         {&programs.one_sample_blending_impostor_depth, kImpostor, "impostor.frag.glsl",
+          "#define DEPTH\n#define BLENDS\n#define ONE_SAMPLE\n"},
          {&programs.impostor_shadow, kImpostor, "impostor.frag.glsl", "#define SHADOW\n"}}};
     const std::string common = windy ? "#define ONE_TAP\n#define WIND\n" : "#define ONE_TAP\n";
     for (const ProgramSpec& one : wanted) {

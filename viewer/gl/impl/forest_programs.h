@@ -13,7 +13,8 @@ struct BranchPrograms {
     ProgramObject solid; // one-sided and two-sided
     ProgramObject plain;
     ProgramObject cut_out;
-    ProgramObject bumpy_cut_out; // pictures with holes and a normal map; from QUALITY 1 on
+    ProgramObject one_sample_cut_out; // `cut_out` for pictures with one sample per pixel
+    ProgramObject bumpy_cut_out;      // pictures with holes and a normal map; from QUALITY 1 on
 };
 
 struct ForestPrograms {
@@ -22,6 +23,9 @@ struct ForestPrograms {
     // Variants for entries drawn in two LOD bands; `impostor` draws the colours of both.
     BranchPrograms blending_branches;
     ProgramObject blending_impostor_depth;
+    // The depth passes of pictures with one sample per pixel.
+    ProgramObject one_sample_impostor_depth;
+    ProgramObject one_sample_blending_impostor_depth;
     ProgramObject impostor;
     ProgramObject impostor_shadow;
     // Casters of the shadow maps near the eye; from QUALITY 1 on.
