@@ -29,14 +29,15 @@ namespace lsys {
 //   9  Curves, distributions, weights that are computed, several axioms.
 //  10  Materials of colour indexes; operation SetRgb.
 //  11  Flare of stems, collars, shapes of tips; taper of the pipe model.
-inline constexpr std::uint32_t kModuleFileVersion = 11;
+//  12  Profile Cpfg, its trait for the corners of polygons, and its operations.
+inline constexpr std::uint32_t kModuleFileVersion = 12;
 
 #define LSYS_VERSION_MATTERS                                                                       \
     "what a .lsb file can hold has changed: raise kModuleFileVersion, add a line to its history, " \
     "then set this number"
 static_assert(kCountOf<Opcode> == 54, LSYS_VERSION_MATTERS);
-static_assert(kCountOf<TurtleOperation> == 61, LSYS_VERSION_MATTERS);
-static_assert(kCountOf<TurtleProfile> == 12, LSYS_VERSION_MATTERS);
+static_assert(kCountOf<TurtleOperation> == 64, LSYS_VERSION_MATTERS);
+static_assert(kCountOf<TurtleProfile> == 13, LSYS_VERSION_MATTERS);
 static_assert(kCountOf<RewritingMode> == 4, LSYS_VERSION_MATTERS);
 static_assert(kCountOf<ChoiceScope> == 2, LSYS_VERSION_MATTERS);
 static_assert(kCountOf<WeightRule> == 2, LSYS_VERSION_MATTERS);
@@ -48,7 +49,7 @@ static_assert(kCountOf<SymbolKind> == 5, LSYS_VERSION_MATTERS);
 static_assert(kCountOf<PatternKind> == 3, LSYS_VERSION_MATTERS);
 static_assert(kCountOf<Stage> == 3, LSYS_VERSION_MATTERS);
 static_assert(kFieldCount<Settings> == 33, LSYS_VERSION_MATTERS);
-static_assert(kFieldCount<TurtleTraits> == 11, LSYS_VERSION_MATTERS);
+static_assert(kFieldCount<TurtleTraits> == 12, LSYS_VERSION_MATTERS);
 static_assert(kFieldCount<Pipe> == 3, LSYS_VERSION_MATTERS);
 static_assert(kFieldCount<Flare> == 3, LSYS_VERSION_MATTERS);
 static_assert(kFieldCount<BytecodeSymbol> == 6, LSYS_VERSION_MATTERS);

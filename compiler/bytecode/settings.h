@@ -54,6 +54,7 @@ struct TurtleTraits {
     bool width_is_relative = false;     // the width is radius / length of a segment
     bool l3d_compatible_surface = false; // sides, defaults and surfaces of the program L3D
     bool box_segments = false;           // segments are rectangular boxes as wide as their width
+    bool corners_are_ends = false;       // corners of polygons: each `.` and the end of each step
     float taper = 1.0F;                  // initial tip radius / base radius
     float first_turn = 0.0F;             // initial heading, in degrees to the left of +Y
     std::uint16_t first_colour = 0;      // initial colour, an index of the palette

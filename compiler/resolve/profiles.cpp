@@ -175,6 +175,16 @@ constexpr auto kSidefx = joined(
               {"@", DivideAngle}}),
     kPolygonsAndCut);
 
+// cpfg rolls as the matrices of ABOP 1.5 do: `\\` turns up towards right.
+constexpr auto kCpfg = joined(kForwardAndMove,
+                              turns({YawLeft, YawRight, PitchDown, PitchUp, RollRight, RollLeft}),
+                              kCommandsExceptTurns,
+                              commands({{"G", ForwardWithoutVertex},
+                                        {"g", MoveWithoutVertex},
+                                        {"@O", CentredSphere},
+                                        {"@o", LevelDisk},
+                                        {"@c", LevelDisk}}));
+
 constexpr std::array<std::span<const TurtleCommand>, kCountOf<TurtleProfile>> kProfiles{
 #define LSYS_TURTLE_PROFILE(identifier, ...) std::span<const TurtleCommand>(k##identifier),
 #include "compiler/bytecode/turtle_profiles.def"
@@ -192,9 +202,10 @@ constexpr std::array<TurtleObject, 9> kObjects{{
     {"DISK", Disk},
 }};
 /// Whether #object has a name for an operation that places an object. True for operations that need
-/// no name: mesh files, and operations without an object.
+/// no name: mesh files, objects that are commands of a profile, and operations without an object.
 constexpr bool has_name_if_object(TurtleOperation operation) {
     return info(operation).drawn != DrawnKind::Object || operation == MeshFile ||
+           std::ranges::find(kCpfg, operation, &TurtleCommand::operation) != kCpfg.end() ||
            std::ranges::find(kObjects, operation, &TurtleObject::operation) != kObjects.end();
 }
 static_assert(std::ranges::all_of(enumerators_of<TurtleOperation>(), has_name_if_object),

@@ -294,7 +294,7 @@ void Turtle::begin_word(std::uint64_t seed) {
     state.begin();
     state.stack.clear();
     state.watched.clear();
-    state.polygons = {};
+    state.polygons = OpenPolygons(state.traits.corners_are_ends);
     state.pending = {};
     state.position = 0;
     state.cut = 0;

@@ -246,13 +246,18 @@ private:
     }
 
     /// Reports a polygon with fewer than three vertices. Without `.` the vertices are the start and
-    /// end of every move (ABOP figure 1.25).
+    /// end of every move (ABOP figure 1.25); in profile `cpfg` they are each `.` and the end of each
+    /// move.
     void check_size(const ProgramWord& word,
                     std::size_t open,
                     std::size_t close,
                     std::uint32_t vertices,
                     std::uint32_t moves) {
-        const std::uint32_t count = vertices != 0 ? vertices : moves == 0 ? 0 : moves + 1;
+        const bool are_ends = program_.settings.traits.corners_are_ends;
+        const std::uint32_t count = are_ends        ? vertices + moves
+                                    : vertices != 0 ? vertices
+                                    : moves == 0    ? 0
+                                                    : moves + 1;
         if (count >= 3) {
             return;
         }
@@ -262,7 +267,7 @@ private:
                                                               count == 1 ? "vertex" : "vertices"));
         diagnostic.span = join(diagnostic.span, module_name_span(input_, word, close));
         diagnostic.help.emplace_back(
-            vertices != 0
+            vertices != 0 && !are_ends
                 ? "add vertices with `.`: a polygon has at least three"
                 : "add vertices with `.`, or moves with `F` or `f`: a polygon has at least three");
     }

@@ -2,7 +2,7 @@
 // cpfg: the L-system files of L-studio and vlab. A label `Lsystem: 1`, header items, the axiom,
 // productions `left < predecessor > right : {statements} condition {statements} --> successor :
 // weight`, then decomposition and homomorphism. A line that begins with a tab continues the line
-// before. The turtle is the profile `abop`.
+// before. The turtle is the profile `cpfg`.
 #include "cpfg/parser.h"
 #include "grammar/dialects/cpfg/preprocessor.h"
 #include "grammar/dialects/cpfg/session.h"

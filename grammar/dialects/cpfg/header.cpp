@@ -2,6 +2,7 @@
 // The part of CpfgWriter for names of modules and for the statements before the axiom.
 #include "grammar/ast/number.h"
 #include "grammar/ast/reports.h"
+#include "grammar/base/counted_text.h"
 #include "grammar/base/paths.h"
 #include "grammar/dialects/cpfg/writer.h"
 #include "grammar/dialects/impl/letter_modules.h"
@@ -19,10 +20,17 @@ bool is_letter(const std::string& name) {
            ((name[0] >= 'a' && name[0] <= 'z') || (name[0] >= 'A' && name[0] <= 'Z'));
 }
 
+/// Whether the turtle profile `cpfg` has the command, which begins with `@`.
+bool is_drawn(std::string_view name) {
+    return name == "@v" || name == "@O" || name == "@o" || name == "@c";
+}
+
 } // namespace
 
 /// Collects the names of all modules, and of the modules in predecessors and contexts.
 void CpfgWriter::find_names() {
+    std::vector<SourceSpan> queries;   // `?` of `?P`, `?H`, `?U`, `?L`
+    std::vector<SourceSpan> processes; // `?` of `?E`
     const auto note = [&](std::vector<CpfgModule>& list, bool matched) {
         for (CpfgModule& module : list) {
             used_.insert(module.name);
@@ -30,6 +38,12 @@ void CpfgWriter::find_names() {
                 matched_.insert(module.name);
             }
             check_module(module);
+            (module.has_arguments ? with_arguments_ : bare_).insert(module.name);
+            if (module.name == "?") {
+                const bool is_last = &module == &list.back();
+                (!is_last && (&module + 1)->name == "E" ? processes : queries)
+                    .push_back(module.span);
+            }
             if (!matched && &module != &list.front() && (&module - 1)->name == "~") {
                 add_surface(module);
             }
@@ -45,6 +59,20 @@ void CpfgWriter::find_names() {
         if (production.stage == Stage::Rewrite && !production.predecessor.empty()) {
             ++alternatives_[key_of(production)];
         }
+    }
+    report_queries(queries, "`?` asks for the place or direction of the turtle");
+    report_queries(processes, "`?E` asks an environment process for values");
+}
+
+/// Reports the first of the modules, and how many more there are.
+void CpfgWriter::report_queries(const std::vector<SourceSpan>& places, const char* message) const {
+    if (places.empty()) {
+        return;
+    }
+    Diagnostic& error =
+        context_.diagnostics.add(DiagnosticCode::ForeignFeature, places.front(), message);
+    if (places.size() > 1) {
+        error.notes.push_back("so it does at " + counted(places.size() - 1, "more place"));
     }
 }
 
@@ -77,16 +105,13 @@ std::string CpfgWriter::key_of(const CpfgProduction& production) {
 
 void CpfgWriter::check_module(CpfgModule& module) {
     const std::string& name = module.name;
-    if (name == "?") {
-        session_.report_unsupported(module.span,
-                                    "`?` asks an environment process, or the turtle, for values");
-    } else if (name == "$") {
+    if (name == "$") {
         session_.report_unsupported(module.span, "`$` ends a sub-L-system");
     } else if (name == "%" && module.has_arguments) {
         session_.report_unsupported(module.span,
                                     "`%` with a parameter keeps what it cuts off for an "
                                     "environment process");
-    } else if (name.size() >= 2 && name[0] == '@' && name != "@v") {
+    } else if (name.size() >= 2 && name[0] == '@' && !is_drawn(name)) {
         expressions_.warn_left_out(module.span, name, "`" + shown(name) + "` is not drawn");
     } else if ((name == "{" || name == "}") && module.has_arguments) {
         expressions_.warn_left_out(module.span, "{(", "parameters of `" + name + "` are left out");
@@ -159,22 +184,34 @@ void CpfgWriter::write_depth(const char* begin, ForeignId expression, Stage stag
     write_setting(begin, depth, nullptr);
 }
 
-/// Reads the view file, which lies beside the L-system and has its name.
+/// Reads the view file, which lies beside the L-system and has its name or is called `view.v`.
 void CpfgWriter::read_view_file() {
     const std::string_view path = context_.sources.file(out_.file()).path();
     const std::size_t dot = path.rfind('.');
     if (dot == path.npos || dot < folder_of_path(path).size()) {
         return;
     }
-    const Result<std::string> text = context_.load(std::string(path.substr(0, dot)) + ".v");
+    const std::string folder(folder_of_path(path));
+    std::string view_path = std::string(path.substr(0, dot)) + ".v";
+    Result<std::string> text = context_.load(view_path);
+    if (!text) {
+        view_path = folder + "view.v"; // the name in the objects of L-studio
+        text = context_.load(view_path);
+    }
     if (!text) {
         return;
     }
-    const std::string folder(folder_of_path(path));
     view_ = read_view(text.value(), [&](std::string_view name) -> std::optional<std::string> {
         Result<std::string> file = context_.load(folder + std::string(name));
         return file ? std::optional(std::move(file).value()) : std::nullopt;
     });
+    if (!view_.bending.empty() &&
+        (view_.is_elastic || used_.count("_") != 0 || used_.count("@Ts") != 0)) {
+        expressions_.warn_left_out(header_, "bending",
+                                   "`" + view_.bending + "` of the view file `" +
+                                       shown(view_path.substr(folder.size())) +
+                                       "` is left out: branches do not bend");
+    }
 }
 
 void CpfgWriter::write_settings(std::string_view turtle) {
@@ -204,9 +241,6 @@ void CpfgWriter::write_settings(std::string_view turtle) {
         write_setting("#set seed ", seed_, nullptr);
     }
     write_setting("#n = ", length_, "0");
-    if (used_.count("G") != 0) {
-        out_.put("#object G BRANCH;\n", header_);
-    }
     for (const std::string& name : surfaces_) {
         if (is_letter(name)) {
             out_.put("#object " + name + " LEAF;\n", header_);
@@ -239,8 +273,9 @@ void CpfgWriter::write_declarations() {
         for (const CpfgModule& module : list) {
             const std::string name = spelled(module.name, module.has_arguments);
             const bool draws =
-                name.size() == 1 &&
-                std::string_view("FfG+-&^\\/|$!\"'[]{}.%").find(name[0]) != std::string_view::npos;
+                is_drawn(module.name) ||
+                (name.size() == 1 && std::string_view("FfGg+-&^\\/|$!\"'[]{}.%").find(name[0]) !=
+                                         std::string_view::npos);
             if (!draws && rewritten.count(module.name) == 0 && surfaces_.count(module.name) == 0 &&
                 declared.insert({name, module.arguments.size()}).second) {
                 out_.put("#module " + name, header_);
@@ -278,8 +313,13 @@ void CpfgWriter::write_names(const char* begin, const std::vector<CpfgModule>& l
     }
     std::set<std::string> spelled_names;
     for (const std::string& name : used_) {
-        if (wanted.count(name.substr(0, 1)) != 0 && name != "[" && name != "]") {
-            spelled_names.insert(spelled(name, true));
+        if (wanted.count(name.substr(0, 1)) == 0 || name == "[" || name == "]") {
+            continue;
+        }
+        for (const bool has_arguments : {false, true}) {
+            if ((has_arguments ? with_arguments_ : bare_).count(name) != 0) {
+                spelled_names.insert(spelled(name, has_arguments));
+            }
         }
     }
     if (spelled_names.empty() && !session_.considers) {

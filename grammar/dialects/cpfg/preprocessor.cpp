@@ -120,8 +120,12 @@ private:
             } else if (text.substr(at, 2) == "/*") {
                 at = comment_end(id, text, at);
                 line += ' ';
+            } else if (text.substr(at, 2) == "//") {
+                at = line_end(text, at);
             } else {
-                line += text[at++];
+                const std::size_t length = std::max<std::size_t>(string_length(text, at), 1);
+                line += text.substr(at, length);
+                at += length;
             }
         }
         at += at < text.size() ? 1U : 0U;
@@ -234,6 +238,38 @@ private:
         return end + 2;
     }
 
+    static std::size_t line_end(std::string_view text, std::size_t at) {
+        return std::min(text.find('\n', at), text.size());
+    }
+
+    /// Length of the string in quotes that begins at `at` and ends in the same line; else 0.
+    static std::size_t string_length(std::string_view text, std::size_t at) {
+        if (text[at] != '"') {
+            return 0;
+        }
+        const std::size_t close = text.find_first_of("\"\n", at + 1);
+        return close == text.npos || text[close] == '\n' ? 0 : close + 1 - at;
+    }
+
+    /// Warns of a `//` between symbols: its author may mean two rolls, but for cpfg, too, the rest
+    /// of the line is a comment.
+    void warn_rolls(FileId id, std::string_view text, std::size_t at) {
+        const auto is_space = [&](std::size_t place) {
+            return place >= text.size() || is_blank(text[place]) || text[place] == '\n';
+        };
+        const bool is_between = at != 0 && !is_space(at - 1) && !is_space(at + 2);
+        constexpr std::string_view kEnds = ";*/"; // of a statement or a comment
+        if (!is_between || kEnds.find(text[at - 1]) != kEnds.npos || text[at + 2] == '/') {
+            return;
+        }
+        const auto begin = static_cast<std::uint32_t>(at);
+        Diagnostic& warning =
+            context_.diagnostics.add(DiagnosticCode::ForeignIgnored,
+                                     {id, begin, static_cast<std::uint32_t>(line_end(text, at))},
+                                     "`//` begins a comment, here as in cpfg");
+        warning.help.emplace_back("for two rolls write `/ /`");
+    }
+
     /// Copies a line, without comments and with its macros replaced; returns where the next begins.
     std::size_t line(FileId id, std::string_view text, std::size_t at) {
         const bool keeps = active();
@@ -246,14 +282,21 @@ private:
                 }
                 continue;
             }
-            std::size_t length = name_length(text.substr(at));
+            if (text.substr(at, 2) == "//") {
+                if (keeps) {
+                    warn_rolls(id, text, at);
+                }
+                at = line_end(text, at);
+                continue;
+            }
+            std::size_t length = std::max(string_length(text, at), name_length(text.substr(at)));
             if (length == 0 && is_digit(text[at])) {
                 while (at + length < text.size() &&
                        (is_name_start(text[at + length]) || is_digit(text[at + length]) ||
                         text[at + length] == '.')) {
                     ++length;
                 }
-            } else if (length != 0) {
+            } else if (length != 0 && text[at] != '"') {
                 length = name(id, text, at, length, keeps);
                 at += length;
                 continue;

@@ -20,6 +20,9 @@ constexpr std::uint32_t kMaxDraws = 1000;
 /// Maximum nodes of a condition, in which variables are replaced by their values.
 constexpr std::uint64_t kMaxCondition = 4'000;
 
+/// Condition of a decomposition that does not rewrite the axiom, whose age is 0.
+constexpr const char* kAfterAxiom = "step() > 0";
+
 /// Label of the production that replaces a module of random numbers.
 std::string bound_label(Stage stage, const std::string& name) {
     return (stage == Stage::Interpret ? "#interpret " : "#decompose ") + name;
@@ -499,7 +502,8 @@ void CpfgWriter::write_group(std::size_t index) {
     const std::uint32_t count = lowered_[index].draws;
     const std::vector<std::string> names = formals_of(first);
     write_head(first, label_of(first.stage, index));
-    out_.put("* : " + random_module(index), first.arrow);
+    out_.put((spares_axiom(first) ? std::string(kAfterAxiom) : "*") + " : " + random_module(index),
+             first.arrow);
     write_parameters(names, std::vector<std::string>(count, "{0, 1}"), first.arrow);
     out_.put(";\n", first.arrow);
     bool always = false;
@@ -529,12 +533,29 @@ void CpfgWriter::write_group(std::size_t index) {
     }
 }
 
+/// Whether the production could decompose a module of the axiom. cpfg decomposes the words of
+/// productions, but not the axiom.
+bool CpfgWriter::spares_axiom(const CpfgProduction& production) const {
+    return production.stage == Stage::Decompose &&
+           std::any_of(session_.axiom.begin(), session_.axiom.end(), [&](const CpfgModule& module) {
+               return module.name == production.predecessor.front().name &&
+                      module.arguments.size() == production.predecessor.front().arguments.size();
+           });
+}
+
 void CpfgWriter::write_condition(std::size_t index, const ForeignWriting& how) {
+    const CpfgProduction& production = session_.productions[index];
     const ForeignId condition = lowered_[index].condition;
+    const bool is_guarded = !lowered_[index].in_group && spares_axiom(production);
+    if (is_guarded) {
+        out_.put(kAfterAxiom, production.span);
+    }
     if (is_always(condition)) {
-        out_.put("*", session_.productions[index].span);
+        out_.put(is_guarded ? "" : "*", production.span);
     } else {
+        out_.put(is_guarded ? " && (" : "", production.span);
         tree_.write(condition, how, out_);
+        out_.put(is_guarded ? ")" : "", production.span);
     }
 }
 

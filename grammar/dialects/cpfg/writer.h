@@ -42,6 +42,7 @@ private:
 
     // --- names
     void find_names();
+    void report_queries(const std::vector<SourceSpan>& places, const char* message) const;
     void keep_tilde(CpfgProduction& production) const;
     void check_module(CpfgModule& module);
     void add_surface(const CpfgModule& module);
@@ -73,6 +74,7 @@ private:
     void write_production(std::size_t index);
     void write_group(std::size_t index);
     void write_head(const CpfgProduction& production, const std::string& label);
+    [[nodiscard]] bool spares_axiom(const CpfgProduction& production) const;
     void write_condition(std::size_t index, const ForeignWriting& how);
     void write_weight(std::size_t index, const ForeignWriting& how);
     void write_successor(std::size_t index, const ForeignWriting& how);
@@ -112,8 +114,10 @@ private:
     std::vector<Lowered> lowered_;              // per production
     // Groups of productions among which a random number chooses; the key is the first production.
     std::map<std::size_t, std::vector<std::size_t>> groups_;
-    std::set<Stage> bound_;         // stages with groups
-    std::set<std::string> used_;    // names of all modules
+    std::set<Stage> bound_;      // stages with groups
+    std::set<std::string> used_; // names of all modules
+    std::set<std::string> bare_; // names of modules without arguments
+    std::set<std::string> with_arguments_;
     std::set<std::string> matched_; // names in predecessors and contexts
     std::set<std::string> surfaces_;
     std::map<std::string, int> alternatives_; // count of rewriting productions, by key_of()

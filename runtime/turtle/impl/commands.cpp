@@ -57,13 +57,18 @@ bool Turtle::State::forward(const Action& action, const float* arguments, float 
     const float length = (action.given > 0 ? arguments[0] : now.step) * part;
     const float width = traits.width_is_relative ? 2.0F * std::abs(length) * now.width : now.width;
     now.sides = traits.l3d_compatible_surface ? l3d_sides(now.width) : now.sides;
-    polygons.path(now.pose);
+    const bool adds_corners = action.operation != TurtleOperation::ForwardWithoutVertex;
+    if (adds_corners) {
+        polygons.begin_step(now.pose);
+    }
     if (!draw(static_cast<double>(length), width, width * now.taper,
               action.given > 1 ? arguments + 1 : nullptr,
               action.given > 2 ? arguments + 2 : nullptr)) {
         return false;
     }
-    polygons.path(now.pose);
+    if (adds_corners) {
+        polygons.end_step(now.pose);
+    }
     return true;
 }
 
@@ -75,36 +80,59 @@ bool Turtle::State::draw_tapered(const Action& action, const float* arguments) {
     if (base < 0.0F || tip_width < 0.0F) {
         note(TurtleFaultKind::NegativeWidth);
     }
-    polygons.path(now.pose);
+    polygons.begin_step(now.pose);
     if (!draw(static_cast<double>(length), std::max(base, 0.0F), std::max(tip_width, 0.0F), nullptr,
               nullptr)) {
         return false;
     }
-    polygons.path(now.pose);
+    polygons.end_step(now.pose);
     return true;
 }
 
-bool Turtle::State::place(const Action& action, const float* arguments) {
+/// Adds an object at `pose`. `size`: its length along the heading, or its diameter.
+bool Turtle::State::put_object(TurtleOperation kind,
+                               std::uint32_t mesh_file,
+                               const Pose& pose,
+                               float size) {
     if (!make_room(skeleton.objects)) {
         return false;
     }
-    const float size = action.given > 0 ? arguments[0] : action.default_size;
     PlacedObject object;
-    object.kind = action.operation;
-    object.mesh_file = action.mesh_file;
-    object.position = position_of(now.pose);
+    object.kind = kind;
+    object.mesh_file = mesh_file;
+    object.position = position_of(pose);
     object.size = size;
-    object.frame = frame_of(now.pose);
+    object.frame = frame_of(pose);
     object.parent = now.segment;
     object.order = order();
     object.colour = now.colour;
     skeleton.objects.push_back(object);
+    return true;
+}
+
+bool Turtle::State::place(const Action& action, const float* arguments) {
+    const float size = action.given > 0 ? arguments[0] : action.default_size;
+    if (!put_object(action.operation, action.mesh_file, now.pose, size)) {
+        return false;
+    }
     if (action.advances) {
         advance(now.pose, static_cast<double>(size) * static_cast<double>(action.unit_length));
         now.moved = true;
         return check_finite_pose();
     }
     return true;
+}
+
+/// Places a sphere or disk around the position; the turtle does not move.
+bool Turtle::State::place_centred(const Action& action, float diameter) {
+    Pose pose = now.pose;
+    if (action.operation == TurtleOperation::LevelDisk) {
+        constexpr double kQuarterTurn = 90.0;
+        pitch(pose, half_angle(kQuarterTurn)); // the axis of the disk is the turtle's up
+        return put_object(TurtleOperation::Disk, action.mesh_file, pose, diameter);
+    }
+    advance(pose, -0.5 * static_cast<double>(diameter)); // a sphere begins at its lowest point
+    return put_object(TurtleOperation::Sphere, action.mesh_file, pose, diameter);
 }
 
 bool Turtle::State::save() {
@@ -276,6 +304,7 @@ bool Turtle::State::execute(const Action& action, const float* arguments) {
         return true;
     case TurtleOperation::Forward:
     case TurtleOperation::Branch:
+    case TurtleOperation::ForwardWithoutVertex:
         return forward(action, arguments, 1.0F);
     case TurtleOperation::HalfForward:
         return forward(action, arguments, 0.5F);
@@ -284,9 +313,9 @@ bool Turtle::State::execute(const Action& action, const float* arguments) {
     case TurtleOperation::Move:
     case TurtleOperation::HalfMove: {
         const float part = action.operation == TurtleOperation::HalfMove ? 0.5F : 1.0F;
-        polygons.path(now.pose);
+        polygons.begin_step(now.pose);
         advance(now.pose, static_cast<double>(argument(now.step) * part));
-        polygons.path(now.pose);
+        polygons.end_step(now.pose);
         now.moved = true;
         return check_finite_pose();
     }
@@ -431,6 +460,9 @@ bool Turtle::State::execute(const Action& action, const float* arguments) {
     case TurtleOperation::Disk:
     case TurtleOperation::MeshFile:
         return place(action, arguments);
+    case TurtleOperation::CentredSphere:
+    case TurtleOperation::LevelDisk:
+        return place_centred(action, argument(now.width));
     }
     LSYS_CHECK(false, static_cast<int>(action.operation));
     return true;

@@ -17,9 +17,9 @@ bool Turtle::State::forward_with_width(const Action& action, const float* argume
         set_sides(arguments[kSides]);
     }
     const float drawn_width = std::max(width, 0.0F);
-    polygons.path(now.pose);
+    polygons.begin_step(now.pose);
     const bool fine = draw(static_cast<double>(length), drawn_width, drawn_width, nullptr, nullptr);
-    polygons.path(now.pose);
+    polygons.end_step(now.pose);
     now.sides = sides;
     return fine;
 }
@@ -63,9 +63,9 @@ bool Turtle::State::secondary_forward(const Action& action, const float* argumen
     if (action.operation == TurtleOperation::SecondaryForward) {
         is_finite = forward(action, arguments, 1.0F);
     } else {
-        polygons.path(now.pose);
+        polygons.begin_step(now.pose);
         advance(now.pose, static_cast<double>(now.step));
-        polygons.path(now.pose);
+        polygons.end_step(now.pose);
         now.moved = true;
         is_finite = check_finite_pose();
     }

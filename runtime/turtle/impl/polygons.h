@@ -25,6 +25,9 @@ struct OpenPolygon {
 
 class OpenPolygons {
 public:
+    /// `corners_are_ends`: see TurtleTraits.
+    explicit OpenPolygons(bool corners_are_ends) : corners_are_ends_(corners_are_ends) {}
+
     [[nodiscard]] bool any() const { return !open_.empty(); }
     /// Precondition of top(), vertex(), corners() and close(): any().
     [[nodiscard]] const OpenPolygon& top() const { return open_.back(); }
@@ -37,9 +40,21 @@ public:
         open_.push_back(polygon);
     }
     /// Adds the vertex of a `.`.
-    void vertex(const Pose& pose) { vertices_.push_back(position_of(pose)); }
-    /// Adds the start or end of a step to the path of the open polygon, if there is one.
-    void path(const Pose& pose) {
+    void vertex(const Pose& pose) {
+        if (corners_are_ends_) {
+            add_to_path(position_of(pose));
+        } else {
+            vertices_.push_back(position_of(pose));
+        }
+    }
+    /// Adds the start of a step to the path of the open polygon, if there is one.
+    void begin_step(const Pose& pose) {
+        if (!open_.empty() && !corners_are_ends_) {
+            add_to_path(position_of(pose));
+        }
+    }
+    /// Adds the end of a step to the path of the open polygon, if there is one.
+    void end_step(const Pose& pose) {
         if (!open_.empty()) {
             add_to_path(position_of(pose));
         }
@@ -60,6 +75,7 @@ private:
         }
     }
 
+    bool corners_are_ends_ = false;
     std::vector<OpenPolygon> open_;
     std::vector<glm::vec3> vertices_;
     std::vector<glm::vec3> path_; // ends of steps, without repetitions

@@ -136,7 +136,9 @@ struct Turtle::State {
     void cache_shape(double length, float base_width, float tip_width);
     float mass_of(double length, float base_width, float tip_width);
     float spring_of(double length, float base_width, float tip_width);
+    bool put_object(TurtleOperation kind, std::uint32_t mesh_file, const Pose& pose, float size);
     bool place(const Action& action, const float* arguments);
+    bool place_centred(const Action& action, float diameter);
     bool save();
     bool restore();
     /// Skips a module after a `%` or in a skipped branch; the branch's `]` restores the turtle.
@@ -199,7 +201,7 @@ struct Turtle::State {
     TurtleState now;
     std::vector<TurtleState> stack;
     std::vector<std::size_t> watched; // stack size within each open branch that has a watcher
-    OpenPolygons polygons;
+    OpenPolygons polygons{bytecode.settings.traits.corners_are_ends};
     DrawingEnd end;
     std::uint64_t position = 0; // index of the current module
     Code code = 0;              // code of the current module

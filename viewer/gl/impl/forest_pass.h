@@ -149,8 +149,6 @@ private:
     std::optional<PickPrograms> pick_programs_;
     BranchColours colours_ = BranchColours::Natural;
     bool is_windy_ = false;
-    bool has_one_sample_ = false; // per pixel, in the prepared frame
-    Wind wind_;                   // of the prepared frame
     bool has_one_sample_ = false; // whether the prepared frame has one sample per pixel
     Wind wind_;                   // wind of the prepared frame
     std::array<NearCasters, kNearMaps> near_casters_;
