@@ -3,9 +3,9 @@
 // Texts of open documents replace the files on disk everywhere.
 #pragma once
 
-#include "runtime/names/name_index.h"
 #include "runtime/languageserver/language_server.h"
 #include "runtime/languageserver/text_positions.h"
+#include "runtime/names/name_index.h"
 
 #include <nlohmann/json.hpp>
 
