@@ -47,6 +47,9 @@ bool is_empty_word(std::string_view text) {
 
 AbopWriter::AbopWriter(const AbopFile& file, const ParseContext& context, Translation& out)
     : file_(file), context_(context), out_(out) {
+    for (const AbopConstant& constant : file.constants) {
+        constants_.insert(text(constant.name));
+    }
     find_long_names();
 }
 
@@ -495,11 +498,7 @@ std::size_t AbopWriter::write_name(SourceSpan expression, std::size_t at) {
                     name == "rnd")) {
         return write_random(span, open);
     }
-    const bool is_own =
-        formals_.contains(name) || std::any_of(file_.constants.begin(), file_.constants.end(),
-                                               [&](const AbopConstant& constant) {
-                                                   return text(constant.name) == text(span);
-                                               });
+    const bool is_own = formals_.contains(name) || constants_.contains(text(span));
     if (is_own || is_call) {
         out_.put(name, span);
         return end;

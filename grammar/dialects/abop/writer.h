@@ -65,6 +65,7 @@ private:
     const AbopFile& file_;
     const ParseContext& context_;
     Translation& out_;
+    std::set<std::string_view> constants_;
     std::set<std::string, std::less<>> long_names_; // symbols of several characters
     std::map<std::string, SourceSpan> leaves_;      // surfaces `~X`
     std::map<std::string, SourceSpan> segments_;    // heads that draw as F or f, in .lsys
