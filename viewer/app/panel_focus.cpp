@@ -74,6 +74,7 @@ void PanelFocus::begin(DialogKeys dialog, FocusMove move) {
         ImGuiWindow* const window =
             before_.empty() ? nullptr : ImGui::FindWindowByName(before_.c_str());
         focus(is_shown(window) ? window : nullptr);
+        ImGui::GetIO().WantTextInput = false; // of a field of the dialog
     }
     if (dialog == DialogKeys::OfPanels && dialog_ != DialogKeys::OfPanels) {
         context.NavDisableHighlight = false;
@@ -95,6 +96,9 @@ void PanelFocus::end(DialogKeys dialog) {
         dialog_ != DialogKeys::NoDialog
             ? !before_.empty() // the next frame gives the keyboard back
             : window != nullptr && (window->Flags & ImGuiWindowFlags_NoNavInputs) == 0;
+    if (dialog == DialogKeys::NoDialog && dialog_ != DialogKeys::NoDialog) {
+        ImGui::GetIO().WantTextInput = false; // of a field of the dialog
+    }
     has_keys_ =
         dialog == DialogKeys::OfPanels || has_list || (dialog == DialogKeys::NoDialog && has_panel);
 }
