@@ -327,7 +327,7 @@ private:
             bytes += framed(Json{
                 {"jsonrpc", "2.0"},
                 {"id", 100 + i},
-                {"method", "textDocument/documentSymbol"},
+                {"method", one_of(kMethodsInBatches)},
                 {"params",
                  params}}.dump());
             if (below(2) == 0) {
