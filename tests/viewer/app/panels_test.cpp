@@ -228,7 +228,7 @@ public:
     std::function<void()> draw_more;
 };
 
-ViewOptions options_of(const std::string& file, bool is_forest = false) {
+ViewOptions panel_options(const std::string& file, bool is_forest = false) {
     ViewOptions options;
     options.file = file;
     if (!file.empty()) {
@@ -249,7 +249,7 @@ const std::vector<std::string> kNoWidgets;
 } // namespace
 
 TEST_CASE("no two widgets of the panels and dialogs of a plant have one id") {
-    DrawnPanels drawn(options_of(sample("teach-param")));
+    DrawnPanels drawn(panel_options(sample("teach-param")));
     REQUIRE(has_plant(drawn));
     PlantView& view = *drawn.switcher.plant();
     view.settings.definitions = {{"spread", 30.0F}};
@@ -307,7 +307,7 @@ TEST_CASE("no two widgets of the panel of a forest have one id") {
                "feature = 20\n\n[placement]\nmethod = \"uniform\"\ncount = 20\n\n"
                "[[species]]\nname = \"Ground\"\ngrammar = \"tree.lsys\"\n\n"
                "[[species]]\nname = \"Placement\"\ngrammar = \"tree.lsys\"\n");
-    DrawnPanels drawn(options_of(folder / "wood.toml", true));
+    DrawnPanels drawn(panel_options(folder / "wood.toml", true));
     REQUIRE(drawn.until([&] { return drawn.switcher.forest()->document() != nullptr; }));
     ForestViewSettings& settings = drawn.switcher.forest()->settings;
     settings.edits.key = 2;
@@ -319,14 +319,14 @@ TEST_CASE("no two widgets of the panel of a forest have one id") {
 }
 
 TEST_CASE("no two widgets of the start page have one id") {
-    DrawnPanels drawn(options_of(""));
+    DrawnPanels drawn(panel_options(""));
     drawn.frames(3);
     CHECK(drawn.widgets.size() > 5);
     CHECK(drawn.twins() == kNoWidgets);
 }
 
 TEST_CASE("the buttons of the panel and of dialogs are in sight at 1280 by 720") {
-    DrawnPanels drawn(options_of(sample("teach-param")));
+    DrawnPanels drawn(panel_options(sample("teach-param")));
     REQUIRE(has_plant(drawn));
     drawn.open_all();
     CHECK(drawn.shows_all_of("Buttons"));
@@ -341,7 +341,7 @@ TEST_CASE("the buttons of the panel and of dialogs are in sight at 1280 by 720")
 }
 
 TEST_CASE("F6 gives the keyboard to the panels in turn, and arrow keys reach all their controls") {
-    DrawnPanels drawn(options_of(sample("teach-param")));
+    DrawnPanels drawn(panel_options(sample("teach-param")));
     REQUIRE(has_plant(drawn));
     drawn.frames(3);
     CHECK_FALSE(drawn.panels.focus.has_keys());
@@ -362,7 +362,7 @@ TEST_CASE("F6 gives the keyboard to the panels in turn, and arrow keys reach all
 }
 
 TEST_CASE("keys alone change a value") {
-    DrawnPanels drawn(options_of(sample("teach-param")));
+    DrawnPanels drawn(panel_options(sample("teach-param")));
     REQUIRE(has_plant(drawn));
     drawn.frames(3);
     PlantView& view = *drawn.switcher.plant();
@@ -386,7 +386,7 @@ TEST_CASE("keys alone change a value") {
 
 TEST_CASE("a dialog takes the keyboard, writes with one Enter and gives the keyboard back") {
     const ScratchFolder folder;
-    DrawnPanels drawn(options_of(sample("teach-param")));
+    DrawnPanels drawn(panel_options(sample("teach-param")));
     REQUIRE(has_plant(drawn));
     PlantView& view = *drawn.switcher.plant();
     view.settings.output.file = folder / "none/plant.obj";
@@ -428,7 +428,7 @@ TEST_CASE("a dialog takes the keyboard, writes with one Enter and gives the keyb
 }
 
 TEST_CASE("the contact sheet is used by keys") {
-    DrawnPanels drawn(options_of(sample("teach-param")));
+    DrawnPanels drawn(panel_options(sample("teach-param")));
     REQUIRE(has_plant(drawn));
     drawn.panels.window_width = 1280;
     drawn.panels.window_height = 720;
@@ -448,7 +448,7 @@ TEST_CASE("unsaved values are saved, given up or kept by keys") {
     const ScratchFolder folder;
     write_text(folder / "a.lsys", "#param size 1 {0.5, 2};\n#n = 0;\n#w : F(size);\n");
     write_text(folder / "b.lsys", "#n = 0;\n#w : F;\n");
-    DrawnPanels drawn(options_of(folder / "a.lsys"));
+    DrawnPanels drawn(panel_options(folder / "a.lsys"));
     REQUIRE(has_plant(drawn));
     PlantView& view = *drawn.switcher.plant();
     view.settings.definitions = {{"size", 2.0F}};
@@ -483,7 +483,7 @@ TEST_CASE("unsaved values are saved, given up or kept by keys") {
 }
 
 TEST_CASE("the panel does not move while a plant grows") {
-    DrawnPanels drawn(options_of(sample("teach-param")));
+    DrawnPanels drawn(panel_options(sample("teach-param")));
     REQUIRE(has_plant(drawn));
     drawn.frames(2);
     const auto top = [&] {
