@@ -35,7 +35,7 @@
   "Functions of the language.")
 (defconst lsys-settings '("angle" "angle_scale" "at_depth" "choice" "collar" "damping" "decompose_depth" "density" "elasticity" "flare" "height" "interpret_depth" "load" "names" "pipe" "random" "rewriting" "seed" "sides" "spring" "step" "step_scale" "tips" "tropism" "turtle" "weights" "width" "width_scale")
   "Keys of `#set'.")
-(defconst lsys-values '("abop" "any" "auto" "broken" "carey" "carried" "characters" "cyclic" "error" "flat" "fractint" "generation" "glibc" "houdini" "l3d" "l3d_program" "leftmost" "letters" "lplus" "lplus_program" "lsys" "module" "one" "own" "parallel" "philox" "round" "sequential" "sidefx" "stop" "sys" "thesis" "words")
+(defconst lsys-values '("abop" "any" "auto" "broken" "carey" "carried" "characters" "cpfg" "cyclic" "error" "flat" "fractint" "generation" "glibc" "houdini" "l3d" "l3d_program" "leftmost" "letters" "lplus" "lplus_program" "lsys" "module" "one" "own" "parallel" "philox" "round" "sequential" "sidefx" "stop" "sys" "thesis" "words")
   "Words that are values of settings.")
 (defconst lsys-material-keys '("colour" "normal" "picture" "roughness" "translucency" "two_sided")
   "Keys of `#material'.")

@@ -48,7 +48,7 @@ syn region lsysValues matchgroup=lsysStatement start="#\%(curve\|define\|functio
 syn keyword lsysObject contained BRANCH CONE CUBE CYLINDER DISK FLOWER HETEROCYST LEAF SPHERE
 syn region lsysSet matchgroup=lsysStatement start="#set\>\%(\_s*:\)\@!" matchgroup=lsysDelimiter end=";" contains=@lsysExpression,lsysSetting,lsysValue
 syn match lsysSetting contained "\%(#set\_s\+\)\@<=\%(angle\|angle_scale\|at_depth\|choice\|collar\|damping\|decompose_depth\|density\|elasticity\|flare\|height\|interpret_depth\|load\|names\|pipe\|random\|rewriting\|seed\|sides\|spring\|step\|step_scale\|tips\|tropism\|turtle\|weights\|width\|width_scale\)\>"
-syn keyword lsysValue contained abop any auto broken carey carried characters cyclic error flat fractint generation glibc houdini l3d l3d_program leftmost letters lplus lplus_program lsys module one own parallel philox round sequential sidefx stop sys thesis words
+syn keyword lsysValue contained abop any auto broken carey carried characters cpfg cyclic error flat fractint generation glibc houdini l3d l3d_program leftmost letters lplus lplus_program lsys module one own parallel philox round sequential sidefx stop sys thesis words
 syn region lsysMaterial matchgroup=lsysStatement start="#material\>\%(\_s*:\)\@!" matchgroup=lsysDelimiter end=";" contains=@lsysExpression,lsysMaterialKey,lsysString
 syn keyword lsysMaterialKey contained colour normal picture roughness translucency two_sided
 syn region lsysNames matchgroup=lsysStatement start="#\%(ignore\|consider\)\>\_s*:" matchgroup=lsysDelimiter end=";" contains=@lsysModules
