@@ -74,8 +74,8 @@ std::string explanations_file() {
         return {};
     }
     const fs::path folder = program.parent_path();
-    for (const fs::path& file : {folder / ".." / LSC_DOCUMENTS / "grammar" / "explanations.md",
-                                 folder / ".." / ".." / "grammar" / "explanations.md"}) {
+    for (const fs::path& file : {folder / ".." / LSC_DOCUMENTS / "grammar/explanations.md",
+                                 folder / "../.." / "grammar/explanations.md"}) {
         if (fs::exists(file, failed)) {
             return path_text(file.lexically_normal());
         }

@@ -38,7 +38,7 @@ expect lsc dump --stage = s -- skeleton
 expect lsc dump --stage = -- tokens ast program instanced bytecode word skeleton mesh heroes cache
 expect lsc export tree.lsys --preset un -- unity unreal
 expect lsc export --format us -- usda usdz
-expect lsc check --dialect l -- l3d lplus lsys
+expect lsc check --dialect l -- l3d lparser lplus lpy lsys
 expect lsc explain condition-g -- condition-gap
 expect lsc check --deny condition-g -- condition-gap
 expect lsc help fo -- forest

@@ -508,8 +508,8 @@ Derivation derive(const Grammar& grammar, const Request& request) {
             static_cast<std::uint32_t>(std::strtoul(depth->c_str(), nullptr, 10));
     }
     const std::string turtle = setting(grammar, "turtle").value_or("lsys");
-    system.cuts = turtle == "lsys" || turtle == "thesis" || turtle == "abop" ||
-                  turtle == "cpfg" || turtle == "houdini";
+    system.cuts = turtle == "lsys" || turtle == "thesis" || turtle == "abop" || turtle == "cpfg" ||
+                  turtle == "houdini";
     try {
         Start start(grammar, request, system);
         system.steps = request.generations.value_or(start.generations());

@@ -86,7 +86,7 @@ TEST_CASE("the .sys figure is one program in every syntax") {
     CHECK(of_sys == program_of("f.l",
                                "Lsystem: 1\nderivation length: 3\nAxiom: F\n"
                                "F --> F[+F][-F]F\nendlsystem\n",
-                               {{"turtle abop", "turtle"},
+                               {{"turtle cpfg", "turtle"},
                                 {"generations 3\n", ""},
                                 {"p1", "r1"},
                                 {" + ", " ~ "},

@@ -278,7 +278,8 @@ TEST_CASE("from medium quality on, the ground is darker under a crown and at the
     CHECK(red_at(20.3F, "medium") + 5 < red_at(21.5F, "medium"));
     CHECK(red_at(21.5F, "medium") + 5 < red_at(30.0F, "medium"));
     CHECK(std::abs(red_at(20.3F, "low") - red_at(30.0F, "low")) <= 1);
-    CHECK(std::abs(red_at(30.0F, "medium") - red_at(30.0F, "low")) <= 1);
+    // Far from the crown the exposure is still a little higher than without one.
+    CHECK(std::abs(red_at(30.0F, "medium") - red_at(30.0F, "low")) <= 2);
 }
 
 TEST_CASE("from medium quality on, grass stands near the eye alone") {
