@@ -80,7 +80,7 @@ std::string base64(std::string_view bytes) {
     };
     PieceWriter out(sink);
     Base64Writer writer(out);
-    writer.put(std::as_bytes(std::span(bytes)));
+    writer.put(std::as_bytes(std::span(bytes.data(), bytes.size())));
     writer.finish();
     static_cast<void>(out.finish());
     return text;
