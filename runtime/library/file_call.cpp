@@ -11,25 +11,6 @@
 
 namespace lsys::v0 {
 
-namespace {
-
-Stop stop_of(ExitStatus status) {
-    switch (status) {
-    case ExitStatus::AuthorErrors:
-        return Stop::Diagnosed;
-    case ExitStatus::Limit:
-        return Stop::Limit;
-    case ExitStatus::Interrupted:
-        return Stop::Cancelled;
-    case ExitStatus::Ok:
-    case ExitStatus::Failure:
-        break;
-    }
-    return Stop::Failed;
-}
-
-} // namespace
-
 ::lsys::Outcome<std::vector<std::string>>
 write_files(Call& call,
             const FileReceiver* receive,

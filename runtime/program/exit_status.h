@@ -37,4 +37,20 @@ enum class ExitStatus : std::uint8_t {
     return ExitStatus::Failure;
 }
 
+/// The stop that a status other than Ok stands for.
+[[nodiscard]] constexpr Stop stop_of(ExitStatus status) {
+    switch (status) {
+    case ExitStatus::AuthorErrors:
+        return Stop::Diagnosed;
+    case ExitStatus::Limit:
+        return Stop::Limit;
+    case ExitStatus::Interrupted:
+        return Stop::Cancelled;
+    case ExitStatus::Ok:
+    case ExitStatus::Failure:
+        break;
+    }
+    return Stop::Failed;
+}
+
 } // namespace lsys

@@ -24,21 +24,6 @@ namespace lsys::web {
 
 namespace {
 
-Stop stop_of(ExitStatus status) {
-    switch (status) {
-    case ExitStatus::AuthorErrors:
-        return Stop::Diagnosed;
-    case ExitStatus::Limit:
-        return Stop::Limit;
-    case ExitStatus::Interrupted:
-        return Stop::Cancelled;
-    case ExitStatus::Ok:
-    case ExitStatus::Failure:
-        break;
-    }
-    return Stop::Failed;
-}
-
 /// Runs `write` with a context that collects messages and files, and adds the files to `answer`.
 Outcome<void> collect(const Session& session,
                       Answer& answer,
