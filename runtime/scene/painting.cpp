@@ -1,11 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "runtime/scene/painting.h"
 
-#include "grammar/base/diagnostic.h"
-#include "grammar/base/source.h"
 #include "runtime/base/random.h"
-#include "runtime/scene/impl/document.h"
-#include "runtime/scene/scene.h"
+#include "runtime/scene/impl/scene_text.h"
 
 #include <fmt/format.h>
 
@@ -79,13 +76,6 @@ TablePlace place_of(const SceneEntry& entry, std::string_view text) {
     return place;
 }
 
-std::optional<Scene> read(std::string text) {
-    SourceMap sources;
-    const FileId file = sources.add("scene", std::move(text));
-    Diagnostics ignored;
-    return parse_scene(file, sources, ignored);
-}
-
 } // namespace
 
 Tree painted_tree(const PaintedTree& painted, const Terrain& terrain) {
@@ -125,23 +115,20 @@ void apply_painting(const Painting& painting,
 Result<std::string> with_painting(std::string_view scene,
                                   const Painting& painting,
                                   std::span<const std::string> species) {
-    SourceMap sources;
-    const FileId file = sources.add("scene", std::string(scene));
-    Diagnostics ignored;
-    const std::optional<SceneValue> root = read_toml(file, sources, ignored);
+    const Result<SceneValue> root = read_scene_table(scene);
     if (!root) {
-        return Error{"the file is no longer valid TOML"};
+        return root.error();
     }
     std::string text(scene);
     const std::string table = painting.empty() ? std::string() : table_text(painting, species);
-    if (const SceneEntry* const entry = find_entry(*root, "painted")) {
+    if (const SceneEntry* const entry = find_entry(root.value(), "painted")) {
         const TablePlace place = place_of(*entry, text);
         text.replace(place.begin, place.end - place.begin, table);
     } else if (!table.empty()) {
         text += text.empty() || text.back() == '\n' ? "\n" : "\n\n";
         text += table;
     }
-    const std::optional<Scene> saved = read(text);
+    const std::optional<Scene> saved = read_scene(text);
     if (!saved || saved->painting != painting) {
         return Error{
             "`[painted]` is not a table of its own in this file, so it cannot be replaced"};

@@ -1,10 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "runtime/scene/season.h"
 
-#include "grammar/base/diagnostic.h"
-#include "grammar/base/source.h"
-#include "runtime/scene/impl/document.h"
-#include "runtime/scene/scene.h"
+#include "runtime/scene/impl/scene_text.h"
 
 #include <fmt/format.h>
 
@@ -38,11 +35,8 @@ std::size_t place_of_new_key(const SceneValue& root, std::string_view text) {
     return table == std::string_view::npos ? text.size() : table + 1;
 }
 
-bool has_season(const std::string& text, float season) {
-    SourceMap sources;
-    const FileId file = sources.add("scene", text);
-    Diagnostics ignored;
-    const std::optional<Scene> scene = parse_scene(file, sources, ignored);
+bool has_season(std::string_view text, float season) {
+    const std::optional<Scene> scene = read_scene(text);
     return scene &&
            std::all_of(scene->species.begin(), scene->species.end(),
                        [season](const SceneSpecies& each) { return each.season == season; });
@@ -51,19 +45,16 @@ bool has_season(const std::string& text, float season) {
 } // namespace
 
 Result<std::string> with_season(std::string_view scene, float season) {
-    SourceMap sources;
-    const FileId file = sources.add("scene", std::string(scene));
-    Diagnostics ignored;
-    const std::optional<SceneValue> root = read_toml(file, sources, ignored);
+    const Result<SceneValue> root = read_scene_table(scene);
     if (!root) {
-        return Error{"the file is no longer valid TOML"};
+        return root.error();
     }
     std::string text(scene);
-    if (const SceneEntry* const entry = find_entry(*root, "season")) {
+    if (const SceneEntry* const entry = find_entry(root.value(), "season")) {
         text.replace(entry->value.span.begin, entry->value.span.end - entry->value.span.begin,
                      fmt::format("{}", season));
     } else {
-        text.insert(place_of_new_key(*root, text), fmt::format("season = {}\n", season));
+        text.insert(place_of_new_key(root.value(), text), fmt::format("season = {}\n", season));
     }
     if (!has_season(text, season)) {
         return Error{"`season` cannot be replaced in this file"};
