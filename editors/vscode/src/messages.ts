@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The messages between the extension and the page of the preview.
 
-import type { Parameter } from './protocol';
+import type { Parameter, Plant } from './protocol';
 
 /** Values that the user has set in the preview; unset values are those of the grammar. */
 export interface PreviewOptions {
@@ -10,14 +10,8 @@ export interface PreviewOptions {
   definitions: Record<string, number>;
 }
 
-export interface PlantInfo {
-  modules: number;
-  triangles: number;
-  level: number;
-  generations: number;
-  seed: number;
-  seconds: number;
-}
+/** The numbers of a plant. */
+export type PlantInfo = Omit<Plant, 'glb' | 'sources'>;
 
 export type ToPage =
   | {
