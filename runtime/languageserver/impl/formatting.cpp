@@ -32,6 +32,15 @@ std::optional<std::string> formatted(Workspace& workspace, const Document& docum
     return check_is_lsys(file, context) ? format_lsys(file, context) : std::nullopt;
 }
 
+/// The same, for a request that fails if the text has syntax errors.
+std::string formatted_whole(Workspace& workspace, const Document& document, Places& at) {
+    std::optional<std::string> text = formatted(workspace, document, at);
+    if (!text) {
+        throw RequestError(RpcError::RequestFailed, "a text with syntax errors is not laid out");
+    }
+    return std::move(*text);
+}
+
 /// The edits that turn the blanks of `before` between `begin` and `end` into those of `after`.
 /// The texts differ in blanks only; otherwise there are no edits.
 Json blank_edits(const TextPlace& range,
@@ -70,14 +79,11 @@ Json blank_edits(const TextPlace& range,
 Json format_document(Workspace& workspace, const Json& params) {
     const Document& document = workspace.document(params.at("textDocument").at("uri"));
     Places at(workspace);
-    const std::optional<std::string> after = formatted(workspace, document, at);
-    if (!after) {
-        throw RequestError(RpcError::RequestFailed, "a text with syntax errors is not laid out");
-    }
+    const std::string after = formatted_whole(workspace, document, at);
     const std::string& before = at.text(document.path);
     Json edits = Json::array();
-    if (*after != before) {
-        edits.push_back(changing_edit(document.path, before, *after, at));
+    if (after != before) {
+        edits.push_back(changing_edit(document.path, before, after, at));
     }
     return edits;
 }
@@ -85,14 +91,11 @@ Json format_document(Workspace& workspace, const Json& params) {
 Json format_range(Workspace& workspace, const Json& params) {
     const Document& document = workspace.document(params.at("textDocument").at("uri"));
     Places at(workspace);
-    const std::optional<std::string> after = formatted(workspace, document, at);
-    if (!after) {
-        throw RequestError(RpcError::RequestFailed, "a text with syntax errors is not laid out");
-    }
+    const std::string after = formatted_whole(workspace, document, at);
     const Json& range = params.at("range");
     const TextPlace place{document.path, at.offset(document.path, range.at("start")),
                           at.offset(document.path, range.at("end"))};
-    return blank_edits(place, at.text(document.path), *after, at);
+    return blank_edits(place, at.text(document.path), after, at);
 }
 
 Json format_on_type(Workspace& workspace, const Json& params) {
