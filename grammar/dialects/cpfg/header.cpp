@@ -38,7 +38,7 @@ void CpfgWriter::find_names() {
                 matched_.insert(module.name);
             }
             check_module(module);
-            (module.has_arguments ? with_arguments_ : bare_).insert(module.name);
+            forms_.emplace(module.name, module.has_arguments);
             if (module.name == "?") {
                 const bool is_last = &module == &list.back();
                 (!is_last && (&module + 1)->name == "E" ? processes : queries)
@@ -312,14 +312,9 @@ void CpfgWriter::write_names(const char* begin, const std::vector<CpfgModule>& l
         }
     }
     std::set<std::string> spelled_names;
-    for (const std::string& name : used_) {
-        if (wanted.count(name.substr(0, 1)) == 0 || name == "[" || name == "]") {
-            continue;
-        }
-        for (const bool has_arguments : {false, true}) {
-            if ((has_arguments ? with_arguments_ : bare_).count(name) != 0) {
-                spelled_names.insert(spelled(name, has_arguments));
-            }
+    for (const auto& [name, has_arguments] : forms_) {
+        if (wanted.count(name.substr(0, 1)) != 0 && name != "[" && name != "]") {
+            spelled_names.insert(spelled(name, has_arguments));
         }
     }
     if (spelled_names.empty() && !session_.considers) {

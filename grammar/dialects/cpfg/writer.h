@@ -114,11 +114,10 @@ private:
     std::vector<Lowered> lowered_;              // per production
     // Groups of productions among which a random number chooses; the key is the first production.
     std::map<std::size_t, std::vector<std::size_t>> groups_;
-    std::set<Stage> bound_;      // stages with groups
-    std::set<std::string> used_; // names of all modules
-    std::set<std::string> bare_; // names of modules without arguments
-    std::set<std::string> with_arguments_;
-    std::set<std::string> matched_; // names in predecessors and contexts
+    std::set<Stage> bound_;                        // stages with groups
+    std::set<std::string> used_;                   // names of all modules
+    std::set<std::pair<std::string, bool>> forms_; // names of modules; true: with arguments
+    std::set<std::string> matched_;                // names in predecessors and contexts
     std::set<std::string> surfaces_;
     std::map<std::string, int> alternatives_; // count of rewriting productions, by key_of()
 };
