@@ -204,8 +204,11 @@ constexpr std::array<TurtleObject, 9> kObjects{{
 /// Whether #object has a name for an operation that places an object. True for operations that need
 /// no name: mesh files, objects that are commands of a profile, and operations without an object.
 constexpr bool has_name_if_object(TurtleOperation operation) {
+    const auto has_command = [operation](std::span<const TurtleCommand> profile) {
+        return std::ranges::find(profile, operation, &TurtleCommand::operation) != profile.end();
+    };
     return info(operation).drawn != DrawnKind::Object || operation == MeshFile ||
-           std::ranges::find(kCpfg, operation, &TurtleCommand::operation) != kCpfg.end() ||
+           std::ranges::any_of(kProfiles, has_command) ||
            std::ranges::find(kObjects, operation, &TurtleObject::operation) != kObjects.end();
 }
 static_assert(std::ranges::all_of(enumerators_of<TurtleOperation>(), has_name_if_object),
