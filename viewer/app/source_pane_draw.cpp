@@ -66,9 +66,7 @@ ImU32 ink_of(TextColour colour) {
 }
 
 ImU32 ink_of(Severity severity) {
-    return ink_of(severity == Severity::Error     ? TextColour::Red
-                  : severity == Severity::Warning ? TextColour::Yellow
-                                                  : TextColour::Cyan);
+    return ink_of(severity_colour(severity));
 }
 
 ImU32 translucent(ImU32 colour, ImU32 alpha) {

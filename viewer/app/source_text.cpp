@@ -20,18 +20,6 @@ namespace {
 
 constexpr std::string_view kSourceMark = "\xEF\xBB\xBF";
 
-TextColour severity_colour(Severity severity) {
-    switch (severity) {
-    case Severity::Error:
-        return TextColour::Red;
-    case Severity::Warning:
-        return TextColour::Yellow;
-    case Severity::Note:
-        break;
-    }
-    return TextColour::Cyan;
-}
-
 /// Columns of the longest line. Tabs count as kPaneTabStop, so it may be a little too large.
 std::uint32_t columns_of(const SourceFile& file) {
     std::uint32_t most = 0;
@@ -339,6 +327,18 @@ private:
 };
 
 } // namespace
+
+TextColour severity_colour(Severity severity) {
+    switch (severity) {
+    case Severity::Error:
+        return TextColour::Red;
+    case Severity::Warning:
+        return TextColour::Yellow;
+    case Severity::Note:
+        break;
+    }
+    return TextColour::Cyan;
+}
 
 std::optional<std::size_t> SourceText::find(std::string_view path) const {
     const auto found = std::find_if(files.begin(), files.end(),

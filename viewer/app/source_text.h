@@ -24,6 +24,9 @@ namespace lsys::view {
 
 inline constexpr std::uint32_t kPaneTabStop = 4; // columns, as in messages on a terminal
 
+/// The colour of a message's first words.
+[[nodiscard]] TextColour severity_colour(Severity severity);
+
 struct SourceFix {
     std::string title;
     bool is_certain = false;                        // `lsc check --fix` applies it
