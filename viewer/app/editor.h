@@ -14,7 +14,7 @@
 
 namespace lsys::view {
 
-/// What the choice of an editor depends on.
+/// The environment from which an editor is chosen.
 struct EditorEnvironment {
     std::string visual;   // $VISUAL: a program with arguments
     std::string editor;   // $EDITOR

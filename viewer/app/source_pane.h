@@ -18,7 +18,7 @@
 
 namespace lsys::view {
 
-/// What is kept between runs.
+/// The settings of the pane that are stored and read again by the next run.
 struct SourcePaneLook {
     bool is_shown = false;
     float width = 440.0F; // pixels at scale 1

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What is known about a grammar without a derivation: lengths of words, and the ages from which
-// productions can apply. Takes bounded time for every grammar.
+// Facts about a grammar that need no derivation: lengths of words, and the ages from which
+// productions can apply. Found in bounded time for every grammar.
 #pragma once
 
 #include "compiler/program/program.h"

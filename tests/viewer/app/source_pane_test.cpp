@@ -130,7 +130,7 @@ TEST_CASE("a certain fix writes what `lsc check --fix` writes, and undo restores
     CHECK(read_text(file) == wrong);
     REQUIRE(edits.go_to(1, quiet.console));
     CHECK(read_text(file) == fixed);
-    // The same fix again: the file is not as it was read.
+    // The same fix cannot be applied again, since the file is no longer as it was read.
     const Result<void> again = edits.apply(changes_of(*text, message.fixes[0]), quiet.console);
     REQUIRE_FALSE(again);
     CHECK(again.error().message == "`" + file + "` has changed on disk since it was read");
