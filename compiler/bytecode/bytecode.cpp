@@ -36,9 +36,10 @@ public:
     void number(const Value& value) {
         state_ = combine(state_, value);
     }
-    void number_or_none(const std::uint32_t& value) {
-        if (value != kNone) {
-            number(value);
+    template <typename Value>
+    void number_or_none(const Value& value) {
+        if (static_cast<std::uint32_t>(value) != kNone) {
+            number(static_cast<std::uint64_t>(value));
         }
     }
     void real(const float& value) { number(std::bit_cast<std::uint32_t>(value)); }
@@ -122,6 +123,11 @@ std::uint32_t site_of(const Bytecode& bytecode, std::uint32_t instruction) {
         bytecode.site_ranges.begin(), bytecode.site_ranges.end(), instruction,
         [](std::uint32_t at, const SiteRange& range) { return at < range.instruction; });
     return after == bytecode.site_ranges.begin() ? kNone : (after - 1)->site;
+}
+
+bool Bytecode::has_senses() const {
+    return std::any_of(symbols.begin(), symbols.end(),
+                       [](const BytecodeSymbol& symbol) { return symbol.senses(); });
 }
 
 const BytecodeAxiom* axiom_with(const Bytecode& bytecode, std::uint32_t index) {

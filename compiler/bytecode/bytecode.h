@@ -20,6 +20,7 @@
 #pragma once
 
 #include "compiler/bytecode/curve.h"
+#include "compiler/bytecode/environment.h"
 #include "compiler/bytecode/settings.h"
 #include "compiler/bytecode/turtle_operation.h"
 #include "grammar/base/counted_enum.h"
@@ -102,6 +103,10 @@ struct BytecodeSymbol {
     bool ignored = false; // contexts skip the symbol (#ignore, #consider)
     TurtleOperation turtle = TurtleOperation::Nothing;
     std::string mesh_file; // for TurtleOperation::MeshFile
+    Sense sense = Sense::Nothing;
+
+    /// Whether the symbol is a sense module, `?NAME`.
+    [[nodiscard]] bool senses() const { return sense != Sense::Nothing; }
 };
 
 /// A module whose arguments are constants. Its code is symbols.size() plus its index in
@@ -253,9 +258,10 @@ struct Bytecode {
     std::vector<BytecodeAxiom> axioms;     // in file order, at least one
     bool uses_steps = false;               // some expression calls steps()
     std::vector<BytecodeCurve> curves;
-    std::vector<BytecodeMaterial> materials; // sorted by index
-    std::uint32_t stack_depth = 0;           // max stack depth of any code
-    std::uint32_t local_count = 0;           // max number of slots of any code
+    std::vector<BytecodeMaterial> materials;       // sorted by index
+    std::vector<BytecodeEnvironment> environments; // in source order, all kinds
+    std::uint32_t stack_depth = 0;                 // max stack depth of any code
+    std::uint32_t local_count = 0;                 // max number of slots of any code
 
     /// The range of productions of a stage.
     [[nodiscard]] TableRange productions_of(Stage stage) const;
@@ -264,6 +270,10 @@ struct Bytecode {
     [[nodiscard]] std::uint32_t rewriting_rule_count() const;
     /// Whether a symbol can cut off the rest of its branch.
     [[nodiscard]] bool has_cuts() const;
+    /// Whether a symbol is a sense module: words are then sensed, see DeriveOptions::senses.
+    [[nodiscard]] bool has_senses() const;
+    /// Whether there are productions of `#down` or `#up`.
+    [[nodiscard]] bool has_sweeps() const { return has(Stage::Down) || has(Stage::Up); }
 
     [[nodiscard]] Code code_count() const {
         return static_cast<Code>(symbols.size() + folded.size());

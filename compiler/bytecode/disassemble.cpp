@@ -22,6 +22,7 @@ public:
         header();
         symbols();
         materials();
+        environments();
         for (std::size_t i = 0; i < bytecode_.globals.size(); ++i) {
             global(i);
         }
@@ -77,14 +78,22 @@ private:
         line("\nsymbols");
         for (std::size_t i = 0; i < bytecode_.symbols.size(); ++i) {
             const BytecodeSymbol& symbol = bytecode_.symbols[i];
-            line("{:5} {}/{}{} {}{}", i, symbol.name, symbol.parameter_count,
+            line("{:5} {}/{}{} {}{}{}", i, symbol.name, symbol.parameter_count,
                  symbol.ignored ? " ignored" : "", name_of(symbol.turtle),
-                 symbol.mesh_file.empty() ? "" : " \"" + symbol.mesh_file + '"');
+                 symbol.mesh_file.empty() ? "" : " \"" + symbol.mesh_file + '"',
+                 sense_text(symbol.sense));
         }
         for (std::size_t i = 0; i < bytecode_.folded.size(); ++i) {
             line("{:5} {}", bytecode_.symbols.size() + i,
                  code_text(static_cast<Code>(bytecode_.symbols.size() + i)));
         }
+    }
+
+    /// " asks N", the number of an environment, or " asks the turtle".
+    static std::string sense_text(Sense sense) {
+        return asks_environment(sense) ? fmt::format(" asks {}", static_cast<std::uint32_t>(sense))
+               : sense == Sense::Nothing ? ""
+                                         : " asks the turtle";
     }
 
     void materials() {
@@ -103,6 +112,16 @@ private:
             text += m.has_translucency ? " translucency " + real(m.translucency) : "";
             text += !m.has_sides ? "" : m.two_sided ? " two_sided 1" : " two_sided 0";
             line("{:5}{}", m.index, text);
+        }
+    }
+
+    void environments() {
+        if (!bytecode_.environments.empty()) {
+            line("\nenvironments");
+        }
+        for (std::size_t i = 0; i < bytecode_.environments.size(); ++i) {
+            const BytecodeEnvironment& each = bytecode_.environments[i];
+            line("{:5} {} {}", i, each.name, name_of(each.kind));
         }
     }
 

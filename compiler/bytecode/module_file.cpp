@@ -48,7 +48,10 @@ public:
             out_.push_back(static_cast<char>((value >> (8 * i)) & 0xFF));
         }
     }
-    void number_or_none(const std::uint32_t& value) { number(value); }
+    template <typename Value>
+    void number_or_none(const Value& value) {
+        number(static_cast<std::uint32_t>(value));
+    }
     void real(const float& value) { number(std::bit_cast<std::uint32_t>(value)); }
     void truth(const bool& value) { out_.push_back(value ? '\1' : '\0'); }
     template <typename Enum>
@@ -107,7 +110,12 @@ public:
     void number(T& value) {
         value = static_cast<T>(take_number(sizeof(T)));
     }
-    void number_or_none(std::uint32_t& value) { number(value); }
+    template <typename Value>
+    void number_or_none(Value& value) {
+        std::uint32_t read = kNone;
+        number(read);
+        value = static_cast<Value>(read);
+    }
     void real(float& value) {
         value = std::bit_cast<float>(static_cast<std::uint32_t>(take_number(4)));
     }

@@ -30,7 +30,8 @@ namespace lsys {
 //  10  Materials of colour indexes; operation SetRgb.
 //  11  Flare of stems, collars, shapes of tips; taper of the pipe model.
 //  12  Profile Cpfg, its trait for the corners of polygons, and its operations.
-inline constexpr std::uint32_t kModuleFileVersion = 12;
+//  13  Sense modules, environments, the stages of sweeps.
+inline constexpr std::uint32_t kModuleFileVersion = 13;
 
 #define LSYS_VERSION_MATTERS                                                                       \
     "what a .lsb file can hold has changed: raise kModuleFileVersion, add a line to its history, " \
@@ -47,12 +48,12 @@ static_assert(kCountOf<LoadRule> == 2, LSYS_VERSION_MATTERS);
 static_assert(kCountOf<TipShape> == 3, LSYS_VERSION_MATTERS);
 static_assert(kCountOf<SymbolKind> == 5, LSYS_VERSION_MATTERS);
 static_assert(kCountOf<PatternKind> == 3, LSYS_VERSION_MATTERS);
-static_assert(kCountOf<Stage> == 3, LSYS_VERSION_MATTERS);
+static_assert(kCountOf<Stage> == 5, LSYS_VERSION_MATTERS);
 static_assert(kFieldCount<Settings> == 33, LSYS_VERSION_MATTERS);
 static_assert(kFieldCount<TurtleTraits> == 12, LSYS_VERSION_MATTERS);
 static_assert(kFieldCount<Pipe> == 3, LSYS_VERSION_MATTERS);
 static_assert(kFieldCount<Flare> == 3, LSYS_VERSION_MATTERS);
-static_assert(kFieldCount<BytecodeSymbol> == 6, LSYS_VERSION_MATTERS);
+static_assert(kFieldCount<BytecodeSymbol> == 7, LSYS_VERSION_MATTERS);
 static_assert(kFieldCount<FoldedModule> == 2, LSYS_VERSION_MATTERS);
 static_assert(kFieldCount<BytecodeGlobal> == 8, LSYS_VERSION_MATTERS);
 static_assert(kFieldCount<PatternItem> == 3, LSYS_VERSION_MATTERS);
@@ -64,10 +65,14 @@ static_assert(kFieldCount<TableRange> == 2, LSYS_VERSION_MATTERS);
 static_assert(kFieldCount<BytecodeCurve> == 2, LSYS_VERSION_MATTERS);
 static_assert(kFieldCount<BytecodeMaterial> == 11, LSYS_VERSION_MATTERS);
 static_assert(kFieldCount<BytecodePicture> == 2, LSYS_VERSION_MATTERS);
+static_assert(kCountOf<EnvironmentKind> == 7, LSYS_VERSION_MATTERS);
+static_assert(kCountOf<SpaceShape> == 5, LSYS_VERSION_MATTERS);
+static_assert(kFieldCount<BytecodeEnvironment> == 19, LSYS_VERSION_MATTERS);
+static_assert(kFieldCount<EnvironmentSurface> == 3, LSYS_VERSION_MATTERS);
 static_assert(kFieldCount<BytecodeAxiom> == 4, LSYS_VERSION_MATTERS);
 static_assert(kFieldCount<WordTemplate> == 5, LSYS_VERSION_MATTERS);
 static_assert(kFieldCount<BytecodeProduction> == 16, LSYS_VERSION_MATTERS);
-static_assert(kFieldCount<Bytecode> == 22, LSYS_VERSION_MATTERS);
+static_assert(kFieldCount<Bytecode> == 23, LSYS_VERSION_MATTERS);
 #undef LSYS_VERSION_MATTERS
 
 [[nodiscard]] std::string write_module_file(const Bytecode& bytecode);

@@ -43,8 +43,8 @@ public:
     explicit Verifier(const Bytecode& bytecode) : bytecode_(bytecode) {}
 
     std::optional<std::string> run() {
-        if (settings() && curves() && symbols() && folded() && sites() && materials() && places() &&
-            globals() && axioms() && productions() && ends()) {
+        if (settings() && curves() && symbols() && folded() && sites() && materials() &&
+            environments() && places() && globals() && axioms() && productions() && ends()) {
             return std::nullopt;
         }
         return std::move(problem_);
@@ -132,11 +132,21 @@ private:
             if (symbol.parameter_count > (plain || saves_branch ? kMaxOperand : 0)) {
                 return fail("symbol {} has {} parameters", i, symbol.parameter_count);
             }
+            if (symbol.senses() && (!plain || !is_sense(symbol.sense))) {
+                return fail("symbol {} senses nothing that there is", i);
+            }
             parameters_.push_back(symbol.parameter_count);
         }
         const std::uint64_t count =
             std::uint64_t{bytecode_.symbols.size()} + bytecode_.folded.size();
         return count < kNone || fail("{} codes", count);
+    }
+
+    /// Whether a sense module can ask this.
+    [[nodiscard]] bool is_sense(Sense sense) const {
+        return asks_environment(sense)
+                   ? static_cast<std::size_t>(sense) < bytecode_.environments.size()
+                   : sense >= Sense::Position && sense <= Sense::Left;
     }
 
     static bool printable(const std::string& name) {
@@ -155,6 +165,9 @@ private:
             if (number(module.symbol) >= bytecode_.symbols.size() ||
                 bytecode_.symbol(module.symbol).parameter_count == 0) {
                 return fail("folded module {} is of no symbol with parameters", i);
+            }
+            if (bytecode_.symbol(module.symbol).senses()) {
+                return fail("folded module {} has no room for an answer", i);
             }
             if (module.first_constant != next) {
                 return fail("folded module {} does not follow the one before it", i);
@@ -210,6 +223,67 @@ private:
             if (!is_picture(material.picture) || !is_picture(material.normal)) {
                 return fail("a picture of material {} has no place", material.index);
             }
+        }
+        return true;
+    }
+
+    bool environments() {
+        if (bytecode_.environments.size() > kMaxEnvironments) {
+            return fail("{} environments", bytecode_.environments.size());
+        }
+        for (const BytecodeEnvironment& e : bytecode_.environments) {
+            if (e.name.empty() || !printable(e.name) || !site(e.site) || !is_enumerator(e.kind) ||
+                !is_enumerator(e.shape)) {
+                return fail("an environment has no name, place or kind");
+            }
+            if (!environment_numbers(e)) {
+                return fail("a number of environment {} is out of its range", e.name);
+            }
+            if (!environment_surfaces(e)) {
+                return fail("a surface of environment {} is malformed", e.name);
+            }
+        }
+        return true;
+    }
+
+    [[nodiscard]] static bool environment_numbers(const BytecodeEnvironment& e) {
+        const auto is_positive = [](float value) { return std::isfinite(value) && value > 0.0F; };
+        const auto is_length = [](float value) { return std::isfinite(value) && value >= 0.0F; };
+        const auto is_finite = [](float value) { return std::isfinite(value); };
+        const bool has_size = e.kind == EnvironmentKind::Map ||
+                              (e.kind == EnvironmentKind::Space && e.shape != SpaceShape::Mesh);
+        const std::size_t axes = e.kind == EnvironmentKind::Map ? 2 : has_size ? 3 : 0;
+        return is_positive(e.cell) && is_positive(e.ratio) && is_positive(e.radius) &&
+               is_length(e.strength) && is_length(e.extinction) && is_length(e.kill) &&
+               e.levels <= kMaxShadowLevels && e.directions >= 1 &&
+               e.directions <= kMaxSkyDirections && e.count >= 1 && e.count <= kMaxMarkers &&
+               e.angle > 0.0F && e.angle <= 360.0F && is_finite(e.low) && is_finite(e.high) &&
+               std::all_of(e.at.begin(), e.at.end(), is_finite) &&
+               std::all_of(e.size.begin(), e.size.begin() + axes, is_positive) &&
+               std::all_of(e.size.begin() + axes, e.size.end(),
+                           [](float value) { return value == 0.0F; });
+    }
+
+    /// Solid: planes, then meshes, at least one. A mesh as the shape of a Space, the picture of a
+    /// Map: one file. Other kinds: none.
+    [[nodiscard]] bool environment_surfaces(const BytecodeEnvironment& e) const {
+        const bool has_file = e.kind == EnvironmentKind::Map ||
+                              (e.kind == EnvironmentKind::Space && e.shape == SpaceShape::Mesh);
+        const bool is_solid = e.kind == EnvironmentKind::Solid;
+        if (is_solid ? e.surfaces.empty() : e.surfaces.size() != (has_file ? 1U : 0U)) {
+            return false;
+        }
+        bool after_file = false;
+        for (const EnvironmentSurface& surface : e.surfaces) {
+            const auto& [a, b, c, d] = surface.plane;
+            const bool is_plane = surface.path.empty();
+            if (!printable(surface.path) || !site(surface.site) ||
+                (is_plane && (!is_solid || after_file || (a == 0.0F && b == 0.0F && c == 0.0F))) ||
+                !std::all_of(surface.plane.begin(), surface.plane.end(),
+                             [](float value) { return std::isfinite(value); })) {
+                return false;
+            }
+            after_file = after_file || !is_plane;
         }
         return true;
     }
@@ -300,6 +374,22 @@ private:
         return true;
     }
 
+    /// Whether the successor is one module of the predecessor's name and number of parameters.
+    /// Precondition: the predecessor is one module.
+    [[nodiscard]] bool keeps_structure(const BytecodeProduction& p) const {
+        const std::size_t at = p.successor.codes.first;
+        return p.successor.codes.count == 1 && at < bytecode_.template_codes.size() &&
+               p.predecessor.first < bytecode_.patterns.size() &&
+               bytecode_.template_codes[at] < bytecode_.code_count() &&
+               bytecode_.symbol_of(bytecode_.template_codes[at]) ==
+                   bytecode_.patterns[p.predecessor.first].symbol;
+    }
+
+    [[nodiscard]] bool is_folded(SymbolId symbol) const {
+        return std::any_of(bytecode_.folded.begin(), bytecode_.folded.end(),
+                           [&](const FoldedModule& module) { return module.symbol == symbol; });
+    }
+
     bool productions() {
         std::vector<std::uint32_t> rule_example;
         std::vector<std::uint32_t> group_example;
@@ -313,8 +403,14 @@ private:
                 return fail("production {} is out of its stage", i);
             }
             if (p.stage != Stage::Rewrite &&
-                (p.has_left || p.has_right || p.predecessor.count != 1)) {
+                ((p.has_left && p.stage != Stage::Up) || (p.has_right && p.stage != Stage::Down) ||
+                 p.predecessor.count != 1)) {
                 return fail("production {} has more than one module", i);
+            }
+            if ((p.stage == Stage::Down || p.stage == Stage::Up) &&
+                (!keeps_structure(p) ||
+                 is_folded(bytecode_.patterns[p.predecessor.first].symbol))) {
+                return fail("production {} of a sweep changes more than parameters", i);
             }
             const bool is_computed =
                 p.weight_code != kNone && bytecode_.settings.weights == WeightRule::Any;

@@ -88,6 +88,7 @@ private:
             lowered.ignored = symbol.ignored;
             lowered.turtle = symbol.turtle;
             lowered.mesh_file = symbol.mesh_file;
+            lowered.sense = symbol.sense;
         }
     }
 

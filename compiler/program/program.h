@@ -60,6 +60,7 @@ struct Symbol {
     bool ignored = false;
     TurtleOperation turtle = TurtleOperation::Nothing;
     std::string mesh_file;
+    Sense sense = Sense::Nothing;
 };
 
 /// A module of an axiom or successor. Its arguments are the next Symbol::parameter_count entries of

@@ -10,11 +10,25 @@ namespace lsys {
 LSYS_COUNTED_ENUM(Stage,
                   Rewrite,   // in a generation
                   Decompose, // to the axiom and after each generation, until nothing matches
-                  Interpret  // when the word is drawn, which does not change it
+                  Interpret, // when the word is drawn, which does not change it
+                  Down,      // in a sweep from right to left over each complete word
+                  Up         // in a sweep from left to right over each complete word, after Down
 );
-/// `#decompose`, `#interpret`; empty for Rewrite.
+/// `#decompose`, `#interpret`, `#down`, `#up`; empty for Rewrite.
 [[nodiscard]] constexpr const char* keyword_of(Stage stage) {
-    return stage == Stage::Decompose ? "#decompose" : stage == Stage::Interpret ? "#interpret" : "";
+    switch (stage) {
+    case Stage::Rewrite:
+        break;
+    case Stage::Decompose:
+        return "#decompose";
+    case Stage::Interpret:
+        return "#interpret";
+    case Stage::Down:
+        return "#down";
+    case Stage::Up:
+        return "#up";
+    }
+    return "";
 }
 
 } // namespace lsys

@@ -13,7 +13,9 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace lsys {
@@ -28,6 +30,8 @@ enum class RuntimeErrorKind : std::uint8_t {
     OutOfBounds,     // a #param outside its bounds
     Unbalanced,      // a `]` or `}` without its partner in the last word, of age `generation`
     TooDeep,         // a #decompose or #interpret production still matches after the last pass
+    SenseNotFinite,  // an answer to a sense module is infinite or not a number
+    SenseFailed,     // an environment has no answer; `text` says why
 };
 
 /// The facts of a run-time error; runtime_diagnostic() makes the message.
@@ -43,15 +47,47 @@ struct RuntimeError {
     float value = 0.0F;            // for NotFinite, OutOfBounds and errors of weights
     float minimum = 0.0F; // for RangeReversed, RangeTooWide; the first argument of BadDistribution
     float maximum = 0.0F; // the second argument of BadDistribution
-    Opcode opcode = Opcode::Range; // for BadDistribution
-    std::uint32_t global = kNone;  // for OutOfBounds and errors while globals are drawn
-    bool in_condition = false;     // in a condition or weight; false: in an argument
-    bool in_weight = false;        // in a weight; in_condition is then true
+    Opcode opcode = Opcode::Range;     // for BadDistribution
+    std::uint32_t global = kNone;      // for OutOfBounds and errors while globals are drawn
+    bool in_condition = false;         // in a condition or weight; false: in an argument
+    bool in_weight = false;            // in a weight; in_condition is then true
+    std::uint32_t environment = kNone; // for SenseFailed: index in Bytecode::environments, or kNone
+    std::string text; // for SenseFailed: the reason, for example "its program has ended"
+    std::string help; // for SenseFailed: what to do about it, or empty
+};
+
+struct DerivationEnd;
+
+/// Answers the sense modules `?NAME` of words (docs/language.md section 13). A derivation uses one
+/// object from its start to its end; runtime/environment implements it.
+class WordSense {
+public:
+    WordSense() = default;
+    virtual ~WordSense() = default;
+    WordSense(const WordSense&) = delete;
+    WordSense& operator=(const WordSense&) = delete;
+
+    /// Begins a derivation: makes what its environments hold at the start, such as markers.
+    /// `globals`: the values of Bytecode::globals. Sets `end` if it returns a Stop.
+    [[nodiscard]] virtual std::optional<Stop> begin(std::uint64_t seed,
+                                                    std::uint32_t generations,
+                                                    std::span<const float> globals,
+                                                    DerivationEnd& end) = 0;
+    /// Walks over `word`, a complete word of age `age`, and writes the answers into the first
+    /// parameters of its sense modules. Sets `end` if it returns a Stop; the parameters of the word
+    /// are then unspecified.
+    [[nodiscard]] virtual std::optional<Stop>
+    sense(Word& word, std::uint32_t age, DerivationEnd& end) = 0;
+    /// What the environments keep from one word to the next, such as the markers that are left, as
+    /// bytes for a saved state. Empty if they keep nothing.
+    [[nodiscard]] virtual std::string state() const = 0;
+    /// Continues from bytes of state(), after begin(). False: the bytes are not of this program.
+    [[nodiscard]] virtual bool restore(std::string_view state) = 0;
 };
 
 /// A pass of a step of a derivation, for DeriveOptions::on_pass.
 struct DerivationPass {
-    enum class Kind : std::uint8_t { Cut, Rewrite, Decompose, Interpret };
+    enum class Kind : std::uint8_t { Cut, Rewrite, Decompose, Interpret, Sense, Down, Up };
     Kind kind = Kind::Rewrite;
     std::uint32_t rule = kNone;   // the only rule of the pass; kNone: all rules of its stage
     std::uint32_t number = 0;     // Decompose, Interpret: index among the passes of this kind
@@ -69,6 +105,8 @@ struct DeriveOptions {
     bool origins = false;
     Limits limits;
     const std::atomic<bool>* cancelled = nullptr;
+    /// Answers the sense modules; not null if the bytecode has any. Outlives the derivation.
+    WordSense* senses = nullptr;
     /// Max modules per chunk of a thread. Words do not depend on it; tests make it small.
     std::uint32_t chunk_modules = 1U << 16;
     /// Called after each generation, and several times during a long one; from any thread, but

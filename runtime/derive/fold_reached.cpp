@@ -212,7 +212,9 @@ fold_reached(const Bytecode& bytecode, std::uint64_t seed, std::uint32_t generat
     const bool stores =
         std::any_of(bytecode.symbols.begin(), bytecode.symbols.end(),
                     [](const BytecodeSymbol& symbol) { return symbol.parameter_count != 0; });
-    if (!stores || bytecode.settings.rewriting != RewritingMode::Parallel ||
+    // Answers and sweeps change parameters, which a folded module does not store.
+    if (!stores || bytecode.has_senses() || bytecode.has_sweeps() ||
+        bytecode.settings.rewriting != RewritingMode::Parallel ||
         code_width(bytecode.code_count()) > 2 || bytecode.productions.size() > kMaxProductions ||
         chosen_axiom(bytecode, seed).word.parameter_count > kMaxAxiomParameters) {
         return std::nullopt;

@@ -86,6 +86,9 @@ const char* verb_of(const RuntimeError& error, const Bytecode& bytecode) {
         return "decomposing";
     case Stage::Interpret:
         return "interpreting";
+    case Stage::Down:
+    case Stage::Up:
+        return "sweeping";
     }
     return "rewriting";
 }
@@ -365,6 +368,33 @@ Diagnostic too_deep(const RuntimeError& error, const Bytecode& bytecode) {
     return diagnostic;
 }
 
+Diagnostic sense_not_finite(const RuntimeError& error, const Bytecode& bytecode) {
+    Diagnostic diagnostic =
+        make_diagnostic(DiagnosticCode::SenseNotFinite, {},
+                        fmt::format("an answer to `{}` is {}", bytecode.symbol(error.symbol).name,
+                                    number(error.value)));
+    diagnostic.notes.push_back(fmt::format("module {} of generation {} (counted from 0)",
+                                           grouped_digits(error.position), error.generation));
+    return diagnostic;
+}
+
+Diagnostic sense_failed(const RuntimeError& error, const Bytecode& bytecode) {
+    const std::string name =
+        error.environment == kNone ? "" : bytecode.environments[error.environment].name;
+    Diagnostic diagnostic =
+        make_diagnostic(DiagnosticCode::SenseFailed, {},
+                        fmt::format("the environment `{}` has no answer: {}", name, error.text));
+    if (error.symbol != kNoSymbol) {
+        diagnostic.notes.push_back(fmt::format(
+            "asked by `{}`, module {} of generation {} (counted from 0)",
+            module_text(error, bytecode), grouped_digits(error.position), error.generation));
+    }
+    if (!error.help.empty()) {
+        diagnostic.help.push_back(error.help);
+    }
+    return diagnostic;
+}
+
 } // namespace
 
 Diagnostic
@@ -393,6 +423,12 @@ runtime_diagnostic(const RuntimeError& error, const Bytecode& bytecode, bool sou
         break;
     case RuntimeErrorKind::TooDeep:
         diagnostic = too_deep(error, bytecode);
+        break;
+    case RuntimeErrorKind::SenseNotFinite:
+        diagnostic = sense_not_finite(error, bytecode);
+        break;
+    case RuntimeErrorKind::SenseFailed:
+        diagnostic = sense_failed(error, bytecode);
         break;
     }
     add_facts(diagnostic, error, bytecode);

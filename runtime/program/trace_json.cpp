@@ -31,7 +31,8 @@ Json numbers(const std::vector<float>& values) {
     return list;
 }
 
-constexpr std::array<std::string_view, 4> kKinds{"cut", "rewrite", "decompose", "interpret"};
+constexpr std::array<std::string_view, 4> kKinds{"cut",       "rewrite", "decompose",
+                                                 "interpret", "down",    "up"};
 constexpr std::array<std::string_view, kCountOf<Fate>> kFates{"copied", "rewritten", "cut",
                                                               "used-up", "failed"};
 constexpr std::array<std::string_view, kCountOf<Verdict>> kVerdicts{

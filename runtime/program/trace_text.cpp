@@ -675,6 +675,12 @@ private:
             return fmt::format("decomposition, pass {}: {}", trace.pass, where);
         case DerivationPass::Kind::Interpret:
             return fmt::format("interpretation, pass {}: {}", trace.pass, where);
+        case DerivationPass::Kind::Sense:
+            return fmt::format("sensing: {}", where);
+        case DerivationPass::Kind::Down:
+            return fmt::format("sweep down: {}", where);
+        case DerivationPass::Kind::Up:
+            return fmt::format("sweep up: {}", where);
         }
         return {};
     }

@@ -126,7 +126,7 @@ void describe_word(Stream& stream, Value& word) {
 
 template <typename Stream, typename Value>
 void describe_symbol(Stream& stream, Value& symbol) {
-    auto& [name, parameter_count, kind, ignored, turtle, mesh_file] = symbol;
+    auto& [name, parameter_count, kind, ignored, turtle, mesh_file, sense] = symbol;
     auto&& undigested = stream.outside_digest();
     stream.text(name);
     stream.number(parameter_count);
@@ -135,6 +135,7 @@ void describe_symbol(Stream& stream, Value& symbol) {
     undigested.tag(turtle);
     stream.implied(turtle == TurtleOperation::Cut);
     undigested.text(mesh_file);
+    stream.number_or_none(sense);
 }
 
 template <typename Stream, typename Value>
@@ -255,6 +256,41 @@ void describe_material(Stream& stream, Value& material) {
     stream.truth(two_sided);
 }
 
+/// Two programs with other surfaces at the same paths have equal digests.
+template <typename Stream, typename Value>
+void describe_surface(Stream& stream, Value& surface) {
+    auto& [path, plane, site] = surface;
+    stream.text(path);
+    describe_value(stream, plane);
+    stream.outside_digest().number(site);
+}
+
+template <typename Stream, typename Value>
+void describe_environment(Stream& stream, Value& environment) {
+    auto& [name, kind, site, cell, levels, strength, ratio, extinction, directions, shape, size, at,
+           count, radius, angle, kill, low, high, surfaces] = environment;
+    auto&& undigested = stream.outside_digest();
+    stream.text(name);
+    stream.tag(kind);
+    undigested.number(site);
+    stream.real(cell);
+    stream.number(levels);
+    stream.real(strength);
+    stream.real(ratio);
+    stream.real(extinction);
+    stream.number(directions);
+    stream.tag(shape);
+    describe_value(stream, size);
+    describe_value(stream, at);
+    stream.number(count);
+    stream.real(radius);
+    stream.real(angle);
+    stream.real(kill);
+    stream.real(low);
+    stream.real(high);
+    stream.table(surfaces, [](auto& s, auto& row) { describe_surface(s, row); });
+}
+
 template <typename Stream, typename Value>
 void describe_axiom(Stream& stream, Value& axiom) {
     auto& [word, site, draw_position, weight] = axiom;
@@ -268,8 +304,8 @@ template <typename Stream, typename Value>
 void describe(Stream& stream, Value& bytecode) {
     auto& [settings, generations, files, symbols, folded, constants, globals, patterns,
            template_codes, instructions, sites, site_ranges, template_places, productions,
-           rule_count, context_group_count, axioms, uses_steps, curves, materials, stack_depth,
-           local_count] = bytecode;
+           rule_count, context_group_count, axioms, uses_steps, curves, materials, environments,
+           stack_depth, local_count] = bytecode;
     auto&& undigested = stream.outside_digest();
     describe_settings(stream, settings);
     undigested.optional_number(generations);
@@ -292,6 +328,7 @@ void describe(Stream& stream, Value& bytecode) {
     stream.truth(uses_steps);
     stream.table_or_none(curves, [](auto& s, auto& row) { describe_curve(s, row); });
     undigested.table(materials, [](auto& s, auto& row) { describe_material(s, row); });
+    stream.table_or_none(environments, [](auto& s, auto& row) { describe_environment(s, row); });
     undigested.number(stack_depth);
     undigested.number(local_count);
 }

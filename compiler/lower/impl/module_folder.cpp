@@ -23,10 +23,23 @@ std::uint64_t code_capacity(std::size_t symbol_count) {
 } // namespace
 
 ModuleFolder::ModuleFolder(const Program& program, Bytecode& bytecode)
-    : program_(program), bytecode_(bytecode), capacity_(code_capacity(program.symbols.size())) {}
+    : program_(program), bytecode_(bytecode), changes_(program.symbols.size()),
+      capacity_(code_capacity(program.symbols.size())) {
+    for (std::size_t i = 0; i < program.symbols.size(); ++i) {
+        changes_[i] = program.symbols[i].sense != Sense::Nothing;
+    }
+    for (const Production& production : program.productions) {
+        if (production.stage == Stage::Down || production.stage == Stage::Up) {
+            changes_[static_cast<std::size_t>(production.predecessor.items[0].symbol)] = true;
+        }
+    }
+}
 
 Code ModuleFolder::code(SymbolId symbol, std::size_t first_argument) {
     const auto own = static_cast<Code>(symbol);
+    if (changes_[own]) {
+        return own;
+    }
     const std::uint32_t count = program_.symbol(symbol).parameter_count;
     key_.clear();
     append_bytes(key_, own);

@@ -20,7 +20,12 @@ Stage stage_of(DerivationPass::Kind kind) {
         return Stage::Decompose;
     case DerivationPass::Kind::Interpret:
         return Stage::Interpret;
+    case DerivationPass::Kind::Down:
+        return Stage::Down;
+    case DerivationPass::Kind::Up:
+        return Stage::Up;
     case DerivationPass::Kind::Cut:
+    case DerivationPass::Kind::Sense:
     case DerivationPass::Kind::Rewrite:
         break;
     }

@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: MIT
+// Environment: what the modules `?NAME` of one `#sense` statement ask (docs/language.md section
+// 13). Batch in, batch out: it gets all places of a word at once and answers all of them. Places
+// and directions are in metres and in the plant's own axes, +Y up. Answers depend on the places
+// alone, not on their order where the language says so, and never on the number of threads.
+//
+// One kind of environment is one file of this folder: shadow.cpp, sky.cpp, space.cpp, crowd.cpp,
+// solid.cpp, map.cpp, program.cpp.
+#pragma once
+
+#include "compiler/bytecode/environment.h"
+#include "grammar/base/outcome.h"
+#include "runtime/base/workers.h"
+
+#include <array>
+#include <atomic>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace lsys {
+
+using Vector3 = std::array<double, 3>;
+
+/// Where the turtle stands at a sense module.
+struct SensePlace {
+    Vector3 position{}; // m
+    Vector3 heading{};  // unit vector
+    Vector3 up{};       // unit vector
+};
+
+/// An organ that casts shade: an object or a polygon.
+struct SensedOrgan {
+    Vector3 middle{};  // m
+    double area = 0.0; // m^2
+};
+
+/// What an environment learns of one word.
+struct SensedWord {
+    std::uint32_t generation = 0;        // age of the word
+    std::span<const SensePlace> places;  // of the environment's own modules, in word order
+    std::span<const SensedOrgan> organs; // of the whole word, in word order; for kind Sky
+    std::span<const float> parameters;   // of the modules at `places`, one after the other
+    std::span<const std::uint32_t>
+        first; // of each place: index of its first parameter; and the end
+};
+
+/// A closed or open surface of triangles.
+struct EnvironmentMesh {
+    std::vector<Vector3> vertices; // m
+    /// Indexes of vertices, in the order of the file; faces with more than three corners are fans.
+    std::vector<std::array<std::uint32_t, 3>> triangles;
+};
+
+/// A picture as grey values, 0 to 1, by rows: column 0 at the least x, row 0 at the least z.
+struct EnvironmentPicture {
+    std::uint32_t columns = 0;
+    std::uint32_t rows = 0;
+    std::vector<double> values; // columns * rows
+};
+
+/// The contents of the files that a BytecodeEnvironment names, in the order of its surfaces.
+struct EnvironmentFiles {
+    std::vector<EnvironmentMesh> meshes; // one for each surface with a path; Solid and Space
+    EnvironmentPicture picture;          // Map
+};
+
+/// Why an environment has no answers.
+struct EnvironmentFailure {
+    Stop stop = Stop::Diagnosed; // or OutOfMemory, Limit, Cancelled
+    std::string text;            // Diagnosed: the reason, "its program has ended"
+    std::string help;            // what to do about it, or empty
+    std::uint64_t bytes = 0;     // Limit: memory that the answers would take
+    std::size_t place = 0;       // Diagnosed: index of the place that has no answer
+};
+
+/// Resources of an environment. All outlive it.
+struct EnvironmentContext {
+    Workers* workers = nullptr;
+    const std::atomic<bool>* cancelled = nullptr;
+    std::uint64_t max_bytes = ~std::uint64_t{0}; // that the environment may hold
+};
+
+class Environment {
+public:
+    Environment() = default;
+    virtual ~Environment() = default;
+    Environment(const Environment&) = delete;
+    Environment& operator=(const Environment&) = delete;
+
+    /// Begins a derivation: forgets all that an earlier one has left.
+    [[nodiscard]] virtual std::optional<EnvironmentFailure> begin(std::uint64_t seed) = 0;
+    /// Sees all places of the word, then answers: answers[i * size + k] is number k of the answer
+    /// at places[i], where `size` is answer_size() of the kind. Numbers are binary64 until here and
+    /// are rounded once; -0 becomes 0. `answers` has places.size() * size elements; a kind with
+    /// kUnknownAnswer resizes it and sets `sizes` to the number of numbers for each place.
+    [[nodiscard]] virtual std::optional<EnvironmentFailure> answer(
+        const SensedWord& word, std::vector<float>& answers, std::vector<std::uint32_t>& sizes) = 0;
+    /// What the environment keeps from one word to the next, as bytes for a saved state.
+    [[nodiscard]] virtual std::string state() const { return {}; }
+    /// Continues from bytes of state(), after begin(). False: the bytes are not of this environment.
+    [[nodiscard]] virtual bool restore(std::string_view state) { return state.empty(); }
+};
+
+/// The makers of each kind. `declared` and `files` outlive the result; `number` is the index of the
+/// environment in Bytecode::environments, a part of the key of its draws.
+[[nodiscard]] std::unique_ptr<Environment> make_shadow(const BytecodeEnvironment& declared,
+                                                       const EnvironmentContext& context);
+[[nodiscard]] std::unique_ptr<Environment> make_sky(const BytecodeEnvironment& declared,
+                                                    const EnvironmentContext& context);
+[[nodiscard]] std::unique_ptr<Environment> make_space(const BytecodeEnvironment& declared,
+                                                      const EnvironmentFiles& files,
+                                                      std::uint32_t number,
+                                                      const EnvironmentContext& context);
+[[nodiscard]] std::unique_ptr<Environment> make_crowd(const BytecodeEnvironment& declared,
+                                                      const EnvironmentContext& context);
+[[nodiscard]] std::unique_ptr<Environment> make_solid(const BytecodeEnvironment& declared,
+                                                      const EnvironmentFiles& files,
+                                                      const EnvironmentContext& context);
+[[nodiscard]] std::unique_ptr<Environment> make_map(const BytecodeEnvironment& declared,
+                                                    const EnvironmentFiles& files,
+                                                    const EnvironmentContext& context);
+
+} // namespace lsys
