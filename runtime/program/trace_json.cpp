@@ -31,8 +31,8 @@ Json numbers(const std::vector<float>& values) {
     return list;
 }
 
-constexpr std::array<std::string_view, 4> kKinds{"cut",       "rewrite", "decompose",
-                                                 "interpret", "down",    "up"};
+constexpr std::array<std::string_view, 7> kKinds{"cut",   "rewrite", "decompose", "interpret",
+                                                 "sense", "down",    "up"};
 constexpr std::array<std::string_view, kCountOf<Fate>> kFates{"copied", "rewritten", "cut",
                                                               "used-up", "failed"};
 constexpr std::array<std::string_view, kCountOf<Verdict>> kVerdicts{
@@ -284,8 +284,8 @@ private:
         return object;
     }
 
-    static constexpr std::array<std::string_view, kCountOf<Stage>> kStages{"rewrite", "decompose",
-                                                                           "interpret"};
+    static constexpr std::array<std::string_view, kCountOf<Stage>> kStages{
+        "rewrite", "decompose", "interpret", "down", "up"};
 
     const Trace& trace_;
     const Bytecode& bytecode_;
