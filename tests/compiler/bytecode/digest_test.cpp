@@ -32,7 +32,10 @@ public:
             value ^= 1;
         }
     }
-    void number_or_none(std::uint32_t& value) { number(value); }
+    template <typename Value>
+    void number_or_none(Value& value) {
+        id(value);
+    }
     void real(float& value) {
         if (is_target()) {
             value += 1.0F;
