@@ -80,8 +80,8 @@ struct Polygon {
 
 /// Shapes of tubes that settings add (docs/language.md section 7.8).
 struct TubeShape {
-    Flare flare;         // its height in metres of the drawn plant
-    float collar = 0.0F; // width of a branch where it leaves its parent, by its own width; 0: none
+    Flare flare;         // its height in m, after apply_pipe() and scaling
+    float collar = 0.0F; // width of a branch at its base, relative to its width above; 0: none
     TipShape tips = TipShape::Flat;
 
     [[nodiscard]] bool has_flare() const { return flare.factor > 1.0F; }
