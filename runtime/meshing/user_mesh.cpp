@@ -303,7 +303,7 @@ private:
         }
         const std::size_t before = at_;
         const std::uint64_t line_before = line_;
-        const std::optional<float> v = number(); // optional
+        const std::optional<float> v = number(); // the second coordinate may be missing
         if (v) {
             t[1] = *v;
         } else {

@@ -71,7 +71,7 @@ void draw_plant_times(const PlantView& view) {
     count_row("Triangles", stats.drawn.triangles);
 }
 
-/// Where trees are chosen, and the times for it.
+/// The processor that chooses the visible trees, and the times that this takes.
 void draw_culling(const ForestFrameStats& frame) {
     line(frame.is_culled_on_device ? "Culling: GPU" : "Culling: CPU");
     time_row("  CPU", 1e-3 * frame.cull_cpu_milliseconds);

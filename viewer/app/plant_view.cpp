@@ -244,7 +244,7 @@ void PlantView::swap(LoadOutcome outcome) {
         settings.plays = true;
     }
     if (std::exchange(frame_next_, false)) {
-        // Not the direction of the plant before.
+        // Does not keep the direction from which the plant before was shown.
         const Camera from = with_parts(options_.camera, Camera{});
         settings.camera = with_parts(
             options_.camera,

@@ -51,7 +51,8 @@ constexpr std::array kKeys{
     Key{"consider", AbopKey::Consider},
     Key{"#consider", AbopKey::Consider},
 };
-/// Lists of symbols and headings, which say nothing that the rules do not say.
+/// The first words of lists of symbols and of headings. They are skipped: the rules name all
+/// symbols.
 constexpr std::array<std::string_view, 9> kHeadings{
     "variables", "constants", "alphabet", "v", "rules", "rule", "p", "productions", "lsystem"};
 

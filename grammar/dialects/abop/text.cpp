@@ -81,7 +81,7 @@ std::string without_comments(FileId file, std::string_view text, const ParseCont
                     context->diagnostics.add(DiagnosticCode::ForeignSyntax,
                                              {file, place, place + 2}, "`/*` is never closed");
                 }
-                close = end; // the statements behind it are read
+                close = end; // so that the statements after the comment are read
             }
             const std::size_t after = close == end ? end : close + 2;
             blank(at, after);

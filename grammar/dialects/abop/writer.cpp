@@ -38,7 +38,7 @@ bool is_value(AbopKey key) {
     return key != AbopKey::Axiom && key != AbopKey::Ignore && key != AbopKey::Consider;
 }
 
-/// Whether a list of modules is a sign for no modules.
+/// Whether a text denotes the empty word: no character, `*`, epsilon, lambda or capital lambda.
 bool is_empty_word(std::string_view text) {
     return text.empty() || text == "*" || text == "\u03B5" || text == "\u03BB" || text == "\u039B";
 }
@@ -180,7 +180,7 @@ bool AbopWriter::check_predecessor(const AbopRule& rule) {
     if (is_one && !is_one_of(file_.text[span.begin], "[]{}.")) {
         return true;
     }
-    // The rules of one head of L-Py have one message.
+    // All rules of L-Py with the same head have one message.
     if (!reported_head_ || reported_head_->begin != rule.head.begin) {
         reported_head_ = rule.head;
         report(span.begin == span.end ? rule.arrow : span,

@@ -55,7 +55,7 @@ struct alignas(64) Entry {
 
 static_assert(sizeof(Entry) == 64, "an entry is one line of the cache");
 
-/// How the successor of a module is chosen.
+/// The way to choose the successor of a module.
 enum class RowKind : std::uint8_t {
     Fixed,   // always the entry of the module's code
     Choice,  // by chance, among the same productions for every module

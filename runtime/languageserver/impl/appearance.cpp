@@ -20,7 +20,8 @@ namespace {
 constexpr std::array kTokenTypes{"class",  "variable", "parameter", "function",
                                  "method", "keyword",  "property"};
 
-/// The value of a number from 0 to 1 that is written as such.
+/// The value of an expression that is a literal number from 0 to 1; nullopt: it is another
+/// expression.
 std::optional<float> written_part(const Ast& ast, ExpressionId id) {
     const bool is_number = id != kNoExpression && ast.expression(id).kind == ExpressionKind::Number;
     const float value = is_number ? ast.expression(id).value : -1.0F;

@@ -324,8 +324,8 @@ private:
     }
 
     const LevelNeeds& needs_;
-    double budget_;                     // triangles
-    double tolerated_;                  // m, of the trees of the nearest tiles
+    double budget_;                     // max triangles of a tile
+    double tolerated_;                  // max error of the trees of the nearest tiles in m
     double branch_error_ = 0.0;         // m, of branches, of the last planned level
     std::vector<std::size_t> finest_;   // by hero: level of detail of the nearest tiles
     std::vector<double> ground_errors_; // by level
