@@ -6,7 +6,7 @@
 
 namespace lsys {
 
-/// When a production is applied.
+/// The point of a derivation at which a production is applied.
 LSYS_COUNTED_ENUM(Stage,
                   Rewrite,   // in a generation
                   Decompose, // to the axiom and after each generation, until nothing matches

@@ -21,7 +21,7 @@ public:
     LatestJob();
     LatestJob(const LatestJob&) = delete;
     LatestJob& operator=(const LatestJob&) = delete;
-    /// Like cancel_all() and wait().
+    /// Calls cancel_all() and wait().
     ~LatestJob();
 
     /// Cancels the earlier jobs with this key, and runs `job` when all earlier jobs have ended.

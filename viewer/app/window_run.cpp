@@ -22,8 +22,8 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-// Time to wait for input, s.
-constexpr double kIdle = 0.5; // also the max delay of Ctrl-C
+// Max time to wait for input in s, without and with work to do.
+constexpr double kIdle = 0.5; // also the max delay after Ctrl-C
 constexpr double kBusy = 0.02;
 // Time between two pictures of a progress bar.
 constexpr std::chrono::milliseconds kProgressInterval{100};

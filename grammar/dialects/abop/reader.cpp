@@ -51,7 +51,7 @@ constexpr std::array kKeys{
     Key{"consider", AbopKey::Consider},
     Key{"#consider", AbopKey::Consider},
 };
-/// The first words of lists of symbols and of headings. They are skipped: the rules name all
+/// The first words of headings and of lists. Of a list, only its rules are read: they name all
 /// symbols.
 constexpr std::array<std::string_view, 9> kHeadings{
     "variables", "constants", "alphabet", "v", "rules", "rule", "p", "productions", "lsystem"};
@@ -286,7 +286,7 @@ private:
             return end != kNone && read_heading(line, name, end, has_arrow);
         }
         if (has_arrow && key->key != AbopKey::Axiom) {
-            return false; // a rule for the symbol
+            return false; // a rule that replaces the symbol
         }
         if (has_arrow && (key->name == "w" || key->name == "start")) {
             return false;

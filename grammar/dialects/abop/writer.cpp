@@ -314,7 +314,7 @@ void AbopWriter::name_symbol(Symbol& symbol, std::string_view written) {
         symbol.name = "'";
     } else if (symbol.has_arguments && (written == "#" || written == "_")) {
         symbol.name = "!";
-    } else if (!symbol.has_arguments && written == "@v") { // of cpfg
+    } else if (!symbol.has_arguments && written == "@v") { // a command of cpfg
         symbol.name = "$";
     } else if (written.size() > 1 || is_digit(written[0]) ||
                !(is_letter(written[0]) || is_one_of(written[0], kSymbols))) {
@@ -336,7 +336,7 @@ void AbopWriter::write_modules(SourceSpan list, Place place) {
             continue;
         }
         if (place == Place::List && is_one_of(whole[at], ",;:")) {
-            ++at; // separates symbols, as it stands for itself only with parameters
+            ++at; // a separator; a symbol only before parameters
             continue;
         }
         Symbol symbol;

@@ -371,7 +371,7 @@ private:
     const LparserFile& file_;
     const ParseContext& context_;
     Translation& out_;
-    std::map<unsigned char, SourceSpan> rewritten_; // symbols with a rule: the first
+    std::map<unsigned char, SourceSpan> rewritten_; // the first rule of each symbol with rules
     std::set<char> without_;                        // symbols that occur without a parameter
     std::set<char> with_parameter_;                 // symbols that can have a parameter
     std::map<char, SourceSpan> drawn_;              // rewritten commands of several modules

@@ -128,7 +128,7 @@ private:
         LevelDetail level;
         level.detail.assign(needs_.heroes.size(), kNotShown);
         level.is_whole.resize(needs_.heroes.size());
-        std::vector<std::size_t> pending; // whole heroes
+        std::vector<std::size_t> pending; // heroes whose exits have not been visited yet
         std::vector<bool> seen(needs_.heroes.size());
         const auto see = [&](std::size_t whole) {
             if (!seen[whole]) {
