@@ -12,7 +12,7 @@ LSYS_COUNTED_ENUM(Stage,
                   Decompose, // to the axiom and after each generation, until nothing matches
                   Interpret  // when the word is drawn, which does not change it
 );
-/// `#decompose`, `#interpret`; empty for Rewrite.
+/// The keyword of the productions of a stage: `#decompose` or `#interpret`; empty for Rewrite.
 [[nodiscard]] constexpr const char* keyword_of(Stage stage) {
     return stage == Stage::Decompose ? "#decompose" : stage == Stage::Interpret ? "#interpret" : "";
 }

@@ -196,13 +196,13 @@ public:
     [[nodiscard]] virtual Result<void> set_quality(Quality quality) = 0;
     /// Low, Medium or High.
     [[nodiscard]] virtual Quality quality() const = 0;
-    /// Sets where the trees of later forests are chosen; Auto at first.
+    /// Sets the processor that chooses the trees of later forests; Auto at first.
     virtual void set_culling(Culling culling) = 0;
     /// Shows a forest in place of the plant or forest before. Forest and terrain of the model must
     /// live as long as it is shown. bake_impostors() makes the new impostors. Until then, if both
     /// forests have the same number of impostors, those of the previous forest are drawn, else only
-    /// those that both forests share. Error: a shader does not compile, or the device cannot do
-    /// what set_culling() wants.
+    /// those that both forests share. Error: a shader does not compile, or the device lacks
+    /// features for the value of set_culling().
     [[nodiscard]] virtual Result<void> show_forest(ForestModel model) = 0;
     /// Updates the trees of the forest shown after a change; its other parts must be unchanged.
     virtual void update_trees() = 0;

@@ -226,7 +226,7 @@ private:
                "`(` is never closed");
     }
 
-    /// `#define name value`
+    /// Reads `#define name value`.
     bool read_define(SourceSpan line) {
         const std::string_view words = text(line);
         const std::string start = lowered(words.substr(0, 8));
@@ -413,7 +413,7 @@ private:
         read_rule(rule);
     }
 
-    /// `NAME = value`
+    /// Reads `NAME = value`.
     bool read_constants(SourceSpan line) {
         const std::string_view words = text(line);
         const std::size_t end = words.find('=');

@@ -424,7 +424,7 @@ bool CpfgWriter::check(const CpfgProduction& production) {
     return true;
 }
 
-/// `#p1 : left < module > right : `
+/// Writes the head of a production: `#p1 : left < module > right : `.
 void CpfgWriter::write_head(const CpfgProduction& production, const std::string& label) {
     const bool rewrites = production.stage == Stage::Rewrite;
     out_.put(label + " : ", production.span);

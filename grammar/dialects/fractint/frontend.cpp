@@ -16,7 +16,7 @@ namespace {
 
 constexpr std::string_view kBlanks = " \t\r\x1A";
 
-/// An entry with its name, without the kind `lsys:` in front of it.
+/// An entry of the file, and its name without the prefix `lsys:`.
 struct NamedEntry {
     std::string name;
     const FractintEntry* entry = nullptr;

@@ -69,7 +69,7 @@ private:
               {{"red", colour[0]}, {"green", colour[1]}, {"blue", colour[2]}, {"alpha", 1}}}});
     }
 
-    /// The numbers after `colour`.
+    /// Adds the three numbers after each key `colour`.
     void find_in_values(ListRange values) {
         for (std::uint32_t i = values.first; i + 3 < values.first + values.count; ++i) {
             const SetValue& key = ast_.set_values[i];
@@ -82,7 +82,7 @@ private:
         }
     }
 
-    /// `'(r, g, b)`.
+    /// Adds the numbers of modules `'(r, g, b)`.
     void find_in_modules(ModuleList list) {
         for (ModuleCursor cursor(ast_, parsed_.names, parsed_.sources, list); !cursor.done();
              cursor.next()) {
