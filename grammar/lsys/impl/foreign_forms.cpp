@@ -331,8 +331,7 @@ private:
 
     // --- curves
 
-    /// Repairs points in parentheses, `(0, 1), (1, 2)`, or with a comma between coordinates, `0,1
-    /// 1,2`.
+    /// Repairs points in parentheses, `(0, 1), (1, 2)`, and coordinates with commas, `0,1 1,2`.
     void repair_curve() {
         const std::size_t name = skip_gaps(text(), body_);
         std::size_t begin = name + leading_word(text().substr(name)).size();
