@@ -233,7 +233,7 @@ void carve_grooves(CatmullClark& surface,
             const glm::vec2& at = mesh.texture_coordinates[i];
             const float turn =
                 static_cast<float>(grooves) * at.x +
-                4.0F * at.x * (1.0F - at.x) * wander.wandered(-static_cast<double>(at.y));
+                4.0F * at.x * (1.0F - at.x) * wander.ridge_shift(-static_cast<double>(at.y));
             const float value = has_grooves ? groove_depth(turn) : -0.5F;
             positions[i] = mesh.positions[i] +
                            (depth * value * mesh.radii[i]) * unit_or(area, glm::vec3(0.0F));

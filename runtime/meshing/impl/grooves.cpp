@@ -36,12 +36,12 @@ Grooves::Grooves(std::uint32_t count, float circumference, std::uint32_t seed)
     : count_(count), wander_(kWanderCircumference * circumference, seed),
       begin_(wander_.at(0.0F, 0.0).value) {}
 
-float Grooves::wandered(double arc) const {
+float Grooves::ridge_shift(double arc) const {
     return 0.5F * kWander * (wander_.at(0.0F, arc).value - begin_);
 }
 
 NoiseSample Grooves::at(float turn, double arc) const {
-    const float x = static_cast<float>(count_) * turn + wandered(arc);
+    const float x = static_cast<float>(count_) * turn + ridge_shift(arc);
     const float slope = groove_slope(x);
     return {.value = groove_depth(x),
             .by_angle = slope * static_cast<float>(count_) / (2.0F * std::numbers::pi_v<float>),

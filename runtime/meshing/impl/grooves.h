@@ -27,7 +27,7 @@ public:
     /// The value, -1 to 0, at `turn` (0 to 1) around the axis and `arc` along it.
     [[nodiscard]] NoiseSample at(float turn, double arc) const;
     /// Shift of the ridges at `arc` since arc 0, in grooves: less than one.
-    [[nodiscard]] float wandered(double arc) const;
+    [[nodiscard]] float ridge_shift(double arc) const;
 
 private:
     std::uint32_t count_;
