@@ -127,7 +127,7 @@ struct ForestFrameStats {
     std::uint64_t far_trees = 0;                             // drawn as impostors
     std::uint64_t clustered_trees = 0;                       // drawn in clusters
     std::uint64_t clusters = 0;
-    std::uint64_t blended_trees = 0;  // in two LOD bands
+    std::uint64_t blended_trees = 0;  // drawn in two levels of detail, mixed
     std::uint64_t occluded_trees = 0; // in the frustum, occluded by the ground
     std::uint64_t drawn_branches = 0;
     std::uint32_t expanded_trees = 0;
@@ -176,7 +176,7 @@ struct Picked {
     std::uint32_t instance = 0; // Branch: index in the cache of the form
     std::uint32_t form = 0;     // Branch, Impostor: index in ForestModel::forms
     Tree tree;                  // Branch, Impostor
-    std::uint32_t trees = 0;    // Cluster: count
+    std::uint32_t trees = 0;    // Cluster: number of trees
 };
 
 class Renderer {

@@ -271,7 +271,7 @@ export class PlantView {
     });
     for (const each of old) {
       each.removeFromParent();
-      // Attributes belong to the plant.
+      // dispose() must not free the attributes, which the plant still uses.
       (each.geometry as BufferGeometry).attributes = {};
       (each.geometry as BufferGeometry).dispose();
     }

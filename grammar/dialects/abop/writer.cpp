@@ -252,7 +252,7 @@ void AbopWriter::write_drawings() {
     for (const auto& [name, span] : leaves_) {
         out_.put("#object " + name + " LEAF;\n", span);
     }
-    if (sphere_) { // around the position; an object begins at the position
+    if (sphere_) { // its centre is the position, where objects of .lsys begin
         out_.put("#object `sphere` SPHERE;\n#interpret draw" + std::to_string(++index) +
                      " : `@O`(d) : * : " +
                      (file_.is_lpy ? "[f(-d)`sphere`(2*d)];\n" : "[f(-d/2)`sphere`(d)];\n"),
