@@ -55,7 +55,7 @@ static_assert(sizeof(Segment) == 60);
 
 /// An item of the object library, drawn from `position` along the frame's +Y.
 struct PlacedObject {
-    TurtleOperation kind = TurtleOperation::Nothing; // Leaf, Sphere, ..., MeshFile
+    TurtleOperation kind = TurtleOperation::Nothing; // an operation that places an object
     std::uint32_t mesh_file = 0;                     // index in Skeleton::mesh_files, for MeshFile
     glm::vec3 position{};
     float size = 1.0F; // scale factor

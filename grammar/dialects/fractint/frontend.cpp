@@ -42,7 +42,7 @@ std::vector<NamedEntry> systems_of(const std::vector<FractintEntry>& entries,
     return systems;
 }
 
-/// Names of the systems for a message: `Koch1, Koch2, ...`
+/// Names of the systems for a message, with commas: `Koch1, Koch2`.
 std::string list_text(const std::vector<NamedEntry>& systems) {
     constexpr std::size_t kMax = 200;
     std::string text;
