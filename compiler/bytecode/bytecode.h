@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Bytecode: a compiled L-system, the contract of compiler and runtime. Made by compiler/lower or
-// read from a .lsb file; the runtime sees nothing else of the compiler. It is self-contained,
+// read from a .lsb file; the runtime uses no other data of the compiler. It is self-contained,
 // immutable and passes verify().
 //
 // A word is a sequence of codes. Code c < symbols.size() is a module of symbol c whose parameters

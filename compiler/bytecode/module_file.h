@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The .lsb file: Bytecode as little-endian bytes with magic, version, sizes and a checksum; the
-// .cpp draws the layout. Reading checks everything, trusts no size and ends with verify().
+// The .lsb file: Bytecode as little-endian bytes with magic, version, sizes and a checksum;
+// module_file.cpp describes the layout. Reading checks every size before memory is allocated, and
+// ends with verify().
 #pragma once
 
 #include "compiler/bytecode/bytecode.h"

@@ -47,11 +47,11 @@ struct EnumCount<TurtleProfile> {
 /// Properties of a profile's turtle other than its commands. The resolver copies them from the row
 /// of the profile in turtle_profiles.def.
 struct TurtleTraits {
-    bool leaf_moves = true;             // a leaf moves the turtle by its length
-    bool object_moves = true;           // other objects move the turtle by their length
-    bool object_has_step_scale = false; // an object without a parameter has size step_scale, not 1
-    bool forward_has_width = false;     // F(length, width, sections, sides), not (.., spring, mass)
-    bool width_is_relative = false;     // the width is radius / length of a segment
+    bool leaf_moves = true;              // a leaf moves the turtle by its length
+    bool object_moves = true;            // other objects move the turtle by their length
+    bool object_has_step_scale = false;  // an object without a parameter has size step_scale, not 1
+    bool forward_has_width = false;      // F(length, width, sections, sides), not spring and mass
+    bool width_is_relative = false;      // the width is radius / length of a segment
     bool l3d_compatible_surface = false; // sides, defaults and surfaces of the program L3D
     bool box_segments = false;           // segments are rectangular boxes as wide as their width
     bool corners_are_ends = false;       // corners of polygons: each `.` and the end of each step

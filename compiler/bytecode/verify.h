@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Verification of Bytecode: every index in range, stacks balanced, operands of the right kind,
-// formals numbered in order, folded constants finite, rules and groups dense. Debug builds verify
-// emitted bytecode; a loaded file is always verified. Verified bytecode runs without more checks.
+// formals numbered in order, folded constants finite, rules and groups numbered without gaps. Debug
+// builds verify emitted bytecode; a loaded file is always verified. Verified bytecode runs without
+// more checks.
 #pragma once
 
 #include "compiler/bytecode/bytecode.h"

@@ -18,7 +18,7 @@ using analysis::GrowthWalk;
 using analysis::ModuleClasses;
 using analysis::same;
 
-constexpr std::uint64_t kMaxListWork = 5'000'000; // terms, plus the classes of each generation
+constexpr std::uint64_t kMaxListWork = 5'000'000; // max terms read, plus classes listed
 
 /// The sizes of generations 0, 1, ... up to the current generation of `walk`.
 struct Listing {

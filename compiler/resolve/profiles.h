@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The turtle profiles of docs/language.md section 7 as data: the commands of each profile. The
 // names of the profiles are in turtle_profiles.def. Used where symbols are made and by the checks;
-// the runtime sees operations only.
+// the runtime uses only their operations.
 #pragma once
 
 #include "compiler/bytecode/bytecode.h"

@@ -52,7 +52,7 @@ enum class BinaryOperation : std::uint8_t {
     Or,
 };
 
-/// The operator as written: `<=`, `&&`, ...
+/// The operator as written, such as `<=` or `&&`.
 [[nodiscard]] const char* spelling(UnaryOperation operation);
 [[nodiscard]] const char* spelling(BinaryOperation operation);
 

@@ -21,7 +21,7 @@ struct Confusable {
 /// Whether a character beyond ASCII is likely to be a letter; false for ASCII.
 [[nodiscard]] bool is_letter_beyond_ascii(char32_t character);
 
-/// "U+2212".
+/// The number of a character as text: "U+2212".
 [[nodiscard]] std::string code_point_name(char32_t character);
 
 } // namespace lsys

@@ -6,7 +6,7 @@
 
 namespace lsys {
 
-/// When a production is applied.
+/// The point of a derivation at which a production is applied.
 LSYS_COUNTED_ENUM(Stage,
                   Rewrite,   // in a generation
                   Decompose, // to the axiom and after each generation, until nothing matches
@@ -14,7 +14,7 @@ LSYS_COUNTED_ENUM(Stage,
                   Down,      // in a sweep from right to left over each complete word
                   Up         // in a sweep from left to right over each complete word, after Down
 );
-/// `#decompose`, `#interpret`, `#down`, `#up`; empty for Rewrite.
+/// The keyword of the productions of a stage; empty for Rewrite.
 [[nodiscard]] constexpr const char* keyword_of(Stage stage) {
     switch (stage) {
     case Stage::Rewrite:

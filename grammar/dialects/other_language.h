@@ -23,7 +23,8 @@ struct OtherLanguage {
 /// Whether a text is of a program that no dialect reads, although parts of it may look like one:
 /// lpfg, RubberPlant, a panel of L-studio.
 [[nodiscard]] bool is_other_program(std::string_view text);
-/// Whether a text that no dialect recognises is of a language that lsc does not read: JSON, C ...
+/// Whether a text that no dialect recognises is of a language that lsc does not read, such as JSON
+/// or C.
 [[nodiscard]] bool is_unread_language(std::string_view text);
 /// Whether a text whose name does not show its language is in the notation of papers or of L-Py.
 /// Messages explain the lines of these notations that no dialect reads.

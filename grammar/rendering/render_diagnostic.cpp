@@ -126,7 +126,7 @@ void append_human(const Diagnostic& diagnostic,
     }
 }
 
-/// `1 more error, 2 more warnings`.
+/// The counts of omitted diagnostics as text: `1 more error, 2 more warnings`.
 std::string describe_omitted(const std::array<std::uint64_t, 3>& counts) {
     std::string text;
     for (const Severity severity : {Severity::Error, Severity::Warning, Severity::Note}) {

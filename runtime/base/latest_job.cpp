@@ -38,7 +38,8 @@ struct LatestJob::State {
         }
     }
 
-    /// Cancels the jobs with a key; all, if it is null. Precondition: `mutex` is locked.
+    /// Cancels the jobs with the key, or all jobs if `key` is null. Precondition: `mutex` is
+    /// locked.
     void cancel(const std::string* key) {
         for (Entry& entry : entries) {
             if (key == nullptr || entry.key == *key) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // LatestJob: runs jobs one after another on a thread of its own, each for a limited time. A new job
-// cancels those before it with the same key, because only the result of the last one is wanted.
+// cancels all earlier jobs with the same key, because only the result of the new job is wanted.
 #pragma once
 
 #include <atomic>
@@ -21,7 +21,7 @@ public:
     LatestJob();
     LatestJob(const LatestJob&) = delete;
     LatestJob& operator=(const LatestJob&) = delete;
-    /// Like cancel_all() and wait().
+    /// Calls cancel_all() and wait().
     ~LatestJob();
 
     /// Cancels the earlier jobs with this key, and runs `job` when all earlier jobs have ended.

@@ -48,7 +48,7 @@ public:
         return next(lock);
     }
 
-    /// How many numbers are left.
+    /// Count of the numbers that are left.
     [[nodiscard]] std::uint64_t left() const {
         const std::lock_guard lock(mutex_);
         return left_;

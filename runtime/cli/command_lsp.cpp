@@ -21,7 +21,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The .lsys files of a folder and below, by name, without hidden folders.
+/// The .lsys files in a folder and its folders at any depth, sorted by name. Omits hidden folders.
 std::vector<std::string> grammars_below(const std::string& folder) {
     constexpr std::size_t kMaxFiles = 2000;
     constexpr std::size_t kMaxEntries = 50'000; // files of any kind
@@ -112,7 +112,8 @@ ExitStatus run_command(const LspCommand& /*command*/, const Console& console) {
         return done ? std::move(fixed.changed) : std::map<std::string, std::string>();
     };
     LanguageServer server(std::move(host));
-    // A read of the stream goes on after a signal, so the end of the process is awaited before it.
+    // A signal does not end a read of the stream, so a read begins only when there is input; until
+    // then the signal is awaited, too.
     const auto wait = [&console] {
         constexpr int kMilliseconds = 500;
         const bool is_process = console.io().interrupted != nullptr;

@@ -22,7 +22,7 @@ namespace fs = std::filesystem;
 constexpr std::size_t kMaxFiles = 1000; // files searched per folder
 constexpr std::uintmax_t kMaxFileBytes = std::uintmax_t{1} << 20;
 
-/// The .lsys files of a folder, by name.
+/// The .lsys files of a folder, sorted by name.
 std::vector<fs::path> grammars_in(const fs::path& folder) {
     std::vector<fs::path> files;
     std::error_code failed;

@@ -43,7 +43,8 @@ std::string module_text(const RuntimeError& error, const Bytecode& bytecode) {
     return error.parameters.empty() ? text : text + ')';
 }
 
-/// "production `p`", "the axiom", "constant `c`".
+/// The part of the grammar in which the error occurred: "production `p`", "the axiom", "constant
+/// `c`".
 std::string owner(const RuntimeError& error, const Bytecode& bytecode) {
     if (error.global != kNone) {
         return fmt::format("constant `{}`", bytecode.globals[error.global].name);

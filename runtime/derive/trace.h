@@ -123,7 +123,7 @@ struct ChoiceTrace {
     struct Alternative {
         ProductionId production = kNoProduction;
         float weight = 0.0F;
-        float cumulative = 0.0F; // sum of normalised weights up to this one
+        float cumulative = 0.0F; // sum of the normalised weights up to this alternative
     };
     std::vector<Alternative> alternatives; // in file order; more than one
     bool by_generation = false;            // `choice generation`: one draw for all modules
@@ -140,7 +140,7 @@ struct AxiomTrace {
     struct Alternative {
         std::uint32_t site = kNone; // index in Bytecode::sites
         float weight = 0.0F;
-        float cumulative = 0.0F; // sum of normalised weights up to this one
+        float cumulative = 0.0F; // sum of the normalised weights up to this alternative
     };
     std::vector<Alternative> alternatives; // in file order
     float unit = 0.0F;

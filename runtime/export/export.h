@@ -28,7 +28,7 @@ enum class ExportFormat : std::uint8_t {
 #undef LSYS_EXPORT_FORMAT
 };
 
-/// Where a format stores the textures of materials.
+/// The place where a format stores the textures of materials.
 enum class ExportPictures : std::uint8_t {
     None,
     Inside, // embedded in the file; readers multiply them by the colour of the material

@@ -123,7 +123,7 @@ min_rise(const InstanceCache& cache, std::uint32_t slot_number, const glm::dvec3
 
 /// A lower bound of the heights of the trees with this root.
 double min_height(const InstanceCache& cache, const HeightTable& table, std::uint32_t root) {
-    constexpr int kDepth = 3; // exits further in raise the bound of few trees and take long
+    constexpr int kDepth = 3; // deeper exits raise the bound of few trees, at a high cost
     const Bounds& box = table.boxes[root];
     if (box.empty) {
         return 0.0;

@@ -436,9 +436,9 @@ private:
         }
     }
 
-    /// Restores about the planned number of triangles. Widened wood has fewer joints, since thicker
-    /// wood may be off by more. This function adds joints again or, instead of joints, paths and
-    /// foliage up to the numbers of the level `before`.
+    /// Brings a level with widened wood back to about the planned number of triangles. Such wood
+    /// has fewer joints, because a thicker branch may deviate more. This function adds joints again
+    /// or, instead of joints, paths and foliage up to the numbers of the level `before`.
     void restore(const DetailLevel& planned, const DetailLevel& before, DetailLevel& level) {
         level.options.axis_error = planned.options.axis_error;
         level.paths = planned.paths;
@@ -873,7 +873,7 @@ private:
     Mesh mesh_;
     LargeVector<std::uint32_t> numbers_;
     std::vector<double> mean_distances_; // m, by number of paths; see measure_paths()
-    std::uint64_t most_paths_ = 0;       // paths of the level before it is thinned
+    std::uint64_t most_paths_ = 0;       // number of paths of the level before thinner()
     std::optional<AreaMeter> meter_;
     VisibleAreas areas_;             // areas of the finest level
     VisibleAreas third_;             // AreaMeter::measure_third() of the finest level

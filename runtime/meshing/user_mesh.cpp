@@ -303,7 +303,7 @@ private:
         }
         const std::size_t before = at_;
         const std::uint64_t line_before = line_;
-        const std::optional<float> v = number(); // optional
+        const std::optional<float> v = number(); // the second coordinate may be missing
         if (v) {
             t[1] = *v;
         } else {
@@ -557,7 +557,7 @@ std::unordered_map<std::string, MaterialPicture> pictures_of(std::string_view mt
             const std::string_view name = mtl.substr(begin, last - begin);
             material = names.contains(name) ? &materials[std::string(name)] : nullptr;
         } else if (material == nullptr) {
-            // a line of a material that is not wanted
+            // A line of a material that is not wanted is skipped.
         } else if (ObjName* const file = map_of(kind, *material); file != nullptr) {
             // Options precede the name: a keyword, then its numbers or another word.
             while (begin < last && mtl[begin] == '-') {

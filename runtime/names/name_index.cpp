@@ -439,7 +439,7 @@ const NameUse* NameIndex::at(const std::string& path, std::size_t offset) const 
     const NameUse* found = nullptr;
     for (const NameUse& use : uses) {
         if (use.place.path == path && use.place.begin <= offset && offset <= use.place.end) {
-            found = &use; // if two names touch, the later one
+            found = &use; // the later of two adjacent names
         }
     }
     return found;

@@ -78,7 +78,7 @@ struct NameIndex {
     void merge(const NameIndex& other);
     /// The use at an offset, which may be its end; null if there is none.
     [[nodiscard]] const NameUse* at(const std::string& path, std::size_t offset) const;
-    /// Whether two uses refer to the same thing.
+    /// Whether two uses refer to the same definition.
     [[nodiscard]] static bool are_same(const NameUse& a, const NameUse& b);
 };
 

@@ -19,7 +19,7 @@
 namespace lsys {
 
 struct ForestLods {
-    Forest forest; // a species per level: "pine LOD2", ...
+    Forest forest; // a species per level, named for example "pine LOD2"
     /// By species and stage, like the result of mesh_forest().
     std::vector<std::vector<InstanceMeshes>> meshes;
     glm::vec3 viewpoint{}; // m, the origin of distances

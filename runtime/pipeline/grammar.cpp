@@ -25,7 +25,7 @@ constexpr const char* kStandardInput = "<stdin>";
 /// Suffix of a path from standard_input_as(). It begins with NUL, which no path of a file contains.
 constexpr std::string_view kNamedInput("\0<stdin>", 8);
 
-/// The names of all dialects: "lsys, sys, ...".
+/// The names of all dialects, with commas: "lsys, sys".
 std::string dialect_names() {
     std::string names;
     for (const DialectRow& row : dialects()) {

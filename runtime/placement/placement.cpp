@@ -55,7 +55,7 @@ Result<void> place_with(const PlacementJob& job, Placement& placement) {
     case PlacementMethod::DensityCells:
         return place_density_cells(job, placement);
     case PlacementMethod::Domination:
-        break; // see grow_forest()
+        break; // grow_forest() places these trees
     }
     return {};
 }

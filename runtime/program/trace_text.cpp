@@ -410,7 +410,7 @@ private:
         switch (attempt.verdict) {
         case Verdict::Applies:
             if (is_later && !framed_.insert(attempt.production).second) {
-                return; // again_text() in the title says this
+                return; // the title names the earlier explanation: again_text()
             }
             line("{} {}{}", who, marked("applies"), trace.choice ? ", chosen by chance" : "");
             explain(attempt, trace.module, written);

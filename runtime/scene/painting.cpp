@@ -39,7 +39,7 @@ std::string table_text(const Painting& painting, std::span<const std::string> sp
     if (!painting.trees.empty()) {
         text += "trees = [ # species, x, z, yaw in degrees, scale\n";
         for (const PaintedTree& tree : painting.trees) {
-            // degrees in double precision read back as exactly the same angle
+            // Degrees in double precision read back as exactly the same angle.
             fmt::format_to(std::back_inserter(text), "  [{}, {}, {}, {}, {}],\n",
                            quoted(species[tree.species]), tree.x, tree.z,
                            static_cast<double>(tree.yaw) * 180.0 / std::numbers::pi, tree.scale);

@@ -19,16 +19,16 @@ struct ServerOptions {
     std::uint32_t max_connections = 1024;
 };
 
-/// Serves until should_stop() returns true, asked about ten times a second; then finishes responses for
-/// at most five seconds. `ready` is called with the address, "http://127.0.0.1:8080/", when connections
-/// are accepted.
+/// Serves until should_stop(), called about ten times a second, returns true; then finishes
+/// responses for at most five seconds. `ready` is called with the address,
+/// "http://127.0.0.1:8080/", when connections are accepted.
 ///
 /// Connections without a request for 10 s, and responses that take longer than 2 minutes, are cut.
-/// Connections beyond the limit are closed at once. A header may have 16 KiB; requests with a body are
-/// refused.
+/// Connections beyond the limit are closed at once. A header may have 16 KiB; requests with a body
+/// are refused.
 ///
-/// Errors: a bad address, one beyond this machine without `is_public`, a port in use; a build without
-/// a server.
+/// Errors: a bad address, one beyond this machine without `is_public`, a port in use; a build
+/// without a server.
 [[nodiscard]] Result<void> serve_tiles(TileService& service,
                                        const ServerOptions& options,
                                        const std::function<void(const std::string&)>& ready,

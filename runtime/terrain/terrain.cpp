@@ -98,7 +98,7 @@ Result<Terrain> Terrain::noise(const Region& region, const NoiseOptions& options
     double amplitude = 1.0;
     double sum = 0.0;
     for (std::uint32_t number = 0; number < options.octaves; ++number) {
-        // each octave is shifted, because otherwise the zeros of all octaves would coincide
+        // Each octave is shifted, because otherwise the zeros of all octaves would coincide.
         const PhiloxBlock words = draw_block(options.seed, kTerrainGeneration, number, 0);
         const auto layer = static_cast<float>(words[2] >> 24U);
         terrain.octaves_.push_back({frequency, static_cast<double>(words[0]) * (kPeriod * 0x1p-32),

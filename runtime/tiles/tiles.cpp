@@ -64,7 +64,7 @@ struct TileForest::State {
     std::vector<std::vector<Tree>>
         samples;                 // by species: kSampleTrees trees of a placement on a grid
     double density = 0.0;        // mean number of trees per m2
-    double places = 0.0;         // of a placement on an unbounded grid, expected number
+    double places = 0.0;         // expected number; only of a placement on an unbounded grid
     double largest_extent = 0.0; // m, of a tree, at least its height
 
     std::unique_ptr<DensityField> field;     // of a placement on an unbounded grid

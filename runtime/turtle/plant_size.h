@@ -38,12 +38,13 @@ struct StemMaterial {
 [[nodiscard]] double pipe_factor(std::uint32_t count, double exponent);
 
 /// Gives every segment the width pipe.tip_width * tips^(1 / pipe.exponent), rounded to binary32
-/// once; tips: the number of its descendants without children, 1 if it has no children. Its tip has
-/// this width plus pipe.taper times the difference to the width of the child that continues it: on
-/// its axis, else the child with most tips, the first of equals; no child: no difference. Masses and
-/// springs that follow from shape and `material` are computed again. Returns Stop::Limit if the
-/// numbers of tips do not fit into `max_bytes` beside the skeleton, or Stop::OutOfMemory; the
-/// skeleton is then unchanged.
+/// once; `tips` is the number of its descendants without children, or 1 if it has no children. With
+/// taper, the width at the tip of a segment approaches the width of the child that continues the
+/// segment, by the fraction pipe.taper of the difference. This child is the one on the same axis;
+/// if there is none, the child with most tips, and among equals the first. A segment without
+/// children does not taper. Masses and springs that follow from shape and `material` are computed
+/// again. Returns Stop::Limit if the numbers of tips do not fit into `max_bytes` beside the
+/// skeleton, or Stop::OutOfMemory; the skeleton is then unchanged.
 [[nodiscard]] std::optional<Stop> apply_pipe(const Pipe& pipe,
                                              const StemMaterial& material,
                                              std::uint64_t max_bytes,

@@ -55,7 +55,7 @@ static_assert(sizeof(Segment) == 60);
 
 /// An item of the object library, drawn from `position` along the frame's +Y.
 struct PlacedObject {
-    TurtleOperation kind = TurtleOperation::Nothing; // Leaf, Sphere, ..., MeshFile
+    TurtleOperation kind = TurtleOperation::Nothing; // an operation that places an object
     std::uint32_t mesh_file = 0;                     // index in Skeleton::mesh_files, for MeshFile
     glm::vec3 position{};
     float size = 1.0F; // scale factor
@@ -80,8 +80,8 @@ struct Polygon {
 
 /// Shapes of tubes that settings add (docs/language.md section 7.8).
 struct TubeShape {
-    Flare flare;         // its height in metres of the drawn plant
-    float collar = 0.0F; // width of a branch where it leaves its parent, by its own width; 0: none
+    Flare flare;         // its height in m, after apply_pipe() and scaling
+    float collar = 0.0F; // width of a branch at its base, relative to its width above; 0: none
     TipShape tips = TipShape::Flat;
 
     [[nodiscard]] bool has_flare() const { return flare.factor > 1.0F; }

@@ -13,7 +13,7 @@ Turtle::State::quick_forward(const Action& action, const float* arguments, Pose&
     const float length = action.given > 0 ? arguments[0] : now.step;
     Pose tip = pose;
     advance(tip, static_cast<double>(length));
-    // Also false for NaN.
+    // `fits` is also false if a value is NaN.
     const bool fits = std::abs(tip.x) + std::abs(tip.y) + std::abs(tip.z) <= kMaxFloat &&
                       now.width <= std::numeric_limits<float>::max() && length >= 0.0F;
     if (!fits || skeleton.segments.size() == skeleton.segments.capacity()) {

@@ -18,7 +18,7 @@
 
 namespace lsys::reference {
 
-// Where a module of a word comes from.
+// The place in the grammar, the production and the generation that a module of a word comes from.
 struct Origin {
     const ModuleUse* written = nullptr; // in the axiom or in a successor of the grammar
     std::string production;             // the label; empty: the axiom

@@ -12,7 +12,8 @@
 
 namespace lsys::reference {
 
-// Where a module of the axiom or of a successor begins; both count from 1, columns in code points.
+// The line and column at which a module of the axiom or of a successor begins, counted from 1;
+// columns in code points.
 struct WrittenModule {
     const ModuleUse* module = nullptr; // in the grammar
     std::size_t line = 0;

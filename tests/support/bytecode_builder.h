@@ -18,11 +18,11 @@ public:
     Settings settings;
     bool fold = true; // fold constant arguments into codes of their own
 
-    /// "F(1)[+(30)A]"
+    /// Adds an axiom: "F(1)[+(30)A]".
     BytecodeBuilder& axiom(std::string text);
-    /// "p : A(x) < B > C [ D ] : x > 0 ~ 0.5 : F(x, {1, 2}) B"
+    /// Adds a production: "p : A(x) < B > C [ D ] : x > 0 ~ 0.5 : F(x, {1, 2}) B".
     BytecodeBuilder& production(std::string text);
-    /// "+ -": modules with any number of parameters.
+    /// Makes contexts skip modules of these names, "+ -", with any number of parameters.
     BytecodeBuilder& ignore(std::string names);
     /// A random constant, drawn at the start.
     BytecodeBuilder& global(std::string name, std::string value);

@@ -7,7 +7,7 @@
 
 namespace lsys::tests {
 
-/// 64 hexadecimal digits.
+/// The digest of a text as 64 hexadecimal digits.
 [[nodiscard]] std::string sha256(std::string_view bytes);
 
 } // namespace lsys::tests

@@ -211,7 +211,7 @@ void ContactSheet::close() {
     done = {};
 }
 
-bool ContactSheet::has_news() const {
+bool ContactSheet::has_pictures() const {
     if (pictures_ == nullptr) {
         return false;
     }

@@ -79,7 +79,7 @@ public:
     void close();
     [[nodiscard]] bool is_busy() const { return worker_ != nullptr && worker_->is_busy(); }
     /// Whether take() has pictures.
-    [[nodiscard]] bool has_news() const;
+    [[nodiscard]] bool has_pictures() const;
     /// Takes new pictures by the number of their cell.
     [[nodiscard]] std::vector<std::pair<std::size_t, Texture>> take();
 

@@ -95,7 +95,7 @@ void take_picture(View& view, PanelState& panels) {
     const std::string problem =
         settings.name.empty() ? "the picture has no name" : problem_of_output(settings.path());
     if (!problem.empty()) {
-        view.set_note("not written: " + problem); // the dialog stays and says so too
+        view.set_note("not written: " + problem); // also shown in the dialog, which stays
         return;
     }
     settings.width = settings.width == 0 ? view.picture_width() : settings.width;
@@ -123,7 +123,7 @@ void show_export_dialog(PanelState& panels) {
 void export_shown(PlantView& view, PanelState& panels) {
     const std::string problem = problem_of_export(view.settings.output.file);
     if (!problem.empty()) {
-        view.set_note("not written: " + problem); // the dialog stays and says so too
+        view.set_note("not written: " + problem); // also shown in the dialog, which stays
         return;
     }
     panels.dialog = OpenDialog::None;
@@ -437,7 +437,7 @@ void Controls::click(const WindowInput& input, const PixelArea& area, View& view
             continue;
         }
         if (pressed_ && glm::distance(*pressed_, event.place) > kStill) {
-            pressed_.reset(); // a drag
+            pressed_.reset(); // the pointer is dragged: this is no click
         }
         if (event.kind == PointerEvent::Kind::Release && pressed_) {
             // The upper edges of picture and window coincide.

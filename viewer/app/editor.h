@@ -29,7 +29,7 @@ struct EditorEnvironment {
 
 /// The command line that opens a place: $VISUAL; or $EDITOR if it has a window of its own; or VS
 /// Code; or $EDITOR in a terminal. An editor without a window is run in a terminal program. Error:
-/// there is no such program; its text says what to set.
+/// there is no such program; the text of the error names the variables to set.
 [[nodiscard]] Result<std::vector<std::string>> editor_command(const FilePosition& place,
                                                               const EditorEnvironment& environment);
 

@@ -71,7 +71,7 @@ bool keep_choice(const Scene& before, Scene& scene) {
     return true;
 }
 
-/// ForestDocument::season.
+/// The value of ForestDocument::season.
 std::optional<float> season_of(const LoadedScene& loaded, const Project& project) {
     for (const SceneSpecies& species : loaded.scene.species) {
         const bool is_fixed =

@@ -175,7 +175,7 @@ void ForestPainting::move_tool(const glm::dvec3& place,
     const auto z = static_cast<float>(place.z);
     if (!last_) {
         last_ = place;
-        dab(x, z, tool, brush);
+        apply_at(x, z, tool, brush);
         return;
     }
     const glm::vec2 from(static_cast<float>(last_->x), static_cast<float>(last_->z));
@@ -189,12 +189,12 @@ void ForestPainting::move_tool(const glm::dvec3& place,
         std::min(static_cast<std::uint32_t>(std::min(way / step, 1e6F)), kMaxSteps);
     for (std::uint32_t i = 1; i <= steps; ++i) {
         const float part = static_cast<float>(i) / static_cast<float>(steps);
-        dab(from.x + part * (x - from.x), from.y + part * (z - from.y), tool, brush);
+        apply_at(from.x + part * (x - from.x), from.y + part * (z - from.y), tool, brush);
     }
     last_ = place;
 }
 
-void ForestPainting::dab(float x, float z, PaintTool tool, const Brush& brush) {
+void ForestPainting::apply_at(float x, float z, PaintTool tool, const Brush& brush) {
     switch (tool) {
     case PaintTool::None:
         return;

@@ -72,7 +72,7 @@ public:
 private:
     [[nodiscard]] Painter& painter();
     [[nodiscard]] Painting renamed(const Painting& painting) const;
-    void dab(float x, float z, PaintTool tool, const Brush& brush);
+    void apply_at(float x, float z, PaintTool tool, const Brush& brush);
     void show(std::span<const TreeChange> changes);
     void show_all();
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // ForestStreamer: places and prepares the squares of a streamed forest around a camera on threads
-// of its own, keeps them within a budget of memory, and tells which squares to show and to hide.
-// Squares that the camera no longer wants are hidden at once, and stay in memory while the budget
-// allows it. When all wanted squares are ready, the squares shown are a function of the camera.
+// of its own, keeps them within a budget of memory, and lists the squares to show and to hide.
+// Squares that the camera no longer needs are hidden at once, and stay in memory while the budget
+// allows it. When all needed squares are ready, the squares shown are a function of the camera.
 #pragma once
 
 #include "viewer/app/forest_document.h"

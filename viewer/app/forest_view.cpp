@@ -144,17 +144,17 @@ void ForestView::set_years(std::uint32_t years) {
 }
 
 bool ForestView::update() {
-    bool has_news = false;
+    bool has_new_content = false;
     if (reload_shaders()) {
         has_all_impostors_ = false;
         watch_files();
-        has_news = true;
+        has_new_content = true;
     }
     if (std::optional<ForestOutcome> outcome = loader_.take()) {
         take_outcome(std::move(*outcome));
-        has_news = true;
+        has_new_content = true;
     }
-    has_news = take_picked() || has_news;
+    has_new_content = take_picked() || has_new_content;
     show_colours();
     if (!has_all_impostors_ && document_ != nullptr) {
         const bool had_stand_ins = renderer_->has_stand_ins();
@@ -169,7 +169,7 @@ bool ForestView::update() {
     if (requested_ != settings.edits) {
         request_load();
     }
-    return has_news;
+    return has_new_content;
 }
 
 void ForestView::show_colours() {

@@ -80,7 +80,7 @@ public:
         owes_repeat_ = owes_repeat_ && !(outcome_ && is_running_repeat_);
         return std::exchange(outcome_, std::nullopt);
     }
-    /// How long the running request has run; empty: none runs, or it is cancelled.
+    /// Time since the running request began; empty: none runs, or it is cancelled.
     [[nodiscard]] std::optional<SteadyClock::duration> running_time() const {
         const std::lock_guard lock(mutex_);
         return is_running_ && !cancelled_ ? std::optional(SteadyClock::now() - began_)

@@ -71,7 +71,7 @@ void draw_plant_times(const PlantView& view) {
     count_row("Triangles", stats.drawn.triangles);
 }
 
-/// Where trees are chosen, and the times for it.
+/// The processor that chooses the visible trees, and the times that this takes.
 void draw_culling(const ForestFrameStats& frame) {
     line(frame.is_culled_on_device ? "Culling: GPU" : "Culling: CPU");
     time_row("  CPU", 1e-3 * frame.cull_cpu_milliseconds);
@@ -561,8 +561,8 @@ void draw_view_buttons(View& view, SourcePane& source) {
     draw_tooltip("Shows the text of the grammar with its messages (U)");
 }
 
-/// Draws the buttons below the panel, which are always in sight; returns the file that they want to
-/// open.
+/// Draws the buttons below the panel, which are always visible. Returns the file to open; empty:
+/// none.
 std::string draw_buttons(ViewSwitcher& switcher, PanelState& panels) {
     std::string wanted;
     draw_edit_buttons(switcher);
@@ -577,10 +577,10 @@ std::string draw_buttons(ViewSwitcher& switcher, PanelState& panels) {
     return wanted;
 }
 
-/// Draws the panel on the left; returns the file that it wants to open.
+/// Draws the panel on the left. Returns the file to open; empty: none.
 std::string draw_side_panel(ViewSwitcher& switcher, PanelState& panels, const Area& area) {
     std::string wanted;
-    constexpr float kRows = 3.0F; // of buttons
+    constexpr float kRows = 3.0F; // number of rows of buttons
     const ImGuiStyle& style = ImGui::GetStyle();
     const float below = kRows * ImGui::GetFrameHeightWithSpacing() - style.ItemSpacing.y +
                         2.0F * style.WindowPadding.y;
@@ -608,7 +608,7 @@ std::string draw_side_panel(ViewSwitcher& switcher, PanelState& panels, const Ar
     return wanted;
 }
 
-/// Draws the panel and overlays of a plant or forest; returns the file that they want to open.
+/// Draws the panel and overlays of a plant or forest. Returns the file to open; empty: none.
 std::string
 draw_view_panels(ViewSwitcher& switcher, PanelState& panels, const Area& area, float scale) {
     std::string wanted;
@@ -683,7 +683,7 @@ DialogKeys keys_of(OpenDialog dialog) {
                                         : DialogKeys::OfPanels;
 }
 
-/// Draws the open dialog, except the contact sheet; returns the file that it wants to open.
+/// Draws the open dialog, except the contact sheet. Returns the file to open; empty: none.
 std::string draw_dialog(ViewSwitcher& switcher, PanelState& panels) {
     std::string wanted;
     bool is_open = true;

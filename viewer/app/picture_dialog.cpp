@@ -20,7 +20,7 @@ namespace {
 
 struct NamedSize {
     const char* name;
-    std::uint32_t width; // 0: of the window
+    std::uint32_t width; // pixels; 0: the width of the window's picture
     std::uint32_t height;
 };
 constexpr std::array<NamedSize, 4> kSizes = {{{"Window", 0, 0},

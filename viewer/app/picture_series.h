@@ -33,8 +33,8 @@ struct PictureSeries {
 /// A frame with the camera and the values of the options.
 [[nodiscard]] Frame frame_of(const ViewOptions& options, const Camera& camera);
 
-/// Draws a picture in stripes. Adds to `stats` and `read_milliseconds`. With Frame::transparent
-/// colours are not multiplied by the opacity, as PNG wants.
+/// Draws a picture in stripes. Adds to `stats` and `read_milliseconds`. With Frame::transparent,
+/// colours are not multiplied by the opacity: PNG requires this.
 [[nodiscard]] Texture
 draw_picture(const Frame& frame, Renderer& renderer, FrameStats& stats, double& read_milliseconds);
 

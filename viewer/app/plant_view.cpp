@@ -152,27 +152,27 @@ std::uint32_t PlantView::generations() const {
 }
 
 bool PlantView::update() {
-    bool has_news = false;
+    bool has_new_content = false;
     if (reload_shaders()) {
         watch_files();
-        has_news = true;
+        has_new_content = true;
     }
     if (std::optional<LoadOutcome> outcome = loader_.take()) {
         take_outcome(std::move(*outcome));
-        has_news = true;
+        has_new_content = true;
     }
-    has_news = take_picked() || has_news;
+    has_new_content = take_picked() || has_new_content;
     grow();
     if (!settings.plays && !shows_growth_) {
         bend();
     } else if (!settings.plays && settings.simulates && !loader_.is_busy() && !failed()) {
         requested_.reset(); // moments of growth do not bend, so request the plant itself
     }
-    has_news = check_standing() || has_news;
+    has_new_content = check_standing() || has_new_content;
     if (exporter_ != nullptr) {
         if (const std::optional<std::string> outcome = exporter_->take()) {
             set_note(*outcome);
-            has_news = true;
+            has_new_content = true;
         }
     }
     if (shown_lines_ != settings.lines) {
@@ -183,7 +183,7 @@ bool PlantView::update() {
         requested_ = settings;
         loader_.request(options_with_settings(), SteadyClock::now());
     }
-    return has_news;
+    return has_new_content;
 }
 
 void PlantView::take_outcome(LoadOutcome outcome) {
@@ -244,7 +244,7 @@ void PlantView::swap(LoadOutcome outcome) {
         settings.plays = true;
     }
     if (std::exchange(frame_next_, false)) {
-        // Not the direction of the plant before.
+        // Does not keep the direction from which the plant before was shown.
         const Camera from = with_parts(options_.camera, Camera{});
         settings.camera = with_parts(
             options_.camera,

@@ -116,7 +116,7 @@ public:
     void play_or_pause();
     /// Whether constants, settings or the seed differ from those of the file.
     [[nodiscard]] bool has_changed_values() const;
-    /// Whether they have changed since the file was opened or written.
+    /// Whether constants, settings or the seed have changed since the file was opened or written.
     [[nodiscard]] bool is_unsaved() const override;
     /// Writes changed constants, settings and seed to the .lsys file, keeps the rest of the file,
     /// and reports the result in a note. Refuses another dialect, a compiled grammar, a file that

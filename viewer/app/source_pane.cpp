@@ -124,11 +124,11 @@ bool SourcePane::update(View& view, const std::function<void()>& wake) {
         requested_load_ = view.load_count();
         worker_->request({view.loaded_sources(), SteadyClock::now(), false});
     }
-    bool has_news = false;
+    bool has_new_content = false;
     if (worker_ != nullptr) {
         if (std::optional<std::shared_ptr<const SourceText>> text = worker_->take()) {
             take(std::move(*text), view);
-            has_news = true;
+            has_new_content = true;
         }
     }
     if (followed_pick_ != view.pick_count() && text_ != nullptr && !worker_->is_busy()) {
@@ -144,13 +144,13 @@ bool SourcePane::update(View& view, const std::function<void()>& wake) {
                                                   highlighted_.first, highlighted_.last));
             }
         }
-        has_news = true;
+        has_new_content = true;
     }
     if (view.picked().lines.empty() && highlighted_.first != 0) {
         highlighted_ = {};
-        has_news = true;
+        has_new_content = true;
     }
-    return has_news;
+    return has_new_content;
 }
 
 void SourcePane::take(std::shared_ptr<const SourceText> text, View& view) {

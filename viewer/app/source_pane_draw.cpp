@@ -297,7 +297,7 @@ void draw_row(SourcePane& pane,
     const bool is_hovered =
         ImGui::IsWindowHovered() &&
         ImGui::IsMouseHoveringRect({at.left, at.corner.y}, {at.right, at.corner.y + at.row_height});
-    bool is_used = false; // by a button
+    bool is_used = false; // whether a button of the row was pressed
     switch (row.kind) {
     case SourceRow::Kind::Line:
         draw_line(source, row.line, at);
@@ -345,7 +345,7 @@ void draw_rows(SourcePane& pane, PlantView* plant, SourceActions& actions) {
     const std::uint32_t lines = pane.source()->file->line_count();
     const std::size_t digits = fmt::format("{}", lines).size();
     const float gutter = at.character * static_cast<float>(digits + 2);
-    const ImVec2 origin = ImGui::GetCursorScreenPos(); // scrolled
+    const ImVec2 origin = ImGui::GetCursorScreenPos(); // moves when the pane is scrolled
     at.text_left = origin.x + gutter;
     at.left = ImGui::GetWindowPos().x;
     at.right = at.left + ImGui::GetWindowWidth();

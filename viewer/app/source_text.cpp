@@ -85,7 +85,7 @@ private:
 
     void add_file(const std::string& path, std::string bytes) {
         if (path.empty() || path.starts_with("--") || made_->find(path)) {
-            return; // the text of an option, or known
+            return; // the text of an option, or a file that was added before
         }
         const FileId id = made_->sources.add(path, std::move(bytes));
         const SourceFile& file = made_->sources.file(id);

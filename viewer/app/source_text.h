@@ -66,7 +66,7 @@ struct SourceText {
     SourceMap sources;
     std::vector<ShownSource> files; // the grammar or scene first
     std::string failure;            // why there are no files
-    /// What `lsc check --fix` would write: new bytes by path. Empty if there is no certain fix.
+    /// The bytes that `lsc check --fix` would write, by path. Empty if there is no certain fix.
     std::map<std::string, std::string> fixed;
     std::size_t fix_count = 0; // certain fixes
 

@@ -142,7 +142,7 @@ public:
     [[nodiscard]] virtual LoadedSources loaded_sources() const = 0;
     /// Count of requests whose messages were taken; loaded_sources() changes with it.
     [[nodiscard]] std::uint64_t load_count() const { return load_count_; }
-    /// The file of the last of these requests.
+    /// The file of the last request whose messages were taken.
     [[nodiscard]] const std::string& loaded_file() const { return loaded_file_; }
     /// Whether the last request failed.
     [[nodiscard]] bool failed() const { return failed_; }

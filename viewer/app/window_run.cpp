@@ -22,8 +22,8 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-// Time to wait for input, s.
-constexpr double kIdle = 0.5; // also the max delay of Ctrl-C
+// Max time to wait for input in s, without and with work to do.
+constexpr double kIdle = 0.5; // also the max delay after Ctrl-C
 constexpr double kBusy = 0.02;
 // Time between two pictures of a progress bar.
 constexpr std::chrono::milliseconds kProgressInterval{100};
@@ -97,14 +97,15 @@ public:
         if (film) {
             switcher_.current().set_note(*film);
         }
-        bool has_news = switcher_.current().update() || film;
-        has_news = panels_.source.update(switcher_.current(), panels_.wake) || has_news;
+        bool has_new_content = switcher_.current().update() || film;
+        has_new_content =
+            panels_.source.update(switcher_.current(), panels_.wake) || has_new_content;
         if (const std::string failure = panels_.editors.forget_ended(); !failure.empty()) {
             switcher_.current().set_note(failure);
-            has_news = true;
+            has_new_content = true;
         }
         const bool dropped_note = switcher_.current().drop_old_note(now);
-        if (input.any || has_news || dropped_note) {
+        if (input.any || has_new_content || dropped_note) {
             pictures_left_ = kPicturesAfterInput;
         }
         update_progress(now);
@@ -119,7 +120,7 @@ public:
             remember_file(panels_.state_folder, switcher_.current().file(), console_);
             pictures_left_ = kPicturesAfterInput;
         }
-        if (is_loading(panels_.start) || panels_.sheet.has_news()) {
+        if (is_loading(panels_.start) || panels_.sheet.has_pictures()) {
             pictures_left_ = std::max(pictures_left_, 1);
         }
         return true;

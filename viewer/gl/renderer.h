@@ -127,7 +127,7 @@ struct ForestFrameStats {
     std::uint64_t far_trees = 0;                             // drawn as impostors
     std::uint64_t clustered_trees = 0;                       // drawn in clusters
     std::uint64_t clusters = 0;
-    std::uint64_t blended_trees = 0;  // in two LOD bands
+    std::uint64_t blended_trees = 0;  // drawn in two levels of detail, mixed
     std::uint64_t occluded_trees = 0; // in the frustum, occluded by the ground
     std::uint64_t drawn_branches = 0;
     std::uint32_t expanded_trees = 0;
@@ -176,7 +176,7 @@ struct Picked {
     std::uint32_t instance = 0; // Branch: index in the cache of the form
     std::uint32_t form = 0;     // Branch, Impostor: index in ForestModel::forms
     Tree tree;                  // Branch, Impostor
-    std::uint32_t trees = 0;    // Cluster: count
+    std::uint32_t trees = 0;    // Cluster: number of trees
 };
 
 class Renderer {
@@ -196,13 +196,13 @@ public:
     [[nodiscard]] virtual Result<void> set_quality(Quality quality) = 0;
     /// Low, Medium or High.
     [[nodiscard]] virtual Quality quality() const = 0;
-    /// Sets where the trees of later forests are chosen; Auto at first.
+    /// Sets the processor that chooses the trees of later forests; Auto at first.
     virtual void set_culling(Culling culling) = 0;
     /// Shows a forest in place of the plant or forest before. Forest and terrain of the model must
     /// live as long as it is shown. bake_impostors() makes the new impostors. Until then, if both
     /// forests have the same number of impostors, those of the previous forest are drawn, else only
-    /// those that both forests share. Error: a shader does not compile, or the device cannot do
-    /// what set_culling() wants.
+    /// those that both forests share. Error: a shader does not compile, or the device lacks
+    /// features for the value of set_culling().
     [[nodiscard]] virtual Result<void> show_forest(ForestModel model) = 0;
     /// Updates the trees of the forest shown after a change; its other parts must be unchanged.
     virtual void update_trees() = 0;

@@ -48,7 +48,8 @@ private:
 
 /// Bytes that a shown tree takes: in its ForestSquare, in ForestLod and on the device.
 inline constexpr std::uint64_t kBytesPerStreamedTree = sizeof(Tree) + 2 * sizeof(LodTree) + 24;
-/// Bytes that a cell takes, likewise.
+/// Bytes that a cell of a shown square takes: in its ForestSquare, in ForestLod and on the
+/// device.
 inline constexpr std::uint64_t kBytesPerStreamedCell = 2 * sizeof(ForestCell) + 24;
 
 } // namespace lsys::view

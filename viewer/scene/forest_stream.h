@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// ForestStream: the squares of a streamed forest that a camera wants, nearest first, within a budget
-// of memory. A function of camera, picture and layout alone: the same squares whatever way the camera
-// has come.
+// ForestStream: the squares of a streamed forest that a camera needs, nearest first, within a
+// budget of memory. They depend only on the camera, the size of the picture and the layout, not on
+// earlier cameras.
 #pragma once
 
 #include "viewer/scene/camera.h"
@@ -13,8 +13,8 @@
 
 namespace lsys::view {
 
-/// Part of the budget for squares that a camera wants; the rest keeps squares that it wanted before,
-/// for a camera that turns back.
+/// Part of the budget for squares that the camera needs. The rest is for squares that it needed
+/// before, in case it turns back.
 inline constexpr double kWantedPart = 0.75;
 /// Min height in pixels of the tallest tree of a wanted square.
 inline constexpr float kMinStreamedPixels = 3.0F;

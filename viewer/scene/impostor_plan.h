@@ -32,7 +32,7 @@ struct ImpostorForm {
 
 struct ImpostorPlan {
     std::vector<ImpostorLayer> layers;
-    /// One of single trees per tree form, then one of a cluster per tree form.
+    /// A form of single trees for each tree form, then a form of a cluster for each tree form.
     std::vector<ImpostorForm> forms;
     bool has_clusters = false;
 };

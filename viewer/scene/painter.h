@@ -31,8 +31,9 @@ struct TreeChange {
 
 class Painter {
 public:
-    /// `placed` and `terrain` must live unchanged until the next move_to() or the painter's end.
-    /// `painting`: earlier changes; its erased trees start removed. `key`: of the forest.
+    /// `placed` and `terrain` must exist and stay unchanged until the next move_to() or the
+    /// painter's end. `painting`: earlier changes; its erased trees start removed. `key`: of the
+    /// forest.
     Painter(std::span<const Tree> placed,
             const Painting& painting,
             const Region& region,

@@ -19,7 +19,8 @@ constexpr float kNearestRange = 34.0F; // m, of level 0
 // the coarser level begin theirs beyond the farthest corner of a node that touches that range,
 // since 0.85 * 2 * 34 >= 34 + sqrt(2) * 16.
 constexpr float kMorphStart = 0.85F;
-// The grid follows the camera in steps, so that it is seldom rebuilt.
+// Texels by which the height grid moves at once when it follows the camera, so that it is seldom
+// rebuilt.
 constexpr std::int64_t kGridStep = 16;
 constexpr std::uint64_t kRowsPerPiece = 16;
 
@@ -66,7 +67,8 @@ void TerrainLod::make_grid(std::uint32_t level, const glm::vec3& eye) {
     if (grid.is_valid && grid.origin == origin) {
         return;
     }
-    // Texels of the previous grid keep their values, so that a slow camera costs few heights.
+    // Texels of the previous grid keep their values, so that few heights are computed while the
+    // camera moves slowly.
     const HeightGrid before = std::exchange(grid, {});
     const bool has_cover = cover_ && level >= kFirstCoverLevel;
     grid.is_valid = true;

@@ -94,7 +94,7 @@ float finer_weight(float pixels, float limit, float blend) {
 uint level_of(float pixels) {
     return uint(dot(vec4(lessThan(vec4(pixels), culling.level_pixels)), vec4(1.0)));
 }
-// ForestLod::blend_steps().
+// The same as ForestLod::blend_steps().
 uint blend_steps(float pixels, uint level) {
     float limit = dot(culling.level_pixels, vec4(equal(uvec4(level), uvec4(0u, 1u, 2u, 3u))));
     float blend = level + 1u == kLevels ? culling.sway.w : culling.clusters.z;

@@ -3,7 +3,7 @@
 #include "culling.glsl"
 layout(local_size_x = 256) in;
 layout(location = 0) uniform uint command_count;
-layout(std430, binding = 16) readonly buffer Keys { uint keys[]; };           // count; first
+layout(std430, binding = 16) readonly buffer Keys { uint keys[]; };          // by key: count, first
 layout(std430, binding = 18) readonly buffer CommandKeys { uint command_keys[]; };
 layout(std430, binding = 19) buffer Commands { uint commands[]; }; // DrawCommand: five words
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Impostors of near trees that are blended with their branches, or whose branches have no room. One
-// workgroup. Sets the draws of impostors.
+// Impostors of near trees that are blended with their branches, or whose branches have no room.
+// Runs in one workgroup. Sets the draws of impostors.
 #include "culling.glsl"
 layout(local_size_x = 256) in;
 #include "culling_list.glsl"

@@ -15,7 +15,7 @@ uint part_count() {
 }
 #ifdef SUM
 layout(local_size_x = 1024) in;
-layout(std430, binding = 16) buffer Keys { uint keys[]; }; // count; first
+layout(std430, binding = 16) buffer Keys { uint keys[]; }; // by key: count, first
 shared uint partial[1024];
 // Sum over the invocations before this one; `total` over all.
 uint sum_before(uint value, out uint total) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Replaces the sums of the workgroups of a kernel by the sums over the workgroups before. One
-// workgroup. Sets the sizes of the next dispatches and draws.
+// Replaces the sums of the workgroups of a kernel by the sums over the workgroups before. Runs in
+// one workgroup. Sets the sizes of the next dispatches and draws.
 #include "culling.glsl"
 layout(local_size_x = 1024) in;
 layout(location = 0) uniform uint stage; // 0: cells, 1: trees, 2: candidates

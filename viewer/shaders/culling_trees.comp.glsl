@@ -67,7 +67,7 @@ uvec2 code_of(uint element) {
     if (!is_in_view(centre, radius + sway)) {
         return uvec2(0u);
     }
-    // ForestLod::impostor_box()
+    // The same as ForestLod::impostor_box().
     const float kLevel = 0.15;
     const float kMargin = 1.04; // kImpostorMargin
     bool is_level = abs(eye.y - centre.y) < kLevel * distance(eye, centre);

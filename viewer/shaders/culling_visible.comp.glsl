@@ -12,7 +12,7 @@ struct Branch {
 };
 layout(std430, binding = 0) readonly buffer Branches { Branch branches[]; };
 layout(std430, binding = 14) writeonly buffer Sorted { uvec2 sorted[]; }; // key; BranchEntry
-layout(std430, binding = 16) buffer Keys { uint keys[]; };                // count; first
+layout(std430, binding = 16) buffer Keys { uint keys[]; };                // by key: count, first
 
 void main() {
     uint slot = block_number() * kBlock + gl_LocalInvocationIndex;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The functions that the module of WebAssembly exports. JavaScript asks for room with
-// lsys_reserve(), writes a request and its files there, calls lsys_answer(), and reads the
-// result: the addresses and sizes of the JSON text and of all blocks, as pairs of 32-bit numbers.
+// The functions that the module of WebAssembly exports. JavaScript gets memory from lsys_reserve(),
+// writes a request and its files there, calls lsys_answer(), and reads the result: the addresses
+// and sizes of the JSON text and of all blocks, as pairs of 32-bit numbers.
 #include "web/binding/session.h"
 
 #include <cstdint>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the checks share: counting results, running lsc, sizes of files.
+// Functions for the checks: counting results, running lsc, sizes of files.
 import { spawnSync } from 'node:child_process';
 import { readFileSync } from 'node:fs';
 import { join } from 'node:path';

@@ -81,7 +81,7 @@ private:
     ModuleClasses* classes_;
     std::uint32_t age_ = 0;
     bool probabilities_known_ = true;
-    std::vector<Count> low_; // by class: number of modules; also high_ and expected_
+    std::vector<Count> low_; // by class: min number; high_: max, expected_: mean
     std::vector<Count> high_;
     std::vector<double> expected_;
     std::vector<bool> is_present_;

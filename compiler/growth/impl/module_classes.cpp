@@ -15,7 +15,7 @@ namespace lsys::analysis {
 namespace {
 
 constexpr std::uint32_t kUnknownBits = 0xFFFFFFFFU; // bits of a NaN; parameters are never NaN
-constexpr std::uint64_t kMaxGridWork = 65'536;      // points times productions
+constexpr std::uint64_t kMaxGridWork = 65'536;      // max points times productions
 constexpr std::size_t kMaxVariableModules = 65'536; // per word
 
 } // namespace

@@ -160,7 +160,7 @@ private:
     std::map<std::vector<std::uint32_t>, ClassId> known_value_ids_; // classes with known values
     std::vector<ClassExpansion> expansions_;
     std::unordered_map<std::uint32_t, ClassExpansion>
-        shared_; // by symbol: of all its classes with unknown values
+        shared_; // by symbol: the expansion of all its classes with unknown values
     std::vector<ClassOutcome> outcomes_;
     std::vector<ClassTerm> terms_;
     std::unordered_map<std::uint32_t, CountedWord> words_; // by production

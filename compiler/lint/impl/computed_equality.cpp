@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // `==` and `!=` on values that may differ by rounding. Each value has a Level. Exact: computed from
-// whole numbers, halves, quarters ... by + - * and similar operations. Literal: a constant that is
+// multiples of a small power of 1/2 by + - * and similar operations. Literal: a constant that is
 // only passed on, so it equals itself. Computed: everything else.
 #include "compiler/lint/impl/lints.h"
 #include "compiler/lint/impl/places.h"

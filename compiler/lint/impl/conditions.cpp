@@ -52,7 +52,7 @@ void check_constant(const CheckInput& input,
     }
 }
 
-/// Finds single parameter values that are a gap or an overlap in the table of a rule: `x > 2` and
+/// Finds single parameter values for which no production of a module matches, or two: `x > 2` and
 /// `x < 2` both exclude 2, `x >= 2` and `x <= 2` both include it.
 class SingleValues {
 public:

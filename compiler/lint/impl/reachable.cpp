@@ -40,7 +40,7 @@ Reachable find_reachable(const Program& program) {
     result.generation.assign(program.symbols.size(), kNone);
     result.usable.assign(program.productions.size(), false);
 
-    std::vector<std::uint32_t> missing; // by production: needed symbols not yet reached
+    std::vector<std::uint32_t> missing; // by production: number of needed symbols not yet reached
     for (const Production& production : program.productions) {
         missing.push_back(static_cast<std::uint32_t>(needed_symbols(production).size()));
     }

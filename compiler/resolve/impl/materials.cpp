@@ -85,7 +85,7 @@ std::optional<std::uint32_t> MaterialResolver::read_index(const SetValue& value)
     const std::optional<float> number =
         expressions_.constant_value(expressions_.resolve(value.value, ExpressionPlace::Material));
     if (!number || std::isnan(*number)) {
-        return std::nullopt; // reported
+        return std::nullopt; // an error has been reported
     }
     if (!(*number >= 0.0F && *number <= kMaxIndex) || *number != std::floor(*number)) {
         resolution_.diagnostics.add(
@@ -196,7 +196,7 @@ void MaterialResolver::read_entry(const Entry& entry, ProgramMaterial& material)
             const std::optional<float> part =
                 number_of(entry, resolution_.ast.set_values[entry.values.first + i]);
             if (!part) {
-                return; // reported
+                return; // an error has been reported
             }
             colour[i] = *part;
         }
@@ -234,7 +234,7 @@ std::optional<float> MaterialResolver::number_of(const Entry& entry, const SetVa
     const std::optional<float> number =
         expressions_.constant_value(expressions_.resolve(value.value, ExpressionPlace::Material));
     if (!number || std::isnan(*number)) {
-        return std::nullopt; // reported
+        return std::nullopt; // an error has been reported
     }
     const bool is_switch = key.kind == KeyKind::TwoSided;
     if (!(*number >= 0.0F && *number <= 1.0F) ||

@@ -28,7 +28,7 @@ constexpr auto kKeys = std::to_array<std::string_view>({
 /// Smaller densities are probably meant in g/cm³.
 constexpr float kMinLikelyDensity = 2.0F;
 
-/// How `#set names` splits text into module names.
+/// The value of `#set names`: the way in which a text without blanks is split into module names.
 enum class NameReading : std::uint8_t { Words, Letters, Characters };
 constexpr std::array kReadings{NameReading::Words, NameReading::Letters, NameReading::Characters};
 std::string_view name_of(NameReading reading) {

@@ -44,7 +44,7 @@ private:
     std::vector<Latest> latest_; // by name: the last symbol looked up
     std::unordered_map<std::uint64_t, SymbolId> symbols_;
     std::unordered_map<std::uint32_t, Binding> bindings_;
-    std::vector<bool> ignored_; // by name; also considered_
+    std::vector<bool> ignored_; // by name: ignore() was called; considered_: consider() was
     std::vector<bool> considered_;
     bool others_ignored_ = false;
 };

@@ -46,7 +46,7 @@ async function startServer(): Promise<void> {
     'L-system grammars',
     { command: found.program, args: ['lsp'] },
     {
-      // Grammars of other programs get messages.
+      // Files with extensions of other programs' grammars get diagnostics, too.
       documentSelector: [{ language: 'lsys' }, { scheme: 'file', pattern: '**/*.{hlsys,l3d,l++,lss}' }],
       revealOutputChannelOn: RevealOutputChannelOn.Never,
       synchronize: { fileEvents: vscode.workspace.createFileSystemWatcher('**/*.lsys') },
@@ -129,7 +129,7 @@ class Preview {
         this.disposables.forEach((each) => each.dispose());
       }),
       vscode.workspace.onDidChangeTextDocument((event) => {
-        // Another grammar may be included by this one.
+        // The grammar that is shown may include the changed file.
         if (event.document.languageId === 'lsys' && event.contentChanges.length > 0) {
           void this.session.refresh();
         }

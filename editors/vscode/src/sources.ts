@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Which places of a grammar belong to a position in its text.
+// The places of a grammar that belong to a position in its text.
 
 import type { Position, Range, Source } from './protocol';
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The bundle of the extension, loaded with a stand-in for the module `vscode`: what a user without lsc sees.
+// The messages of the extension to a user without lsc. The bundle is loaded with a stand-in for
+// the module `vscode`.
 import assert from 'node:assert/strict';
 import Module, { createRequire } from 'node:module';
 import { test } from 'node:test';

@@ -10,7 +10,7 @@ export const lsc = process.env.LSC ?? 'lsc';
 export const root = process.env.LSYS_ROOT ?? process.cwd();
 
 const running = new Set();
-// Servers of tests that failed.
+// Ends the servers that failed tests have left running.
 after(() => running.forEach((each) => each.kill()));
 
 export async function startServer() {

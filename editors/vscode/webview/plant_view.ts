@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// PlantView: shows the GLB of `lsys/plant` by three.js. Knows nothing of VS Code.
+// PlantView: shows the GLB of `lsys/plant` by three.js. Does not depend on VS Code.
 //
 // The attribute `_ITEMS` of the GLB has two numbers per vertex: the sources of the two parts of the
 // plant that meet there. A triangle belongs to the source that all its corners share.
@@ -271,7 +271,7 @@ export class PlantView {
     });
     for (const each of old) {
       each.removeFromParent();
-      // Attributes belong to the plant.
+      // dispose() must not free the attributes, which the plant still uses.
       (each.geometry as BufferGeometry).attributes = {};
       (each.geometry as BufferGeometry).dispose();
     }

@@ -51,7 +51,8 @@ constexpr std::array kKeys{
     Key{"consider", AbopKey::Consider},
     Key{"#consider", AbopKey::Consider},
 };
-/// Lists of symbols and headings, which say nothing that the rules do not say.
+/// The first words of headings and of lists. Of a list, only its rules are read: they name all
+/// symbols.
 constexpr std::array<std::string_view, 9> kHeadings{
     "variables", "constants", "alphabet", "v", "rules", "rule", "p", "productions", "lsystem"};
 
@@ -225,7 +226,7 @@ private:
                "`(` is never closed");
     }
 
-    /// `#define name value`
+    /// Reads `#define name value`.
     bool read_define(SourceSpan line) {
         const std::string_view words = text(line);
         const std::string start = lowered(words.substr(0, 8));
@@ -285,7 +286,7 @@ private:
             return end != kNone && read_heading(line, name, end, has_arrow);
         }
         if (has_arrow && key->key != AbopKey::Axiom) {
-            return false; // a rule for the symbol
+            return false; // a rule that replaces the symbol
         }
         if (has_arrow && (key->name == "w" || key->name == "start")) {
             return false;
@@ -412,7 +413,7 @@ private:
         read_rule(rule);
     }
 
-    /// `NAME = value`
+    /// Reads `NAME = value`.
     bool read_constants(SourceSpan line) {
         const std::string_view words = text(line);
         const std::size_t end = words.find('=');

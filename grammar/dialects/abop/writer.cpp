@@ -38,7 +38,7 @@ bool is_value(AbopKey key) {
     return key != AbopKey::Axiom && key != AbopKey::Ignore && key != AbopKey::Consider;
 }
 
-/// Whether a list of modules is a sign for no modules.
+/// Whether a text denotes the empty word: no character, `*`, epsilon, lambda or capital lambda.
 bool is_empty_word(std::string_view text) {
     return text.empty() || text == "*" || text == "\u03B5" || text == "\u03BB" || text == "\u039B";
 }
@@ -180,7 +180,7 @@ bool AbopWriter::check_predecessor(const AbopRule& rule) {
     if (is_one && !is_one_of(file_.text[span.begin], "[]{}.")) {
         return true;
     }
-    // The rules of one head of L-Py have one message.
+    // All rules of L-Py with the same head have one message.
     if (!reported_head_ || reported_head_->begin != rule.head.begin) {
         reported_head_ = rule.head;
         report(span.begin == span.end ? rule.arrow : span,
@@ -252,7 +252,7 @@ void AbopWriter::write_drawings() {
     for (const auto& [name, span] : leaves_) {
         out_.put("#object " + name + " LEAF;\n", span);
     }
-    if (sphere_) { // around the position; an object begins at the position
+    if (sphere_) { // its centre is the position, where objects of .lsys begin
         out_.put("#object `sphere` SPHERE;\n#interpret draw" + std::to_string(++index) +
                      " : `@O`(d) : * : " +
                      (file_.is_lpy ? "[f(-d)`sphere`(2*d)];\n" : "[f(-d/2)`sphere`(d)];\n"),
@@ -314,7 +314,7 @@ void AbopWriter::name_symbol(Symbol& symbol, std::string_view written) {
         symbol.name = "'";
     } else if (symbol.has_arguments && (written == "#" || written == "_")) {
         symbol.name = "!";
-    } else if (!symbol.has_arguments && written == "@v") { // of cpfg
+    } else if (!symbol.has_arguments && written == "@v") { // a command of cpfg
         symbol.name = "$";
     } else if (written.size() > 1 || is_digit(written[0]) ||
                !(is_letter(written[0]) || is_one_of(written[0], kSymbols))) {
@@ -336,7 +336,7 @@ void AbopWriter::write_modules(SourceSpan list, Place place) {
             continue;
         }
         if (place == Place::List && is_one_of(whole[at], ",;:")) {
-            ++at; // separates symbols, as it stands for itself only with parameters
+            ++at; // a separator; a symbol only before parameters
             continue;
         }
         Symbol symbol;

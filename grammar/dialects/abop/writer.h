@@ -68,7 +68,7 @@ private:
     std::set<std::string_view> constants_;
     std::set<std::string, std::less<>> long_names_; // symbols of several characters
     std::map<std::string, SourceSpan> leaves_;      // surfaces `~X`
-    std::map<std::string, SourceSpan> segments_;    // heads that draw as F or f, in .lsys
+    std::map<std::string, SourceSpan> segments_;    // heads in .lsys of symbols drawn as F or f
     std::set<std::string> labels_;
     std::set<std::string, std::less<>> formals_;     // of the rule that is written
     std::map<std::size_t, Parentheses> parentheses_; // of expressions, by position

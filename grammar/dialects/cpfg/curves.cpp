@@ -185,7 +185,7 @@ CpfgView read_view(std::string_view text, const FileBeside& beside) {
                    view.bending.empty() &&
                    (key == "tropism direction" || key == "tropism" || key == "torque")) {
             view.bending = key;
-            // These two hold their own elasticity.
+            // `tropism` and `torque` contain an elasticity; `tropism direction` does not.
             view.is_elastic = view.is_elastic || key != "tropism direction";
         } else if (auto set = value_of(line, "function set:")) {
             if (const auto curves = beside(*set)) {

@@ -28,8 +28,8 @@ struct CpfgCurve {
 struct CpfgView {
     std::string angle; // an expression of .lsys; empty: none is given
     std::vector<CpfgCurve> curves;
-    /// The first line that bends branches, which .lsys cannot say: `tropism direction`, `tropism`
-    /// or `torque`; empty: there is none.
+    /// The first line that bends branches, which .lsys cannot express: `tropism direction`,
+    /// `tropism` or `torque`; empty: there is none.
     std::string bending;
     bool is_elastic = false; // branches bend without a module `_`
 };

@@ -168,7 +168,8 @@ ForeignId CpfgExpressions::name(const ForeignNode& node) {
     return first_value(node.text, node.span);
 }
 
-/// `func(which, x)`, where `which` is a number or the name of a function of the set.
+/// The equivalent of `func(which, x)`, where `which` is a number or the name of a function of the
+/// set.
 ForeignId CpfgExpressions::curve(const ForeignNode& node) {
     const ForeignNode which = tree_[node.parts[0]];
     std::size_t index = curves_.size();
@@ -206,7 +207,7 @@ ForeignId CpfgExpressions::curve(const ForeignNode& node) {
     return unsupported(node.span, "no view file beside this one has function `" + shown_name + "`");
 }
 
-/// `ran(size)` and `nran(mean, sd)`.
+/// The equivalent of `ran(size)` or `nran(mean, sd)`.
 ForeignId CpfgExpressions::random_call(const ForeignNode& node, std::vector<ForeignId> arguments) {
     if (node.text == "nran") {
         has_normal_ = true;

@@ -424,7 +424,7 @@ bool CpfgWriter::check(const CpfgProduction& production) {
     return true;
 }
 
-/// `#p1 : left < module > right : `
+/// Writes the head of a production: `#p1 : left < module > right : `.
 void CpfgWriter::write_head(const CpfgProduction& production, const std::string& label) {
     const bool rewrites = production.stage == Stage::Rewrite;
     out_.put(label + " : ", production.span);
@@ -502,7 +502,8 @@ void CpfgWriter::write_group(std::size_t index) {
     const std::uint32_t count = lowered_[index].draws;
     const std::vector<std::string> names = formals_of(first);
     write_head(first, label_of(first.stage, index));
-    out_.put((spares_axiom(first) ? std::string(kAfterAxiom) : "*") + " : " + random_module(index),
+    out_.put((may_decompose_axiom(first) ? std::string(kAfterAxiom) : "*") + " : " +
+                 random_module(index),
              first.arrow);
     write_parameters(names, std::vector<std::string>(count, "{0, 1}"), first.arrow);
     out_.put(";\n", first.arrow);
@@ -535,7 +536,7 @@ void CpfgWriter::write_group(std::size_t index) {
 
 /// Whether the production could decompose a module of the axiom. cpfg decomposes the words of
 /// productions, but not the axiom.
-bool CpfgWriter::spares_axiom(const CpfgProduction& production) const {
+bool CpfgWriter::may_decompose_axiom(const CpfgProduction& production) const {
     return production.stage == Stage::Decompose &&
            std::any_of(session_.axiom.begin(), session_.axiom.end(), [&](const CpfgModule& module) {
                return module.name == production.predecessor.front().name &&
@@ -546,7 +547,7 @@ bool CpfgWriter::spares_axiom(const CpfgProduction& production) const {
 void CpfgWriter::write_condition(std::size_t index, const ForeignWriting& how) {
     const CpfgProduction& production = session_.productions[index];
     const ForeignId condition = lowered_[index].condition;
-    const bool is_guarded = !lowered_[index].in_group && spares_axiom(production);
+    const bool is_guarded = !lowered_[index].in_group && may_decompose_axiom(production);
     if (is_guarded) {
         out_.put(kAfterAxiom, production.span);
     }

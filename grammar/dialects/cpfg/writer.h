@@ -74,7 +74,7 @@ private:
     void write_production(std::size_t index);
     void write_group(std::size_t index);
     void write_head(const CpfgProduction& production, const std::string& label);
-    [[nodiscard]] bool spares_axiom(const CpfgProduction& production) const;
+    [[nodiscard]] bool may_decompose_axiom(const CpfgProduction& production) const;
     void write_condition(std::size_t index, const ForeignWriting& how);
     void write_weight(std::size_t index, const ForeignWriting& how);
     void write_successor(std::size_t index, const ForeignWriting& how);

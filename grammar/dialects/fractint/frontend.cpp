@@ -16,7 +16,7 @@ namespace {
 
 constexpr std::string_view kBlanks = " \t\r\x1A";
 
-/// An entry with its name, without the kind `lsys:` in front of it.
+/// An entry of the file, and its name without the prefix `lsys:`.
 struct NamedEntry {
     std::string name;
     const FractintEntry* entry = nullptr;
@@ -42,7 +42,7 @@ std::vector<NamedEntry> systems_of(const std::vector<FractintEntry>& entries,
     return systems;
 }
 
-/// Names of the systems for a message: `Koch1, Koch2, ...`
+/// Names of the systems for a message, with commas: `Koch1, Koch2`.
 std::string list_text(const std::vector<NamedEntry>& systems) {
     constexpr std::size_t kMax = 200;
     std::string text;

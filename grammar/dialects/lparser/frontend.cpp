@@ -5,7 +5,7 @@
 // command of Lparser becomes modules of this profile.
 //
 // Lparser draws a segment as thick as its length times the thickness. Here the width is that of a
-// segment of the current step, so what scales the step scales the width, too.
+// segment of the current step, so a command that scales the step scales the width, too.
 #include "grammar/ast/reports.h"
 #include "grammar/base/characters.h"
 #include "grammar/dialects/impl/frontends.h"
@@ -295,7 +295,7 @@ private:
         const std::string_view symbol = text(module.span);
         if (symbol == "(" || symbol == ")") {
             if (has_stray_ && symbol == ")") {
-                return; // of the `(` that has been reported
+                return; // its `(` has been reported
             }
             has_stray_ = true;
             context_.diagnostics.add(DiagnosticCode::ForeignFeature, module.span,
@@ -328,7 +328,8 @@ private:
         } else {
             out_.put(modules_of(*command, argument), module.span);
         }
-        // Only `f`, `z` and `.` are corners of a polygon, and the start is none.
+        // The corners of a polygon are the ends of `f` and `z` and the places of `.`, without the
+        // start.
         out_.put(in_polygon && (symbol == "f" || symbol == "z") ? "." : "", module.span);
     }
 
@@ -370,7 +371,7 @@ private:
     const LparserFile& file_;
     const ParseContext& context_;
     Translation& out_;
-    std::map<unsigned char, SourceSpan> rewritten_; // symbols with a rule: the first
+    std::map<unsigned char, SourceSpan> rewritten_; // the first rule of each symbol with rules
     std::set<char> without_;                        // symbols that occur without a parameter
     std::set<char> with_parameter_;                 // symbols that can have a parameter
     std::map<char, SourceSpan> drawn_;              // rewritten commands of several modules

@@ -169,7 +169,7 @@ private:
     const ParseContext& context_;
     std::string_view text_;
     LparserFile file_;
-    bool has_other_ = false; // one line that is no rule is reported
+    bool has_other_ = false; // a line that is no rule has been reported
 };
 
 } // namespace
@@ -194,7 +194,7 @@ std::string_view recognise_lparser(std::string_view text) {
     const auto rules = std::count_if(lines.begin() + 4, lines.end(), [](std::string_view line) {
         return line.size() > 1 && trimmed(line.substr(1)).starts_with('=');
     });
-    // One line of each may have a mistake.
+    // One of the three numbers and one of the rules may have a mistake.
     const bool has_numbers = numbers >= 2;
     const bool has_rules = rules + 1 >= static_cast<std::ptrdiff_t>(lines.size()) - 4;
     return has_numbers && has_rules ? "its beginning, a line for each of three numbers,"

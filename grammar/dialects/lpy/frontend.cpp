@@ -301,7 +301,7 @@ private:
 std::string_view recognise_lpy(std::string_view text) {
     bool has_axiom = false;
     bool has_rules = false;
-    bool is_code = false; // of lpfg
+    bool is_code = false; // the text is a program of lpfg
     for (std::size_t at = 0; at < text.size();) {
         const std::size_t end = std::min(text.find('\n', at), text.size());
         const std::string_view line = trimmed(text.substr(at, end - at));

@@ -119,7 +119,7 @@ std::size_t count_parameters(const LetterModule& module, const ParseContext& con
                : 0;
 }
 
-/// `(p1, p2, p3)`; empty if `count` is 0.
+/// The formals `(p1, p2, p3)` of `count` parameters; empty if `count` is 0.
 std::string formals(std::size_t count) {
     std::string text;
     for (std::size_t i = 1; i <= count; ++i) {

@@ -179,7 +179,7 @@ private:
 
     // --- functions
 
-    /// `#function f(x) { return x; }` and `#function f(x): return x;`.
+    /// Repairs `#function f(x) { return x; }` and `#function f(x): return x;`.
     std::size_t repair_function() {
         const std::size_t open = find('(', body_);
         if (open == std::string_view::npos) {
@@ -269,7 +269,7 @@ private:
                split(text(), at + 1, close, ',', true).size() == 1 && close > at + 1;
     }
 
-    /// `A(float x)`, `A(x, w = 1)`: parameters with a type or a default value.
+    /// Repairs `A(float x)` and `A(x, w = 1)`: parameters with a type or a default value.
     void formals(std::size_t open, std::size_t close) {
         std::size_t index = 0; // index of the formal
         for (const Piece& formal : split(text(), open + 1, close, ',', true)) {
@@ -331,7 +331,7 @@ private:
 
     // --- curves
 
-    /// Points in parentheses, `(0, 1), (1, 2)`, or with a comma between coordinates, `0,1 1,2`.
+    /// Repairs points in parentheses, `(0, 1), (1, 2)`, and coordinates with commas, `0,1 1,2`.
     void repair_curve() {
         const std::size_t name = skip_gaps(text(), body_);
         std::size_t begin = name + leading_word(text().substr(name)).size();
@@ -384,7 +384,7 @@ private:
 
     // --- settings
 
-    /// `#set tropism (0, -1, 0) 0.2;`.
+    /// Repairs `#set tropism (0, -1, 0) 0.2;`.
     void repair_setting() {
         const std::size_t key = skip_gaps(text(), body_);
         const std::string_view word = leading_word(text().substr(key));
@@ -421,7 +421,7 @@ private:
 
     // --- objects and files
 
-    /// `#object L LEAF scale 0.4;`.
+    /// Repairs `#object L LEAF scale 0.4;`.
     void repair_object() {
         const std::size_t name = skip_gaps(text(), body_);
         const std::string_view module = leading_word(text().substr(name));
@@ -457,7 +457,7 @@ private:
         draft_.blank(rest.begin, rest.end);
     }
 
-    /// `#include <file.lsys>;`.
+    /// Repairs `#include <file.lsys>;`.
     void repair_include() {
         const Piece all = trimmed(text(), body_, statement_.end);
         const std::string_view written = text_of(text(), all);
@@ -477,7 +477,7 @@ private:
 
     // --- constants
 
-    /// `#define ANGLES [20, 35, 50];`, and `ANGLES[k]` in the rest of the text.
+    /// Repairs `#define ANGLES [20, 35, 50];`, and `ANGLES[k]` in the rest of the text.
     void constant() {
         choices();
         const std::size_t name = skip_gaps(text(), body_);
@@ -618,7 +618,7 @@ private:
         }
     }
 
-    /// `let a, b = x, y`.
+    /// Repairs `let a, b = x, y`.
     void unpacked(std::size_t let, std::size_t end) {
         const std::size_t sign = find('=', let);
         if (sign >= end) {
@@ -648,7 +648,7 @@ private:
         static_cast<void>(draft_.replace(let + 3, end, dense));
     }
 
-    /// `A(x) : x > 1 --> B`, and Houdini's `A(x) : x > 1 = B`.
+    /// Repairs `A(x) : x > 1 --> B`, and Houdini's `A(x) : x > 1 = B`.
     void arrow(std::size_t colon) {
         const std::vector<Piece> parts = split(text(), colon + 1, statement_.end, ':', false);
         if (parts.size() != 2) {
@@ -693,7 +693,7 @@ private:
         }
     }
 
-    /// `(a, 4)`, the modules of papers on timed systems.
+    /// Repairs `(a, 4)`, modules of papers on timed systems.
     void timed_modules() {
         const std::size_t colon = text().find(':', body_);
         if (colon == std::string_view::npos || colon >= statement_.end) {
@@ -770,7 +770,7 @@ private:
         }
     }
 
-    /// A successor `if (c) { A } else { B }`.
+    /// Repairs a successor `if (c) { A } else { B }`.
     void conditional_successor(std::size_t colon, const std::vector<Piece>& parts) {
         const std::size_t at = parts[2].begin;
         if (leading_word(text().substr(at)) != "if" || at + 2 >= statement_.end) {
@@ -824,7 +824,7 @@ private:
 
     // --- expressions
 
-    /// `c ? a : b`.
+    /// Repairs `c ? a : b`.
     void choices() {
         const auto question = find('?', body_);
         if (question == std::string_view::npos) {
@@ -899,7 +899,7 @@ private:
         choices();
     }
 
-    /// `if(c, a, b)` for `c ? a : b`; empty for other texts.
+    /// The text `if(c, a, b)` for `c ? a : b`; empty for other texts.
     [[nodiscard]] std::string choice_text(Piece piece) const {
         std::string result;
         std::string closing;

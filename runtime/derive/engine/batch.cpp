@@ -348,7 +348,7 @@ void Batches::add_copy(std::uint32_t index,
     const std::size_t size = programs_[index].formal_rows;
     Queue& queue = queues_[index];
     queue.copies.resize(size * kLanes);
-    // A full batch is run before its first copy is overwritten.
+    // Runs a full batch before the next batch overwrites its copies.
     if (queue.count == kLanes) {
         make_room(index);
     }

@@ -20,8 +20,8 @@ struct CountRequest {
 };
 
 struct CountResult {
-    /// Where counting stopped: at the end; past it after a match of several modules; before it if
-    /// the room was used up or at a fault.
+    /// The module at which counting stopped: CountRequest::end; a later one after a match of
+    /// several modules; an earlier one if the room was used up or at a fault.
     ModulePlace end;
     std::uint64_t modules = 0;
     std::uint64_t parameters = 0;

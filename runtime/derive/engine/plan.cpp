@@ -199,7 +199,8 @@ void Plan::make_families() {
 }
 
 /// Makes the guards. If every candidate of a family has a left context, a lookup of the left
-/// neighbour rules out most modules; likewise on the right.
+/// neighbour rules out most modules. The guards of right contexts do the same for the right
+/// neighbour.
 void Plan::make_guards() {
     constexpr std::uint64_t kMaxBytes = std::uint64_t{1} << 22;
     const Code codes = bytecode_.code_count();

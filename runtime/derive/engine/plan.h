@@ -55,7 +55,7 @@ struct alignas(64) Entry {
 
 static_assert(sizeof(Entry) == 64, "an entry is one line of the cache");
 
-/// How the successor of a module is chosen.
+/// The way to choose the successor of a module.
 enum class RowKind : std::uint8_t {
     Fixed,   // always the entry of the module's code
     Choice,  // by chance, among the same productions for every module
@@ -207,7 +207,7 @@ public:
     /// Whether terms of an entry may read different parameters.
     [[nodiscard]] bool mixes_inputs() const { return mixes_inputs_; }
 
-    // properties of the active rows
+    // Properties of the active rows
     [[nodiscard]] bool all_fixed() const { return active_.dynamic_rows == 0; }
     [[nodiscard]] bool needs_contexts() const { return active_.needs_contexts; }
     [[nodiscard]] bool reads_contexts() const { return active_.reads_contexts; }
@@ -227,7 +227,7 @@ public:
     /// The codes of the modules of `symbol`.
     [[nodiscard]] std::span<const Code> codes_of(SymbolId symbol) const;
 
-    // properties of the program
+    // Properties of the program
     [[nodiscard]] bool has_parameters() const { return has_parameters_; }
     /// Whether some successor without parameters has local values that may be at fault.
     [[nodiscard]] bool checks_unstored() const { return checks_unstored_; }
@@ -336,7 +336,7 @@ private:
     Folding folding_;
     ActiveFamilies active_;
 
-    // facts of the program
+    // Facts of the program
     std::uint32_t record_width_ = 1;
     std::uint32_t wide_parameters_ = kEntryTerms;
     bool has_batched_ = false;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Activates families: shapes their conditions and arguments, and resolves the rows of their
-// codes.
+// Activates families: finds the shapes (shape.h) of their conditions and arguments, and resolves
+// the rows of their codes.
 #include "grammar/base/contract.h"
 #include "runtime/derive/engine/plan.h"
 

@@ -80,7 +80,7 @@ void put_mesh(const Mesh& mesh,
 
 /// Writes a plant with variants. The prim of the first mesh lies outside the variant set, for
 /// readers without variants; the variants of the other meshes make it inactive. The prim itself
-/// must not set `active`, because its opinion would be stronger than the opinions of the variants.
+/// must not set `active`, because its value would replace the values that the variants set.
 void put_choice(const ExportJob& job, const UsdaVariants& variants, PieceWriter& out) {
     put_header(job.info, nullptr, out);
     out.put(fmt::format("def Xform \"Plant\" (\n"

@@ -20,7 +20,8 @@ namespace {
 constexpr std::array kTokenTypes{"class",  "variable", "parameter", "function",
                                  "method", "keyword",  "property"};
 
-/// The value of a number from 0 to 1 that is written as such.
+/// The value of an expression that is a literal number from 0 to 1; nullopt: it is another
+/// expression.
 std::optional<float> written_part(const Ast& ast, ExpressionId id) {
     const bool is_number = id != kNoExpression && ast.expression(id).kind == ExpressionKind::Number;
     const float value = is_number ? ast.expression(id).value : -1.0F;
@@ -68,7 +69,7 @@ private:
               {{"red", colour[0]}, {"green", colour[1]}, {"blue", colour[2]}, {"alpha", 1}}}});
     }
 
-    /// The numbers after `colour`.
+    /// Adds the three numbers after each key `colour`.
     void find_in_values(ListRange values) {
         for (std::uint32_t i = values.first; i + 3 < values.first + values.count; ++i) {
             const SetValue& key = ast_.set_values[i];
@@ -81,7 +82,7 @@ private:
         }
     }
 
-    /// `'(r, g, b)`.
+    /// Adds the numbers of modules `'(r, g, b)`.
     void find_in_modules(ModuleList list) {
         for (ModuleCursor cursor(ast_, parsed_.names, parsed_.sources, list); !cursor.done();
              cursor.next()) {

@@ -417,7 +417,7 @@ void add_modules(const NameIndex& index, Completion& items) {
             }
         }
     }
-    for (const NameUse& use : index.uses) { // further names of one `#module`
+    for (const NameUse& use : index.uses) { // adds the other names of each `#module`
         if (use.kind == NameKind::Module && use.is_definition) {
             items.add(use.name, ItemKind::Class, "");
         }

@@ -32,7 +32,7 @@ std::optional<std::string> formatted(Workspace& workspace, const Document& docum
     return check_is_lsys(file, context) ? format_lsys(file, context) : std::nullopt;
 }
 
-/// The same, for a request that fails if the text has syntax errors.
+/// formatted() for a request that fails if the text has syntax errors.
 std::string formatted_whole(Workspace& workspace, const Document& document, Places& at) {
     std::optional<std::string> text = formatted(workspace, document, at);
     if (!text) {

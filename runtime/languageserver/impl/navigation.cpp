@@ -97,7 +97,7 @@ std::string quoted(const std::string& name) {
     return "`" + name + "`";
 }
 
-/// Why the name cannot be renamed; empty if it can.
+/// The reason why the name cannot be renamed; empty if it can be renamed.
 std::string reason_against(const NameAt& at) {
     const NameUse& use = *at.use;
     const std::vector<const NameUse*> uses = at.uses();

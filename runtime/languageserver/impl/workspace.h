@@ -55,7 +55,7 @@ struct Document {
     bool is_published = false;    // the editor has these diagnostics, unless it pulls them
     std::set<std::string> inputs; // files read by the last check
     Json diagnostics = Json::array();
-    std::shared_ptr<const CheckedDocument> checked; // null: is to be checked
+    std::shared_ptr<const CheckedDocument> checked; // null: not checked since the last change
 
     /// Whether the text is .lsys, not a grammar of another program.
     [[nodiscard]] bool has_lsys_text() const { return is_lsys || path.ends_with(".lsys"); }
@@ -111,12 +111,12 @@ public:
     [[nodiscard]] std::shared_ptr<const IndexedGrammar> grammar(const std::string& root);
     /// The names of all grammars with these roots.
     [[nodiscard]] std::shared_ptr<const NameIndex> names(const std::vector<std::string>& roots);
-    /// The same, with other texts for some paths.
+    /// names() with the texts of `changed`, by path, in place of the texts of these files.
     [[nodiscard]] NameIndex names_if(const std::vector<std::string>& roots,
                                      const std::map<std::string, std::string>& changed) const;
     /// Checks a document as `lsc check` does. Kept until the document or one of its inputs changes.
     [[nodiscard]] const CheckedDocument& check(Document& document);
-    /// The same, with doubtful fixes as offers.
+    /// check(), with doubtful fixes as offers.
     [[nodiscard]] CheckedDocument check_with_offers(Document& document);
     /// The bytes that `lsc check --fix` writes, by path.
     [[nodiscard]] std::map<std::string, std::string> fixed(Document& document);

@@ -22,7 +22,7 @@ constexpr float kMinTaper = 0.05F;
 constexpr float kStraight = 0.5F;
 // Below this cosine, no side of a joint faces a child.
 constexpr float kFacing = 0.35F;
-// Min length of a child as a multiple of its way out of the joint.
+// Min length of a child / length of its part inside the joint.
 constexpr float kOutside = 1.25F;
 // Min size of the opening of a child, relative to its cross-section. Smoothing hides that a branch
 // narrows in its opening; unsmoothed boxes must not narrow.
@@ -303,9 +303,9 @@ private:
                 rise += half * std::abs(part);
             }
             glm::vec2 room = kMaxOpening * halves;
-            if (here.size() > 2) { // a quarter of the side
+            if (here.size() > 2) { // each opening has a quarter of the side
                 room *= 0.5F * kInnerPart;
-            } else if (here.size() == 2) { // a half, as divide() cuts it
+            } else if (here.size() == 2) { // each has a half; divide() splits the side
                 const glm::vec3 apart = heading(skeleton_.segments[here[0]].frame) -
                                         heading(skeleton_.segments[here[1]].frame);
                 const bool beside =

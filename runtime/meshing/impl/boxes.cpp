@@ -203,7 +203,7 @@ void write(const CatmullClark& surface,
 
 /// Carves grooves along the stems: moves vertices inwards by up to `depth` times the radius. Around
 /// a stem u rises over one half and falls over the other, so the grooves of the halves mirror each
-/// other; they wander less where u changes direction. `steps`: smoothing steps made so far.
+/// other; they are shifted less where u changes direction. `steps`: smoothing steps made so far.
 /// `wanted`: total number of steps, which decides the number of grooves.
 void carve_grooves(CatmullClark& surface,
                    float depth,
@@ -217,7 +217,7 @@ void carve_grooves(CatmullClark& surface,
     const std::uint32_t grooves = 1U << (std::min(wanted, kMaxSteps) - 1); // per half of the stem
     const bool has_grooves = 1U << steps >= grooves; // at least two vertices per groove
     constexpr float kCircumference = 1.0F;
-    const Grooves wander(grooves, kCircumference, 0);
+    const Grooves shape(grooves, kCircumference, 0);
     const PolygonMesh& mesh = surface.mesh();
     LargeVector<glm::vec3> positions;
     positions.resize(mesh.positions.size());
@@ -233,7 +233,7 @@ void carve_grooves(CatmullClark& surface,
             const glm::vec2& at = mesh.texture_coordinates[i];
             const float turn =
                 static_cast<float>(grooves) * at.x +
-                4.0F * at.x * (1.0F - at.x) * wander.wandered(-static_cast<double>(at.y));
+                4.0F * at.x * (1.0F - at.x) * shape.ridge_shift(-static_cast<double>(at.y));
             const float value = has_grooves ? groove_depth(turn) : -0.5F;
             positions[i] = mesh.positions[i] +
                            (depth * value * mesh.radii[i]) * unit_or(area, glm::vec3(0.0F));

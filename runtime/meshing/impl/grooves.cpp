@@ -8,10 +8,10 @@ namespace lsys {
 
 namespace {
 
-constexpr float kWander = 0.4F; // max wandering of the phase, in grooves
+constexpr float kMaxShift = 0.4F; // max shift of the phase, in grooves
 /// The phase is BarkNoise of a tube with this multiple of the circumference, so it varies 6 times
 /// more slowly than the bumps of the bark.
-constexpr float kWanderCircumference = 6;
+constexpr float kShiftCircumference = 6;
 
 /// Signed distance from the middle of the groove: -1 and 1 on the ridges beside it.
 float from_middle(float x) {
@@ -33,19 +33,19 @@ float groove_slope(float x) {
 }
 
 Grooves::Grooves(std::uint32_t count, float circumference, std::uint32_t seed)
-    : count_(count), wander_(kWanderCircumference * circumference, seed),
-      begin_(wander_.at(0.0F, 0.0).value) {}
+    : count_(count), shift_noise_(kShiftCircumference * circumference, seed),
+      begin_(shift_noise_.at(0.0F, 0.0).value) {}
 
-float Grooves::wandered(double arc) const {
-    return 0.5F * kWander * (wander_.at(0.0F, arc).value - begin_);
+float Grooves::ridge_shift(double arc) const {
+    return 0.5F * kMaxShift * (shift_noise_.at(0.0F, arc).value - begin_);
 }
 
 NoiseSample Grooves::at(float turn, double arc) const {
-    const float x = static_cast<float>(count_) * turn + wandered(arc);
+    const float x = static_cast<float>(count_) * turn + ridge_shift(arc);
     const float slope = groove_slope(x);
     return {.value = groove_depth(x),
             .by_angle = slope * static_cast<float>(count_) / (2.0F * std::numbers::pi_v<float>),
-            .by_length = slope * 0.5F * kWander * wander_.at(0.0F, arc).by_length};
+            .by_length = slope * 0.5F * kMaxShift * shift_noise_.at(0.0F, arc).by_length};
 }
 
 } // namespace lsys

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Grooves and ridges along a stem, as a displacement of its surface by texture coordinates (Tobler,
 // Maierhofer and Wilkie, "A multiresolution mesh generation approach to procedural definition of
-// complex geometry", 2002): a wave around the axis whose phase wanders slowly along it, with
+// complex geometry", 2002): a wave around the axis whose phase varies slowly along it, with
 // continuous first derivatives.
 #pragma once
 
@@ -27,12 +27,12 @@ public:
     /// The value, -1 to 0, at `turn` (0 to 1) around the axis and `arc` along it.
     [[nodiscard]] NoiseSample at(float turn, double arc) const;
     /// Shift of the ridges at `arc` since arc 0, in grooves: less than one.
-    [[nodiscard]] float wandered(double arc) const;
+    [[nodiscard]] float ridge_shift(double arc) const;
 
 private:
     std::uint32_t count_;
-    BarkNoise wander_;
-    float begin_; // value of wander_ at arc 0
+    BarkNoise shift_noise_;
+    float begin_; // value of shift_noise_ at arc 0
 };
 
 } // namespace lsys

@@ -14,7 +14,7 @@ namespace lsys {
 namespace {
 
 constexpr float kGroundTolerance = 1e-3F; // max abs(y) of a stem's base, per height of the flare
-// Depth of the ridges at the ground in radii, per growth of the radius by the flare, and at most.
+// Depth of the ridges at the ground in radii: per growth of the radius by the flare, and the max.
 constexpr float kRidgeDepthPerFlare = 0.75F;
 constexpr float kMaxRidgeDepth = 0.6F;
 constexpr float kMeanRidge = 13.0F / 35.0F; // mean of ridge()

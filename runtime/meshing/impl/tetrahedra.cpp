@@ -210,7 +210,7 @@ private:
     [[nodiscard]] Size measure(const SolidShape& shape, const glm::dvec3& point) const {
         const ShapeProbe at = lsys::probe(shape, point);
         double cell = solid_.cell * at.radius;
-        double away = 0.0; // from the base
+        double away = 0.0; // distance from the base
         if (solid_.ground) {
             const double height = std::abs(point.y - *solid_.ground);
             const double at_base = kBaseCells * cell + kGrowth * height;
@@ -243,7 +243,7 @@ private:
         const Node& from = tetrahedron.nodes[0];
         const Node& to = tetrahedron.nodes[static_cast<std::size_t>(tetrahedron.tag)];
         const glm::dvec3 middle = grid_.middle(from, to);
-        double reach = 0.0; // from the middle
+        double reach = 0.0; // max distance of a corner from `middle`
         for (const Node& node : tetrahedron.nodes) {
             reach = std::max(reach, glm::length(grid_.position(node) - middle));
         }

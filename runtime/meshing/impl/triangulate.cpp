@@ -15,7 +15,8 @@ namespace {
 constexpr double kFlat = 1e-13;
 // With fewer corners, comparing an ear with all corners is faster than using an index.
 constexpr std::uint32_t kIndexedFrom = 64;
-// Max corners visited in rounds that find no ear, about; then corners are cut off without a search.
+// About the max number of corners visited in rounds that find no ear. After that, corners are cut
+// off without a search.
 constexpr std::uint32_t kSearches = 400'000;
 
 double cross(const glm::dvec2& a, const glm::dvec2& b) {

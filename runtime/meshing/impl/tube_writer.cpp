@@ -34,8 +34,8 @@ constexpr std::uint32_t kBreakGeneration = 0xFFFFFFFCu; // docs/language.md sect
 // for a reversal, whose bisector is 90 degrees away.
 constexpr float kOuterBisectorWeight = 0.57735F;
 constexpr float kTurnsBack = -0.9F; // max cosine of a bend that counts as a reversal
-// Number of grooves of a tube: the sides of its rings at level 0 over kSidesOfGroove, within
-// bounds.
+// Number of grooves of a tube: the number of sides of its rings at level 0 / kSidesOfGroove, at
+// least kMinGrooves and at most kMaxGrooves.
 constexpr std::uint32_t kSidesOfGroove = 4;
 constexpr std::uint32_t kMinGrooves = 3;
 constexpr std::uint32_t kMaxGrooves = 16;

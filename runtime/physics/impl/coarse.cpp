@@ -34,7 +34,7 @@ float mean_area(const Body& body) {
 
 /// Sums over each body and its descendants, by body.
 struct Twigs {
-    std::vector<std::uint32_t> sizes; // bodies
+    std::vector<std::uint32_t> sizes; // numbers of bodies
     std::vector<double> masses;       // kg
     std::vector<float> wind_areas;    // m^2, area in the wind, mean over all directions
 };

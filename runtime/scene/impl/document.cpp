@@ -245,7 +245,7 @@ std::size_t end_of_string(std::string_view text, std::size_t at) {
         end += text[end] == '\\' && quote == '"' ? 2U : 1U;
     }
     end = std::min(end + closing.size(), text.size());
-    // up to two quotes before the closing three belong to the string
+    // Up to two quotes before the closing three belong to the string.
     for (int more = 0; is_multiline && more < 2 && end < text.size() && text[end] == quote;
          ++more) {
         ++end;

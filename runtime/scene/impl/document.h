@@ -33,7 +33,7 @@ struct SceneEntry {
     SceneValue value;
 };
 
-/// The kind as words for messages: "a text", "a list", ...
+/// The kind as words for messages, such as "a text" or "a list".
 [[nodiscard]] std::string_view kind_text(SceneValueKind kind);
 
 /// The entry of `key`, or nullptr.

@@ -21,7 +21,7 @@ struct MethodRow {
     bool years = false;
 };
 
-// in the order of PlacementMethod
+// In the order of PlacementMethod.
 constexpr std::array<MethodRow, 8> kMethods{{
     {.name = "uniform", .count = true},
     {.name = "poisson-disk", .spacing = true},

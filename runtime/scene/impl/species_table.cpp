@@ -24,7 +24,7 @@ constexpr std::uint64_t kMaxInteger63 = std::numeric_limits<std::int64_t>::max()
 constexpr double kMaxFloat = static_cast<double>(std::numeric_limits<float>::max());
 constexpr std::size_t kMaxStages = 256;
 constexpr double kMaxSeedsPerYear = 254.0;
-// in the order of StageStart
+// In the order of StageStart.
 constexpr std::array<std::string_view, 2> kStarts{"first", "random"};
 
 /// The stem of a path: `pine` of `trees/pine.lsys`.

@@ -126,7 +126,7 @@ void read_terrain_table(const SceneValue* table, Scene& scene, Diagnostics& diag
     terrain.span = reader.span();
     const auto kind = reader.choice("kind", kKinds);
     read_region(reader, terrain.region);
-    // for an unknown kind no key is reported as conflicting
+    // For an unknown kind no key is reported as conflicting.
     const bool is_unknown_kind = reader.has("kind") && !kind;
     terrain.kind = static_cast<TerrainKind>(kind.value_or(0));
     const std::string reason = fmt::format("the terrain is `{}`", kKinds[kind.value_or(0)]);

@@ -128,7 +128,7 @@ private:
         LevelDetail level;
         level.detail.assign(needs_.heroes.size(), kNotShown);
         level.is_whole.resize(needs_.heroes.size());
-        std::vector<std::size_t> pending; // whole heroes
+        std::vector<std::size_t> pending; // heroes whose exits have not been visited yet
         std::vector<bool> seen(needs_.heroes.size());
         const auto see = [&](std::size_t whole) {
             if (!seen[whole]) {
@@ -324,8 +324,8 @@ private:
     }
 
     const LevelNeeds& needs_;
-    double budget_;                     // triangles
-    double tolerated_;                  // m, of the trees of the nearest tiles
+    double budget_;                     // max triangles of a tile
+    double tolerated_;                  // max error of the trees of the nearest tiles in m
     double branch_error_ = 0.0;         // m, of branches, of the last planned level
     std::vector<std::size_t> finest_;   // by hero: level of detail of the nearest tiles
     std::vector<double> ground_errors_; // by level

@@ -35,7 +35,7 @@ struct LevelNeeds {
     const TileOptions& options;
 };
 
-/// How tiles of a level with trees show the heroes.
+/// The levels of detail with which tiles of a level with trees show the heroes.
 struct LevelDetail {
     /// By hero: number of its level of detail, or kNotShown.
     std::vector<std::size_t> detail;

@@ -26,7 +26,7 @@ struct TileBox {
 
 /// Distances in m that trees reach at most from their places.
 struct TreeReach {
-    double around = 0.0; // horizontally
+    double around = 0.0; // in horizontal directions
     double below = 0.0;
     double above = 0.0;
 };

@@ -69,8 +69,8 @@ private:
         }
         node["refine"] = "REPLACE";
         if (has_nested_tileset(tile.level, static_cast<std::uint32_t>(plan_.levels.size()) - 1)) {
-            // One reference for all tiles below, so that a client asks for one tileset when it
-            // refines this tile, and for none before.
+            // One reference for all tiles below, so that a client requests one tileset when it
+            // refines this tile, and none before.
             Json below = bounds_of(tile);
             below["content"]["uri"] = path_to(TileForest::tileset_path(tile));
             node["children"].push_back(std::move(below));

@@ -200,7 +200,7 @@ bool Turtle::State::save_branch(const Action& action, const float* arguments) {
     if (options.branches->begin(start)) {
         watched.push_back(stack.size());
     } else {
-        cut = 1; // until its `]`
+        cut = 1; // skip the branch up to its `]`
     }
     return true;
 }

@@ -56,7 +56,8 @@ SlotSize size_from_exits(const InstanceCache& cache,
 SlotSize size_of_plants(const InstanceCache& cache) {
     std::vector<SlotSize> sizes(cache.slots.size());
     std::vector<bool> begun(cache.slots.size());
-    std::vector<std::pair<std::uint32_t, bool>> pending{{0, false}}; // slot; exits are known
+    // Each item: a slot, and whether the sizes of the slots at its exits are known.
+    std::vector<std::pair<std::uint32_t, bool>> pending{{0, false}};
     while (!pending.empty()) {
         const auto [index, is_known] = pending.back();
         pending.pop_back();

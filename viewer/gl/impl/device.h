@@ -18,7 +18,8 @@ public:
     Device(const Device&) = delete;
     Device& operator=(const Device&) = delete;
 
-    /// Count of buffers, textures and so on that were made and not deleted.
+    /// Count of the objects of OpenGL, such as buffers and textures, that were made and not
+    /// deleted.
     [[nodiscard]] std::uint64_t live_objects() const { return live_; }
     /// Messages of the driver since the start; at most kMaxErrors are kept.
     [[nodiscard]] const std::vector<std::string>& errors() const { return errors_; }

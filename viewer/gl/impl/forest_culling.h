@@ -116,7 +116,7 @@ public:
     /// Counts of the last picture that the device has finished; null: none. Does not wait.
     [[nodiscard]] const CullingState* finished_state() const;
     [[nodiscard]] double gpu_milliseconds() { return timer_.milliseconds(); }
-    /// A branch of the last picture; waits for it.
+    /// A branch of the last picture. Waits until the device has listed the branches.
     [[nodiscard]] PoolBranch branch(std::uint32_t slot) const;
     [[nodiscard]] CulledLists read_lists() const;
     [[nodiscard]] std::uint64_t byte_count() const;

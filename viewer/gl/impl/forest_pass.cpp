@@ -736,7 +736,7 @@ void ForestPass::draw_picked(MaterialTextures& textures) {
 
 void ForestPass::draw_picked_impostors(const ForestPickPrograms& picks, bool clusters) {
     const PickedKind kind = clusters ? PickedKind::Cluster : PickedKind::Impostor;
-    std::uint32_t command = 0; // whole ones, then blended ones
+    std::uint32_t command = 0; // 0: whole impostors; 1: blended impostors
     for (const ProgramObject* program : {&picks.impostor, &picks.blending_impostor}) {
         glProgramUniform1ui(program->name(), kPickedContent, static_cast<GLuint>(kind));
         draw_device_quads(*program, clusters, command++, 1);

@@ -26,7 +26,8 @@ constexpr std::uint32_t kHeight = ImpostorAtlas::kElevations * ImpostorAtlas::kT
 constexpr GLsizei kLevels = 6; // mip levels; tiles of the last have 4 texels a side
 constexpr std::array<float, ImpostorAtlas::kElevations> kElevationAngles = {0.0F, 0.6108652F,
                                                                             1.3089969F};
-/// Margin of opaque_box() in texels: coarse mip levels spill over the edges of fine ones.
+/// Margin of opaque_box() in texels: the opaque texels of coarse mip levels reach beyond those of
+/// fine levels.
 constexpr float kBoxMargin = 2.5F;
 constexpr GLint kCentre = 2;
 constexpr GLint kToEye = 3;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // lsys: plants from L-system grammars, by the libraries of lsc as WebAssembly. In browsers,
-// workers and Node.js. `load()` returns an instance with calls that run at once; `derive()`,
+// workers and Node.js. `load()` returns an instance with synchronous functions; `derive()`,
 // `skeleton()`, `mesh()`, `glb()` and `diagnostics()` load one instance on their first use.
 
 import type {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The values of the package.
+// The types of the values that functions of the package take and return.
 
 /** A range of characters. Lines and columns count from 1; a column is a UTF-16 code unit. */
 export interface Place {

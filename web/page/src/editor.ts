@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The editor of the grammar. It lives in a shadow root, where its styles need no exception from
-// the Content-Security-Policy.
+// The editor of the grammar. It is in a shadow root, where its styles need no exception from the
+// Content-Security-Policy.
 import { autocompletion, closeBrackets, completionKeymap } from '@codemirror/autocomplete';
 import { defaultKeymap, history, historyKeymap } from '@codemirror/commands';
 import { bracketMatching, syntaxHighlighting } from '@codemirror/language';

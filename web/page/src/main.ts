@@ -83,7 +83,7 @@ function keep(): void {
   try {
     localStorage.setItem(kDraft, JSON.stringify({ text: editor.text, title, sample }));
   } catch {
-    // without storage there is no draft
+    // Without storage there is no draft.
   }
 }
 
@@ -463,7 +463,7 @@ function firstProject(): { text: string; title: string; sample: string } {
     const draft = JSON.parse(localStorage.getItem(kDraft) ?? '');
     if (typeof draft.text === 'string' && draft.text.trim()) return draft;
   } catch {
-    // no draft
+    // No draft is stored.
   }
   return { text: start, title: 'A tree of three rules', sample: '' };
 }

@@ -118,7 +118,7 @@ export class Stage {
     this.framedCenter.copy(center);
     const size = this.box.getSize(new Vector3());
     if (this.isForest) {
-      // From a little above the front edge, where the trees have their details.
+      // From a little above the front edge, near which trees have the finest levels.
       this.controls.target.set(center.x, this.box.min.y + size.y * 0.4, center.z + size.z * 0.1);
       this.camera.position.set(
         center.x + size.x * 0.1,

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The worker that runs the library, so that the page stays alive. The first message brings the
-// compiled module, each further one a call of Lsys.
+// The worker that runs the library, so that the page reacts to input meanwhile. The first message
+// contains the compiled module, each further message a call of Lsys.
 import { Lsys, LsysError } from 'lsys';
 import type { CallMessage, StartMessage, WorkerAnswer } from './engine.js';
 

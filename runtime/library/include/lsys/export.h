@@ -31,7 +31,7 @@ struct ExportOptions {
     UpAxis up = UpAxis::Y;                       // for obj, ply, stl, usda and usdz
 };
 
-/// Names of the formats, "glb", "obj" ...
+/// Names of the formats, such as "glb" and "obj".
 [[nodiscard]] LSYS_API const std::vector<std::string>& export_formats();
 /// The format of a path by its extension, in lower case; empty: none.
 [[nodiscard]] LSYS_API std::string format_of_path(std::string_view path);
@@ -74,7 +74,7 @@ struct FilePiece {
 /// with Status::Cancelled. An exception ends the call, which rethrows it.
 using FileReceiver = std::function<bool(const FilePiece& piece)>;
 
-/// Presets: "web", "unreal" ...
+/// Names of the presets, such as "web" and "unreal".
 [[nodiscard]] LSYS_API const std::vector<std::string>& preset_names();
 
 /// Writes `path`, whose extension sets the format, and the files beside it: pictures, materials,

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Grammar: a compiled L-system. Read from a .lsys file, a file of another program (L-studio's cpfg,
-// Houdini, Fractint ...) or a compiled .lsb file.
+// Grammar: a compiled L-system. Read from a .lsys file, a file of another program (for example
+// L-studio's cpfg, Houdini or Fractint) or a compiled .lsb file.
 #pragma once
 
 #include <cstdint>
@@ -17,7 +17,8 @@
 namespace lsys::LSYS_INTERFACE {
 
 struct GrammarOptions {
-    /// "lsys", "cpfg" ...; empty: detected from the contents, else from the extension of the name.
+    /// Name of a dialect, such as "lsys" or "cpfg"; empty: detected from the contents, else from
+    /// the extension of the name.
     std::string dialect;
     std::string system;          // name in a file with several systems; empty: the only system
     bool bug_compatible = false; // reproduces bugs of the original program of the dialect
