@@ -35,12 +35,20 @@ std::optional<Stop> Derivation::start() {
     });
 }
 
-std::optional<Stop> Derivation::resume(Word word, std::uint32_t age) {
+std::optional<Stop> Derivation::resume(Word word, std::uint32_t age, std::string_view sense_state) {
     LSYS_CHECK(word.code_width() == state_->word.code_width(), word.code_width());
     return state_->run([&] {
-        const std::optional<Stop> stop = state_->make_plans();
-        return stop ? stop : state_->adopt_saved_word(std::move(word), age);
+        std::optional<Stop> stop = state_->make_plans();
+        if (!stop) {
+            stop = state_->adopt_saved_word(std::move(word), age);
+        }
+        return stop ? stop : state_->adopt_sense_state(sense_state);
     });
+}
+
+std::string Derivation::sense_state() const {
+    const WordSense* const senses = state_->options.senses;
+    return senses == nullptr || state_->is_sense.empty() ? std::string() : senses->state();
 }
 
 std::optional<Stop> Derivation::step() {

@@ -42,9 +42,8 @@ std::optional<Stop> Derivation::State::pass(Passes& runner,
     announce(facts, current);
     Word& out = target_of_pass(current);
     const Word& other = current == &word ? spare : word;
-    const std::uint64_t plans =
-        plan->held_bytes() + (decompose_plan ? decompose_plan->held_bytes() : 0);
-    const std::optional<Stop> stop = runner.run(*current, out, keys, plans + other.held_bytes());
+    const std::optional<Stop> stop =
+        runner.run(*current, out, keys, plan_bytes() + other.held_bytes());
     if (stop == Stop::Diagnosed) {
         end.error = runner.error();
     } else if (stop == Stop::Limit || stop == Stop::OutOfMemory) {
@@ -120,7 +119,7 @@ std::optional<Stop> Derivation::State::prune(const Word*& current) {
 }
 
 std::optional<Stop> Derivation::State::step() {
-    if (options.cancelled != nullptr && options.cancelled->load(std::memory_order_relaxed)) {
+    if (is_cancelled()) {
         return Stop::Cancelled;
     }
     const Word* current = &word;
@@ -130,6 +129,9 @@ std::optional<Stop> Derivation::State::step() {
     }
     if (!stop) {
         stop = decompose(age + 1, current);
+    }
+    if (!stop) {
+        stop = sense_and_sweep(age + 1, current);
     }
     if (stop) {
         passes->discard_census();

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include "grammar/base/contract.h"
 #include "runtime/derive/engine/origins.h"
 #include "runtime/derive/engine/start.h"
 #include "runtime/derive/impl/derivation_state.h"
@@ -10,7 +11,13 @@ namespace lsys {
 Derivation::State::State(const Bytecode& program, DeriveOptions chosen)
     : bytecode(program), options(std::move(chosen)), word(code_width(program.code_count())),
       next(word.code_width()), spare(word.code_width()), pruner(program),
-      depth(stage_depth(program, Stage::Decompose)), rules(program.rewriting_rule_count()) {}
+      depth(stage_depth(program, Stage::Decompose)), rules(program.rewriting_rule_count()) {
+    if (program.has_senses()) {
+        for (Code code = 0; code < program.code_count(); ++code) {
+            is_sense.push_back(program.symbol(program.symbol_of(code)).senses());
+        }
+    }
+}
 
 std::optional<Stop> Derivation::State::make_plans() {
     std::optional<RuntimeError> wrong = draw_globals(bytecode, options.seed, globals);
@@ -26,7 +33,17 @@ std::optional<Stop> Derivation::State::make_plans() {
         decompose_plan.emplace(bytecode, inputs, true, Stage::Decompose);
         decompose_passes.emplace(*decompose_plan, options);
     }
-    return std::nullopt;
+    for (auto& [stage, sweep] : {std::pair<Stage, std::optional<Sweep>&>(Stage::Down, down),
+                                 std::pair<Stage, std::optional<Sweep>&>(Stage::Up, up)}) {
+        if (bytecode.has(stage)) {
+            sweep.emplace(bytecode, inputs, stage);
+        }
+    }
+    if (!bytecode.has_senses()) {
+        return std::nullopt;
+    }
+    LSYS_CHECK(options.senses != nullptr);
+    return options.senses->begin(options.seed, options.generations, globals, end);
 }
 
 bool Derivation::State::apply_origin_option() {
@@ -91,9 +108,23 @@ std::optional<Stop> Derivation::State::make_axiom() {
     return std::nullopt;
 }
 
+std::optional<Stop> Derivation::State::adopt_sense_state(std::string_view saved) {
+    if (is_sense.empty() || options.senses->restore(saved)) {
+        return std::nullopt;
+    }
+    RuntimeError error;
+    error.kind = RuntimeErrorKind::SenseFailed;
+    error.generation = age;
+    error.text = "the environments of the saved state are not those of this program";
+    return fail(std::move(error));
+}
+
 std::optional<Stop> Derivation::State::complete_axiom() {
     const Word* current = &word;
-    const std::optional<Stop> stop = decompose(0, current);
+    std::optional<Stop> stop = decompose(0, current);
+    if (!stop) {
+        stop = sense_and_sweep(0, current);
+    }
     if (!stop && current == &next) {
         std::swap(word, next);
     }

@@ -6,6 +6,7 @@
 //     derivation_start.cpp    globals, plans, axiom, saved word
 //     derivation_rewrite.cpp  passes, cut, rewriting, a whole generation
 //     derivation_stages.cpp   decomposition, interpretation
+//     derivation_senses.cpp   sensing and sweeps, which change the parameters of a complete word
 #pragma once
 
 #include "runtime/base/out_of_memory.h"
@@ -14,9 +15,11 @@
 #include "runtime/derive/engine/plan.h"
 #include "runtime/derive/engine/prune.h"
 #include "runtime/derive/engine/stage_depth.h"
+#include "runtime/derive/engine/sweep.h"
 
 #include <cstdint>
 #include <optional>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -32,6 +35,9 @@ struct Derivation::State {
     std::optional<Passes> passes;
     std::optional<Plan> decompose_plan; // if the program has productions of #decompose
     std::optional<Passes> decompose_passes;
+    std::optional<Sweep> down; // if the program has productions of #down
+    std::optional<Sweep> up;
+    std::vector<bool> is_sense; // by code; empty if the program has no sense module
     Word word;
     Word next;  // written by the current pass
     Word spare; // the third word, for generations of several passes
@@ -63,6 +69,8 @@ struct Derivation::State {
     [[nodiscard]] bool apply_origin_option();
     /// Starts from the word of a saved derivation instead of the axiom.
     [[nodiscard]] std::optional<Stop> adopt_saved_word(Word saved, std::uint32_t saved_age);
+    /// Restores the environments of a saved derivation.
+    [[nodiscard]] std::optional<Stop> adopt_sense_state(std::string_view saved);
     [[nodiscard]] std::optional<Stop> make_axiom();
     /// Makes the axiom's word complete.
     [[nodiscard]] std::optional<Stop> complete_axiom();
@@ -99,12 +107,25 @@ struct Derivation::State {
     /// Runs passes of #decompose over a word of age `word_age` until nothing matches, or up to the
     /// max number of passes.
     [[nodiscard]] std::optional<Stop> decompose(std::uint32_t word_age, const Word*& current);
+    /// Senses and sweeps the word `current` of age `word_age`.
+    [[nodiscard]] std::optional<Stop> sense_and_sweep(std::uint32_t word_age, const Word*& current);
+    [[nodiscard]] std::optional<Stop> sense(std::uint32_t word_age, const Word*& current);
+    [[nodiscard]] std::optional<Stop>
+    sweep(Sweep& runner, std::uint32_t word_age, const Word*& current);
+    /// Makes `changed` a word with the contents of `current` whose parameters a stage may change:
+    /// `current` itself, unless it is the last complete word or DeriveOptions::on_pass sees both.
+    [[nodiscard]] std::optional<Stop> make_changeable(const Word* current, Word*& changed);
+    /// Bytes of all plans.
+    [[nodiscard]] std::uint64_t plan_bytes() const;
     /// A whole generation.
     [[nodiscard]] std::optional<Stop> step();
     /// Runs the passes of #interpret over the word.
     [[nodiscard]] std::optional<Stop> interpret();
     [[nodiscard]] std::optional<Stop> check_brackets();
 
+    [[nodiscard]] bool is_cancelled() const {
+        return options.cancelled != nullptr && options.cancelled->load(std::memory_order_relaxed);
+    }
     /// Runs `work` for a public function; catches missing memory, and stores the result in `end`.
     template <typename Work>
     [[nodiscard]] std::optional<Stop> run(const Work& work) {
