@@ -143,7 +143,7 @@ struct StepTracer::State {
     void begin_productions(const TracedPass& pass) {
         for (std::size_t i = 0; i < places.size(); ++i) {
             const Place& place = places[i];
-            if (is_explained(pass, place.position)) {
+            if (is_visited(pass.facts, place.position) && is_explained(pass, place.position)) {
                 trace_of_place[i] =
                     add(explain_module(pass, pass_productions, place.position), place);
             }
@@ -228,6 +228,12 @@ struct StepTracer::State {
         const TracedWord after(bytecode, *facts.out);
         pass_productions = productions_of_pass(bytecode, facts);
         begin_productions({bytecode, inputs, before, after, facts});
+    }
+    /// Whether a sweep has visited the module at `position` before it ended.
+    [[nodiscard]] static bool is_visited(const DerivationPass& facts, std::uint64_t position) {
+        return facts.fault == DerivationPass::kNoFault ||
+               (facts.kind == DerivationPass::Kind::Up ? position <= facts.fault
+                                                       : position >= facts.fault);
     }
 
     /// Compares the successors with the written word, and tracks their modules from then on.
@@ -324,7 +330,9 @@ void StepTracer::on_pass(const DerivationPass& facts) {
         } else if (sweeps) {
             state.explain_sweep(facts);
         }
-        state.end(*facts.out);
+        if (facts.fault == DerivationPass::kNoFault) {
+            state.end(*facts.out);
+        }
         return;
     }
     state.first_of_pass = state.traces.size();

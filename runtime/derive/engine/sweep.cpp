@@ -28,6 +28,11 @@ std::uint64_t Sweep::held_bytes() const {
     return plan_.held_bytes() + program_.held_bytes() + contexts_.held_bytes();
 }
 
+bool Sweep::may_change(const Word& word, std::uint32_t age) {
+    plan_.prepare(age);
+    return visit_view(word, [this](const auto& view) { return may_rewrite(plan_, view); });
+}
+
 std::optional<Stop>
 Sweep::run(Word& word, std::uint32_t age, const DeriveOptions& options, std::uint64_t other_bytes) {
     plan_.prepare(age);
