@@ -16,6 +16,29 @@ namespace {
 /// Modules between two looks at DeriveOptions::cancelled.
 constexpr std::uint64_t kModulesPerLook = std::uint64_t{1} << 20;
 
+/// A stack whose room is not given back.
+template <typename T>
+class Stack {
+public:
+    [[nodiscard]] std::size_t size() const { return size_; }
+    [[nodiscard]] const T& operator[](std::size_t index) const { return items_[index]; }
+    void push(const T& item) {
+        if (size_ == items_.size()) {
+            items_.resize(2 * size_ + 16);
+        }
+        items_[size_++] = item;
+    }
+    /// The last item; without one, T{}.
+    [[nodiscard]] T top() const { return size_ == 0 ? T{} : items_[size_ - 1]; }
+    void pop() { size_ -= size_ == 0 ? 0 : 1; }
+    /// Keeps the first `size` items.
+    void cut(std::size_t size) { size_ = size; }
+
+private:
+    std::vector<T> items_;
+    std::size_t size_ = 0;
+};
+
 } // namespace
 
 Sweep::Sweep(const Bytecode& bytecode, const PlanInputs& inputs, Stage stage)
@@ -85,11 +108,11 @@ public:
             const SweepProgram::Row& row = rows[view_.codes[place.index]];
             switch (row.role) {
             case ContextRole::Open:
-                levels_.push_back({axis_, 0});
+                levels_.push({axis_, 0});
                 continue;
             case ContextRole::Close:
-                axis_ = levels_.empty() ? SweepNeighbour{} : levels_.back().axis;
-                levels_.resize(levels_.empty() ? 0 : levels_.size() - 1);
+                axis_ = levels_.top().axis;
+                levels_.pop();
                 continue;
             case ContextRole::Module:
             case ContextRole::Ignored:
@@ -115,7 +138,7 @@ public:
             const SweepProgram::Row& row = rows[view_.codes[place.index]];
             switch (row.role) {
             case ContextRole::Close:
-                levels_.push_back({axis_, first_branch_});
+                levels_.push({axis_, first_branch_});
                 axis_ = {};
                 first_branch_ = branches_.size();
                 continue;
@@ -132,7 +155,7 @@ public:
             }
             if (row.role == ContextRole::Module) {
                 axis_ = neighbour(row, place);
-                branches_.resize(first_branch_);
+                branches_.cut(first_branch_);
             }
         }
         return true;
@@ -149,12 +172,12 @@ private:
     /// its `]` is a branch that reaches to the end of the word.
     void leave_branch() {
         const SweepNeighbour first = axis_;
-        branches_.resize(first_branch_);
-        const Level before = levels_.empty() ? Level{} : levels_.back();
-        levels_.resize(levels_.empty() ? 0 : levels_.size() - 1);
+        branches_.cut(first_branch_);
+        const Level before = levels_.top();
+        levels_.pop();
         axis_ = before.axis;
         first_branch_ = before.first_branch;
-        branches_.push_back(first);
+        branches_.push(first);
     }
 
     [[nodiscard]] SweepNeighbour neighbour(const SweepProgram::Row& row,
@@ -191,21 +214,22 @@ private:
     }
 
     [[nodiscard]] bool matches_contexts(const SweepCandidate& candidate) {
-        const SweepNeighbour* const branches = branches_.data() + branches_.size();
-        const auto count = static_cast<std::ptrdiff_t>(branches_.size() - first_branch_);
-        for (std::uint32_t i = 0; i < candidate.contexts.count; ++i) {
-            const SweepCandidate::Context& context = program_.context(candidate.contexts.first + i);
-            if (context.is_branch && std::ptrdiff_t{i} >= count) {
+        if (candidate.has_axis) {
+            if (axis_.symbol != candidate.axis.symbol) {
                 return false;
             }
-            const SweepNeighbour& found =
-                context.is_branch ? branches[-1 - std::ptrdiff_t{i}] : axis_;
-            if (context.symbol != kNoSymbol || !context.is_branch) {
-                if (found.symbol != context.symbol) {
-                    return false;
-                }
-                bases_[context.base] = found.parameters;
+            bases_[candidate.axis.base] = axis_.parameters;
+        }
+        if (branches_.size() - first_branch_ < candidate.branches.count) {
+            return false;
+        }
+        for (std::uint32_t i = 0; i < candidate.branches.count; ++i) {
+            const SweepContext& branch = program_.branch(candidate.branches.first + i);
+            const SweepNeighbour& found = branches_[branches_.size() - 1 - i];
+            if (branch.symbol != kNoSymbol && found.symbol != branch.symbol) {
+                return false;
             }
+            bases_[branch.base] = found.parameters;
         }
         return true;
     }
@@ -263,9 +287,9 @@ private:
     std::vector<float> values_; // of visit_general()
     SweepBases bases_{};
     SweepNeighbour axis_;
-    std::vector<SweepNeighbour> branches_; // of this level: from first_branch_ on, the last first
+    Stack<SweepNeighbour> branches_; // of this level: from first_branch_ on, the last first
     std::size_t first_branch_ = 0;
-    std::vector<Level> levels_; // one per open branch
+    Stack<Level> levels_; // one per open branch
 };
 
 template <typename C>

@@ -145,25 +145,28 @@ bool SweepProgram::add_contexts(const Bytecode& bytecode,
                                 TableRange pattern,
                                 Compiler& compiler,
                                 SweepCandidate& candidate) {
-    candidate.contexts.first = static_cast<std::uint32_t>(contexts_.size());
+    candidate.branches.first = static_cast<std::uint32_t>(branches_.size());
     const PatternItem* item = bytecode.patterns.data() + pattern.first;
     const PatternItem* const end = item + pattern.count;
     while (item != end) {
-        if (candidate.contexts.count == kMaxSweepContexts) {
+        SweepContext context{kNoSymbol, kFirstContextBase + candidate.branches.count};
+        if (candidate.branches.count + 1 == kMaxSweepContexts) {
             return false;
         }
-        SweepCandidate::Context& context = contexts_.emplace_back();
-        context.base = kFirstContextBase + candidate.contexts.count++;
-        context.is_branch = item->kind == PatternKind::Open;
-        item += context.is_branch ? 1 : 0;
+        const bool is_branch = item->kind == PatternKind::Open;
+        item += is_branch ? 1 : 0;
         if (item->kind == PatternKind::Module) {
             compiler.add_module(*item, context.base);
             context.symbol = item->symbol;
             ++item;
         }
-        if (!context.is_branch) {
+        if (!is_branch) {
+            candidate.has_axis = true;
+            candidate.axis = context;
             return item == end;
         }
+        branches_.push_back(context);
+        ++candidate.branches.count;
         if (item->kind != PatternKind::Close) {
             return false; // a longer axis, or a branch of the branch
         }
@@ -216,8 +219,7 @@ void SweepProgram::set_age(std::uint32_t age) {
 
 std::uint64_t SweepProgram::held_bytes() const {
     return rows_.capacity() * sizeof(Row) + candidates_.capacity() * sizeof(SweepCandidate) +
-           contexts_.capacity() * sizeof(SweepCandidate::Context) +
-           chains_.capacity() * sizeof(TableRange) +
+           branches_.capacity() * sizeof(SweepContext) + chains_.capacity() * sizeof(TableRange) +
            operations_.capacity() * sizeof(SweepOperation) + constants_.capacity() * sizeof(float);
 }
 

@@ -42,14 +42,16 @@ struct SweepNeighbour {
     const float* parameters = nullptr;
 };
 
+/// An element of a context: the first module of a branch, or the next module of the axis.
+struct SweepContext {
+    SymbolId symbol = kNoSymbol; // kNoSymbol: any branch
+    std::uint32_t base = 0;      // in SweepBases
+};
+
 struct SweepCandidate {
-    /// An element of the context: the first module of a branch, or the next module of the axis.
-    struct Context {
-        SymbolId symbol = kNoSymbol; // kNoSymbol: any branch
-        bool is_branch = false;
-        std::uint32_t base = 0;
-    };
-    TableRange contexts;  // the branches, then the module of the axis, if any
+    bool has_axis = false; // whether the context has a module of the axis
+    SweepContext axis;
+    TableRange branches;  // of SweepProgram::branch(), in text order, before the module of the axis
     TableRange condition; // of operations; count 0: always true
     TableRange chains;    // one per parameter
 };
@@ -77,9 +79,7 @@ public:
     [[nodiscard]] const SweepCandidate& candidate(std::uint32_t index) const {
         return candidates_[index];
     }
-    [[nodiscard]] const SweepCandidate::Context& context(std::uint32_t index) const {
-        return contexts_[index];
-    }
+    [[nodiscard]] const SweepContext& branch(std::uint32_t index) const { return branches_[index]; }
     [[nodiscard]] const float* constants() const { return constants_.data(); }
     /// The value of a condition.
     [[nodiscard]] float condition_value(const SweepCandidate& candidate,
@@ -130,7 +130,7 @@ private:
     Stage stage_;
     std::vector<Row> rows_;
     std::vector<SweepCandidate> candidates_;
-    std::vector<SweepCandidate::Context> contexts_;
+    std::vector<SweepContext> branches_;
     std::vector<TableRange> chains_; // ranges of operations_
     std::vector<SweepOperation> operations_;
     std::vector<float> constants_; // step(), steps(), the globals, literals
