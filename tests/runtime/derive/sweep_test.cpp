@@ -10,6 +10,7 @@
 
 #include <atomic>
 #include <string>
+#include <vector>
 
 namespace lsys {
 namespace {
@@ -188,6 +189,78 @@ TEST_CASE("deep branches and long runs of ignored modules are swept in linear ti
     builder.production(Stage::Up, "u : A(y) < A(x) : * : A(x+0*y)");
     const std::string text = test::derived(builder.build(), 0, 0);
     CHECK(text.substr(0, 10) == "A(100001)[");
+}
+
+/// Random plants of segments F(x), with leaves L(x) whose parameters are small whole numbers.
+BytecodeBuilder random_plants() {
+    BytecodeBuilder builder;
+    builder.axiom("B(0)F(0)L(1)").ignore("+ -");
+    builder.production("b : B(x) : * : B(x+1)");
+    builder.production("p : L(x) : ~ 0.4 : [+F(0)L(x+1)][-F(0)L(x)]F(0)L(x)");
+    builder.production("q : L(x) : ~ 0.4 : [+F(0)L(x)]F(0)F(0)L(x+2)");
+    builder.production("r : L(x) : ~ 0.2 : L(x)");
+    return builder;
+}
+
+/// Parameters of the modules of a name with one parameter, in order.
+std::vector<float>
+parameters_of(const Bytecode& bytecode, const Word& word, const std::string& name) {
+    std::vector<float> found;
+    std::uint64_t parameter = 0;
+    for (std::uint64_t i = 0; i < word.module_count(); ++i) {
+        const Code code = word.code(i);
+        if (bytecode.symbol(bytecode.symbol_of(code)).name == name) {
+            found.push_back(word.parameters()[parameter]);
+        }
+        parameter += bytecode.stored_parameters(code);
+    }
+    return found;
+}
+
+TEST_CASE("in every generation the sum at the base equals the sum over the leaves") {
+    BytecodeBuilder builder = random_plants();
+    builder.fold = false;
+    builder.production(Stage::Down, "two : F(x) > [F(a)][F(b)]F(c) : * : F(a+b+c)");
+    builder.production(Stage::Down, "one : F(x) > [F(a)]F(c) : * : F(a+c)");
+    builder.production(Stage::Down, "leaf : F(x) > L(a) : * : F(a)");
+    builder.production(Stage::Down, "none : F(x) > F(a) : * : F(a)");
+    const Bytecode bytecode = builder.build();
+    for (std::uint64_t seed = 0; seed < 20; ++seed) {
+        DeriveOptions options;
+        options.generations = 8;
+        options.seed = seed;
+        Derivation derivation(bytecode, options);
+        REQUIRE(!derivation.start());
+        for (std::uint32_t age = 0; age < 8; ++age) {
+            REQUIRE(!derivation.run_to(age));
+            float sum = 0.0F;
+            for (const float leaf : parameters_of(bytecode, derivation.word(), "L")) {
+                sum += leaf;
+            }
+            CHECK(parameters_of(bytecode, derivation.word(), "F").front() == sum);
+        }
+    }
+}
+
+TEST_CASE("in every generation all leaves know the base of this generation") {
+    BytecodeBuilder builder = random_plants();
+    builder.fold = false;
+    builder.production(Stage::Up, "first : B(x) < F(y) : * : F(x)");
+    builder.production(Stage::Up, "next : F(x) < F(y) : * : F(x)");
+    builder.production(Stage::Up, "leaf : F(x) < L(y) : * : L(x)");
+    const Bytecode bytecode = builder.build();
+    DeriveOptions options;
+    options.generations = 8;
+    Derivation derivation(bytecode, options);
+    REQUIRE(!derivation.start());
+    for (std::uint32_t age = 0; age <= 8; ++age) {
+        REQUIRE(!derivation.run_to(age));
+        const float base = parameters_of(bytecode, derivation.word(), "B").front();
+        CHECK(base == static_cast<float>(age));
+        for (const float leaf : parameters_of(bytecode, derivation.word(), "L")) {
+            CHECK(leaf == base);
+        }
+    }
 }
 
 TEST_CASE("a system that sweeps is not streamed, for a reason") {
