@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // A sweep: productions of `#down` or `#up` change the parameters of a complete word in place, in
-// one pass over the word (docs/language.md section 13.8; fast information transfer: Karwowski and
+// one pass over the word (docs/language.md section 13; fast information transfer: Karwowski and
 // Prusinkiewicz 2003). `#down` visits the modules from right to left, so that the right context of
 // a module has the parameters that this sweep gave it; `#up` visits from left to right and reads
 // left contexts. Most productions run as a SweepProgram, whose neighbours the loop has just passed.

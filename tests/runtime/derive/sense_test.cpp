@@ -3,11 +3,13 @@
 #include "runtime/derive/derive.h"
 #include "runtime/derive/state_file.h"
 #include "runtime/derive/stream.h"
+#include "runtime/derive/trace.h"
 #include "tests/support/bytecode_builder.h"
 #include "tests/support/derived.h"
 
 #include <catch2/catch.hpp>
 
+#include <algorithm>
 #include <atomic>
 #include <charconv>
 #include <string>
@@ -258,6 +260,49 @@ TEST_CASE("a cancelled derivation does not ask") {
     CHECK(derivation.step() == Stop::Cancelled);
     CHECK(senses.ages.size() == 1);
     CHECK(derivation.age() == 1);
+}
+
+TEST_CASE("a trace shows what a sense module asked and what was answered") {
+    const Bytecode bytecode = sensing_plant();
+    CountingSense senses(bytecode);
+    DeriveOptions options = options_for(senses, 2);
+    Derivation begun(bytecode, options);
+    REQUIRE(!begun.start());
+    REQUIRE(!begun.step());
+    const std::string state = begun.sense_state();
+    Word word(begun.word().code_width());
+    REQUIRE(word.resize(begun.word().module_count(), begun.word().parameter_count()));
+    std::copy_n(begun.word().code_bytes().data(), word.code_bytes().size(),
+                word.code_bytes().data());
+    std::copy_n(begun.word().parameters().data(), word.parameters().size(),
+                word.parameters().data());
+
+    StepTracer tracer(bytecode, {0, 2.0F, {}, {}});
+    tracer.begin({0, 1}, begun.word(), 1, DerivationPass::Kind::Rewrite);
+    options.origins = true;
+    options.on_pass = [&](const DerivationPass& pass) { tracer.on_pass(pass); };
+    Derivation stepping(bytecode, options);
+    REQUIRE(!stepping.resume(std::move(word), 1, state));
+    REQUIRE(!stepping.step());
+    tracer.finish();
+    CHECK(tracer.agrees());
+    const auto sensed =
+        std::find_if(tracer.traces().begin(), tracer.traces().end(), [](const ModuleTrace& trace) {
+            return trace.kind == DerivationPass::Kind::Sense;
+        });
+    REQUIRE(sensed != tracer.traces().end());
+    CHECK(sensed->fate == Fate::Sensed);
+    CHECK(module_text(bytecode, sensed->module) == "P(1)");
+    CHECK(module_text(bytecode, sensed->written.front()) == "P(2)");
+    const auto swept =
+        std::find_if(tracer.traces().begin(), tracer.traces().end(), [](const ModuleTrace& trace) {
+            return trace.kind == DerivationPass::Kind::Up;
+        });
+    REQUIRE(swept != tracer.traces().end());
+    CHECK(module_text(bytecode, swept->module) == "A(1)");
+    CHECK(module_text(bytecode, swept->written.front()) == "A(3)");
+    REQUIRE(swept->attempts.front().left.visited.size() == 1);
+    CHECK(module_text(bytecode, swept->attempts.front().left.visited[0].module) == "P(2)");
 }
 
 TEST_CASE("a system that senses is not streamed, for a reason") {
