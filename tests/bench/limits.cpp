@@ -224,6 +224,21 @@ std::size_t derive_w6(int generations, std::size_t count, std::uint8_t* a, std::
     return static_cast<std::size_t>(static_cast<const std::uint8_t*>(found) - a) - 1;
 }
 
+std::size_t derive_w8(int generations, std::size_t count, float* parameters) {
+    std::fill_n(parameters, count, 0.0F);
+    float first = 0.0F;
+    for (int generation = 0; generation <= generations; ++generation) {
+        for (std::size_t i = count - 1; i-- > 0;) {
+            parameters[i] = parameters[i + 1] + 1.0F;
+        }
+        first = parameters[0];
+        for (std::size_t i = 1; i < count; ++i) {
+            parameters[i] = parameters[i - 1] - 1.0F;
+        }
+    }
+    return static_cast<std::size_t>(first);
+}
+
 namespace {
 
 struct Vector {

@@ -60,6 +60,9 @@ derive_plain(const PlainSystem& system, int generations, std::uint8_t* a, std::u
 /// Derives W6 from `count` modules; returns the index of the only `b`.
 [[nodiscard]] std::size_t
 derive_w6(int generations, std::size_t count, std::uint8_t* a, std::uint8_t* b);
+/// Sweeps W8 from `count` modules with the parameter 0; returns the parameter of the first module
+/// of the down sweep of the last generation.
+[[nodiscard]] std::size_t derive_w8(int generations, std::size_t count, float* parameters);
 
 /// Turtles in a plane over a word of F + - [ ] with one angle. Each writes vertices to `out` and
 /// returns their number. Per segment, turtle_lines() writes 2 vertices of 3 floats, turtle_tubes()
