@@ -137,8 +137,12 @@ public:
     /// Draws the globals and makes the axiom. start() or resume() must be called first.
     [[nodiscard]] std::optional<Stop> start();
     /// Continues from a saved word of age `age`. Globals are drawn again from the seed, with the
-    /// same values. Modules of a word without origins get unknown origins.
-    [[nodiscard]] std::optional<Stop> resume(Word word, std::uint32_t age);
+    /// same values. Modules of a word without origins get unknown origins. `sense_state`: the
+    /// WordSense::state() that was saved with the word.
+    [[nodiscard]] std::optional<Stop>
+    resume(Word word, std::uint32_t age, std::string_view sense_state = {});
+    /// What the environments hold after the last generation, to be saved with the word.
+    [[nodiscard]] std::string sense_state() const;
     /// Rewrites the word once. After a Stop the word still has the age age().
     [[nodiscard]] std::optional<Stop> step();
     /// Steps until the age is `age`, or until a Stop.

@@ -7,7 +7,9 @@ namespace lsys {
 
 ContextTables::ContextTables(const Plan& plan) : has_structure_(plan.has_structure()) {
     const Bytecode& bytecode = plan.bytecode();
-    for (const BytecodeProduction& production : bytecode.productions) {
+    const TableRange stage = plan.productions();
+    for (std::uint32_t p = stage.first; p < stage.first + stage.count; ++p) {
+        const BytecodeProduction& production = bytecode.productions[p];
         needs_left_ = needs_left_ || production.has_left;
         needs_right_ = needs_right_ || production.has_right;
         for (std::uint32_t i = 0; i < production.right.count; ++i) {
