@@ -3,8 +3,9 @@
 // one pass over the word (docs/language.md section 13.8; fast information transfer: Karwowski and
 // Prusinkiewicz 2003). `#down` visits the modules from right to left, so that the right context of
 // a module has the parameters that this sweep gave it; `#up` visits from left to right and reads
-// left contexts. A sweep keeps the codes, so neighbours are found as for rewriting, by
-// ContextTables. It runs on one thread, because each module may depend on the one visited before.
+// left contexts. Most productions run as a SweepProgram, whose neighbours the loop has just passed.
+// The others are chosen and evaluated as in rewriting, with the neighbours of ContextTables. A sweep
+// runs on one thread, because each module may depend on the one visited before.
 #pragma once
 
 #include "runtime/base/limits.h"
@@ -12,6 +13,7 @@
 #include "runtime/derive/engine/choose.h"
 #include "runtime/derive/engine/contexts.h"
 #include "runtime/derive/engine/plan.h"
+#include "runtime/derive/engine/sweep_program.h"
 
 #include <cstdint>
 #include <optional>
@@ -47,19 +49,29 @@ public:
 
 private:
     template <typename C>
-    struct Run; // one pass over a word with codes of type C
+    class Run; // one pass over a word with codes of type C
 
     [[nodiscard]] std::optional<Stop>
     make_tables(const Word& word, const Limits& limits, std::uint64_t other_bytes);
     template <typename C>
-    [[nodiscard]] std::optional<Stop>
-    run_typed(const WordView<C>& view, float* parameters, const DeriveOptions& options);
+    [[nodiscard]] std::optional<Stop> run_typed(const Word& word,
+                                                const WordView<C>& view,
+                                                float* parameters,
+                                                const DeriveOptions& options,
+                                                std::uint64_t other_bytes);
+    /// Sets error() to the fault of the module at `place`.
+    template <typename C>
+    [[nodiscard]] std::optional<Stop> report_fault(const Word& word,
+                                                   const WordView<C>& view,
+                                                   const ModulePlace& place,
+                                                   const Limits& limits,
+                                                   std::uint64_t other_bytes);
 
     Stage stage_;
     Plan plan_;
+    SweepProgram program_;
     ContextTables contexts_;
     PassKeys keys_;
-    std::vector<float> values_; // new parameters of a module
     RuntimeError error_;
     LimitReport limit_;
 };

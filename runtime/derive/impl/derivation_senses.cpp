@@ -67,6 +67,8 @@ Derivation::State::sweep(Sweep& runner, std::uint32_t word_age, const Word*& cur
     stop = runner.run(*changed, word_age, options, others);
     if (stop == Stop::Diagnosed) {
         end.error = runner.error();
+        facts.fault = end.error.position;
+        report(facts, changed);
     } else if (stop == Stop::Limit || stop == Stop::OutOfMemory) {
         end.limit = runner.limit();
         end.limit.generation = age;
