@@ -5,6 +5,7 @@
 #include "compiler/program/compile_options.h"
 #include "grammar/base/result.h"
 #include "runtime/physics/physics.h"
+#include "runtime/pipeline/project.h"
 #include "runtime/scene/sun.h"
 
 #include <cstdint>
