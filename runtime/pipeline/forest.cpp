@@ -10,6 +10,7 @@
 #include "runtime/pipeline/impl/drawing_end.h"
 #include "runtime/pipeline/impl/mesh_files.h"
 #include "runtime/pipeline/impl/variety_note.h"
+#include "runtime/pipeline/senses.h"
 #include "runtime/pipeline/setting_options.h"
 #include "runtime/pipeline/stopwatch.h"
 #include "runtime/turtle/plant_size.h"
@@ -275,7 +276,13 @@ Outcome<GrownStage> grow_stage(const SceneSpecies& species,
         return step.end();
     }
     grown.user_meshes = std::move(meshes.meshes);
+    PlantSenses senses;
+    if (!step.take(read_senses(path, grammar, project), senses)) {
+        return step.end();
+    }
+    const std::unique_ptr<EnvironmentSense> own_senses = senses.make(grammar.bytecode);
     CacheOptions cache = species.cache;
+    cache.senses = own_senses.get();
     cache.mesh_lengths = std::move(meshes.lengths);
     cache.looks = std::move(meshes.looks);
     cache.generations = stage.generations;
