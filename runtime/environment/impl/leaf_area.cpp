@@ -38,12 +38,7 @@ LeafAreaGrid::LeafAreaGrid(std::span<const CellArea> areas,
     opacities_.resize(extents_[0] * extents_[1] * extents_[2]);
     std::fill(opacities_.begin(), opacities_.end(), 0.0);
     for (const CellArea& organ : areas) {
-        std::size_t index = 0;
-        for (std::size_t axis = 0; axis < 3; ++axis) {
-            index =
-                index * extents_[axis] + static_cast<std::size_t>(organ.cell[axis] - low_[axis]);
-        }
-        opacities_[index] += organ.area;
+        opacities_[index_of(organ.cell)] += organ.area;
     }
     for (double& opacity : opacities_) {
         opacity = extinction.opacity(opacity);
