@@ -136,7 +136,7 @@ private:
     [[nodiscard]] std::size_t slot_of(const Key& key) const {
         std::uint64_t hash = key.high * 0x9E3779B97F4A7C15U ^ key.low * 0xC2B2AE3D27D4EB4FU;
         hash = (hash ^ (hash >> 29)) * 0xBF58476D1CE4E5B9U;
-        return static_cast<std::size_t>(hash >> shift_);
+        return hash >> shift_;
     }
     /// The entry of `key`, or the unused one where it would stand.
     [[nodiscard]] std::size_t index_of(const Key& key) const {
