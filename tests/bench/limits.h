@@ -6,6 +6,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <vector>
 
 namespace lsys::bench {
 
@@ -71,5 +72,11 @@ derive_w6(int generations, std::size_t count, std::uint8_t* a, std::uint8_t* b);
 turtle_lines(const std::uint8_t* word, std::size_t count, float degrees, float* out);
 [[nodiscard]] std::size_t
 turtle_tubes(const std::uint8_t* word, std::size_t count, float degrees, float* out);
+
+/// Exposure of kind Shadow with 8 levels, strength 0.2 and ratio 2, without directions: a grid of all
+/// voxels of the bounding box, and one summed-area table per row. `positions`: x, y, z of each place,
+/// m. Returns false if the grid has more than 2^26 voxels.
+[[nodiscard]] bool
+shadow_limit(const std::vector<double>& positions, double cell, std::vector<float>& exposures);
 
 } // namespace lsys::bench

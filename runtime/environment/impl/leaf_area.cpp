@@ -33,17 +33,12 @@ LeafAreaGrid::LeafAreaGrid(std::span<const CellArea> areas,
                            const Extinction& extinction)
     : low_(box.low) {
     for (std::size_t axis = 0; axis < 3; ++axis) {
-        extents_[axis] = static_cast<std::size_t>(box.extent(axis));
+        extents_[axis] = box.extent(axis);
     }
     opacities_.resize(extents_[0] * extents_[1] * extents_[2]);
     std::fill(opacities_.begin(), opacities_.end(), 0.0);
     for (const CellArea& organ : areas) {
-        std::size_t index = 0;
-        for (std::size_t axis = 0; axis < 3; ++axis) {
-            index =
-                index * extents_[axis] + static_cast<std::size_t>(organ.cell[axis] - low_[axis]);
-        }
-        opacities_[index] += organ.area;
+        opacities_[index_of(organ.cell)] += organ.area;
     }
     for (double& opacity : opacities_) {
         opacity = extinction.opacity(opacity);
@@ -65,7 +60,7 @@ LeafAreaTable::LeafAreaTable(std::span<const CellArea> areas,
                              const CellBox& box,
                              const Extinction& extinction)
     : low_(box.low), levels_(levels_of(box)),
-      entries_(static_cast<std::size_t>(bytes_for(areas.size(), box) / sizeof(Entry))) {
+      entries_(bytes_for(areas.size(), box) / sizeof(Entry)) {
     shift_ = 64 - static_cast<std::uint32_t>(std::countr_zero(entries_.size()));
     for (const CellArea& organ : areas) {
         const Steps steps = steps_to(organ.cell);

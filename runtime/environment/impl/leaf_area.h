@@ -41,7 +41,7 @@ struct CellArea {
     double area = 0.0; // m^2
 };
 
-/// Answer for one cell.
+/// Answer of a LeafAreaTable for one cell.
 struct CellContent {
     double opacity = 0.0; // of light per metre of path
     /// The cell is in an empty block of 2^empty_bits cells along each axis, aligned to CellBox::low.
@@ -61,13 +61,19 @@ public:
     [[nodiscard]] static std::uint64_t bytes_for(const CellBox& box);
     LeafAreaGrid(std::span<const CellArea> areas, const CellBox& box, const Extinction& extinction);
 
-    [[nodiscard]] CellContent at(const CellIndex& cell) const {
+    [[nodiscard]] std::size_t index_of(const CellIndex& cell) const {
         std::size_t index = 0;
         for (std::size_t axis = 0; axis < 3; ++axis) {
             index = index * extents_[axis] + static_cast<std::size_t>(cell[axis] - low_[axis]);
         }
-        return {opacities_[index], 0};
+        return index;
     }
+    /// From the index of a cell to that of the next one along an axis.
+    [[nodiscard]] std::size_t stride(std::size_t axis) const {
+        return axis == 0 ? extents_[1] * extents_[2] : axis == 1 ? extents_[2] : 1;
+    }
+    /// Opacity of light per metre of path.
+    [[nodiscard]] double opacity(std::size_t index) const { return opacities_[index]; }
 
 private:
     CellIndex low_;
@@ -130,7 +136,7 @@ private:
     [[nodiscard]] std::size_t slot_of(const Key& key) const {
         std::uint64_t hash = key.high * 0x9E3779B97F4A7C15U ^ key.low * 0xC2B2AE3D27D4EB4FU;
         hash = (hash ^ (hash >> 29)) * 0xBF58476D1CE4E5B9U;
-        return static_cast<std::size_t>(hash >> shift_);
+        return hash >> shift_;
     }
     /// The entry of `key`, or the unused one where it would stand.
     [[nodiscard]] std::size_t index_of(const Key& key) const {

@@ -192,7 +192,7 @@ void ShadowRun::read_sources() {
 bool ShadowRun::prefers_tables() const {
     constexpr std::uint64_t kCyclesPerCell = 2;
     constexpr std::uint64_t kCyclesPerLayer = 80;
-    constexpr std::uint64_t kCyclesPerPair = 60;
+    constexpr std::uint64_t kCyclesPerPair = 30;
     if (place_count_ >= kMaxTablePlaces) {
         return false;
     }

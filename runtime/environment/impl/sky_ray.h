@@ -21,9 +21,42 @@ public:
     SkyRay(const Vector3& place, const CellIndex& own, const Vector3& direction, double cell)
         : place_(place), direction_(direction), size_(cell), at_(own) {}
 
-    /// Opacity times path, summed along the ray. `Field` is a LeafAreaGrid or a LeafAreaTable.
-    template <typename Field>
-    [[nodiscard]] double depth(const Field& field, const CellBox& box) {
+    /// Opacity times path, summed along the ray.
+    [[nodiscard]] double depth(const LeafAreaGrid& grid, const CellBox& box) {
+        if (!enter(box)) {
+            return 0.0;
+        }
+        std::array<double, 3> exits{};
+        std::array<double, 3> planes{}; // the next one of each axis
+        std::array<double, 3> steps{};
+        std::array<std::int64_t, 3> left{}; // cells before the end of the box
+        std::array<std::ptrdiff_t, 3> strides{};
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            const bool is_forward = direction_[axis] > 0.0;
+            exits[axis] = exit_of(axis, 0, box);
+            planes[axis] = static_cast<double>(is_forward ? at_[axis] + 1 : at_[axis]);
+            steps[axis] = is_forward ? 1.0 : -1.0;
+            left[axis] = is_forward ? box.high[axis] - at_[axis] : at_[axis] - box.low[axis];
+            const auto stride = static_cast<std::ptrdiff_t>(grid.stride(axis));
+            strides[axis] = is_forward ? stride : -stride;
+        }
+        auto index = static_cast<std::ptrdiff_t>(grid.index_of(at_));
+        double sum = 0.0;
+        for (;;) {
+            const std::size_t axis = nearest(exits);
+            const double exit = std::max(passed_, exits[axis]);
+            sum += grid.opacity(static_cast<std::size_t>(index)) * (exit - passed_);
+            passed_ = exit;
+            if (--left[axis] < 0) {
+                return sum;
+            }
+            planes[axis] += steps[axis];
+            exits[axis] = (planes[axis] * size_ - place_[axis]) / direction_[axis];
+            index += strides[axis];
+        }
+    }
+    /// The same; skips empty blocks.
+    [[nodiscard]] double depth(const LeafAreaTable& table, const CellBox& box) {
         if (!enter(box)) {
             return 0.0;
         }
@@ -33,7 +66,7 @@ public:
         }
         double sum = 0.0;
         for (;;) {
-            const CellContent content = field.at(at_);
+            const CellContent content = table.at(at_);
             if (content.empty_bits > 0) {
                 for (std::size_t axis = 0; axis < 3; ++axis) {
                     exits[axis] = exit_of(axis, content.empty_bits, box);
@@ -47,8 +80,7 @@ public:
                 }
                 continue;
             }
-            const std::size_t axis = exits[0] <= exits[1] ? (exits[0] <= exits[2] ? 0 : 2)
-                                                          : (exits[1] <= exits[2] ? 1 : 2);
+            const std::size_t axis = nearest(exits);
             const double exit = std::max(passed_, exits[axis]);
             sum += content.opacity * (exit - passed_);
             passed_ = exit;
@@ -61,6 +93,10 @@ public:
     }
 
 private:
+    [[nodiscard]] static std::size_t nearest(const std::array<double, 3>& exits) {
+        return exits[0] <= exits[1] ? (exits[0] <= exits[2] ? 0 : 2)
+                                    : (exits[1] <= exits[2] ? 1 : 2);
+    }
     /// Metres along the ray to plane `plane` of an axis.
     [[nodiscard]] double crossing(std::size_t axis, std::int64_t plane) const {
         if (direction_[axis] == 0.0) {

@@ -27,7 +27,7 @@ struct Digit {
 
     [[nodiscard]] std::size_t of(const SortRecord& record) const {
         const std::uint64_t half = is_high ? record.high : record.low;
-        return static_cast<std::size_t>((half >> shift) & ((std::uint64_t{1} << bits) - 1));
+        return (half >> shift) & ((std::uint64_t{1} << bits) - 1);
     }
 };
 
@@ -100,8 +100,7 @@ private:
     template <typename Work>
     void for_each_chunk(const Work& work) {
         workers_.for_each(chunks_, [&](std::uint64_t chunk) {
-            work(static_cast<std::size_t>(chunk), count_ * chunk / chunks_,
-                 count_ * (chunk + 1) / chunks_);
+            work(chunk, count_ * chunk / chunks_, count_ * (chunk + 1) / chunks_);
         });
     }
 

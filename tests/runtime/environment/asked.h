@@ -26,7 +26,7 @@ public:
     /// From 0 to 1, without 1.
     double unit() { return static_cast<double>(engine_() >> 11) * 0x1p-53; }
     double between(double low, double high) { return low + (high - low) * unit(); }
-    std::size_t below(std::size_t end) { return static_cast<std::size_t>(engine_() % end); }
+    std::size_t below(std::size_t end) { return engine_() % end; }
     template <typename T>
     const T& one_of(const std::vector<T>& items) {
         return items[below(items.size())];

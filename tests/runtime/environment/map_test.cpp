@@ -61,8 +61,8 @@ TEST_CASE("map answers the bilinear formula written out") {
         const std::uint32_t threads = std::vector<std::uint32_t>{1, 2, 5}[seed % 3];
         different += ask_map(declared, picture, places, {.threads = threads}).numbers ==
                              lsys::slow::map(declared, picture, places)
-                         ? 0
-                         : 1;
+                         ? 0U
+                         : 1U;
     }
     CHECK(different == 0);
 }

@@ -56,7 +56,7 @@ TEST_CASE("shadow answers as pyramids written voxel by voxel") {
         const std::uint32_t threads = std::vector<std::uint32_t>{1, 2, 5}[seed % 3];
         const Answers answers = ask_shadow(made.declared, made.places, {.threads = threads});
         REQUIRE_FALSE(answers.failure);
-        different += answers.numbers == expected ? 0 : 1;
+        different += answers.numbers == expected ? 0U : 1U;
     }
     CHECK(different == 0);
 }
@@ -68,7 +68,7 @@ TEST_CASE("shadow answers as pyramids where a cloud has several tiles and pieces
         Draws draws(17);
         const std::vector<SensePlace> places = draws.places(6000, radius);
         const Numbers expected = lsys::slow::shadow(declared, places);
-        for (const std::uint32_t threads : {1, 2, 5}) {
+        for (const std::uint32_t threads : {1U, 2U, 5U}) {
             CHECK(ask_shadow(declared, places, {.threads = threads}).numbers == expected);
         }
     }
@@ -106,7 +106,7 @@ TEST_CASE("shadow of many layers answers as pyramids") {
 }
 
 TEST_CASE("a lone place is in full light") {
-    for (const std::uint32_t levels : {0, 1, 8, 255}) {
+    for (const std::uint32_t levels : {0U, 1U, 8U, 255U}) {
         BytecodeEnvironment declared;
         declared.levels = levels;
         const Numbers numbers = ask_shadow(declared, {place_at(3.2, 7.0, -1.0)}, {}).numbers;

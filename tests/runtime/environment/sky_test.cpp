@@ -102,14 +102,14 @@ TEST_CASE("sky answers as rays marched cell by cell") {
             const Answers answers = ask_sky(made.declared, made.organs, made.places,
                                             {.threads = threads, .max_bytes = bytes});
             REQUIRE_FALSE(answers.failure);
-            different += answers.numbers == expected ? 0 : 1;
+            different += answers.numbers == expected ? 0U : 1U;
         }
     }
     CHECK(different == 0);
 }
 
 TEST_CASE("without organs all light of the sky arrives") {
-    for (const std::uint32_t directions : {1, 46, 4096}) {
+    for (const std::uint32_t directions : {1U, 46U, 4096U}) {
         BytecodeEnvironment declared;
         declared.directions = directions;
         Draws draws(3);
