@@ -31,6 +31,14 @@ float rounded_up(double value) {
     return -rounded_down(-value);
 }
 
+Vector3 middle_of(const std::array<float, 3>& low, const std::array<float, 3>& high) {
+    Vector3 middle;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        middle[axis] = 0.5 * (static_cast<double>(low[axis]) + static_cast<double>(high[axis]));
+    }
+    return middle;
+}
+
 /// orientation() seen from p + (e, e^2) for a positive number e that is smaller than all others:
 /// never on a line through two different points.
 int perturbed_orientation(const Vector2& a, const Vector2& b, const Vector2& p) {
@@ -51,6 +59,7 @@ TriangleTree::TriangleTree(const EnvironmentMesh& mesh, const EnvironmentContext
     order_triangles(context);
     if (!nodes_.empty()) {
         fill_boxes();
+        fill_cylinders(*context.workers);
     }
 }
 
@@ -115,6 +124,61 @@ void TriangleTree::fill_boxes() {
     }
 }
 
+void TriangleTree::fill_cylinders(Workers& workers) {
+    constexpr std::size_t kMaxTriangles = 128; // of a node with a cylinder
+    constexpr std::size_t kNodes = 1U << 10;   // of one piece of work
+    // The triangles of each node are those of its leaves, which are in order.
+    LargeVector<std::uint32_t> ends(nodes_.size());
+    for (std::size_t i = nodes_.size(); i-- > 0;) {
+        const Node& node = nodes_[i];
+        ends[i] = node.count > 0 ? node.begin + node.count : ends[node.begin];
+    }
+    LargeVector<std::uint32_t> begins(nodes_.size());
+    for (std::size_t i = nodes_.size(); i-- > 0;) {
+        begins[i] = nodes_[i].count > 0 ? nodes_[i].begin : begins[i + 1];
+    }
+    workers.for_each((nodes_.size() + kNodes - 1) / kNodes, [&](std::uint64_t piece) {
+        const std::size_t end = std::min(nodes_.size(), (piece + 1) * kNodes);
+        for (std::size_t i = piece * kNodes; i < end; ++i) {
+            if (ends[i] - begins[i] <= kMaxTriangles) {
+                fill_cylinder(nodes_[i], begins[i], ends[i]);
+            }
+        }
+    });
+}
+
+void TriangleTree::fill_cylinder(Node& node, std::size_t begin, std::size_t end) const {
+    Vector3 sum{};
+    for (std::size_t at = begin; at < end; ++at) {
+        const Vector3 area = area_vector(triangle(at));
+        sum = dot(sum, area) < 0.0 ? minus(sum, area) : plus(sum, area);
+    }
+    node.axis = normalised(sum);
+    if (!is_finite(node.axis) || node.axis == Vector3{}) {
+        return;
+    }
+    const Vector3 middle = middle_of(node.low, node.high);
+    double half_length = 0.0;
+    double radius_squared = 0.0;
+    double magnitude = 0.0;
+    for (std::size_t at = begin; at < end; ++at) {
+        for (const std::uint32_t index : corners_[at].vertices) {
+            const Vector3& vertex = mesh_.vertices[index];
+            const Vector3 offset = minus(vertex, middle);
+            const double along = dot(node.axis, offset);
+            half_length = std::max(half_length, std::abs(along));
+            radius_squared = std::max(radius_squared, squared_length(offset) - along * along);
+            magnitude = std::max(magnitude, squared_length(vertex));
+        }
+    }
+    // Nearest points as computed are beside the triangle by some units in the last place of the
+    // largest coordinate; the cylinder is larger by far more.
+    const double more = 1e-12 * std::sqrt(magnitude);
+    const auto enlarged = [&](double length) { return rounded_up(length * (1.0 + 1e-6) + more); };
+    node.half_length = enlarged(half_length);
+    node.radius = enlarged(std::sqrt(radius_squared) + 1e-7 * half_length);
+}
+
 Triangle TriangleTree::triangle(std::size_t at) const {
     const std::array<std::uint32_t, 3>& corners = corners_[at].vertices;
     return {mesh_.vertices[corners[0]], mesh_.vertices[corners[1]], mesh_.vertices[corners[2]]};
@@ -130,6 +194,22 @@ double TriangleTree::least_squared(const Node& node, const Vector3& place) {
     return squared_length(apart);
 }
 
+/// Whether all triangles of the node are farther from `place` than the root of `squared`, by their
+/// cylinder. A relative margin of 1e-6 is far above the rounding errors, so the answer is never
+/// wrong for distances as computed; false if it is close.
+bool TriangleTree::is_farther(const Node& node, const Vector3& place, double squared) {
+    if (node.half_length < 0.0F) {
+        return false;
+    }
+    const Vector3 offset = minus(place, middle_of(node.low, node.high));
+    const double offset_squared = squared_length(offset);
+    const double along = dot(node.axis, offset);
+    const double beside = std::sqrt(std::max(offset_squared - along * along, 0.0));
+    const double above = std::max(std::abs(along) - static_cast<double>(node.half_length), 0.0);
+    const double outside = std::max(beside - static_cast<double>(node.radius), 0.0);
+    return above * above + outside * outside > squared + 1e-6 * offset_squared;
+}
+
 void TriangleTree::find_nearest(const Vector3& place, NearestPoint& nearest) const {
     struct Open {
         std::uint32_t node = 0;
@@ -142,10 +222,10 @@ void TriangleTree::find_nearest(const Vector3& place, NearestPoint& nearest) con
     open[open_count++] = {0, least_squared(nodes_[0], place)};
     while (open_count > 0) {
         const Open next = open[--open_count];
-        if (!(next.least <= nearest.squared)) {
+        const Node& node = nodes_[next.node];
+        if (!(next.least <= nearest.squared) || is_farther(node, place, nearest.squared)) {
             continue;
         }
-        const Node& node = nodes_[next.node];
         if (node.count == 0) {
             const Open first{next.node + 1, least_squared(nodes_[next.node + 1], place)};
             const Open second{node.begin, least_squared(nodes_[node.begin], place)};

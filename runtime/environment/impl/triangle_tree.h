@@ -33,11 +33,17 @@ public:
     [[nodiscard]] static std::uint64_t bytes(const EnvironmentMesh& mesh);
 
 private:
+    /// A box around the triangles of the node and, for small nodes, a cylinder around them: its
+    /// middle is that of the box. Far from a smooth surface the boxes of many nodes are at nearly
+    /// the same distance; their flat cylinders tell them apart.
     struct Node {
-        std::array<float, 3> low{}; // of the box around its triangles
+        std::array<float, 3> low{};
         std::array<float, 3> high{};
-        std::uint32_t begin = 0; // a leaf: its first triangle; else: the second child
-        std::uint32_t count = 0; // triangles of a leaf; 0: the first child follows
+        std::uint32_t begin = 0;   // a leaf: its first triangle; else: the second child
+        std::uint32_t count = 0;   // triangles of a leaf; 0: the first child follows
+        Vector3 axis{};            // of the cylinder, a unit vector
+        float half_length = -1.0F; // of the cylinder; negative: none
+        float radius = 0.0F;
     };
     struct Corners {
         std::array<std::uint32_t, 3> vertices{};
@@ -46,8 +52,12 @@ private:
 
     void order_triangles(const EnvironmentContext& context);
     void fill_boxes();
+    void fill_cylinders(Workers& workers);
+    void fill_cylinder(Node& node, std::size_t begin, std::size_t end) const;
+    /// Not above the squared distance from `place` to any triangle of the node, as computed.
     [[nodiscard]] Triangle triangle(std::size_t at) const;
     [[nodiscard]] static double least_squared(const Node& node, const Vector3& place);
+    [[nodiscard]] static bool is_farther(const Node& node, const Vector3& place, double squared);
     [[nodiscard]] int crossing(std::size_t at, const Vector3& place, bool upwards) const;
 
     const EnvironmentMesh& mesh_;
