@@ -5,6 +5,8 @@
 #include "grammar/base/hash.h"
 #include "grammar/base/paths.h"
 #include "grammar/dialects/dialect.h"
+#include "runtime/base/out_of_memory.h"
+#include "runtime/forest/surroundings.h"
 #include "runtime/meshing/texture.h"
 #include "runtime/pipeline/grammar.h"
 #include "runtime/pipeline/impl/drawing_end.h"
@@ -350,7 +352,7 @@ bool has_same_heroes(const SceneSpecies& a, const SceneSpecies& b) {
            a.stages == b.stages && a.rho == b.rho && a.cache.heroes == b.cache.heroes &&
            a.cache.seed == b.cache.seed && a.cache.cap == b.cache.cap &&
            a.cache.tolerance == b.cache.tolerance && a.settings == b.settings &&
-           a.season == b.season &&
+           a.senses_surroundings == b.senses_surroundings && a.season == b.season &&
            std::equal(a.definitions.begin(), a.definitions.end(), b.definitions.begin(),
                       b.definitions.end(), same_definition);
 }
@@ -598,6 +600,24 @@ std::vector<double> unit_heights(const Scene& scene, const GrownForest& grown) {
     return heights;
 }
 
+double max_scale(const PlacementOptions& options, const TreeSizer& sizer, std::uint16_t species) {
+    const PlacementSpecies& placed = options.species[species];
+    const float largest = placed.max_height > 0.0F ? placed.max_height : placed.max_scale;
+    return static_cast<double>(largest) * sizer.max_factor(species);
+}
+
+double halo_of(const PlacementOptions& options, const Forest& kinds, const TreeSizer& sizer) {
+    if (!has_sensed_surroundings(kinds)) {
+        return 0.0;
+    }
+    std::vector<double> scales;
+    for (std::size_t s = 0; s < kinds.species.size(); ++s) {
+        scales.push_back(max_scale(options, sizer, static_cast<std::uint16_t>(s)));
+    }
+    constexpr double kRounding = 1.0 + 1e-6; // of scales to binary32
+    return kRounding * reach_of_surroundings(kinds, scales);
+}
+
 // Structured bindings list all members, so that a new member which the hash lacks does not compile.
 std::uint64_t placement_digest(const Scene& scene,
                                const Project& project,
@@ -634,6 +654,11 @@ std::uint64_t placement_digest(const Scene& scene,
     for (const std::uint32_t number : erased) {
         state = combine(state, number);
     }
+    for (const ForestSpecies& each : grown.forest.species) {
+        for (const ForestStage& stage : each.stages) {
+            state = combine_numbers(state, each.senses_surroundings, stage.crown_radius);
+        }
+    }
     return finish(combine_numbers(state, grown.terrain->digest(), sizer.digest()));
 }
 
@@ -646,6 +671,37 @@ Outcome<void> size_forest(const Scene& scene, const Project& project, GrownFores
     if (const auto flat = size_trees(heights, project.threads, grown.forest)) {
         return step.fail(fmt::format("{}: a tree lies flat, so it cannot be given a height",
                                      grown.forest.species[*flat].name));
+    }
+    return step.done();
+}
+
+Outcome<void> sense_forest(const Scene& scene, const Project& project, GrownForest& grown) {
+    Step step(project);
+    Forest& forest = grown.forest;
+    if (!has_sensed_surroundings(forest)) {
+        return step.done();
+    }
+    LargeVector<Tree> around; // trees of the tile and of a border around it
+    if (scene.is_tile) {
+        PlacementOptions options = placement_options(scene, project, grown);
+        const TreeSizer sizer(unit_heights(scene, grown), forest);
+        options.region = widened(options.region, halo_of(options, forest, sizer));
+        Result<Placement> placed = place_trees(options, *grown.terrain);
+        if (!placed) {
+            return step.fail(fmt::format("placement: {}", placed.error().message));
+        }
+        around = std::move(placed.value().trees);
+        apply_painting(scene.painting, options.region, *grown.terrain, around);
+    }
+    const bool has_room = catch_out_of_memory(
+        [&] {
+            sense_surroundings(forest, scene.is_tile ? around : forest.trees, forest.trees,
+                               project.threads);
+            return true;
+        },
+        [] { return false; });
+    if (!has_room) {
+        return step.end_too_large(Stop::OutOfMemory, "the surroundings of the trees");
     }
     return step.done();
 }
@@ -664,6 +720,9 @@ Outcome<void> place_forest(const Scene& scene, const Project& project, GrownFore
         return step.end();
     }
     apply_painting(scene.painting, options.region, *grown.terrain, grown.forest.trees);
+    if (!step.take(sense_forest(scene, project, grown))) {
+        return step.end();
+    }
     grown.placed = placed.value().report;
     grown.place_seconds = placing.seconds();
     if (std::string note = placement_note(grown.placed); !note.empty()) {

@@ -76,7 +76,7 @@ TEST_CASE("the tiles of a level together hold each tree of the region once") {
         Forest kinds;
         kinds.species.resize(2);
         const TreeSizer keeps_scales(none, kinds);
-        const CellTrees cells(options, terrain, keeps_scales, grid);
+        const CellTrees cells(options, terrain, keeps_scales, kinds, grid);
         sort_by_tile(grid, all);
         const PlacedTrees placed(all, grid);
         for (const std::uint32_t level : {0U, 2U, 5U}) {
