@@ -12,6 +12,15 @@ namespace lsys {
 
 namespace {
 
+/// "(0, 0, 0, 0)": first values for an answer of `count` numbers.
+std::string zeros(std::uint32_t count) {
+    std::string text = "(0";
+    for (std::uint32_t i = 1; i < count; ++i) {
+        text += ", 0";
+    }
+    return text + ')';
+}
+
 /// Whether `name` is a setting that a constant of this name may be meant to set.
 bool is_setting_name(std::string_view name) {
     constexpr std::array<std::string_view, 6> kNames{"angle", "step",  "width",
@@ -46,6 +55,32 @@ void check_constants(const CheckInput& input, Diagnostics& diagnostics) {
             continue;
         }
         diagnostic.help.emplace_back("remove the statement, or use the name in an expression");
+    }
+}
+
+void check_environments(const CheckInput& input, Diagnostics& diagnostics) {
+    const Program& program = input.program;
+    std::vector<bool> is_asked(program.environments.size(), false);
+    for (const Symbol& symbol : program.symbols) {
+        if (asks_environment(symbol.sense)) {
+            is_asked[static_cast<std::size_t>(symbol.sense)] = true;
+        }
+    }
+    for (std::size_t i = 0; i < is_asked.size(); ++i) {
+        const ProgramEnvironment& environment = program.environments[i];
+        // An included file may declare more than a grammar needs.
+        if (is_asked[i] || environment.name_span.file != program.axiom_span().file) {
+            continue;
+        }
+        const std::string_view name = input.name(environment.name);
+        Diagnostic& diagnostic =
+            diagnostics.add(DiagnosticCode::UnusedEnvironment, environment.name_span,
+                            fmt::format("no module asks environment {}", quoted(name)));
+        diagnostic.help.push_back(fmt::format(
+            "write a module `?{}{}` where the plant senses, or remove the statement", name,
+            environment.values.kind == EnvironmentKind::Program
+                ? std::string("(x)")
+                : zeros(answer_size(environment.values.kind))));
     }
 }
 
@@ -92,7 +127,9 @@ void check_formals(const CheckInput& input, Diagnostics& diagnostics) {
         }
     }
     for (std::uint32_t s = 0; s < program.symbols.size(); ++s) {
-        if (first[s] == kNone || program.symbols[s].turtle != TurtleOperation::Nothing) {
+        // An answer has its numbers in a fixed order, needed or not.
+        if (first[s] == kNone || program.symbols[s].turtle != TurtleOperation::Nothing ||
+            program.symbols[s].sense != Sense::Nothing) {
             continue;
         }
         const Production& production = program.productions[first[s]];
@@ -122,6 +159,7 @@ void check_formals(const CheckInput& input, Diagnostics& diagnostics) {
 
 void check_unused_names(const CheckInput& input, Diagnostics& diagnostics) {
     check_constants(input, diagnostics);
+    check_environments(input, diagnostics);
     check_formals(input, diagnostics);
 }
 

@@ -41,11 +41,15 @@ std::string name_expected(const ScanState& scan) {
         return "an object, for example `SPHERE`";
     case Keyword::Decompose:
     case Keyword::Interpret:
+    case Keyword::Down:
+    case Keyword::Up:
         return "the name of the production";
     case Keyword::Function:
         return "the name of the function";
     case Keyword::Curve:
         return "the name of the curve";
+    case Keyword::Sense:
+        return "the name of the environment";
     default:
         return "the name of the constant";
     }
