@@ -146,7 +146,8 @@ ExitStatus derive(Derivation& derivation,
         if (!state) {
             return report_error(state.error(), console);
         }
-        stop = derivation.resume(std::move(state.value().word), state.value().header.age);
+        stop = derivation.resume(std::move(state.value().word), state.value().header.age,
+                                 state.value().sense_state);
     }
     while (!stop) {
         console.detail(fmt::format("generation {}: {}, {}", derivation.age(),
@@ -177,7 +178,7 @@ Result<void> save_state(const Plan& plan,
                         Writer& writer) {
     const StateHeader header{digest(bytecode), plan.derive.seed, plan.derive.generations,
                              derivation.age()};
-    static_cast<void>(write_state(header, derivation.word(),
+    static_cast<void>(write_state(header, derivation.word(), derivation.sense_state(),
                                   [&](std::string_view bytes) { return writer.write(bytes); }));
     return writer.commit();
 }

@@ -79,6 +79,7 @@ public:
         }
         inputs_ = {derive_.seed, static_cast<float>(derive_.generations), derivation.globals(),
                    production_names(grammar_)};
+        sense_state_ = derivation.sense_state();
         trace_.modules = derivation.word().module_count();
         if (trace_.modules >= kNone) {
             return step_.fail(fmt::format("generation {} has {} modules, and at most {} can be "
@@ -126,6 +127,7 @@ private:
     struct StoredWord {
         std::uint32_t age = 0;
         Word word;
+        std::string sense_state;
     };
 
     /// Stores a copy of the word if its age is a multiple of stride_. If the copies take more than
@@ -138,11 +140,11 @@ private:
         if (!copy) {
             return;
         }
-        stored_words_.push_back({derivation.age(), std::move(*copy)});
+        stored_words_.push_back({derivation.age(), std::move(*copy), derivation.sense_state()});
         const auto too_much = [this] {
             std::uint64_t bytes = 0;
             for (const StoredWord& each : stored_words_) {
-                bytes += each.word.held_bytes();
+                bytes += each.word.held_bytes() + each.sense_state.size();
             }
             return bytes > derive_.limits.max_bytes / 4;
         };
@@ -169,7 +171,7 @@ private:
             if (!copy) {
                 return Stop::OutOfMemory;
             }
-            stop = derivation.resume(std::move(*copy), from.age);
+            stop = derivation.resume(std::move(*copy), from.age, from.sense_state);
         }
         return stop ? stop : derivation.run_to(age);
     }
@@ -343,7 +345,8 @@ private:
         if (!copy) {
             return Stop::OutOfMemory;
         }
-        if (const std::optional<Stop> stop = drawing.resume(std::move(*copy), trace_.generation)) {
+        if (const std::optional<Stop> stop =
+                drawing.resume(std::move(*copy), trace_.generation, sense_state_)) {
             return stop;
         }
         StepTracer tracer(bytecode_, inputs_);
@@ -375,7 +378,7 @@ private:
         if (!copy) {
             return Stop::OutOfMemory;
         }
-        std::optional<Stop> stop = stepping.resume(std::move(*copy), from.age());
+        std::optional<Stop> stop = stepping.resume(std::move(*copy), from.age(), sense_state_);
         if (!stop) {
             stop = work(stepping);
         }
@@ -417,6 +420,7 @@ private:
             if (!stop && !(before = copy_of_word(derivation.word()))) {
                 stop = Stop::OutOfMemory;
             }
+            const std::string sense_state = derivation.sense_state();
             if (!stop && !derivation.follow()) {
                 stop = Stop::Limit;
             }
@@ -431,7 +435,7 @@ private:
             back.generation = age;
             back.next_position = position;
             back.position = derivation.word().origins()[position].place;
-            stop = trace_back_step(std::move(*before), position, back);
+            stop = trace_back_step(std::move(*before), sense_state, position, back);
             if (stop) {
                 return stop;
             }
@@ -452,15 +456,17 @@ private:
         return std::nullopt;
     }
 
-    [[nodiscard]] std::optional<Stop>
-    trace_back_step(Word before, std::uint64_t target, AncestorStep& back) {
+    [[nodiscard]] std::optional<Stop> trace_back_step(Word before,
+                                                      const std::string& sense_state,
+                                                      std::uint64_t target,
+                                                      AncestorStep& back) {
         StepTracer tracer(bytecode_, inputs_);
         tracer.begin({back.position}, before, back.generation, DerivationPass::Kind::Rewrite);
         back.module = modules_at(bytecode_, before, {back.position}).front();
         DeriveOptions options = derive_;
         options.on_pass = [&](const DerivationPass& pass) { tracer.on_pass(pass); };
         Derivation stepping(bytecode_, options);
-        std::optional<Stop> stop = stepping.resume(std::move(before), back.generation);
+        std::optional<Stop> stop = stepping.resume(std::move(before), back.generation, sense_state);
         if (!stop) {
             stop = stepping.step();
         }
@@ -479,7 +485,8 @@ private:
         }
         back.offset = found->offset;
         for (std::size_t i = found->parent; i != kNoTrace; i = tracer.traces()[i].parent) {
-            if (tracer.traces()[i].fate == Fate::Rewritten) {
+            const Fate fate = tracer.traces()[i].fate;
+            if (fate == Fate::Rewritten || fate == Fate::Sensed) {
                 back.steps.insert(back.steps.begin(), tracer.traces()[i]);
             }
         }
@@ -496,6 +503,7 @@ private:
     DeriveOptions derive_;
     TraceInputs inputs_;
     Trace trace_;
+    std::string sense_state_;              // of the environments, at the traced generation
     std::vector<TracedModule> next_;       // modules at StepTracer::places()
     std::vector<StoredWord> stored_words_; // by ascending age
     std::uint32_t stride_ = 1;
