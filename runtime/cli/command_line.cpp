@@ -148,6 +148,7 @@ void add_dump(CLI::App& app, DumpCommand& command) {
     add_seed(app, command.seed);
     add_height(app, command.height);
     add_run_limits(app, command.run);
+    add_environments(app, command.run);
     add_parsed(app, "--steps", command.steps, integer(0, kMaxGenerations),
                "Derive only K generations in this run")
         ->type_name("K")
@@ -221,6 +222,7 @@ void add_export(CLI::App& app, ExportCommand& command) {
     add_seed(app, command.seed);
     add_height(app, command.height);
     add_run_limits(app, command.run);
+    add_environments(app, command.run);
     add_message_options(app, command.messages);
     add_levels(app, command.messages);
     app.footer(
@@ -263,6 +265,7 @@ void add_forest(CLI::App& app, ForestCommand& command) {
     add_grammar(app, command.overrides.grammar, command.run);
     add_seed(app, command.overrides.seed);
     add_run_limits(app, command.run);
+    add_environments(app, command.run);
     add_message_options(app, command.messages);
     add_levels(app, command.messages);
     app.footer(
@@ -349,6 +352,7 @@ void add_trace(CLI::App& app, TraceCommand& command) {
     add_base_option(app, command.run);
     add_seed(app, command.seed);
     add_run_limits(app, command.run);
+    add_environments(app, command.run);
     add_message_options(app, command.messages);
     add_levels(app, command.messages);
     app.footer(

@@ -5,6 +5,7 @@
 #include "runtime/derive/derive.h"
 #include "runtime/pipeline/grammar.h"
 #include "runtime/pipeline/plant.h"
+#include "runtime/pipeline/senses.h"
 #include "runtime/program/arguments.h"
 #include "runtime/program/files.h"
 #include "runtime/program/host.h"
@@ -149,6 +150,14 @@ ExitStatus count_words(const StatsCommand& command,
     options.seed = bytecode.settings.seed;
     options.limits = command.run.limits;
     options.cancelled = console.io().interrupted;
+    PlantSenses senses;
+    const ExitStatus read = console.take(
+        read_senses(command.file, grammar, make_project(console, command.run)), senses);
+    if (read != ExitStatus::Ok) {
+        return read;
+    }
+    const std::unique_ptr<EnvironmentSense> own_senses = senses.make(bytecode);
+    options.senses = own_senses.get();
     Derivation derivation(bytecode, options);
     std::optional<Stop> stop = derivation.start();
     while (!stop) {

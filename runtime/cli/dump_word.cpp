@@ -12,6 +12,7 @@
 #include "runtime/derive/word_text.h"
 #include "runtime/pipeline/growth_forecast.h"
 #include "runtime/pipeline/plant.h"
+#include "runtime/pipeline/senses.h"
 #include "runtime/program/files.h"
 #include "runtime/program/host.h"
 
@@ -20,6 +21,7 @@
 #include <algorithm>
 #include <chrono>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <utility>
 
@@ -36,6 +38,7 @@ struct Plan {
     std::uint32_t first_age = 0;
     std::uint32_t last_age = 0;
     std::string saved_bytes; // contents of the file of --from; empty: start at the axiom
+    PlantSenses senses;      // for each derivation
 };
 
 Result<SavedState> read_saved(const Plan& plan, const std::string& path, const Bytecode& bytecode) {
@@ -211,7 +214,10 @@ ExitStatus dump_stored(const DumpCommand& command,
     const auto ignore = [](const Derivation&) { return true; };
     if (command.all && !command.count && command.output == "-") {
         // Written output cannot be undone, so a first run checks that the derivation succeeds.
-        Derivation trial(bytecode, plan.derive);
+        DeriveOptions options = plan.derive;
+        const std::unique_ptr<EnvironmentSense> senses = plan.senses.make(bytecode);
+        options.senses = senses.get();
+        Derivation trial(bytecode, options);
         const ExitStatus status = derive(trial, command, plan, grammar, console, ignore);
         if (status != ExitStatus::Ok) {
             return status;
@@ -224,7 +230,10 @@ ExitStatus dump_stored(const DumpCommand& command,
         return report_error(opened.error(), console);
     }
     Writer& writer = *word_writer;
-    Derivation derivation(bytecode, plan.derive);
+    DeriveOptions options = plan.derive;
+    const std::unique_ptr<EnvironmentSense> senses = plan.senses.make(bytecode);
+    options.senses = senses.get();
+    Derivation derivation(bytecode, options);
     std::string counts;
     const auto print = [&](const Derivation& now) {
         if (command.count) {
@@ -360,6 +369,11 @@ ExitStatus dump_word(const DumpCommand& command, Grammar& grammar, const Console
         return report_error(planned.error(), console);
     }
     Plan& plan = planned.value();
+    const ExitStatus read = console.take(
+        read_senses(command.file, grammar, make_project(console, command.run)), plan.senses);
+    if (read != ExitStatus::Ok) {
+        return read;
+    }
     console.detail(
         fmt::format("{} generations, seed {}", plan.derive.generations, plan.derive.seed));
     const bool from_axiom = command.from.empty();

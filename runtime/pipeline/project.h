@@ -76,7 +76,7 @@ struct Project {
     Limits limits;             // max modules per word; max bytes per word, skeleton, mesh and file
     std::uint32_t threads = 0; // 0: as many as the machine has
     MessageLevels levels;      // levels of diagnostics, from --allow, --warn and --deny
-    std::vector<EnvironmentCommand> environments;
+    std::vector<EnvironmentCommand> environments{};
     double answer_seconds = 60.0; // max time of an answer of a program of `environments`
 
     [[nodiscard]] bool is_cancelled() const {

@@ -7,11 +7,13 @@
 #include "runtime/pipeline/growth_forecast.h"
 #include "runtime/pipeline/impl/wanted_module.h"
 #include "runtime/pipeline/plant.h"
+#include "runtime/pipeline/senses.h"
 #include "runtime/pipeline/step.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <memory>
 #include <utility>
 
 namespace lsys {
@@ -65,7 +67,11 @@ public:
                 grammar_.sources);
             return step_.end(Stop::Limit);
         }
-        Derivation derivation(bytecode_, derive_);
+        if (!step_.take(read_senses(options_.file, grammar_, step_.project()), senses_)) {
+            return step_.end();
+        }
+        const std::unique_ptr<EnvironmentSense> senses = senses_.make(bytecode_);
+        Derivation derivation(bytecode_, with_senses(derive_, senses.get()));
         std::optional<Stop> stop = derivation.start();
         keep(derivation);
         while (!stop && derivation.age() < trace_.generation) {
@@ -120,6 +126,12 @@ private:
             step_.diagnose(derivation_diagnostic(derivation.end(), derive_.limits, grammar_),
                            grammar_.sources);
         }
+    }
+
+    /// The options of one derivation with senses of its own.
+    static DeriveOptions with_senses(DeriveOptions options, WordSense* senses) {
+        options.senses = senses;
+        return options;
     }
 
     // --- stored words: starting points for earlier generations, nearer than the axiom
@@ -340,7 +352,8 @@ private:
         if (!(trace_.is_last || options_.is_drawn) || !bytecode_.has(Stage::Interpret)) {
             return std::nullopt;
         }
-        Derivation drawing(bytecode_, derive_);
+        const std::unique_ptr<EnvironmentSense> senses = senses_.make(bytecode_);
+        Derivation drawing(bytecode_, with_senses(derive_, senses.get()));
         std::optional<Word> copy = copy_of_word(word);
         if (!copy) {
             return Stop::OutOfMemory;
@@ -373,7 +386,8 @@ private:
             tracer.on_pass(pass);
             written = pass.out;
         };
-        Derivation stepping(bytecode_, options);
+        const std::unique_ptr<EnvironmentSense> senses = senses_.make(bytecode_);
+        Derivation stepping(bytecode_, with_senses(options, senses.get()));
         std::optional<Word> copy = copy_of_word(from.word());
         if (!copy) {
             return Stop::OutOfMemory;
@@ -414,7 +428,8 @@ private:
     [[nodiscard]] std::optional<Stop> follow_back(TracedPlace& place) {
         std::uint64_t position = place.position;
         for (std::uint32_t age = trace_.generation; age-- > 0;) {
-            Derivation derivation(bytecode_, derive_);
+            const std::unique_ptr<EnvironmentSense> senses = senses_.make(bytecode_);
+            Derivation derivation(bytecode_, with_senses(derive_, senses.get()));
             std::optional<Stop> stop = go_to(derivation, age);
             std::optional<Word> before;
             if (!stop && !(before = copy_of_word(derivation.word()))) {
@@ -446,7 +461,8 @@ private:
             }
         }
         if (!place.back.empty()) {
-            Derivation start(bytecode_, derive_);
+            const std::unique_ptr<EnvironmentSense> senses = senses_.make(bytecode_);
+            Derivation start(bytecode_, with_senses(derive_, senses.get()));
             if (const std::optional<Stop> stop = start.start()) {
                 report(start, *stop);
                 return stop;
@@ -465,7 +481,8 @@ private:
         back.module = modules_at(bytecode_, before, {back.position}).front();
         DeriveOptions options = derive_;
         options.on_pass = [&](const DerivationPass& pass) { tracer.on_pass(pass); };
-        Derivation stepping(bytecode_, options);
+        const std::unique_ptr<EnvironmentSense> senses = senses_.make(bytecode_);
+        Derivation stepping(bytecode_, with_senses(options, senses.get()));
         std::optional<Stop> stop = stepping.resume(std::move(before), back.generation, sense_state);
         if (!stop) {
             stop = stepping.step();
@@ -501,6 +518,7 @@ private:
     const Bytecode& bytecode_;
     Step step_;
     DeriveOptions derive_;
+    PlantSenses senses_;
     TraceInputs inputs_;
     Trace trace_;
     std::string sense_state_;              // of the environments, at the traced generation

@@ -38,5 +38,7 @@ parse_integer(std::string_view text, std::uint64_t low, std::uint64_t high);
 
 /// `NAME=number`.
 [[nodiscard]] Result<Definition> parse_definition(std::string_view text);
+/// NAME=COMMAND of --environment. NAME may begin with `?`.
+[[nodiscard]] Result<EnvironmentCommand> parse_environment(std::string_view text);
 
 } // namespace lsys

@@ -141,6 +141,7 @@ Outcome<std::string> trace_picked(const PickedModule& module,
                                   const Project& project) {
     Step step(project);
     TraceOptions wanted;
+    wanted.file = options.file;
     wanted.generation = module.generation;
     wanted.generations = generations_of(options, document);
     wanted.seed = document.plant.seed;
@@ -216,7 +217,7 @@ Outcome<Description> describe(const Picked& picked,
 namespace {
 
 Project worker_project(const RunOptions& run, const std::atomic<bool>& cancelled) {
-    return {make_file_host(&cancelled), run.limits, run.threads, {}};
+    return {make_file_host(&cancelled), run.limits, run.threads, {}, run.environments};
 }
 
 std::string text_of(const Messages& messages) {
