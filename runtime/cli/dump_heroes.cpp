@@ -249,8 +249,7 @@ ExitStatus dump_heroes(const DumpCommand& command, Grammar& grammar, const Conso
     options.seed = command.seed.value_or(0); // default seed of the heroes of a forest
     const Project project = make_project(console, command.run);
     PlantSenses senses;
-    const ExitStatus read =
-        console.take(read_senses(command.file, grammar, project), senses);
+    const ExitStatus read = console.take(read_senses(command.file, grammar, project), senses);
     if (read != ExitStatus::Ok) {
         return read;
     }

@@ -49,8 +49,12 @@ enum class DumpStage : std::uint8_t {
     Skeleton,
     Mesh,
     Heroes,
-    Cache
+    Cache,
+    Environment
 };
+
+/// Format of `dump --stage environment`.
+enum class EnvironmentFormat : std::uint8_t { Json, Ply };
 
 struct DumpCommand {
     MessageOptions messages;
@@ -62,6 +66,7 @@ struct DumpCommand {
     DumpStage stage = DumpStage::Word;
     MeshOptions mesh;
     std::optional<float> height; // m, of the plant
+    std::optional<EnvironmentFormat> environment_format;
     bool all = false;
     bool count = false;
     bool stream = false;

@@ -52,6 +52,11 @@ public:
         return caught([&] { return compete(word.places, answers); });
     }
 
+    void append_markers(std::vector<Vector3>& markers) const override {
+        for (const Marker& marker : markers_) {
+            markers.push_back(shape_->position(marker.units));
+        }
+    }
     std::string state() const override;
     bool restore(std::string_view state) override;
 

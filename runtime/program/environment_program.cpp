@@ -57,8 +57,7 @@ public:
             failure.text = fmt::format("its program has not answered in {} seconds", seconds_);
             break;
         case Reply::TooLong:
-            failure.text =
-                fmt::format("its program sent a line of more than {} bytes", max_bytes);
+            failure.text = fmt::format("its program sent a line of more than {} bytes", max_bytes);
             break;
         case Reply::Cancelled:
             failure.stop = Stop::Cancelled;
@@ -79,8 +78,9 @@ private:
 
 } // namespace
 
-Result<std::unique_ptr<LineProgram>> start_environment_program(
-    const std::string& command, double seconds, const std::atomic<bool>* cancelled) {
+Result<std::unique_ptr<LineProgram>> start_environment_program(const std::string& command,
+                                                               double seconds,
+                                                               const std::atomic<bool>* cancelled) {
     auto program = std::make_unique<EnvironmentProgram>(seconds, cancelled);
     if (const int reason = program->start(command); reason != 0) {
         return Error{std::generic_category().message(reason)};

@@ -52,9 +52,9 @@ Result<EnvironmentPicture> read_png_greys(std::string_view bytes, std::uint64_t 
     };
     for (std::size_t i = 0; i < pixels; ++i) {
         const std::size_t first = i * samples.channels;
-        const double grey =
-            samples.channels < 3 ? sample(first)
-                                 : grey_of(sample(first), sample(first + 1), sample(first + 2));
+        const double grey = samples.channels < 3
+                                ? sample(first)
+                                : grey_of(sample(first), sample(first + 1), sample(first + 2));
         picture.values.push_back(grey / white);
     }
     return picture;
@@ -111,24 +111,24 @@ private:
     }
 
     Result<std::string> read_bytes(const std::string& path) const {
-        Result<std::string> bytes = step_.project().host.read_referenced_file(
-            path, {~std::uint64_t{0}, budget_.left});
+        Result<std::string> bytes =
+            step_.project().host.read_referenced_file(path, {~std::uint64_t{0}, budget_.left});
         if (!bytes) {
-            return Error{fmt::format("cannot read `{}`: {}", shown_path(path),
-                                     bytes.error().message),
-                         bytes.error().kind};
+            return Error{
+                fmt::format("cannot read `{}`: {}", shown_path(path), bytes.error().message),
+                bytes.error().kind};
         }
         return bytes;
     }
 
-    Result<void> read_mesh(const EnvironmentSurface& surface, bool is_shape, EnvironmentFiles& files) {
+    Result<void>
+    read_mesh(const EnvironmentSurface& surface, bool is_shape, EnvironmentFiles& files) {
         const std::string path = path_to(surface);
         const Result<std::string> text = read_bytes(path);
         if (!text) {
             return text.error();
         }
-        const Result<UserMesh> read =
-            read_obj(text.value(), budget_.left - text.value().size());
+        const Result<UserMesh> read = read_obj(text.value(), budget_.left - text.value().size());
         if (!read) {
             return Error{fmt::format("cannot use `{}`: {}", shown_path(path), read.error().message),
                          read.error().kind};
@@ -179,15 +179,15 @@ private:
     /// Returns whether the step may go on.
     bool report(const Error& error, const EnvironmentSurface& surface) {
         const bool is_limit = error.kind == ErrorKind::Limit;
-        Diagnostic diagnostic = make_diagnostic(
-            is_limit ? DiagnosticCode::LimitReached : DiagnosticCode::EnvironmentFile, {},
-            error.message);
+        Diagnostic diagnostic = make_diagnostic(is_limit ? DiagnosticCode::LimitReached
+                                                         : DiagnosticCode::EnvironmentFile,
+                                                {}, error.message);
         if (surface.site != kNone) {
             const Site& site = grammar_.bytecode.sites[surface.site];
             if (grammar_.is_module_file) {
                 const auto file = static_cast<std::size_t>(site.span.file);
-                diagnostic.notes.push_back(fmt::format(
-                    "at {}:{}:{}", grammar_.bytecode.files[file], site.line, site.column));
+                diagnostic.notes.push_back(fmt::format("at {}:{}:{}", grammar_.bytecode.files[file],
+                                                       site.line, site.column));
             } else {
                 diagnostic.span = site.span;
             }
@@ -207,11 +207,10 @@ private:
 
 } // namespace
 
-Outcome<std::vector<EnvironmentFiles>>
-read_environment_files(const std::filesystem::path& folder,
-                       const Grammar& grammar,
-                       const Project& project,
-                       FileBudget& budget) {
+Outcome<std::vector<EnvironmentFiles>> read_environment_files(const std::filesystem::path& folder,
+                                                              const Grammar& grammar,
+                                                              const Project& project,
+                                                              FileBudget& budget) {
     Step step(project);
     EnvironmentReader reader(folder, grammar, budget, step);
     std::vector<EnvironmentFiles> files(grammar.bytecode.environments.size());

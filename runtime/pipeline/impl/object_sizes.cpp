@@ -96,8 +96,7 @@ Outcome<SensingOptions> read_object_sizes(const std::filesystem::path& folder,
             return refuse(mesh.error());
         }
         sizes.mesh_lengths[i] = mesh.value().length();
-        sizes.mesh_areas[i] =
-            0.5 * area_of_triangles(mesh.value().positions, mesh.value().indices);
+        sizes.mesh_areas[i] = 0.5 * area_of_triangles(mesh.value().positions, mesh.value().indices);
     }
     return step.done(std::move(sizes));
 }
