@@ -48,7 +48,7 @@ set(LSYS_LAYERS
   "packaging/pages: grammar/base grammar/dialects runtime/export runtime/cli runtime/mpi viewer/app"
   "viewer/scene: grammar/base runtime/base runtime/turtle runtime/physics runtime/forest runtime/terrain runtime/scene"
   "viewer/gl: grammar/base runtime/platform runtime/meshing runtime/physics viewer/scene"
-  "viewer/app: grammar/base runtime/platform runtime/base runtime/turtle runtime/meshing runtime/placement runtime/physics runtime/scene runtime/names runtime/pipeline runtime/program runtime/repair runtime/export runtime/output viewer/scene viewer/gl")
+  "viewer/app: grammar/base runtime/platform runtime/base runtime/turtle runtime/meshing runtime/forest runtime/placement runtime/physics runtime/scene runtime/names runtime/pipeline runtime/program runtime/repair runtime/export runtime/output viewer/scene viewer/gl")
 
 # lsys_layer(PATH RESULT): sets RESULT to the innermost folder of the table that contains PATH.
 function(lsys_layer path result)

@@ -4,6 +4,7 @@
 #include "grammar/base/contract.h"
 #include "runtime/base/out_of_memory.h"
 #include "runtime/base/random.h"
+#include "runtime/environment/neighbours.h"
 
 #include <algorithm>
 #include <cmath>
@@ -261,10 +262,25 @@ EnvironmentSense::ask(std::size_t index, Word& word, std::uint32_t age, Derivati
     }
     sensed.sizes.clear();
     sensed.answers.assign(size == kUnknownAnswer ? 0 : sensed.places.size() * size, 0.0F);
-    const SensedWord asked{age, sensed.places, organs_, parameters, first};
+    SensedWord asked{age, sensed.places, organs_, parameters, first};
+    std::vector<SensePlace> all_places; // with those of neighbours, which get answers, too
+    std::vector<SensedOrgan> all_organs;
+    if (options_.neighbours != nullptr && kind == EnvironmentKind::Shadow) {
+        all_places = sensed.places;
+        options_.neighbours->append_places(age, index, all_places);
+        sensed.answers.resize(all_places.size() * size);
+        asked.places = all_places;
+    } else if (options_.neighbours != nullptr && kind == EnvironmentKind::Sky) {
+        all_organs = organs_;
+        options_.neighbours->append_organs(age, all_organs);
+        asked.organs = all_organs;
+    }
     if (std::optional<EnvironmentFailure> failure =
             environments_[index]->answer(asked, sensed.answers, sensed.sizes)) {
         return end_failed(index, std::move(*failure), &word, age, end);
+    }
+    if (!all_places.empty()) {
+        sensed.answers.resize(sensed.places.size() * size);
     }
     return write(index, word, age, end);
 }

@@ -22,6 +22,8 @@
 
 namespace lsys {
 
+struct Neighbours;
+
 struct SenseOptions {
     /// What files contain, by index in Bytecode::environments. Outlives the object.
     const std::vector<EnvironmentFiles>* files = nullptr;
@@ -29,6 +31,8 @@ struct SenseOptions {
     std::vector<ProgramCommand> programs;
     /// Lengths and areas of objects; EnvironmentSense sets the other members.
     SensingOptions objects;
+    /// Plants that shade the one that senses (neighbours.h); null: none. Outlives the object.
+    const Neighbours* neighbours = nullptr;
     std::uint32_t threads = 0;                   // 0: as many as the machine has
     std::uint64_t max_bytes = ~std::uint64_t{0}; // of places, answers and environments
     const std::atomic<bool>* cancelled = nullptr;

@@ -3,6 +3,7 @@
 
 #include "grammar/base/counted_text.h"
 #include "runtime/base/out_of_memory.h"
+#include "runtime/forest/surroundings.h"
 #include "runtime/meshing/mesh_items.h"
 #include "runtime/pipeline/item_origin.h"
 #include "runtime/pipeline/step.h"
@@ -76,7 +77,11 @@ std::string tree_text(const Picked& picked, const ForestDocument& document) {
     const Tree& tree = picked.tree;
     const ForestSpecies& species = forest.species[tree.species];
     const TreeForm& form = document.model.forms[picked.form];
-    return fmt::format("tree {} of `{}`: {}, {:.3g} m high, {}", tree.number, species.name,
+    const std::string name =
+        species.senses_surroundings
+            ? fmt::format("{}` ({})", species.name, kSurroundingsNames[surroundings_of(tree)])
+            : species.name + '`';
+    return fmt::format("tree {} of `{}: {}, {:.3g} m high, {}", tree.number, name,
                        counted(species.stages[forest.stage_of(tree)].generations, "generation"),
                        tree.scale * form.height(), place_text(tree.position));
 }
