@@ -17,6 +17,9 @@ in vec3 world_normal;
 in vec3 shadow_position;
 in vec3 fog; // xy: fog_to(); z: distance, m
 in float cover;
+#ifndef PICTURE
+in float widest;
+#endif
 out vec4 colour;
 #ifdef PICTURE
 #if QUALITY > 0
@@ -67,7 +70,7 @@ void main() {
 void main() {
     vec3 up = normalize(world_normal);
     float steep = 1.0 - up.y;
-    GroundLook look = ground_look(world_position.xz, fog.z, steep);
+    GroundLook look = ground_look(world_position.xz, fog.z, steep, widest);
     vec3 earth = mix(vec3(0.060, 0.045, 0.030), vec3(0.110, 0.086, 0.058), look.small);
     vec3 albedo = mix(grass_colour(look.middle), earth, look.bare);
 #if QUALITY > 0
