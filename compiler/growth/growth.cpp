@@ -18,7 +18,8 @@ using analysis::GrowthWalk;
 using analysis::ModuleClasses;
 using analysis::same;
 
-constexpr std::uint64_t kMaxListWork = 5'000'000; // max terms read, plus classes listed
+/// Max terms read plus classes listed, over all generations of a listing.
+constexpr std::uint64_t kMaxListWork = 5'000'000;
 
 /// The sizes of generations 0, 1, ... up to the current generation of `walk`.
 struct Listing {
@@ -28,7 +29,9 @@ struct Listing {
     std::optional<std::uint32_t> unchanged_from;
 };
 
-/// Advances the walk to generation `generations`, or until a lower bound exceeds `max_modules`.
+/// Advances the walk to generation `generations`. Ends earlier if the lower bound of the modules
+/// exceeds `max_modules`, if all later words are equal, or if the next generation would exceed
+/// kMaxListWork.
 Listing follow(GrowthWalk& walk, std::uint32_t generations, const Count& max_modules) {
     Listing listing;
     std::uint64_t work = 0;
