@@ -270,7 +270,8 @@ struct Bytecode {
     [[nodiscard]] std::uint32_t rewriting_rule_count() const;
     /// Whether a symbol can cut off the rest of its branch.
     [[nodiscard]] bool has_cuts() const;
-    /// Whether a symbol is a sense module: words are then sensed, see DeriveOptions::senses.
+    /// Whether a symbol is a sense module: then each word of a derivation goes to
+    /// DeriveOptions::senses, which writes the values of its sense modules.
     [[nodiscard]] bool has_senses() const;
     /// Whether there are productions of `#down` or `#up`.
     [[nodiscard]] bool has_sweeps() const { return has(Stage::Down) || has(Stage::Up); }

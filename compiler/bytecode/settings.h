@@ -101,18 +101,18 @@ inline constexpr std::uint32_t kMaxDepth = 100'000;
 inline constexpr float kLowestNumber = std::numeric_limits<float>::lowest();
 
 struct Settings {
-#define LSYS_SETTING(type, field, initial, use, group) type field = initial;
+#define LSYS_SETTING(type, field, initial, effect, group) type field = initial;
 #include "compiler/bytecode/settings.def"
 };
 
 /// Whether the derived word depends on a setting.
-enum class SettingUse : std::uint8_t { AffectsWord, NoEffectOnWord };
+enum class SettingEffect : std::uint8_t { AffectsWord, NoEffectOnWord };
 /// Line of the program dump that shows a setting. None: no line made from settings.def shows it.
 LSYS_COUNTED_ENUM(SettingGroup, None, Modes, Random, Drawing, Scales, Physics, Stages);
 
 struct SettingRow {
     std::string_view name; // name of the field; also the key in `#set`, if it has one
-    SettingUse use;
+    SettingEffect effect;
     SettingGroup group;
 };
 
@@ -120,8 +120,8 @@ struct SettingRow {
 /// .lsb files.
 template <typename Values, typename Function>
 constexpr void for_each_setting(Values& settings, Function function) {
-#define LSYS_SETTING(type, field, initial, use, group)                                             \
-    function(SettingRow{#field, SettingUse::use, SettingGroup::group}, settings.field);
+#define LSYS_SETTING(type, field, initial, effect, group)                                          \
+    function(SettingRow{#field, SettingEffect::effect, SettingGroup::group}, settings.field);
 #include "compiler/bytecode/settings.def"
 }
 

@@ -67,7 +67,7 @@ private:
         if (!ranges.all_finite) {
             return fail("a setting is not finite");
         }
-#define LSYS_COUNT(field, initial, use, group, min, max, wanted, misfit)                           \
+#define LSYS_COUNT(field, initial, effect, group, min, max, wanted, misfit)                        \
     if (s.field < (min) || s.field > (max)) {                                                      \
         return fail(misfit, s.field);                                                              \
     }

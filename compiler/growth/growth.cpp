@@ -18,7 +18,8 @@ using analysis::GrowthWalk;
 using analysis::ModuleClasses;
 using analysis::same;
 
-constexpr std::uint64_t kMaxListWork = 5'000'000; // max terms read, plus classes listed
+/// Max terms read plus classes listed, over all generations of a listing.
+constexpr std::uint64_t kMaxListWork = 5'000'000;
 
 /// The sizes of generations 0, 1, ... up to the current generation of `walk`.
 struct Listing {
@@ -29,8 +30,9 @@ struct Listing {
     SymbolId depends_on = kNoSymbol; // see GrowthPrediction::depends_on
 };
 
-/// Advances the walk to generation `generations`, or until a lower bound exceeds `max_modules`, or
-/// the next generation depends on an answer or a sweep.
+/// Advances the walk to generation `generations`. Ends earlier if the lower bound of the modules
+/// exceeds `max_modules`, if all later words are equal, if the next generation would exceed
+/// kMaxListWork, or if it depends on an answer or a sweep.
 Listing follow(const Bytecode& bytecode,
                GrowthWalk& walk,
                std::uint32_t generations,

@@ -175,7 +175,8 @@ constexpr auto kSidefx = joined(
               {"@", DivideAngle}}),
     kPolygonsAndCut);
 
-// cpfg rolls as the matrices of ABOP 1.5 do: `\\` turns up towards right.
+// cpfg rolls as the matrices of ABOP 1.5 do: `\\` rolls about the heading, from the up vector
+// towards the right vector.
 constexpr auto kCpfg = joined(kForwardAndMove,
                               turns({YawLeft, YawRight, PitchDown, PitchUp, RollRight, RollLeft}),
                               kCommandsExceptTurns,

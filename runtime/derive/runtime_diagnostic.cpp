@@ -299,7 +299,7 @@ Diagnostic out_of_bounds(const RuntimeError& error, const Bytecode& bytecode) {
     return diagnostic;
 }
 
-/// The predecessor of the production at fault, if the successor contains it; else empty.
+/// The predecessor of the production that failed, if the successor contains it; else empty.
 std::string repeated_module(const RuntimeError& error, const Bytecode& bytecode) {
     const BytecodeProduction& production =
         bytecode.productions[static_cast<std::size_t>(error.production)];

@@ -179,10 +179,10 @@ private:
         std::uint32_t slot;
         std::uint32_t order;
     };
-    /// Stack of items to visit. Its capacity doubles when it is full, since most instances add only
-    /// one or two items.
+    /// Items still to visit; the last added is visited first. The capacity doubles when the stack is
+    /// full, since most instances add only one or two items.
     template <typename T>
-    class Stack {
+    class VisitStack {
     public:
         [[nodiscard]] bool empty() const { return count_ == 0; }
         T pop() { return items_[--count_]; }
@@ -207,8 +207,8 @@ private:
 
     const InstanceCache& cache_;
     std::uint64_t key_;
-    Stack<Pending> pending_;
-    Stack<std::uint32_t> pending_slots_;           // used by expand_instances()
+    VisitStack<Pending> pending_;
+    VisitStack<std::uint32_t> pending_slots_;      // used by expand_instances()
     std::array<std::uint32_t, kBlockRun> draws_{}; // draws of the current run of nodes
 };
 
@@ -267,15 +267,14 @@ std::uint32_t TreeExpander::expand_instances(const Tree& tree, Visit&& visit) {
     *pending_slots_.add(1) = 0;
     std::uint32_t node = 0;
     while (!pending_slots_.empty()) {
-        const std::uint32_t number =
-            choose(cache_.slots[pending_slots_.pop()], tree.number, node++);
-        const Instance& instance = cache_.instances[number];
+        const std::uint32_t index = choose(cache_.slots[pending_slots_.pop()], tree.number, node++);
+        const Instance& instance = cache_.instances[index];
         const InstanceExit* const exits = cache_.exits.data() + instance.first_exit;
         std::uint32_t* const slots = pending_slots_.add(instance.exit_count);
         for (std::uint32_t i = 0; i < instance.exit_count; ++i) {
             slots[i] = exits[instance.exit_count - 1 - i].slot;
         }
-        visit(number);
+        visit(index);
     }
     return node;
 }

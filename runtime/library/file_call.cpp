@@ -20,7 +20,7 @@ write_files(Call& call,
     ::lsys::Messages messages;
     MessageOptions options;
     options.levels = call.project().levels;
-    const Console console({in, out, out, false, call.cancelled(), "lsys"}, options, messages);
+    const Console console({in, out, out, false, call.cancel_flag(), "lsys"}, options, messages);
     std::vector<std::string> paths;
     ::lsys::FileReceiver receiver;
     if (receive != nullptr) {

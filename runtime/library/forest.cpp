@@ -356,7 +356,7 @@ make_instances(const Forest& forest, const MeshOptions& mesh, const Project& pro
         auto data = std::make_shared<Instances::Data>();
         data->threads = project.threads;
         const InstanceListOptions options{project.threads, call.project().limits.max_bytes,
-                                          call.cancelled()};
+                                          call.cancel_flag()};
         if (const std::optional<Stop> stop =
                 make_instance_list(grown.forest, options, data->list)) {
             return *stop == Stop::Cancelled ? step.end(*stop)

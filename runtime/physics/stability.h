@@ -46,7 +46,7 @@ enum class Stiffening : std::uint8_t {
 [[nodiscard]] std::optional<double>
 standing_factor(const Skeleton& rest, const PhysicsOptions& options, Stiffening way);
 
-/// Whether the spring of each segment is the value computed from its width, length and `elasticity`.
+/// Whether each segment has the spring constant computed from its width, length and `elasticity`.
 [[nodiscard]] bool has_automatic_springs(const Skeleton& rest, double elasticity);
 
 } // namespace lsys

@@ -28,7 +28,7 @@ struct Hero {
     Skeleton skeleton; // in the coordinates of the cache's heroes
     DetailLevels levels;
     Bounds bounds;            // of level 0
-    double reach = 0.0;       // m, from the entry of the instance to the farthest point of level 0
+    double reach = 0.0;       // m, greatest distance of level 0 from the base of plant or branch
     std::vector<bool> in_use; // by level: whether some tree uses it
     std::vector<Mesh> meshes; // by level; made only for levels in use
 

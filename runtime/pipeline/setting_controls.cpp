@@ -60,7 +60,7 @@ SettingControl word_control(std::string_view key, Enum value) {
 std::vector<SettingControl> setting_controls(const Grammar& grammar) {
     const Settings& settings = grammar.bytecode.settings;
     std::vector<SettingControl> controls;
-#define LSYS_NUMBER(field, initial, use, group, min, wanted)                                       \
+#define LSYS_NUMBER(field, initial, effect, group, min, wanted)                                    \
     controls.push_back(number_control(#field, SettingKind::Number, settings.field));               \
     controls.back().accepts = wanted;                                                              \
     controls.back().lowest = min;                                                                  \
@@ -75,14 +75,14 @@ std::vector<SettingControl> setting_controls(const Grammar& grammar) {
     tropism.highest = -kLowestNumber;
     tropism.min = -1.0F;
     tropism.max = 1.0F;
-#define LSYS_COUNT(field, initial, use, group, min, max, wanted, misfit)                           \
+#define LSYS_COUNT(field, initial, effect, group, min, max, wanted, misfit)                        \
     controls.push_back(                                                                            \
         number_control(#field, SettingKind::Count, static_cast<float>(settings.field)));           \
     controls.back().accepts = wanted;                                                              \
     controls.back().lowest = min;                                                                  \
     controls.back().highest = max;
 #include "compiler/bytecode/settings.def"
-#define LSYS_CHOICE(type, field, initial, use, group)                                              \
+#define LSYS_CHOICE(type, field, initial, effect, group)                                           \
     controls.push_back(word_control(#field, settings.field));
 #include "compiler/bytecode/settings.def"
     if (grammar.translation.empty()) {

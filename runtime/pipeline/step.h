@@ -71,8 +71,8 @@ public:
     [[nodiscard]] Ended end() { return end(stop_); }
     /// Ends with Stop::Limit if a diagnostic is about a limit, else with Stop::Diagnosed.
     [[nodiscard]] Ended end_diagnosed();
-    /// Ends with Stop::Limit or Stop::OutOfMemory, because `what` ("the mesh") exceeds the
-    /// memory of the project or of the system.
+    /// Ends with Stop::Limit or Stop::OutOfMemory, because `what` ("the mesh") exceeds
+    /// `limits.max_bytes` of the project (Stop::Limit) or the memory of the machine.
     [[nodiscard]] Ended end_too_large(Stop stop, std::string_view what);
     /// Ends with a failure of the environment or a limit of memory, or with Stop::Cancelled if the
     /// host has cancelled the step.

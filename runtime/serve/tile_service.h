@@ -40,7 +40,7 @@ struct TileResponse {
     bool is_head = false;   // send the length of the body, but not the body
 };
 
-/// Counts since the start, for /metrics.
+/// Counts of one TileService since it was made, for /metrics.
 struct TileCounts {
     /// Upper bounds of the classes of `times`; the last class has none.
     static constexpr std::array<double, 8> kSeconds{0.001, 0.003, 0.01, 0.03, 0.1, 0.3, 1.0, 3.0};

@@ -358,7 +358,7 @@ void TileForest::State::plan_levels() {
     if (plan.first_tree_level > 0) {
         for (std::size_t i = 0; i < heroes.size(); ++i) {
             if (is_plant(i)) {
-                heroes[i].in_use[plan.crowns[i]] = true;
+                heroes[i].in_use[plan.canopy_levels[i]] = true;
             }
         }
     }
@@ -436,7 +436,7 @@ void TileForest::State::make_canopies() {
     }
     std::vector<Crown> crowns; // of the plants, which stand in for their trees
     for (std::size_t i = 0; i < heroes.size() && is_plant(i); ++i) {
-        crowns.push_back(crown_of(heroes[i].meshes[plan.crowns[i]]));
+        crowns.push_back(crown_of(heroes[i].meshes[plan.canopy_levels[i]]));
     }
     if (field != nullptr) {
         std::vector<CrownSums> means(max_scales.size());

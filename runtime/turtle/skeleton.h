@@ -92,9 +92,9 @@ struct Skeleton {
     LargeVector<PlacedObject> objects;
     LargeVector<Polygon> polygons;
     LargeVector<glm::vec3> corners;
-    std::vector<std::string> mesh_files; // meshes and pictures, as written in the grammar
+    std::vector<std::string> mesh_files; // paths of meshes and pictures, as written in the grammar
     std::shared_ptr<const Looks> looks;  // looks of the `#material`s; null: none
-    bool l3d_compatible_surface = false; // drawn by meshing/impl/l3d_shapes.h
+    bool l3d_compatible_surface = false; // meshes as the program L3D makes them
     bool box_segments = false;           // MeshMethod::Default draws boxes
     float leaf_droop = 0.0F;             // default of MeshOptions::droop
     TubeShape tube_shape;

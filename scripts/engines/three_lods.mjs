@@ -9,7 +9,7 @@
 
 /// Default vertical field of view in degrees.
 const VIEW = 60;
-/// Width / height of the screen for which the file gives coverages.
+/// Width / height of the screen to which the fractions of MSFT_screencoverage in the file refer.
 const ASPECT = 16 / 9;
 
 export function lods(THREE, view = VIEW) {

@@ -63,18 +63,18 @@ TEST_CASE("the explanation of unknown keys lists every setting") {
     std::istringstream words(text.substr(begin + 23, text.find("`.", begin) - begin - 23));
     const std::set<std::string> keys{std::istream_iterator<std::string>(words), {}};
     std::set<std::string> known;
-#define LSYS_CHOICE(type, field, initial, use, group) known.insert(#field);
-#define LSYS_NUMBER(field, initial, use, group, min, wanted) known.insert(#field);
-#define LSYS_COUNT(field, initial, use, group, min, max, wanted, misfit) known.insert(#field);
+#define LSYS_CHOICE(type, field, initial, effect, group) known.insert(#field);
+#define LSYS_NUMBER(field, initial, effect, group, min, wanted) known.insert(#field);
+#define LSYS_COUNT(field, initial, effect, group, min, max, wanted, misfit) known.insert(#field);
 #define LSYS_STATEMENT(key) known.insert(#key);
 #include "compiler/bytecode/settings.def"
     CHECK(keys == known);
 }
 
 TEST_CASE("every setting is documented with its values and its default") {
-#define LSYS_CHOICE(type, field, initial, use, group) check_choice(#field, type::initial);
-#define LSYS_NUMBER(field, initial, use, group, min, wanted) check_number(#field, initial);
-#define LSYS_COUNT(field, initial, use, group, min, max, wanted, misfit)                           \
+#define LSYS_CHOICE(type, field, initial, effect, group) check_choice(#field, type::initial);
+#define LSYS_NUMBER(field, initial, effect, group, min, wanted) check_number(#field, initial);
+#define LSYS_COUNT(field, initial, effect, group, min, max, wanted, misfit)                        \
     check_number(#field, initial);
 #define LSYS_STATEMENT(key) CHECK_FALSE(row_of(#key).empty());
 #include "compiler/bytecode/settings.def"

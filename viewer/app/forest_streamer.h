@@ -33,9 +33,9 @@ struct StreamStats {
     std::uint64_t wanted = 0;     // squares
     std::uint64_t shown = 0;      // squares
     std::uint64_t kept = 0;       // squares that are ready but not wanted
-    std::uint64_t made = 0;       // squares since the start
+    std::uint64_t made = 0;       // squares made by this streamer
     std::uint64_t bytes = 0;      // bytes of all squares that are ready
-    std::uint64_t peak_bytes = 0; // since the start
+    std::uint64_t peak_bytes = 0; // greatest `bytes` so far
     double slowest_step = 0.0;    // s, of step() and settle() without waiting
     double wait_seconds = 0.0;    // time that settle() waited
 };

@@ -54,10 +54,10 @@ struct ForestViewSettings : ForestEdits {
     Brush brush;
 };
 
-/// Statistics of one instance cache: a species with one number of generations.
+/// Statistics of one instance cache: that of a species at one stage.
 struct CacheStats {
     std::string species;
-    std::uint32_t generations = 0;
+    std::uint32_t generations = 0; // of the stage
     std::uint32_t heroes = 0;
     std::uint64_t keys = 0;     // pairs of a branch id and an age
     std::uint64_t branches = 0; // recorded branches, whole plants included

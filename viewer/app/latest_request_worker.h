@@ -34,7 +34,7 @@ public:
     ~LatestRequestWorker() {
         {
             const std::lock_guard lock(mutex_);
-            stops_ = true;
+            stop_requested_ = true;
             cancelled_ = true;
             changed_.notify_one();
         }
@@ -114,8 +114,8 @@ private:
             {
                 std::unique_lock lock(mutex_);
                 is_running_ = false;
-                changed_.wait(lock, [this] { return pending_ || stops_; });
-                if (stops_) {
+                changed_.wait(lock, [this] { return pending_ || stop_requested_; });
+                if (stop_requested_) {
                     return;
                 }
                 request = std::exchange(pending_, std::nullopt);
@@ -149,7 +149,7 @@ private:
     bool is_running_ = false;
     bool is_running_repeat_ = false; // Request::is_repeat of the running or last request
     bool owes_repeat_ = false;       // a cancelled request had Request::is_repeat
-    bool stops_ = false;
+    bool stop_requested_ = false;
     SteadyClock::time_point began_;
     std::atomic<bool> cancelled_{false};
     std::thread thread_; // last member: it uses the others

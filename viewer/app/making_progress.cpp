@@ -21,9 +21,9 @@ constexpr std::array<const char*, kCountOf<LongStep>> kNames{
 } // namespace
 
 void MakingProgress::follow(Host& host) {
-    host.step_begins = [this](LongStep step) { begin(step); };
-    host.progress = [this](const DerivationProgress& progress) { derive(progress); };
-    begin(LongStep::Read);
+    host.step_begins = [this](LongStep step) { note_step(step); };
+    host.progress = [this](const DerivationProgress& progress) { note_derivation(progress); };
+    note_step(LongStep::Read);
 }
 
 MakingState MakingProgress::state() const {
@@ -41,14 +41,14 @@ MakingState MakingProgress::state() const {
     return state;
 }
 
-void MakingProgress::begin(LongStep step) {
+void MakingProgress::note_step(LongStep step) {
     const std::lock_guard lock(mutex_);
     step_ = step;
     generation_ = 0;
 }
 
 /// Keeps a running sum of the expected modules, since a plant may have up to 2^32 generations.
-void MakingProgress::derive(const DerivationProgress& progress) {
+void MakingProgress::note_derivation(const DerivationProgress& progress) {
     const std::lock_guard lock(mutex_);
     if (generation_ == 0) {
         const bool is_known = progress.expected.size() > progress.generations;

@@ -24,8 +24,8 @@ public:
     [[nodiscard]] MakingState state() const;
 
 private:
-    void begin(LongStep step);
-    void derive(const DerivationProgress& progress);
+    void note_step(LongStep step);
+    void note_derivation(const DerivationProgress& progress);
 
     mutable std::mutex mutex_;
     LongStep step_ = LongStep::Read;

@@ -115,13 +115,13 @@ bool SourcePane::update(View& view, const std::function<void()>& wake) {
     if (!look.is_shown) {
         return false;
     }
-    if (view.load_count() != 0 &&
-        (requested_file_ != view.loaded_file() || requested_load_ != view.load_count())) {
+    if (view.taken_request_count() != 0 &&
+        (requested_file_ != view.loaded_file() || requested_load_ != view.taken_request_count())) {
         if (worker_ == nullptr) {
             worker_ = std::make_unique<SourceWorker>(make_source_text, wake);
         }
         requested_file_ = view.loaded_file();
-        requested_load_ = view.load_count();
+        requested_load_ = view.taken_request_count();
         worker_->request({view.loaded_sources(), SteadyClock::now(), false});
     }
     bool has_new_content = false;

@@ -70,7 +70,7 @@ void View::take_messages(const Messages& messages, bool succeeded) {
     failed_ = !succeeded;
     messages_ = std::make_shared<Messages>(messages);
     loaded_file_ = file();
-    ++load_count_;
+    ++taken_request_count_;
 }
 
 LoadedSources View::common_sources() const {

@@ -141,7 +141,7 @@ public:
     /// The sources that the last request has read.
     [[nodiscard]] virtual LoadedSources loaded_sources() const = 0;
     /// Count of requests whose messages were taken; loaded_sources() changes with it.
-    [[nodiscard]] std::uint64_t load_count() const { return load_count_; }
+    [[nodiscard]] std::uint64_t taken_request_count() const { return taken_request_count_; }
     /// The file of the last request whose messages were taken.
     [[nodiscard]] const std::string& loaded_file() const { return loaded_file_; }
     /// Whether the last request failed.
@@ -194,7 +194,7 @@ private:
     std::vector<ShownMessage> entries_;
     std::shared_ptr<const Messages> messages_; // of the last request
     std::string loaded_file_;
-    std::uint64_t load_count_ = 0;
+    std::uint64_t taken_request_count_ = 0;
     std::string note_;
     SteadyClock::time_point note_since_;
     bool failed_ = false;

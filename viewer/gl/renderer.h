@@ -77,10 +77,11 @@ struct Frame {
     bool dims = false;                // dims everything except lines; not with `transparent`
     std::uint32_t samples = 4;        // per pixel: 1 or 4
     std::optional<glm::dvec3> figure; // feet of a person of 1.8 m in the world, m
-    // Forests only.
-    // Max triangles of branches; with more, trees are drawn coarser.
+    // The three fields below are for forests only.
+    /// Max triangles of branches; with more, trees are drawn coarser.
     std::uint64_t max_triangles = 1'500'000;
-    // Max trees expanded into branches per picture; compute shaders expand all.
+    /// Max trees that the processor expands into branches per picture; the others stay impostors
+    /// until the next picture. Ignored where compute shaders choose the trees.
     std::uint32_t max_expansions = ~0U;
     /// WantedSquares::range of a streamed forest, m; other forests show all their trees.
     float tree_range = std::numeric_limits<float>::infinity();
@@ -252,7 +253,7 @@ public:
     [[nodiscard]] virtual std::string device_name() const = 0;
     [[nodiscard]] virtual std::uint64_t live_objects() const = 0;
     [[nodiscard]] virtual std::uint64_t uploaded_bytes() const = 0;
-    /// Errors reported by the driver since the start.
+    /// Errors that the driver reported since the renderer was made.
     [[nodiscard]] virtual const std::vector<std::string>& errors() const = 0;
 
 protected:

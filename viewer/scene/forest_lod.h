@@ -254,7 +254,7 @@ public:
 
 private:
     /// A tree high enough for branches.
-    struct Candidate {
+    struct BranchCandidate {
         std::uint32_t tree = 0;
         float pixels = 0.0F;
     };
@@ -362,7 +362,7 @@ private:
     std::vector<TreeExpander> expanders_;   // by form
     std::vector<std::uint32_t> first_mesh_; // by form: index of its first group in mesh_counts_
     DrawLists lists_;
-    std::vector<Candidate> candidates_;
+    std::vector<BranchCandidate> candidates_;
     std::vector<ImpostorEntry> far_;
     std::vector<BranchEntry> visible_branches_;
     std::vector<PoolBranch> made_branches_;

@@ -261,7 +261,7 @@ std::uint32_t ForestLod::blend_steps(float pixels, std::uint32_t level, const Lo
 float ForestLod::detail_in_budget(const LodOptions& options) const {
     const auto fits = [&](float detail) {
         std::uint64_t triangles = 0;
-        for (const Candidate& candidate : candidates_) {
+        for (const BranchCandidate& candidate : candidates_) {
             const float pixels = candidate.pixels * detail;
             const std::uint32_t level = level_of(pixels, options);
             if (level < kTreeLevels) {
@@ -332,7 +332,7 @@ void ForestLod::list_branches(const Frustum& frustum, const LodOptions& options)
     visible_trees_.clear();
     std::fill(mesh_counts_.begin(), mesh_counts_.end(), 0);
     constexpr std::uint32_t kWholeWeight = BranchEntry::kBlendSteps;
-    for (const Candidate& candidate : candidates_) {
+    for (const BranchCandidate& candidate : candidates_) {
         const LodTree& tree = lod_tree(candidate.tree);
         const float pixels = candidate.pixels * lists_.detail;
         const std::uint32_t level = level_of(pixels, options);

@@ -99,7 +99,7 @@ template <typename Stream, typename Value>
 void describe_settings(Stream& stream, Value& settings) {
     auto&& undigested = stream.outside_digest();
     for_each_setting(settings, [&](const SettingRow& row, auto& value) {
-        if (row.use == SettingUse::AffectsWord) {
+        if (row.effect == SettingEffect::AffectsWord) {
             describe_value(stream, value);
         } else {
             describe_value(undigested, value);

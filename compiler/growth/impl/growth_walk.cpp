@@ -400,7 +400,8 @@ ProductionId GrowthWalk::dominant() {
         }
     }
     for (const SequenceRule& rule : sequences_) {
-        // Which production of the rule a match takes is unknown: attribute all to the first one.
+        // Which production of the rule rewrites a match is unknown: all modules that the matches
+        // write are counted for the first production.
         double modules = 0.0;
         for (const ClassTerm& term : rule.max_written) {
             modules += term.count;

@@ -47,7 +47,7 @@ private:
     const SourceMap& sources_;
     Bytecode& bytecode_;
     std::vector<std::uint32_t> stack_need_; // per ValueId: stack depth that its code needs
-    std::uint32_t current_site_ = kNone;    // site of the next instruction
+    std::uint32_t current_site_ = kNone;    // source position of the next instruction
     bool overflowed_ = false;
 
     /// A step of emitting the code of a value. The last step of frames_, a stack, is emitted first.

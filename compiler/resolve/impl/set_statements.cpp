@@ -16,12 +16,12 @@ namespace {
 
 /// The keys, in the order in which messages list them.
 constexpr auto kKeys = std::to_array<std::string_view>({
-#define LSYS_CHOICE(type, field, initial, use, group) #field,
+#define LSYS_CHOICE(type, field, initial, effect, group) #field,
 #define LSYS_STATEMENT(key) #key,
 #include "compiler/bytecode/settings.def"
-#define LSYS_NUMBER(field, initial, use, group, min, wanted) #field,
+#define LSYS_NUMBER(field, initial, effect, group, min, wanted) #field,
 #include "compiler/bytecode/settings.def"
-#define LSYS_COUNT(field, initial, use, group, min, max, wanted, misfit) #field,
+#define LSYS_COUNT(field, initial, effect, group, min, max, wanted, misfit) #field,
 #include "compiler/bytecode/settings.def"
 });
 
@@ -70,7 +70,7 @@ bool SetResolver::check_first_setting(const SetNode& node) {
 
 void SetResolver::read_mode(const SetNode& node, std::string_view key) {
     Settings& settings = resolution_.program.settings;
-#define LSYS_CHOICE(type, field, initial, use, group)                                              \
+#define LSYS_CHOICE(type, field, initial, effect, group)                                           \
     if (key == #field) {                                                                           \
         choose(node, enumerators_of<type>(), settings.field);                                      \
         return;                                                                                    \
@@ -243,12 +243,12 @@ void SetResolver::read_number(const SetNode& node, ExpressionResolver& expressio
         read_spring(node, expressions);
     }
     // The rows of settings.def follow. Any further key is a mode or unknown, see read_modes().
-#define LSYS_NUMBER(field, initial, use, group, min, wanted)                                       \
+#define LSYS_NUMBER(field, initial, effect, group, min, wanted)                                    \
     else if (key == #field) {                                                                      \
         const NumberRange range{min, -kLowestNumber, false, wanted};                               \
         settings.field = read_one(node, range, expressions).value_or(settings.field);              \
     }
-#define LSYS_COUNT(field, initial, use, group, min, max, wanted, misfit)                           \
+#define LSYS_COUNT(field, initial, effect, group, min, max, wanted, misfit)                        \
     else if (key == #field) {                                                                      \
         const NumberRange range{min, max, true, wanted};                                           \
         if (const std::optional<float> number = read_one(node, range, expressions)) {              \

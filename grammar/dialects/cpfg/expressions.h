@@ -77,7 +77,7 @@ private:
     void call_statement(const CpfgStatement& statement);
     void define_array(const CpfgStatement& statement);
     void find_changed_globals(const std::vector<int>& statements);
-    void read_each_step();
+    void classify_changed_globals();
     [[nodiscard]] int assignments(const std::vector<int>& statements, const std::string& to) const;
     /// Returns true when the expression has one of the names, or a random number.
     [[nodiscard]] bool uses(ForeignId expression, const std::set<std::string>& names) const;

@@ -54,7 +54,7 @@ void CpfgExpressions::read_header() {
             return node.kind == ForeignKind::Call && (node.text == "step" || node.text == "steps");
         }); // step() and steps() have values in productions only
     }
-    read_each_step();
+    classify_changed_globals();
     for (const int index : session_.end) {
         warn_left_out(statement_at(index).span, "End",
                       "`End:` is left out: it cannot change the word");
@@ -62,9 +62,9 @@ void CpfgExpressions::read_header() {
     in_header_ = false;
 }
 
-/// Classifies the variables that blocks of a step assign: incremented by each step, assigned anew
-/// by each step, or unknown.
-void CpfgExpressions::read_each_step() {
+/// Classifies the variables that the blocks of a step (`StartEach:`, `EndEach:`) assign: incremented
+/// by each step, assigned anew by each step, or unknown. Then writes the calls of these blocks.
+void CpfgExpressions::classify_changed_globals() {
     find_changed_globals(session_.start_each);
     find_changed_globals(session_.end_each);
     for (const std::string& variable : changed_globals_) {

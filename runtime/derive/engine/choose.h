@@ -35,7 +35,8 @@ public:
           matcher_(plan, word, contexts) {}
 
     /// Sets `record` of a module whose row is not Fixed: 0 if nothing matches, r if entry
-    /// row.base + r rewrites it. Returns false if a condition or weight is at fault; see fault().
+    /// row.base + r rewrites it. Returns false if a condition or weight has no valid value; see
+    /// fault().
     [[nodiscard]] bool choose(const ModulePlace& place, const Row& row, std::uint32_t& record);
 
     /// The draw of a module of a Choice row. module_draws() makes the draws of several modules.
@@ -85,7 +86,7 @@ public:
     }
 
     [[nodiscard]] const EvalFault& fault() const { return fault_; }
-    /// Whether a weight, not a condition, is at fault.
+    /// Whether it is a weight, not a condition, that has no valid value.
     [[nodiscard]] bool fault_in_weight() const { return fault_in_weight_; }
     /// The candidate of the fault, an index for Plan::candidate().
     [[nodiscard]] std::uint32_t faulty_candidate() const { return faulty_candidate_; }

@@ -25,7 +25,9 @@ struct CountResult {
     ModulePlace end;
     std::uint64_t modules = 0;
     std::uint64_t parameters = 0;
-    bool fault = false; // a condition or weight of the module at `end` is at fault
+    /// A condition or weight of a production for the module at `end` has no valid value (a run-time
+    /// error).
+    bool fault = false;
 };
 
 /// Writes a record (R: uint8_t or uint32_t, as Plan::record_width says) for each module whose row

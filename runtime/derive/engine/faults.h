@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Finds the module at fault after a pass has failed: evaluates module by module, slowly, up to the
+// Finds the module at which a pass has failed: evaluates module by module, slowly, up to the
 // lowest position at which a condition, weight or argument fails.
 #pragma once
 

@@ -231,7 +231,7 @@ public:
 
     // Properties of the program
     [[nodiscard]] bool has_parameters() const { return has_parameters_; }
-    /// Whether some successor without parameters has local values that may be at fault.
+    /// Whether some successor without parameters has local values whose computation can fail.
     [[nodiscard]] bool checks_unstored() const { return checks_unstored_; }
     [[nodiscard]] std::uint32_t record_width() const { return record_width_; }
     [[nodiscard]] std::uint32_t code_width() const { return codes_.width; }

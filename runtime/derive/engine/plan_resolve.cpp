@@ -70,7 +70,7 @@ void Plan::shape_condition(Candidate& candidate) {
 
 void Plan::shape_entry(const Candidate& candidate, Entry& entry) {
     const WordTemplate& successor = bytecode_.productions[candidate.production].successor;
-    // A random range of a local value can be at fault even if no argument uses the value, so all
+    // A random range of a local value can be invalid even if no argument uses the value, so all
     // local values are evaluated.
     const bool has_drawn_locals = bytecode_.local_count != 0 && successor.draw_count != 0;
     entry.general = has_drawn_locals;

@@ -77,7 +77,7 @@ private:
         return bytecode_.patterns[pattern.first + item].symbol;
     }
 
-    /// Tries a production. Returns false if its condition is at fault.
+    /// Tries a production. Returns false if its condition has no valid value.
     bool attempt(std::uint32_t index) {
         const BytecodeProduction& tried = production(index);
         const SymbolId head = pattern_symbol(tried.predecessor, 0);
@@ -180,7 +180,7 @@ private:
     }
 
     /// Computes the weights of the matching productions, and drops productions whose computed
-    /// weight is 0. Returns false if a weight is at fault.
+    /// weight is 0. Returns false if a weight is invalid.
     bool compute_weights() {
         weights_.clear();
         if (matching_.empty() || !production_of(trace_.attempts[matching_[0]]).stochastic) {

@@ -32,10 +32,10 @@ struct Contents {
     std::optional<GltfMotion> motion;
     std::optional<WindData> wind;
     Pictures pictures;
-    GltfStreams streams;
+    GltfBufferPlan buffer;
     GltfCollision collision;
 
-    [[nodiscard]] std::uint64_t bytes() const { return streams.bytes + collision.byte_count(); }
+    [[nodiscard]] std::uint64_t bytes() const { return buffer.bytes + collision.byte_count(); }
     [[nodiscard]] const GltfMotion* moving() const { return motion ? &*motion : nullptr; }
     [[nodiscard]] GltfPlant plant(const ExportJob& job) const {
         return {job.mesh, moving(), wind ? &*wind : nullptr, job.info.film, job.info.item_numbers};
@@ -47,7 +47,7 @@ class Document {
 public:
     Document(const ExportJob& job, const Contents& contents, JsonWriter& json)
         : mesh_(job.mesh), info_(job.info), motion_(contents.moving()), film_(job.info.film),
-          pictures_(contents.pictures), streams_(contents.streams), collision_(contents.collision),
+          pictures_(contents.pictures), buffer_(contents.buffer), collision_(contents.collision),
           json_(json) {
         number_materials();
     }
@@ -61,7 +61,7 @@ public:
         if (!pictures_.list.empty()) {
             const bool embedded = info_.buffer_name.empty();
             put_images(json_, pictures_.list,
-                       embedded ? std::optional(streams_.first_image) : std::nullopt);
+                       embedded ? std::optional(buffer_.first_image) : std::nullopt);
         }
         const std::size_t accessors = put_accessors();
         if (motion_ != nullptr) {
@@ -71,17 +71,17 @@ public:
             put_film_animation(json_, *film_, 1, accessors);
         }
         json_.array("bufferViews");
-        for (const GltfStream& stream : streams_.list) {
+        for (const GltfStream& stream : buffer_.streams) {
             put_stream_view(json_, stream);
         }
-        put_collision_views(json_, collision_, streams_.bytes);
+        put_collision_views(json_, collision_, buffer_.bytes);
         json_.end();
     }
 
 private:
     /// Numbers a material for each primitive; the shapes of a film share equal materials.
     void number_materials() {
-        const std::vector<GltfPrimitive>& list = streams_.primitives.list;
+        const std::vector<GltfPrimitive>& list = buffer_.primitives.list;
         std::size_t count = 0;
         for (const GltfPrimitive& primitive : list) {
             const auto is_like = [&](const GltfPrimitive& other) {
@@ -98,24 +98,24 @@ private:
 
     /// Whether a separate node decodes quantised positions. In a skin the joints decode them.
     [[nodiscard]] bool has_decoding_node() const {
-        return streams_.forms.front().quantized() && motion_ == nullptr;
+        return buffer_.forms.front().quantized() && motion_ == nullptr;
     }
     /// The number of the node of joint 0.
     [[nodiscard]] static std::size_t first_joint() { return 1; }
 
     void put_extensions() {
-        if (!streams_.forms.front().quantized()) {
+        if (!buffer_.forms.front().quantized()) {
             return;
         }
         const bool transforms =
-            std::any_of(streams_.forms.begin(), streams_.forms.end(),
+            std::any_of(buffer_.forms.begin(), buffer_.forms.end(),
                         [](const GltfForm& form) { return form.texture.transform.has_value(); });
         for (const char* const list : {"extensionsUsed", "extensionsRequired"}) {
             json_.array(list).value("KHR_mesh_quantization");
             if (transforms) {
                 json_.value("KHR_texture_transform");
             }
-            if (streams_.decoded_bytes > 0) {
+            if (buffer_.decoded_bytes > 0) {
                 json_.value("EXT_meshopt_compression");
             }
             json_.end();
@@ -140,8 +140,8 @@ private:
         json_.object("extras").member("grammar", info_.grammar).member("seed", info_.seed);
         json_.member("n", info_.generations).end().end();
         if (has_decoding_node()) {
-            const glm::vec3& low = streams_.forms.front().low;
-            const float step = streams_.forms.front().step;
+            const glm::vec3& low = buffer_.forms.front().low;
+            const float step = buffer_.forms.front().step;
             json_.object().member("mesh", 0).member("translation", {low.x, low.y, low.z});
             json_.member("scale", {step, step, step}).end();
         }
@@ -182,10 +182,10 @@ private:
     /// Returns the end of the streams of the shape whose streams begin at `first`.
     [[nodiscard]] std::size_t end_of_shape(std::size_t first) const {
         const auto shape_of = [this](std::size_t i) {
-            return streams_.primitives.list[streams_.list[i].item].shape;
+            return buffer_.primitives.list[buffer_.streams[i].item].shape;
         };
         std::size_t end = first;
-        while (end < streams_.first_motion && shape_of(end) == shape_of(first)) {
+        while (end < buffer_.first_motion && shape_of(end) == shape_of(first)) {
             ++end;
         }
         return end;
@@ -194,11 +194,11 @@ private:
     /// A mesh for the plant or for each shape of a film.
     void put_meshes() {
         json_.array("meshes");
-        for (std::size_t first = 0; first < streams_.first_motion;) {
+        for (std::size_t first = 0; first < buffer_.first_motion;) {
             const std::size_t end = end_of_shape(first);
             json_.object();
             if (film_ != nullptr) {
-                put_target_names(streams_.primitives.list[streams_.list[first].item].shape);
+                put_target_names(buffer_.primitives.list[buffer_.streams[first].item].shape);
             } else {
                 json_.member("name", plant_name(info_));
             }
@@ -207,7 +207,7 @@ private:
             json_.end().end();
             first = end;
         }
-        put_collision_meshes(json_, collision_, streams_.first_motion);
+        put_collision_meshes(json_, collision_, buffer_.first_motion);
         json_.end();
     }
 
@@ -229,7 +229,7 @@ private:
     /// stream.
     void put_primitives(std::size_t first, std::size_t end) {
         for (std::size_t i = first; i < end; ++i) {
-            const GltfStream& stream = streams_.list[i];
+            const GltfStream& stream = buffer_.streams[i];
             const bool has_targets = film_ != nullptr && stream.array == GltfArray::PositionChanges;
             if (stream.array == GltfArray::Positions) {
                 json_.object().object("attributes");
@@ -242,7 +242,7 @@ private:
                 json_.member(attribute_name(stream.array), i);
                 continue;
             }
-            if (i > first && streams_.list[i - 1].array == GltfArray::NormalChanges) {
+            if (i > first && buffer_.streams[i - 1].array == GltfArray::NormalChanges) {
                 json_.end(); // targets
             }
             json_.end().member("indices", i);
@@ -253,15 +253,15 @@ private:
     void put_materials() {
         json_.array("materials");
         std::size_t count = 0;
-        for (std::size_t i = 0; i < streams_.primitives.list.size(); ++i) {
-            const GltfPrimitive& primitive = streams_.primitives.list[i];
+        for (std::size_t i = 0; i < buffer_.primitives.list.size(); ++i) {
+            const GltfPrimitive& primitive = buffer_.primitives.list[i];
             if (materials_[i] < count) {
                 continue; // an earlier shape has this material
             }
             ++count;
             const std::uint32_t number = mesh_.parts[primitive.parts.front().part].material;
             GltfMaterial look{mesh_.materials[number].name, primitive.colour,
-                              streams_.forms[i].texture.transform};
+                              buffer_.forms[i].texture.transform};
             if (primitive.colours == GltfColours::Material) {
                 look.name += fmt::format(", {} colours", primitive.parts.size());
             }
@@ -273,18 +273,18 @@ private:
     /// Returns the number of the first accessor of the motion or film.
     std::size_t put_accessors() {
         json_.array("accessors");
-        for (std::size_t i = 0; i < streams_.first_motion; ++i) {
-            put_stream_accessor(json_, streams_, streams_.list[i], i);
+        for (std::size_t i = 0; i < buffer_.first_motion; ++i) {
+            put_stream_accessor(json_, buffer_, buffer_.streams[i], i);
         }
-        put_collision_accessors(json_, collision_, streams_.list.size());
+        put_collision_accessors(json_, collision_, buffer_.streams.size());
         if (motion_ != nullptr) {
-            put_motion_accessors(json_, *motion_, streams_.first_motion);
+            put_motion_accessors(json_, *motion_, buffer_.first_motion);
         }
         if (film_ != nullptr) {
-            put_film_accessors(json_, *film_, streams_.first_motion);
+            put_film_accessors(json_, *film_, buffer_.first_motion);
         }
         json_.end();
-        return streams_.first_motion + collision_.accessor_count();
+        return buffer_.first_motion + collision_.accessor_count();
     }
 
     const Mesh& mesh_;
@@ -292,7 +292,7 @@ private:
     const GltfMotion* motion_;
     const MeshFilm* film_;
     const Pictures& pictures_;
-    const GltfStreams& streams_;
+    const GltfBufferPlan& buffer_;
     const GltfCollision& collision_;
     JsonWriter& json_;
     std::vector<std::size_t> materials_; // by primitive
@@ -333,11 +333,11 @@ Outcome<Contents> plan(const ExportJob& job, const MeshOrder* order) {
     }
     GltfPlant plant = contents.plant(job);
     plant.order = order;
-    contents.streams = plan_gltf_streams(plant, contents.pictures, std::move(images), info);
+    contents.buffer = plan_gltf_buffer(plant, contents.pictures, std::move(images), info);
     if (info.film == nullptr) {
         contents.collision.shapes = make_collision(job.skeleton, info);
     }
-    if (contents.bytes() > kMaxGltfBytes || contents.streams.decoded_bytes > kMaxGltfBytes) {
+    if (contents.bytes() > kMaxGltfBytes || contents.buffer.decoded_bytes > kMaxGltfBytes) {
         return refused(too_large_for_format(info.subject));
     }
     return {std::move(contents), {}};
@@ -352,7 +352,7 @@ Outcome<void> write(const ExportJob& job, bool binary, PieceWriter& out) {
         return {planned.stop(), std::move(planned.messages())};
     }
     const Contents& contents = planned.value();
-    const GltfStreams& streams = contents.streams;
+    const GltfBufferPlan& buffer = contents.buffer;
     // Formatted once for both passes of a GLB: the nodes of many joints are long.
     const std::string members =
         json_document([&](JsonWriter& json) { Document(job, contents, json).write(); });
@@ -361,9 +361,9 @@ Outcome<void> write(const ExportJob& job, bool binary, PieceWriter& out) {
     file.put_members = [&members](JsonWriter& to) { to.literal(members); };
     file.data_bytes = contents.bytes();
     file.data_name = job.info.buffer_name;
-    file.decoded_bytes = streams.decoded_bytes;
+    file.decoded_bytes = buffer.decoded_bytes;
     file.put_data = [&](const GltfSink& write_bytes) {
-        write_gltf_streams(contents.plant(job), streams, write_bytes);
+        write_gltf_buffer(contents.plant(job), buffer, write_bytes);
         write_collision(contents.collision, write_bytes);
     };
     return put_gltf_file(file, out) ? finish(out) : too_large_for_format(job.info.subject);
@@ -382,10 +382,10 @@ MeshDocument mesh_document(const Mesh& mesh, const ExportInfo& info, const MeshO
         Document(job, contents, json).write();
         json.end();
     }));
-    document.decoded_bytes = contents.streams.decoded_bytes;
-    document.data.reserve(contents.streams.bytes);
-    write_gltf_streams(
-        contents.plant(job), contents.streams, [&document](std::span<const std::byte> bytes) {
+    document.decoded_bytes = contents.buffer.decoded_bytes;
+    document.data.reserve(contents.buffer.bytes);
+    write_gltf_buffer(
+        contents.plant(job), contents.buffer, [&document](std::span<const std::byte> bytes) {
             document.data.append(reinterpret_cast<const char*>(bytes.data()), bytes.size());
             return true;
         });
@@ -406,11 +406,11 @@ MeshOrder make_mesh_order(const Mesh& mesh, const ExportInfo& info) {
     const Skeleton none;
     Outcome<Contents> planned = plan({mesh, none, info}, nullptr);
     LSYS_CHECK(planned.ok() && mesh.parts.size() == 1, mesh.parts.size());
-    GltfStreams& streams = planned.value().streams;
+    GltfBufferPlan& buffer = planned.value().buffer;
     const auto indices =
-        std::find_if(streams.list.begin(), streams.list.end(),
+        std::find_if(buffer.streams.begin(), buffer.streams.end(),
                      [](const GltfStream& stream) { return stream.array == GltfArray::Indices; });
-    return {std::move(streams.primitives.vertices), std::move(indices->compressed)};
+    return {std::move(buffer.primitives.vertices), std::move(indices->compressed)};
 }
 
 Outcome<void> write_gltf(const ExportJob& job, PieceWriter& out) {
@@ -438,8 +438,8 @@ Outcome<void> write_gltf_buffer(const Mesh& mesh,
             out.put_bytes(bytes);
             return !out.stopped();
         };
-        write_gltf_streams(planned.value().plant({mesh, skeleton, info}), planned.value().streams,
-                           write_bytes);
+        write_gltf_buffer(planned.value().plant({mesh, skeleton, info}), planned.value().buffer,
+                          write_bytes);
         write_collision(planned.value().collision, write_bytes);
         return finish(out);
     });

@@ -111,10 +111,10 @@ public:
     /// `users`: for each vertex of the mesh the part that used it last. `vertices`: the vertices of
     /// the file so far.
     PartOrderer(const Mesh& mesh,
-                const GltfVertexUse& use,
+                const GltfCompressionInput& input,
                 LargeVector<std::uint32_t>& users,
                 LargeVector<std::uint32_t>& vertices)
-        : mesh_(mesh), use_(use), users_(users), vertices_(vertices),
+        : mesh_(mesh), input_(input), users_(users), vertices_(vertices),
           numbers_(mesh.positions.size()) {}
 
     void add(GltfPrimitive& primitive, GltfPart& part) {
@@ -122,8 +122,8 @@ public:
         part.indices.resize(drawn.index_count / 3 * 3);
         mesh_.indices.read(drawn.first_index, part.indices);
         order_triangles(part.indices);
-        const MaterialPictures& shown = use_.pictures.of_materials[drawn.material];
-        textured_ = (shown.colour || shown.normal_map || use_.segments) &&
+        const MaterialPictures& shown = input_.pictures.of_materials[drawn.material];
+        textured_ = (shown.colour || shown.normal_map || input_.compares_segments) &&
                     is_complete(mesh_, mesh_.texture_coordinates);
         tangents_ = shown.normal_map && is_complete(mesh_, mesh_.tangents);
         coloured_ = primitive.colours == GltfColours::Palette;
@@ -162,11 +162,11 @@ private:
                (!textured_ || mesh_.texture_coordinates[a] == mesh_.texture_coordinates[b]) &&
                (!tangents_ || mesh_.tangents[a] == mesh_.tangents[b]) &&
                (!coloured_ || mesh_.colours[a] == mesh_.colours[b]) &&
-               (!use_.segments || mesh_.segments[a] == mesh_.segments[b]);
+               (!input_.compares_segments || mesh_.segments[a] == mesh_.segments[b]);
     }
 
     const Mesh& mesh_;
-    const GltfVertexUse& use_;
+    const GltfCompressionInput& input_;
     LargeVector<std::uint32_t>& users_;
     LargeVector<std::uint32_t>& vertices_;
     LargeVector<std::uint32_t> numbers_; // of each vertex, in the part that used it last
@@ -269,7 +269,7 @@ void order_triangles(std::span<std::uint32_t> triangles) {
 }
 
 GltfPrimitives plan_gltf_primitives(const Mesh& mesh,
-                                    const std::optional<GltfVertexUse>& compressed,
+                                    const std::optional<GltfCompressionInput>& compressed,
                                     const MeshFilm* film) {
     GltfPrimitives primitives;
     if (film == nullptr) {

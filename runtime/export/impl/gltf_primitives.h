@@ -64,10 +64,12 @@ struct GltfPrimitives {
 /// bytes per vertex, and a few materials are easier to change by hand.
 inline constexpr std::size_t kMinMergedMaterials = 4;
 
-/// Attributes of the vertices of a file besides position and normal.
-struct GltfVertexUse {
-    const Pictures& pictures; // of materials
-    bool segments = false;    // vertices have joints, wind data or item numbers
+/// Input for the plan of compressed primitives besides the mesh: the attributes in which vertices
+/// must agree to become one, and the order of the triangles.
+struct GltfCompressionInput {
+    const Pictures& pictures; // colour and normal maps of the materials
+    /// Whether vertices have attributes by Mesh::segments: joints, wind data or item numbers.
+    bool compares_segments = false;
     /// The order of the vertices and triangles of a mesh with one part; null: it is computed.
     const MeshOrder* order = nullptr;
 };
@@ -77,9 +79,10 @@ struct GltfVertexUse {
 /// in an order that EXT_meshopt_compression favours (order_triangles()), and equal vertices that
 /// are near one another become one. `film`: may be null; else each of its shapes has primitives of
 /// its own.
-[[nodiscard]] GltfPrimitives plan_gltf_primitives(const Mesh& mesh,
-                                                  const std::optional<GltfVertexUse>& compressed,
-                                                  const MeshFilm* film = nullptr);
+[[nodiscard]] GltfPrimitives
+plan_gltf_primitives(const Mesh& mesh,
+                     const std::optional<GltfCompressionInput>& compressed,
+                     const MeshFilm* film = nullptr);
 /// Orders triangles so that most share an edge with the previous triangle; EXT_meshopt_compression
 /// encodes such a triangle in one byte. The triangles of a quad are swapped if the second one
 /// shares an edge with the previous triangle, and every other ring of a tube is reversed. Time is

@@ -45,11 +45,11 @@ void write_material_colours(const Mesh& mesh,
 
 template <typename Index>
 void write_indices(const Mesh& mesh,
-                   const GltfStreams& streams,
+                   const GltfBufferPlan& buffer,
                    const GltfPrimitive& primitive,
                    const GltfBytes& write) {
     std::vector<Index> chunk;
-    for_each_index(mesh, streams.primitives, primitive, [&](std::span<const std::uint32_t> part) {
+    for_each_index(mesh, buffer.primitives, primitive, [&](std::span<const std::uint32_t> part) {
         chunk.resize(part.size());
         std::transform(part.begin(), part.end(), chunk.begin(),
                        [](std::uint32_t index) { return static_cast<Index>(index); });
@@ -68,13 +68,13 @@ glm::vec3 position_change(const GltfPlant& plant,
 
 /// Writes the items of a stream of a primitive, uncompressed and without padding at the end.
 void write_primitive_stream(const GltfPlant& plant,
-                            const GltfStreams& streams,
+                            const GltfBufferPlan& buffer,
                             const GltfStream& stream,
                             const GltfBytes& write) {
     const Mesh& mesh = plant.mesh;
-    const GltfPrimitive& primitive = streams.primitives.list[stream.item];
-    const GltfForm& form = streams.forms[stream.item];
-    const std::span<const std::uint32_t> vertices = streams.primitives.vertices_of(primitive);
+    const GltfPrimitive& primitive = buffer.primitives.list[stream.item];
+    const GltfForm& form = buffer.forms[stream.item];
+    const std::span<const std::uint32_t> vertices = buffer.primitives.vertices_of(primitive);
     switch (stream.array) {
     case GltfArray::Joints:
         write_vertex_joints(mesh, vertices, *plant.motion, write);
@@ -104,14 +104,14 @@ void write_primitive_stream(const GltfPlant& plant,
     }
     case GltfArray::Indices:
         if (stream.type.component == kGltfUnsignedShort) {
-            write_indices<std::uint16_t>(mesh, streams, primitive, write);
+            write_indices<std::uint16_t>(mesh, buffer, primitive, write);
         } else {
-            write_indices<std::uint32_t>(mesh, streams, primitive, write);
+            write_indices<std::uint32_t>(mesh, buffer, primitive, write);
         }
         break;
     case GltfArray::Colours:
         if (primitive.colours == GltfColours::Material) {
-            write_material_colours(mesh, streams.primitives, primitive, write);
+            write_material_colours(mesh, buffer.primitives, primitive, write);
             break;
         }
         [[fallthrough]];
@@ -124,17 +124,17 @@ void write_primitive_stream(const GltfPlant& plant,
 /// Gives the streams their sizes and their offsets in the buffer.
 class Planner {
 public:
-    Planner(GltfStreams& streams, const GltfPlant& plant) : streams_(streams), plant_(plant) {}
+    Planner(GltfBufferPlan& buffer, const GltfPlant& plant) : buffer_(buffer), plant_(plant) {}
 
     void add_primitive(std::size_t number, bool normal_map, bool textured) {
         const Mesh& mesh = plant_.mesh;
-        const GltfPrimitive& primitive = streams_.primitives.list[number];
-        GltfForm& form = streams_.forms[number];
+        const GltfPrimitive& primitive = buffer_.primitives.list[number];
+        GltfForm& form = buffer_.forms[number];
         const auto add = [&](GltfArray array) {
-            streams_.list.push_back({.array = array,
-                                     .item = number,
-                                     .type = item_of(array, form),
-                                     .count = primitive.vertex_count});
+            buffer_.streams.push_back({.array = array,
+                                       .item = number,
+                                       .type = item_of(array, form),
+                                       .count = primitive.vertex_count});
         };
         add(GltfArray::Positions);
         add(GltfArray::Normals);
@@ -144,7 +144,7 @@ public:
         if (is_complete(mesh, mesh.texture_coordinates) &&
             (shown || plant_.wind != nullptr || !form.quantized())) {
             if (form.quantized() && shown) {
-                form.texture = plan_texture_form(mesh, streams_.primitives.vertices_of(primitive),
+                form.texture = plan_texture_form(mesh, buffer_.primitives.vertices_of(primitive),
                                                  form.compression);
             } else if (form.quantized()) {
                 form.texture.quantized = true;
@@ -160,7 +160,7 @@ public:
         if (plant_.motion != nullptr) {
             add(GltfArray::Joints);
             if (plant_.motion->joint_bytes() == 2) {
-                GltfItem& joints = streams_.list.back().type;
+                GltfItem& joints = buffer_.streams.back().type;
                 joints.component = kGltfUnsignedShort;
                 joints.stride = 8;
             }
@@ -177,7 +177,7 @@ public:
             add_morph_targets(number);
         }
         add(GltfArray::Indices);
-        GltfStream& indices = streams_.list.back();
+        GltfStream& indices = buffer_.streams.back();
         indices.type = primitive.vertex_count <= kMaxNarrowVertices
                            ? GltfItem{kGltfUnsignedShort, "SCALAR", false, 2}
                            : GltfItem{kGltfUnsignedInt, "SCALAR", false, 4};
@@ -201,30 +201,30 @@ public:
 
     void compress(std::uint32_t threads) {
         Workers workers(threads);
-        workers.for_each(streams_.first_motion,
-                         [this](std::uint64_t i) { compress(streams_.list[i]); });
+        workers.for_each(buffer_.first_motion,
+                         [this](std::uint64_t i) { compress(buffer_.streams[i]); });
     }
 
     void place() {
-        for (std::size_t i = 0; i < streams_.list.size(); ++i) {
-            GltfStream& stream = streams_.list[i];
-            stream.offset = streams_.bytes;
+        for (std::size_t i = 0; i < buffer_.streams.size(); ++i) {
+            GltfStream& stream = buffer_.streams[i];
+            stream.offset = buffer_.bytes;
             stream.bytes = stream.decoded_bytes();
             if (stream.array == GltfArray::Image) {
-                stream.bytes = streams_.images[stream.item].size();
+                stream.bytes = buffer_.images[stream.item].size();
             } else if (!stream.compressed.empty()) {
                 stream.bytes = stream.compressed.size();
-                stream.decoded_offset = streams_.decoded_bytes;
-                streams_.decoded_bytes += (stream.decoded_bytes() + 3) / 4 * 4;
+                stream.decoded_offset = buffer_.decoded_bytes;
+                buffer_.decoded_bytes += (stream.decoded_bytes() + 3) / 4 * 4;
             }
-            streams_.bytes += (stream.bytes + 3) / 4 * 4;
+            buffer_.bytes += (stream.bytes + 3) / 4 * 4;
         }
     }
 
 private:
     void add_animation(GltfArray array, std::uint32_t item_bytes, std::uint64_t count) {
         if (count > 0) {
-            GltfStream& stream = streams_.list.emplace_back();
+            GltfStream& stream = buffer_.streams.emplace_back();
             stream.array = array;
             stream.type.stride = item_bytes;
             stream.count = count;
@@ -232,7 +232,7 @@ private:
     }
 
     void add_morph_targets(std::size_t number) {
-        const GltfPrimitive& primitive = streams_.primitives.list[number];
+        const GltfPrimitive& primitive = buffer_.primitives.list[number];
         const MeshFilm::Shape& shape = plant_.film->shapes[primitive.shape];
         const GltfItem vector{kGltfFloat, "VEC3", false, sizeof(glm::vec3)};
         for (std::uint32_t frame = 0; frame < shape.earlier.size(); ++frame) {
@@ -242,21 +242,21 @@ private:
             stream.frame = frame;
             stream.type = vector;
             stream.count = primitive.vertex_count;
-            for (const std::uint32_t vertex : streams_.primitives.vertices_of(primitive)) {
+            for (const std::uint32_t vertex : buffer_.primitives.vertices_of(primitive)) {
                 stream.bounds.add(position_change(plant_, shape, frame, vertex));
             }
-            streams_.list.push_back(stream);
+            buffer_.streams.push_back(stream);
             stream.array = GltfArray::NormalChanges;
-            streams_.list.push_back(std::move(stream));
+            buffer_.streams.push_back(std::move(stream));
         }
     }
 
     void compress(GltfStream& stream) {
-        const GltfPrimitive& primitive = streams_.primitives.list[stream.item];
+        const GltfPrimitive& primitive = buffer_.primitives.list[stream.item];
         if (stream.array != GltfArray::Indices) {
             const GltfBuffer items =
                 written_items(stream.decoded_bytes(), [&](const GltfBytes& write) {
-                    write_primitive_stream(plant_, streams_, stream, write);
+                    write_primitive_stream(plant_, buffer_, stream, write);
                 });
             stream.compressed = compress_items(items, stream.type.stride);
         } else if (plant_.order != nullptr) {
@@ -267,7 +267,7 @@ private:
         } else {
             LargeVector<std::uint32_t> indices;
             indices.reserve(primitive.index_count);
-            for_each_index(plant_.mesh, streams_.primitives, primitive,
+            for_each_index(plant_.mesh, buffer_.primitives, primitive,
                            [&indices](std::span<const std::uint32_t> some) {
                                indices.insert(indices.end(), some.begin(), some.end());
                            });
@@ -275,44 +275,44 @@ private:
         }
     }
 
-    GltfStreams& streams_;
+    GltfBufferPlan& buffer_;
     const GltfPlant& plant_;
 };
 
 } // namespace
 
-GltfStreams plan_gltf_streams(const GltfPlant& plant,
-                              const Pictures& pictures,
-                              std::vector<std::string> images,
-                              const ExportInfo& info) {
+GltfBufferPlan plan_gltf_buffer(const GltfPlant& plant,
+                                const Pictures& pictures,
+                                std::vector<std::string> images,
+                                const ExportInfo& info) {
     const Mesh& mesh = plant.mesh;
-    GltfStreams streams;
-    std::optional<GltfVertexUse> compressed;
+    GltfBufferPlan buffer;
+    std::optional<GltfCompressionInput> compressed;
     if (info.compression == ExportCompression::Meshopt) {
-        compressed.emplace(
-            GltfVertexUse{pictures, plant.motion != nullptr || plant.wind != nullptr || plant.items,
-                          plant.order});
+        compressed.emplace(GltfCompressionInput{
+            pictures, plant.motion != nullptr || plant.wind != nullptr || plant.items,
+            plant.order});
     }
-    streams.primitives = plan_gltf_primitives(mesh, compressed, plant.film);
-    streams.images = std::move(images);
-    streams.forms.assign(streams.primitives.list.size(),
-                         form_of(info.compression, streams.primitives.bounds()));
-    Planner planner(streams, plant);
-    for (std::size_t i = 0; i < streams.primitives.list.size(); ++i) {
-        const GltfPart& part = streams.primitives.list[i].parts.front();
+    buffer.primitives = plan_gltf_primitives(mesh, compressed, plant.film);
+    buffer.images = std::move(images);
+    buffer.forms.assign(buffer.primitives.list.size(),
+                        form_of(info.compression, buffer.primitives.bounds()));
+    Planner planner(buffer, plant);
+    for (std::size_t i = 0; i < buffer.primitives.list.size(); ++i) {
+        const GltfPart& part = buffer.primitives.list[i].parts.front();
         const MaterialPictures& shown = pictures.of_materials[mesh.parts[part.part].material];
         planner.add_primitive(i, shown.normal_map.has_value(), shown.colour.has_value());
     }
-    streams.first_motion = streams.list.size();
+    buffer.first_motion = buffer.streams.size();
     if (plant.motion != nullptr) {
         planner.add_motion();
     }
     if (plant.film != nullptr) {
         planner.add_film();
     }
-    streams.first_image = streams.list.size();
-    for (std::size_t i = 0; i < streams.images.size(); ++i) {
-        GltfStream& stream = streams.list.emplace_back();
+    buffer.first_image = buffer.streams.size();
+    for (std::size_t i = 0; i < buffer.images.size(); ++i) {
+        GltfStream& stream = buffer.streams.emplace_back();
         stream.array = GltfArray::Image;
         stream.item = i;
     }
@@ -320,20 +320,22 @@ GltfStreams plan_gltf_streams(const GltfPlant& plant,
         planner.compress(info.threads);
     }
     planner.place();
-    return streams;
+    return buffer;
 }
 
-void write_gltf_streams(const GltfPlant& plant, const GltfStreams& streams, const GltfSink& write) {
+void write_gltf_buffer(const GltfPlant& plant,
+                       const GltfBufferPlan& buffer,
+                       const GltfSink& write) {
     std::uint64_t written = 0;
     bool stopped = false;
     const GltfBytes put = [&](std::span<const std::byte> bytes) {
         written += bytes.size();
         stopped = stopped || !write(bytes);
     };
-    for (const GltfStream& stream : streams.list) {
+    for (const GltfStream& stream : buffer.streams) {
         switch (stream.array) {
         case GltfArray::InverseBinds:
-            write_inverse_binds(*plant.motion, streams.forms.front().decoding(), put);
+            write_inverse_binds(*plant.motion, buffer.forms.front().decoding(), put);
             break;
         case GltfArray::Times:
             if (plant.film != nullptr) {
@@ -355,13 +357,13 @@ void write_gltf_streams(const GltfPlant& plant, const GltfStreams& streams, cons
             write_rotations(*plant.motion, put);
             break;
         case GltfArray::Image:
-            put(std::as_bytes(std::span(streams.images[stream.item])));
+            put(std::as_bytes(std::span(buffer.images[stream.item])));
             break;
         default:
             if (!stream.compressed.empty()) {
                 put(std::as_bytes(std::span(stream.compressed)));
             } else {
-                write_primitive_stream(plant, streams, stream, put);
+                write_primitive_stream(plant, buffer, stream, put);
             }
             break;
         }
@@ -395,14 +397,14 @@ void put_stream_view(JsonWriter& json, const GltfStream& stream) {
 }
 
 void put_stream_accessor(JsonWriter& json,
-                         const GltfStreams& streams,
+                         const GltfBufferPlan& buffer,
                          const GltfStream& stream,
                          std::size_t view) {
     begin_accessor(json, {view, {}, stream.type.component, stream.count, stream.type.type});
     if (stream.array == GltfArray::Positions || stream.array == GltfArray::PositionChanges) {
         const bool changes = stream.array == GltfArray::PositionChanges;
-        put_position_bounds(json, streams.forms[stream.item],
-                            changes ? stream.bounds : streams.primitives.list[stream.item].bounds);
+        put_position_bounds(json, buffer.forms[stream.item],
+                            changes ? stream.bounds : buffer.primitives.list[stream.item].bounds);
     }
     if (stream.type.normalized) {
         json.member("normalized", true);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// GltfStreams: the arrays of a plant in the buffer of a glTF file: as floats and integers of full
+// GltfBufferPlan: the arrays of a plant in the buffer of a glTF file, as floats and integers of full
 // size, quantised (KHR_mesh_quantization), or quantised and compressed (EXT_meshopt_compression). A
-// stream is one buffer view and, for a primitive, one accessor. Made by plan_gltf_streams(); read
+// stream is one buffer view and, for a primitive, one accessor. Made by plan_gltf_buffer(); read
 // by write_glb() and write_gltf(), which describe the streams and write the buffer.
 #pragma once
 
@@ -47,12 +47,12 @@ struct GltfStream {
     [[nodiscard]] std::uint64_t decoded_bytes() const { return type.stride * count; }
 };
 
-struct GltfStreams {
+struct GltfBufferPlan {
     GltfPrimitives primitives;
     std::vector<GltfForm> forms; // of primitives; they differ only in texture coordinates
     /// Streams of primitives, by GltfArray within a primitive; then of the motion, then of images.
-    std::vector<GltfStream> list;
-    std::size_t first_motion = 0; // in `list`
+    std::vector<GltfStream> streams;
+    std::size_t first_motion = 0; // in `streams`
     std::size_t first_image = 0;
     std::vector<std::string> images; // PNG
     std::uint64_t bytes = 0;         // of the buffer, a multiple of 4
@@ -60,19 +60,19 @@ struct GltfStreams {
 };
 
 /// Plans the buffer. `images`: PNG files to store in it.
-[[nodiscard]] GltfStreams plan_gltf_streams(const GltfPlant& plant,
-                                            const Pictures& pictures,
-                                            std::vector<std::string> images,
-                                            const ExportInfo& info);
+[[nodiscard]] GltfBufferPlan plan_gltf_buffer(const GltfPlant& plant,
+                                              const Pictures& pictures,
+                                              std::vector<std::string> images,
+                                              const ExportInfo& info);
 /// Writes the buffer, from its first byte to its last.
-void write_gltf_streams(const GltfPlant& plant, const GltfStreams& streams, const GltfSink& write);
+void write_gltf_buffer(const GltfPlant& plant, const GltfBufferPlan& buffer, const GltfSink& write);
 
 /// The view of a stream: in buffer 0, or for a compressed stream in buffer 1, which holds decoded
 /// items.
 void put_stream_view(JsonWriter& json, const GltfStream& stream);
 /// The accessor of the stream of a primitive in view `view`.
 void put_stream_accessor(JsonWriter& json,
-                         const GltfStreams& streams,
+                         const GltfBufferPlan& buffer,
                          const GltfStream& stream,
                          std::size_t view);
 

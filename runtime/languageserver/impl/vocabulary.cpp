@@ -144,12 +144,13 @@ const FunctionHelp* find_function_help(std::string_view name) {
 
 std::vector<SettingHelp> setting_helps() {
     std::vector<SettingHelp> all;
-#define LSYS_CHOICE(type, field, initial, use, group) all.push_back(choice(#field, type::initial));
-#define LSYS_NUMBER(field, initial, use, group, min, wanted)                                       \
+#define LSYS_CHOICE(type, field, initial, effect, group)                                           \
+    all.push_back(choice(#field, type::initial));
+#define LSYS_NUMBER(field, initial, effect, group, min, wanted)                                    \
     all.push_back(number(#field, wanted, initial));
-#define LSYS_COUNT(field, initial, use, group, min, max, wanted, misfit)                           \
+#define LSYS_COUNT(field, initial, effect, group, min, max, wanted, misfit)                        \
     all.push_back(number(#field, wanted, initial));
-#define LSYS_FIELD(type, field, initial, use)
+#define LSYS_FIELD(type, field, initial, effect)
 #define LSYS_STATEMENT(key) all.push_back(special(#key));
 #include "compiler/bytecode/settings.def"
     return all;

@@ -33,9 +33,9 @@ Result<std::string> checked(FileContents contents, const ReadLimit& limit) {
 
 Call::Call(const Project& project) {
     if (project.host.cancelled != nullptr) {
-        cancelled_ = project.host.cancelled;
+        cancel_flag_ = project.host.cancelled;
     }
-    inner_.host = make_file_host(cancelled_);
+    inner_.host = make_file_host(cancel_flag_);
     if (project.host.read_file) {
         inner_.host.read_file =
             [this, read = project.host.read_file](const std::string& path,
@@ -52,7 +52,7 @@ Call::Call(const Project& project) {
             [this, report = project.host.progress](const DerivationProgress& progress) {
                 const Progress shown{progress.generation, progress.generations, progress.modules};
                 if (!guarded([&] { return report(shown); }, false)) {
-                    cancelled_->store(true);
+                    cancel_flag_->store(true);
                 }
             };
     }

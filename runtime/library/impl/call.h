@@ -26,7 +26,7 @@ public:
 
     [[nodiscard]] ::lsys::Project& project() { return inner_; }
     /// The flag that is set to true to end the call.
-    [[nodiscard]] const std::atomic<bool>* cancelled() const { return cancelled_; }
+    [[nodiscard]] const std::atomic<bool>* cancel_flag() const { return cancel_flag_; }
 
     /// Makes a public outcome. `work` returns an outcome of the pipeline, and `make` converts its
     /// value to a public value. Rethrows an exception that a function of the host has thrown.
@@ -71,7 +71,7 @@ private:
             return function();
         } catch (...) {
             caught_ = std::current_exception();
-            cancelled_->store(true);
+            cancel_flag_->store(true);
             return otherwise;
         }
     }
@@ -83,8 +83,8 @@ private:
 
     ::lsys::Project inner_;
     std::optional<std::string> refusal_; // error for an unknown code in Project::allow or deny
-    std::atomic<bool> own_cancelled_{false};
-    std::atomic<bool>* cancelled_ = &own_cancelled_; // or Host::cancelled
+    std::atomic<bool> own_cancel_flag_{false};
+    std::atomic<bool>* cancel_flag_ = &own_cancel_flag_; // or Host::cancelled
     std::exception_ptr caught_;
 };
 

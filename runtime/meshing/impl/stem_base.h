@@ -46,14 +46,15 @@ public:
     /// Precondition: the flare has roots.
     explicit Roots(const Flare& flare);
 
-    /// The value, -0.25 to 0.55, at `turn` (0 to 1) around the axis and `arc` along it. The ridge
-    /// number 0 lies at turn 0.
+    /// Outward displacement of the surface, -0.25 to 0.55 in radii of the flare, at `turn` (0 to 1)
+    /// around the axis and `arc` along it. The first ridge lies at turn 0.
     [[nodiscard]] NoiseSample at(float turn, double arc) const;
+    /// Arc length at which the roots end.
     [[nodiscard]] double reach() const { return static_cast<double>(reach_); }
 
 private:
     std::uint32_t count_;
-    float reach_; // arc length at which the roots end
+    float reach_;
     float depth_; // depth of the ridges at the ground, in radii
     float mean_;  // mean of all ridges around the axis
 };

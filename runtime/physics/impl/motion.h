@@ -14,9 +14,9 @@
 
 namespace lsys {
 
-/// Forces of one step.
+/// Length of a time step, and the values from which its forces are computed.
 struct Forces {
-    double step = 0.0;       // s
+    double step = 0.0;       // s, length of the step
     glm::dvec3 gravity{0.0}; // m/s^2
     double damping = 0.0;    // N m s/rad
     glm::dvec3 wind{0.0};    // m/s

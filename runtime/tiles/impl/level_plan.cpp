@@ -27,7 +27,7 @@ public:
         for (const Hero& hero : needs.heroes) {
             finest_.push_back(detail_within(hero, tolerated_));
         }
-        plan_.crowns = finest_;
+        plan_.canopy_levels = finest_;
     }
 
     LevelPlan plan() {

@@ -50,7 +50,7 @@ struct LevelPlan {
     std::vector<std::uint32_t> cells;   // by level: number along a side of the surface of a tile
     std::vector<double> skirts;         // m, by level: height below the surface
     std::vector<LevelDetail> details;   // by level; empty for levels without trees
-    std::vector<std::size_t> crowns;    // by hero: level of detail of plants in a canopy
+    std::vector<std::size_t> canopy_levels; // by hero: level of detail of plants in a canopy
 
     [[nodiscard]] std::uint32_t finest() const {
         return static_cast<std::uint32_t>(levels.size()) - 1;

@@ -28,7 +28,7 @@ struct Pose {
     return {turn.cosine, -turn.sine};
 }
 
-/// Turns about the up axis, right towards heading.
+/// Turns about the up vector, from the right vector towards the heading.
 inline void yaw(Pose& p, HalfAngle t) {
     const Pose q = p;
     p.qw = q.qw * t.cosine - q.qz * t.sine;
@@ -36,7 +36,7 @@ inline void yaw(Pose& p, HalfAngle t) {
     p.qy = q.qy * t.cosine - q.qx * t.sine;
     p.qz = q.qz * t.cosine + q.qw * t.sine;
 }
-/// Turns about the right axis, heading towards up.
+/// Turns about the right vector, from the heading towards the up vector.
 inline void pitch(Pose& p, HalfAngle t) {
     const Pose q = p;
     p.qw = q.qw * t.cosine - q.qx * t.sine;
@@ -44,7 +44,7 @@ inline void pitch(Pose& p, HalfAngle t) {
     p.qy = q.qy * t.cosine + q.qz * t.sine;
     p.qz = q.qz * t.cosine - q.qy * t.sine;
 }
-/// Turns about the heading, up towards right.
+/// Turns about the heading, from the up vector towards the right vector.
 inline void roll(Pose& p, HalfAngle t) {
     const Pose q = p;
     p.qw = q.qw * t.cosine - q.qy * t.sine;

@@ -57,11 +57,11 @@ void check_choice(std::string_view key, Enum Settings::*field, Enum initial) {
 } // namespace
 
 TEST_CASE("every setting of the table is read within its range") {
-#define LSYS_CHOICE(type, field, initial, use, group)                                              \
+#define LSYS_CHOICE(type, field, initial, effect, group)                                           \
     check_choice(#field, &Settings::field, type::initial);
-#define LSYS_NUMBER(field, initial, use, group, min, wanted)                                       \
+#define LSYS_NUMBER(field, initial, effect, group, min, wanted)                                    \
     check_number(#field, &Settings::field, min, -kLowestNumber);
-#define LSYS_COUNT(field, initial, use, group, min, max, wanted, misfit)                           \
+#define LSYS_COUNT(field, initial, effect, group, min, max, wanted, misfit)                        \
     check_number(#field, &Settings::field, min, max);
 #include "compiler/bytecode/settings.def"
 }
@@ -156,10 +156,10 @@ TEST_CASE("the help for an unknown key lists every setting") {
 
 TEST_CASE("the parser knows every setting, and adds a missing `set`") {
     constexpr auto kAll = std::to_array<std::string_view>({
-#define LSYS_CHOICE(type, field, initial, use, group) #field,
+#define LSYS_CHOICE(type, field, initial, effect, group) #field,
 #define LSYS_STATEMENT(key) #key,
-#define LSYS_NUMBER(field, initial, use, group, min, wanted) #field,
-#define LSYS_COUNT(field, initial, use, group, min, max, wanted, misfit) #field,
+#define LSYS_NUMBER(field, initial, effect, group, min, wanted) #field,
+#define LSYS_COUNT(field, initial, effect, group, min, max, wanted, misfit) #field,
 #include "compiler/bytecode/settings.def"
     });
     for (const std::string_view key : kAll) {

@@ -46,14 +46,15 @@ std::string compiled_with(const std::string& text, const std::vector<SettingText
 std::vector<SettingText> one_of_each() {
     std::vector<SettingText> settings{
         {"tropism", "0.5 -1 0 0.2"}, {"seed", "18446744073709551615"}, {"names", "letters"}};
-#define LSYS_CHOICE(type, field, initial, use, group)                                              \
+#define LSYS_CHOICE(type, field, initial, effect, group)                                           \
     for (const type value : enumerators_of<type>()) {                                              \
         if (value != type::initial) {                                                              \
             settings.push_back({#field, std::string(name_of(value))});                             \
         }                                                                                          \
     }
-#define LSYS_NUMBER(field, initial, use, group, min, wanted) settings.push_back({#field, "3.25"});
-#define LSYS_COUNT(field, initial, use, group, min, max, wanted, misfit)                           \
+#define LSYS_NUMBER(field, initial, effect, group, min, wanted)                                    \
+    settings.push_back({#field, "3.25"});
+#define LSYS_COUNT(field, initial, effect, group, min, max, wanted, misfit)                        \
     settings.push_back({#field, "7"});
 #include "compiler/bytecode/settings.def"
     return settings;

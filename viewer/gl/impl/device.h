@@ -21,9 +21,9 @@ public:
     /// Count of the objects of OpenGL, such as buffers and textures, that were made and not
     /// deleted.
     [[nodiscard]] std::uint64_t live_objects() const { return live_; }
-    /// Messages of the driver since the start; at most kMaxErrors are kept.
+    /// The first kMaxErrors messages that the driver reported for this device.
     [[nodiscard]] const std::vector<std::string>& errors() const { return errors_; }
-    /// Bytes sent to buffers and textures since the start.
+    /// Bytes sent to buffers and textures of this device.
     [[nodiscard]] std::uint64_t uploaded_bytes() const { return uploaded_; }
 
     /// Whether the processor draws, as llvmpipe does.

@@ -17,7 +17,7 @@ make_forest_programs(Device& device, const ShaderSource& shaders, bool windy) {
         const char* vertex;
         const char* fragment;
         const char* defines;
-        bool is_costly = false; // used from QUALITY 1 on only
+        bool is_costly = false; // used from Quality::Medium on only
     };
     constexpr const char* kBranch = "branch.vert.glsl";
     constexpr const char* kImpostor = "impostor.vert.glsl";

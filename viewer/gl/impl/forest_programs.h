@@ -10,11 +10,11 @@ namespace lsys::view {
 
 /// Programs by draw class, for ForestBuffers::draw().
 struct BranchPrograms {
-    ProgramObject solid; // one-sided and two-sided
+    ProgramObject solid; // BranchClass::OneSided, TwoSided, and opaque picture files
     ProgramObject plain;
     ProgramObject cut_out;
-    ProgramObject one_sample_cut_out; // `cut_out` for pictures with one sample per pixel
-    ProgramObject bumpy_cut_out;      // pictures with holes and a normal map; from QUALITY 1 on
+    ProgramObject one_sample_cut_out; // `cut_out` for frames with one sample per pixel
+    ProgramObject bumpy_cut_out;      // picture files with holes and a normal map; from Medium on
 };
 
 struct ForestPrograms {
@@ -23,12 +23,12 @@ struct ForestPrograms {
     // Variants for entries drawn in two LOD bands; `impostor` draws the colours of both.
     BranchPrograms blending_branches;
     ProgramObject blending_impostor_depth;
-    // The depth passes of pictures with one sample per pixel.
+    // The depth passes of frames with one sample per pixel.
     ProgramObject one_sample_impostor_depth;
     ProgramObject one_sample_blending_impostor_depth;
     ProgramObject impostor;
     ProgramObject impostor_shadow;
-    // Casters of the shadow maps near the eye; from QUALITY 1 on.
+    // Casters of the shadow maps near the eye; from Quality::Medium on.
     ProgramObject caster;
     ProgramObject cut_out_caster;
 };
