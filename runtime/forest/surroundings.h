@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Surroundings of trees: which of the four quarters around a tree are taken by neighbours. A
 // species that senses its surroundings has heroes for each of the six cases, and a tree takes a
-// hero of its case, turned to fit (docs/language.md section 13; samples/scenes/README.md). The
-// decisions are comparisons of sums and products in binary64, so they are the same on every
-// machine, for any number of threads, and for any part of a forest that contains the neighbours.
+// hero of its case, turned to fit (samples/scenes/README.md). The decisions are comparisons of
+// sums and products in binary64, so they are the same on every machine, for any number of
+// threads, and for any part of a forest that contains the neighbours.
 #pragma once
 
 #include "runtime/forest/tree.h"

@@ -112,7 +112,7 @@ ssize_t write_quietly(int descriptor, const char* bytes, std::size_t count) {
 }
 
 bool may_be_repeated(int reason) {
-    return reason == EAGAIN || reason == EWOULDBLOCK || reason == EINTR;
+    return reason == EAGAIN || reason == EINTR;
 }
 
 } // namespace
