@@ -15,13 +15,8 @@ namespace lsys {
 namespace {
 
 /// The keys, in the order in which messages list them.
-<<<<<<< HEAD
-constexpr auto kKeys = std::to_array<std::string_view>({
-#define LSYS_CHOICE(type, field, initial, effect, group) #field,
-=======
 constexpr auto kSettingKeys = std::to_array<std::string_view>({
-#define LSYS_CHOICE(type, field, initial, use, group) #field,
->>>>>>> a2b85e77920fb697ada5789df0121796cfc3e1a8
+#define LSYS_CHOICE(type, field, initial, effect, group) #field,
 #define LSYS_STATEMENT(key) #key,
 #include "compiler/bytecode/settings.def"
 #define LSYS_NUMBER(field, initial, effect, group, min, wanted) #field,
