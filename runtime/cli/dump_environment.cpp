@@ -17,7 +17,7 @@ namespace lsys::lsc {
 namespace {
 
 template <typename Number>
-void append_number(Number number, std::string& text) {
+void put_number(Number number, std::string& text) {
     std::array<char, 32> characters{};
     text.append(
         characters.data(),
@@ -29,7 +29,7 @@ void append_list(const Numbers& numbers, std::string& text) {
     text += '[';
     for (std::size_t i = 0; i < numbers.size(); ++i) {
         text += i == 0 ? "" : ", ";
-        append_number(numbers[i], text);
+        put_number(numbers[i], text);
     }
     text += ']';
 }
@@ -53,7 +53,7 @@ void append_json(const SensedPart& part, std::string& text) {
                         name_of(part.kind));
     if (part.cell != 0.0) {
         text += ",\n      \"cell\": ";
-        append_number(part.cell, text);
+        put_number(part.cell, text);
     }
     append_items("modules", part.modules, text, [&](const SensedModule& module) {
         text += fmt::format("{{\"module\": {}, \"position\": ", module.position);
@@ -69,7 +69,7 @@ void append_json(const SensedPart& part, std::string& text) {
             text += "{\"middle\": ";
             append_list(voxel.middle, text);
             text += part.kind == EnvironmentKind::Sky ? ", \"area\": " : ", \"exposure\": ";
-            append_number(voxel.value, text);
+            put_number(voxel.value, text);
             text += '}';
         });
     }
@@ -118,10 +118,10 @@ std::string ply_of(const SensedPlant& plant) {
         const SensedPart& part = plant.parts[i];
         const auto put = [&](const Vector3& place, float value, PointKind kind) {
             for (const double number : place) {
-                append_number(number, text);
+                put_number(number, text);
                 text += ' ';
             }
-            append_number(value, text);
+            put_number(value, text);
             text += fmt::format(" {} {}\n", static_cast<int>(kind), i);
         };
         for (const SensedModule& module : part.modules) {

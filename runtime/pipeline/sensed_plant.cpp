@@ -47,10 +47,10 @@ void add_areas(const std::vector<SensedOrgan>& organs, SensedPart& part) {
     }
 }
 
-SensedPart part_of(const BytecodeEnvironment& declared,
-                   const SensedEnvironment& sensed,
-                   const EnvironmentSense& senses,
-                   std::size_t index) {
+SensedPart sensed_part(const BytecodeEnvironment& declared,
+                       const SensedEnvironment& sensed,
+                       const EnvironmentSense& senses,
+                       std::size_t index) {
     SensedPart part;
     part.name = declared.name;
     part.kind = declared.kind;
@@ -103,7 +103,7 @@ sense_plant(const PlantOptions& options, const Grammar& grammar, const Project& 
     plant.has_sensed = true;
     plant.generation = own->age();
     for (std::size_t i = 0; i < bytecode.environments.size(); ++i) {
-        plant.parts.push_back(part_of(bytecode.environments[i], own->sensed()[i], *own, i));
+        plant.parts.push_back(sensed_part(bytecode.environments[i], own->sensed()[i], *own, i));
     }
     return step.done(std::move(plant));
 }

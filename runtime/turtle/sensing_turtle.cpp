@@ -310,7 +310,8 @@ std::optional<Stop> SensingTurtle::State::walk_interpreted(std::span<const C> co
         reported = 0;
         std::uint64_t stored = 0;
         for (std::size_t i = 0; i < count; ++i) {
-            origins[i].place = static_cast<std::uint32_t>(i);
+            // Followed modules give their index to all that is written for them.
+            origins[i] = {static_cast<std::uint32_t>(i), kFollowed};
             if (bytecode.symbol(bytecode.symbol_of(piece[i])).senses()) {
                 waiting.push_back({i, first_parameter + stored, piece[i]});
             }
