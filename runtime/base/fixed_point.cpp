@@ -10,10 +10,10 @@ namespace lsys {
 namespace {
 
 constexpr int kWordBits = 32;
-constexpr std::size_t kWords = FixedPointNumber::kWords;
+constexpr std::size_t kWords = FixedPoint::kWords;
 
 /// Bit `index` of the number; bit 0 is 2^-320. Bits outside of the number are 0.
-std::uint32_t bit(const FixedPointNumber& number, int index) {
+std::uint32_t bit(const FixedPoint& number, int index) {
     if (index < 0 || index >= kWordBits * static_cast<int>(kWords)) {
         return 0;
     }
@@ -22,7 +22,7 @@ std::uint32_t bit(const FixedPointNumber& number, int index) {
 }
 
 /// Whether any bit below bit `end` is set.
-bool any_below(const FixedPointNumber& number, int end) {
+bool any_below(const FixedPoint& number, int end) {
     for (int index = 0; index < std::min(end, kWordBits * static_cast<int>(kWords)); ++index) {
         if (bit(number, index) != 0) {
             return true;
@@ -32,7 +32,7 @@ bool any_below(const FixedPointNumber& number, int end) {
 }
 
 /// Index of the highest bit that is set. Precondition: the number is not 0.
-int top_bit(const FixedPointNumber& number) {
+int top_bit(const FixedPoint& number) {
     std::size_t word = kWords - 1;
     while (number.words[word] == 0) {
         --word;
@@ -43,8 +43,8 @@ int top_bit(const FixedPointNumber& number) {
 
 } // namespace
 
-FixedPointNumber FixedPointNumber::from(double number) {
-    FixedPointNumber result;
+FixedPoint FixedPoint::from(double number) {
+    FixedPoint result;
     double rest = number;
     for (std::size_t i = kWords; i-- > 0 && rest != 0.0;) {
         const double word = std::floor(rest);
@@ -54,13 +54,13 @@ FixedPointNumber FixedPointNumber::from(double number) {
     return result;
 }
 
-bool operator<(const FixedPointNumber& a, const FixedPointNumber& b) {
+bool operator<(const FixedPoint& a, const FixedPoint& b) {
     return std::lexicographical_compare(a.words.rbegin(), a.words.rend(), b.words.rbegin(),
                                         b.words.rend());
 }
 
-FixedPointNumber operator+(const FixedPointNumber& a, const FixedPointNumber& b) {
-    FixedPointNumber sum;
+FixedPoint operator+(const FixedPoint& a, const FixedPoint& b) {
+    FixedPoint sum;
     std::uint64_t carry = 0;
     for (std::size_t i = 0; i < kWords; ++i) {
         carry += std::uint64_t{a.words[i]} + b.words[i];
@@ -70,8 +70,8 @@ FixedPointNumber operator+(const FixedPointNumber& a, const FixedPointNumber& b)
     return sum;
 }
 
-FixedPointNumber operator-(const FixedPointNumber& a, const FixedPointNumber& b) {
-    FixedPointNumber difference;
+FixedPoint operator-(const FixedPoint& a, const FixedPoint& b) {
+    FixedPoint difference;
     std::uint64_t borrow = 0;
     for (std::size_t i = 0; i < kWords; ++i) {
         const std::uint64_t word = std::uint64_t{a.words[i]} - b.words[i] - borrow;
@@ -81,7 +81,7 @@ FixedPointNumber operator-(const FixedPointNumber& a, const FixedPointNumber& b)
     return difference;
 }
 
-FixedPointNumber operator*(const FixedPointNumber& a, const FixedPointNumber& b) {
+FixedPoint operator*(const FixedPoint& a, const FixedPoint& b) {
     std::array<std::uint32_t, 2 * kWords> product{};
     for (std::size_t i = 0; i < kWords; ++i) {
         std::uint64_t carry = 0;
@@ -92,13 +92,13 @@ FixedPointNumber operator*(const FixedPointNumber& a, const FixedPointNumber& b)
         }
         product[i + kWords] = static_cast<std::uint32_t>(carry);
     }
-    FixedPointNumber result;
-    std::copy_n(product.begin() + FixedPointNumber::kFractionWords, kWords, result.words.begin());
+    FixedPoint result;
+    std::copy_n(product.begin() + FixedPoint::kFractionWords, kWords, result.words.begin());
     return result;
 }
 
-FixedPointNumber operator/(const FixedPointNumber& a, std::uint32_t divisor) {
-    FixedPointNumber quotient;
+FixedPoint operator/(const FixedPoint& a, std::uint32_t divisor) {
+    FixedPoint quotient;
     std::uint64_t rest = 0;
     for (std::size_t i = kWords; i-- > 0;) {
         rest = (rest << kWordBits) | a.words[i];
@@ -108,9 +108,9 @@ FixedPointNumber operator/(const FixedPointNumber& a, std::uint32_t divisor) {
     return quotient;
 }
 
-FixedPointNumber operator/(FixedPointNumber a, const FixedPointNumber& b) {
-    FixedPointNumber quotient;
-    for (int index = FixedPointNumber::kFractionBits; index >= 0; --index) {
+FixedPoint operator/(FixedPoint a, const FixedPoint& b) {
+    FixedPoint quotient;
+    for (int index = FixedPoint::kFractionBits; index >= 0; --index) {
         if (!(a < b)) {
             a = a - b;
             const auto at = static_cast<std::size_t>(index);
@@ -121,8 +121,8 @@ FixedPointNumber operator/(FixedPointNumber a, const FixedPointNumber& b) {
     return quotient;
 }
 
-FixedPointNumber shifted_right(const FixedPointNumber& number, std::uint32_t bits) {
-    FixedPointNumber result;
+FixedPoint shifted_right(const FixedPoint& number, std::uint32_t bits) {
+    FixedPoint result;
     const std::size_t words = bits / kWordBits;
     const std::uint32_t rest = bits % kWordBits;
     for (std::size_t i = words; i < kWords; ++i) {
@@ -133,14 +133,14 @@ FixedPointNumber shifted_right(const FixedPointNumber& number, std::uint32_t bit
     return result;
 }
 
-double rounded(const FixedPointNumber& number, int exponent) {
+double rounded(const FixedPoint& number, int exponent) {
     constexpr int kPrecision = 53;
     constexpr int kLeastExponent = -1022; // of a normal binary64
     if (number.is_zero()) {
         return 0.0;
     }
     const int top = top_bit(number);
-    const int result_exponent = top - FixedPointNumber::kFractionBits + exponent;
+    const int result_exponent = top - FixedPoint::kFractionBits + exponent;
     const int lost = std::max(0, kLeastExponent - result_exponent); // of a subnormal result
     const int kept = kPrecision - lost; // bits of the result; below 0 it is 0
     if (kept < 0) {

@@ -14,9 +14,9 @@ namespace lsys {
 namespace {
 
 // Constants, least word first.
-constexpr FixedPointNumber kPi{{0x38D01377, 0x452821E6, 0xEC4E6C89, 0x082EFA98, 0x299F31D0, 0xA4093822,
+constexpr FixedPoint kPi{{0x38D01377, 0x452821E6, 0xEC4E6C89, 0x082EFA98, 0x299F31D0, 0xA4093822,
                           0x03707344, 0x13198A2E, 0x85A308D3, 0x243F6A88, 0x00000003}};
-constexpr FixedPointNumber kLog2{{0x6DEBAC98, 0xE7B87620, 0x8BAAFA2B, 0x8A0D175B, 0x7298B62D, 0x40F34326,
+constexpr FixedPoint kLog2{{0x6DEBAC98, 0xE7B87620, 0x8BAAFA2B, 0x8A0D175B, 0x7298B62D, 0x40F34326,
                             0x03F2F6AF, 0xC9E3B398, 0xD1CF79AB, 0xB17217F7, 0x00000000}};
 /// 2/pi after the point, highest word first: enough for 2^1024 and 320 bits of the rest.
 constexpr std::array<std::uint32_t, 48> kTwoByPi{
@@ -35,9 +35,9 @@ std::uint32_t word_of_two_by_pi(int index) {
 }
 
 /// e^x. Precondition: x < 1.
-FixedPointNumber exp_of(const FixedPointNumber& x) {
-    FixedPointNumber sum = FixedPointNumber::whole(1);
-    FixedPointNumber term = sum;
+FixedPoint exp_of(const FixedPoint& x) {
+    FixedPoint sum = FixedPoint::whole(1);
+    FixedPoint term = sum;
     for (std::uint32_t n = 1; !term.is_zero(); ++n) { // Taylor series
         term = term * x / n;
         sum = sum + term;
@@ -46,14 +46,14 @@ FixedPointNumber exp_of(const FixedPointNumber& x) {
 }
 
 /// Sum of x^n / n! for n = first, first + 2, ... with alternating signs.
-FixedPointNumber alternating(const FixedPointNumber& x, FixedPointNumber term, std::uint32_t first) {
-    const FixedPointNumber square = x * x;
-    FixedPointNumber plus = term;
-    FixedPointNumber minus;
+FixedPoint alternating(const FixedPoint& x, FixedPoint term, std::uint32_t first) {
+    const FixedPoint square = x * x;
+    FixedPoint plus = term;
+    FixedPoint minus;
     bool is_minus = true;
     for (std::uint32_t n = first; !term.is_zero(); n += 2) {
         term = term * square / ((n + 1) * (n + 2));
-        FixedPointNumber& sum = is_minus ? minus : plus;
+        FixedPoint& sum = is_minus ? minus : plus;
         sum = sum + term;
         is_minus = !is_minus;
     }
@@ -61,20 +61,20 @@ FixedPointNumber alternating(const FixedPointNumber& x, FixedPointNumber term, s
 }
 
 /// Arc tangent of a number below 2^-40.
-FixedPointNumber small_arc_tangent(const FixedPointNumber& t) {
-    const FixedPointNumber square = t * t;
-    const FixedPointNumber third = t * square;
-    const FixedPointNumber fifth = third * square;
+FixedPoint small_arc_tangent(const FixedPoint& t) {
+    const FixedPoint square = t * t;
+    const FixedPoint third = t * square;
+    const FixedPoint fifth = third * square;
     return t + fifth / 5 - third / 3 - fifth * square / 7;
 }
 
 /// Arc tangent of t, 2^-62 < t <= 1, from an estimate: atan t = e + atan((t - tan e)/(1 + t tan e)).
-FixedPointNumber arc_tangent_of(const FixedPointNumber& t) {
-    const FixedPointNumber estimate = FixedPointNumber::from(arc_tangent(rounded(t, 0), 1.0));
-    const FixedPointNumber sine = slow_sine(estimate);
-    const FixedPointNumber cosine = slow_cosine(estimate);
-    const FixedPointNumber denominator = cosine + t * sine;
-    const FixedPointNumber high = t * cosine;
+FixedPoint arc_tangent_of(const FixedPoint& t) {
+    const FixedPoint estimate = FixedPoint::from(arc_tangent(rounded(t, 0), 1.0));
+    const FixedPoint sine = slow_sine(estimate);
+    const FixedPoint cosine = slow_cosine(estimate);
+    const FixedPoint denominator = cosine + t * sine;
+    const FixedPoint high = t * cosine;
     return high < sine ? estimate - small_arc_tangent((sine - high) / denominator)
                        : estimate + small_arc_tangent((high - sine) / denominator);
 }
@@ -111,15 +111,15 @@ ReducedAngle reduce_radians(double angle) {
                    ? 0U
                    : (product[static_cast<std::size_t>(index / 32)] >> (index % 32)) & 1U;
     };
-    FixedPointNumber turns; // the fraction, in quarter turns
-    for (int place = -1; place >= -FixedPointNumber::kFractionBits; --place) {
-        const auto index = static_cast<std::size_t>(place + FixedPointNumber::kFractionBits);
+    FixedPoint turns; // the fraction, in quarter turns
+    for (int place = -1; place >= -FixedPoint::kFractionBits; --place) {
+        const auto index = static_cast<std::size_t>(place + FixedPoint::kFractionBits);
         turns.words[index / 32] |= bit(place) << (index % 32);
     }
     ReducedAngle result;
     result.quarters = bit(1) * 2 + bit(0);
     if (bit(-1) != 0) { // above one half
-        turns = FixedPointNumber::whole(1) - turns;
+        turns = FixedPoint::whole(1) - turns;
         result.is_negative = true;
         ++result.quarters;
     }
@@ -132,42 +132,42 @@ ReducedAngle reduce_radians(double angle) {
     return result;
 }
 
-FixedPointNumber radians_of(double degrees) {
-    return FixedPointNumber::from(degrees) * kPi / 180;
+FixedPoint radians_of(double degrees) {
+    return FixedPoint::from(degrees) * kPi / 180;
 }
 
-FixedPointNumber slow_sine(const FixedPointNumber& angle) {
+FixedPoint slow_sine(const FixedPoint& angle) {
     return alternating(angle, angle, 1);
 }
 
-FixedPointNumber slow_cosine(const FixedPointNumber& angle) {
-    return alternating(angle, FixedPointNumber::whole(1), 0);
+FixedPoint slow_cosine(const FixedPoint& angle) {
+    return alternating(angle, FixedPoint::whole(1), 0);
 }
 
-FixedPointNumber table_angle(std::uint32_t index) {
-    return FixedPointNumber::whole(index) * kPi / 256;
+FixedPoint table_angle(std::uint32_t index) {
+    return FixedPoint::whole(index) * kPi / 256;
 }
 
 double slow_exp(double x) {
-    const FixedPointNumber magnitude = FixedPointNumber::from(std::abs(x));
+    const FixedPoint magnitude = FixedPoint::from(std::abs(x));
     auto powers = static_cast<std::uint32_t>(std::abs(x) / std::numbers::ln2);
-    while (powers > 0 && magnitude < FixedPointNumber::whole(powers) * kLog2) {
+    while (powers > 0 && magnitude < FixedPoint::whole(powers) * kLog2) {
         --powers;
     }
     if (x >= 0.0) {
-        const FixedPointNumber rest = magnitude - FixedPointNumber::whole(powers) * kLog2;
+        const FixedPoint rest = magnitude - FixedPoint::whole(powers) * kLog2;
         return rounded(exp_of(rest), static_cast<int>(powers));
     }
     ++powers;
-    while (FixedPointNumber::whole(powers) * kLog2 < magnitude) {
+    while (FixedPoint::whole(powers) * kLog2 < magnitude) {
         ++powers;
     }
-    const FixedPointNumber rest = FixedPointNumber::whole(powers) * kLog2 - magnitude;
+    const FixedPoint rest = FixedPoint::whole(powers) * kLog2 - magnitude;
     return rounded(exp_of(rest), -static_cast<int>(powers));
 }
 
-FixedPointNumber table_power(std::uint32_t index) {
-    return exp_of(FixedPointNumber::whole(index) * kLog2 / 64);
+FixedPoint table_power(std::uint32_t index) {
+    return exp_of(FixedPoint::whole(index) * kLog2 / 64);
 }
 
 double slow_small_sine_of_degrees(double degrees) {
@@ -180,19 +180,19 @@ double slow_atan2(double y, double x, bool from_half_turn) {
     constexpr int kSmall = 60; // below 2^-60, atan t = t (1 - d) with 0 < d < 2^-120
     int y_exponent = 0;
     int x_exponent = 0;
-    const FixedPointNumber y_part = FixedPointNumber::from(std::frexp(y, &y_exponent));
-    const FixedPointNumber x_part = FixedPointNumber::from(std::frexp(x, &x_exponent));
+    const FixedPoint y_part = FixedPoint::from(std::frexp(y, &y_exponent));
+    const FixedPoint x_part = FixedPoint::from(std::frexp(x, &x_exponent));
     const int exponent = y_exponent - x_exponent;
     const bool is_steep = exponent > 0 || (exponent == 0 && x_part < y_part);
-    const FixedPointNumber quotient = is_steep ? x_part / y_part : y_part / x_part;
+    const FixedPoint quotient = is_steep ? x_part / y_part : y_part / x_part;
     const int down = is_steep ? -exponent : exponent; // at most 0
     if (down <= -kSmall && !is_steep && !from_half_turn) {
-        FixedPointNumber least;
+        FixedPoint least;
         least.words[0] = 1;
         return rounded(quotient - least, exponent);
     }
-    const FixedPointNumber t = shifted_right(quotient, static_cast<std::uint32_t>(std::min(-down, 400)));
-    FixedPointNumber angle = down <= -kSmall ? t : arc_tangent_of(t);
+    const FixedPoint t = shifted_right(quotient, static_cast<std::uint32_t>(std::min(-down, 400)));
+    FixedPoint angle = down <= -kSmall ? t : arc_tangent_of(t);
     if (is_steep) {
         angle = shifted_right(kPi, 1) - angle;
     }

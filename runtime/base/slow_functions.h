@@ -14,29 +14,29 @@ namespace lsys {
 
 /// An angle from -pi/4 to pi/4 and a number of quarter turns.
 struct ReducedAngle {
-    FixedPointNumber angle; // rad; magnitude
+    FixedPoint angle; // rad; magnitude
     bool is_negative = false;
     std::uint32_t quarters = 0; // 0 to 3
 };
 /// Reduces an angle in radians of at least 2^-30 and at most 2^1024.
 [[nodiscard]] ReducedAngle reduce_radians(double angle);
 /// `degrees`: from 0 to 45.
-[[nodiscard]] FixedPointNumber radians_of(double degrees);
+[[nodiscard]] FixedPoint radians_of(double degrees);
 
 /// Sine of an angle in degrees, rounded. Precondition: 0 < degrees < 2^-60, where the sine is the
 /// angle in radians up to a factor of 1 - 2^-130.
 [[nodiscard]] double slow_small_sine_of_degrees(double degrees);
 
 /// Precondition of both: angle < 1.
-[[nodiscard]] FixedPointNumber slow_sine(const FixedPointNumber& angle);
-[[nodiscard]] FixedPointNumber slow_cosine(const FixedPointNumber& angle);
+[[nodiscard]] FixedPoint slow_sine(const FixedPoint& angle);
+[[nodiscard]] FixedPoint slow_cosine(const FixedPoint& angle);
 /// index * pi / 256.
-[[nodiscard]] FixedPointNumber table_angle(std::uint32_t index);
+[[nodiscard]] FixedPoint table_angle(std::uint32_t index);
 
 /// exp(x), rounded. Precondition: 2^-60 < |x| < 800.
 [[nodiscard]] double slow_exp(double x);
 /// 2^(index / 64). Precondition: index < 64.
-[[nodiscard]] FixedPointNumber table_power(std::uint32_t index);
+[[nodiscard]] FixedPoint table_power(std::uint32_t index);
 
 /// Arc tangent of y / x for finite y, x > 0, or pi minus it if `from_half_turn`; rounded.
 [[nodiscard]] double slow_atan2(double y, double x, bool from_half_turn);

@@ -88,7 +88,7 @@ TEST_CASE("fast and slow results agree where both are made") {
     SplitMix numbers(7);
     for (int i = 0; i < 20000; ++i) {
         const double x = numbers.number(-20, -1);
-        const FixedPointNumber fixed = FixedPointNumber::from(std::abs(x));
+        const FixedPoint fixed = FixedPoint::from(std::abs(x));
         REQUIRE(same(exact_sine(x), std::copysign(rounded(slow_sine(fixed), 0), x)));
         REQUIRE(same(exact_cosine(x), rounded(slow_cosine(fixed), 0)));
         REQUIRE(same(exact_exp(x), slow_exp(x)));
