@@ -65,9 +65,9 @@ std::optional<double> rounded(const DoubleDouble& value, double error) {
     return up == down ? std::optional(up) : std::nullopt;
 }
 
-DoubleDouble double_double(const FixedPoint& number) {
+DoubleDouble double_double(const WideFixedPoint& number) {
     const double high = lsys::rounded(number, 0);
-    const FixedPoint back = FixedPoint::from(high);
+    const WideFixedPoint back = WideFixedPoint::from(high);
     return {high, back < number || back.words == number.words ? lsys::rounded(number - back, 0)
                                                               : -lsys::rounded(back - number, 0)};
 }
@@ -199,7 +199,7 @@ std::optional<ExactSineCosine> fast_sine_cosine(const TableAngle& angle) {
 }
 
 ExactSineCosine
-slow_sine_cosine(const FixedPoint& angle, bool is_negative, std::uint32_t quarters) {
+slow_sine_cosine(const WideFixedPoint& angle, bool is_negative, std::uint32_t quarters) {
     const double sine = lsys::rounded(slow_sine(angle), 0);
     return turned(is_negative ? -sine : sine, lsys::rounded(slow_cosine(angle), 0), quarters);
 }

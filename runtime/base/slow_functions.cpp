@@ -14,10 +14,12 @@ namespace lsys {
 namespace {
 
 // Constants, least word first.
-constexpr FixedPoint kPi{{0x38D01377, 0x452821E6, 0xEC4E6C89, 0x082EFA98, 0x299F31D0, 0xA4093822,
-                          0x03707344, 0x13198A2E, 0x85A308D3, 0x243F6A88, 0x00000003}};
-constexpr FixedPoint kLog2{{0x6DEBAC98, 0xE7B87620, 0x8BAAFA2B, 0x8A0D175B, 0x7298B62D, 0x40F34326,
-                            0x03F2F6AF, 0xC9E3B398, 0xD1CF79AB, 0xB17217F7, 0x00000000}};
+constexpr WideFixedPoint kPi{{0x38D01377, 0x452821E6, 0xEC4E6C89, 0x082EFA98, 0x299F31D0,
+                              0xA4093822, 0x03707344, 0x13198A2E, 0x85A308D3, 0x243F6A88,
+                              0x00000003}};
+constexpr WideFixedPoint kLog2{{0x6DEBAC98, 0xE7B87620, 0x8BAAFA2B, 0x8A0D175B, 0x7298B62D,
+                                0x40F34326, 0x03F2F6AF, 0xC9E3B398, 0xD1CF79AB, 0xB17217F7,
+                                0x00000000}};
 /// 2/pi after the point, highest word first: enough for 2^1024 and 320 bits of the rest.
 constexpr std::array<std::uint32_t, 48> kTwoByPi{
     0xA2F9836E, 0x4E441529, 0xFC2757D1, 0xF534DDC0, 0xDB629599, 0x3C439041, 0xFE5163AB, 0xDEBBC561,
@@ -35,9 +37,9 @@ std::uint32_t word_of_two_by_pi(int index) {
 }
 
 /// e^x. Precondition: x < 1.
-FixedPoint exp_of(const FixedPoint& x) {
-    FixedPoint sum = FixedPoint::whole(1);
-    FixedPoint term = sum;
+WideFixedPoint exp_of(const WideFixedPoint& x) {
+    WideFixedPoint sum = WideFixedPoint::whole(1);
+    WideFixedPoint term = sum;
     for (std::uint32_t n = 1; !term.is_zero(); ++n) { // Taylor series
         term = term * x / n;
         sum = sum + term;
@@ -46,14 +48,14 @@ FixedPoint exp_of(const FixedPoint& x) {
 }
 
 /// Sum of x^n / n! for n = first, first + 2, ... with alternating signs.
-FixedPoint alternating(const FixedPoint& x, FixedPoint term, std::uint32_t first) {
-    const FixedPoint square = x * x;
-    FixedPoint plus = term;
-    FixedPoint minus;
+WideFixedPoint alternating(const WideFixedPoint& x, WideFixedPoint term, std::uint32_t first) {
+    const WideFixedPoint square = x * x;
+    WideFixedPoint plus = term;
+    WideFixedPoint minus;
     bool is_minus = true;
     for (std::uint32_t n = first; !term.is_zero(); n += 2) {
         term = term * square / ((n + 1) * (n + 2));
-        FixedPoint& sum = is_minus ? minus : plus;
+        WideFixedPoint& sum = is_minus ? minus : plus;
         sum = sum + term;
         is_minus = !is_minus;
     }
@@ -61,20 +63,20 @@ FixedPoint alternating(const FixedPoint& x, FixedPoint term, std::uint32_t first
 }
 
 /// Arc tangent of a number below 2^-40.
-FixedPoint small_arc_tangent(const FixedPoint& t) {
-    const FixedPoint square = t * t;
-    const FixedPoint third = t * square;
-    const FixedPoint fifth = third * square;
+WideFixedPoint small_arc_tangent(const WideFixedPoint& t) {
+    const WideFixedPoint square = t * t;
+    const WideFixedPoint third = t * square;
+    const WideFixedPoint fifth = third * square;
     return t + fifth / 5 - third / 3 - fifth * square / 7;
 }
 
 /// Arc tangent of t, 2^-62 < t <= 1, from an estimate: atan t = e + atan((t - tan e)/(1 + t tan e)).
-FixedPoint arc_tangent_of(const FixedPoint& t) {
-    const FixedPoint estimate = FixedPoint::from(arc_tangent(rounded(t, 0), 1.0));
-    const FixedPoint sine = slow_sine(estimate);
-    const FixedPoint cosine = slow_cosine(estimate);
-    const FixedPoint denominator = cosine + t * sine;
-    const FixedPoint high = t * cosine;
+WideFixedPoint arc_tangent_of(const WideFixedPoint& t) {
+    const WideFixedPoint estimate = WideFixedPoint::from(arc_tangent(rounded(t, 0), 1.0));
+    const WideFixedPoint sine = slow_sine(estimate);
+    const WideFixedPoint cosine = slow_cosine(estimate);
+    const WideFixedPoint denominator = cosine + t * sine;
+    const WideFixedPoint high = t * cosine;
     return high < sine ? estimate - small_arc_tangent((sine - high) / denominator)
                        : estimate + small_arc_tangent((high - sine) / denominator);
 }
@@ -111,15 +113,15 @@ ReducedAngle reduce_radians(double angle) {
                    ? 0U
                    : (product[static_cast<std::size_t>(index / 32)] >> (index % 32)) & 1U;
     };
-    FixedPoint turns; // the fraction, in quarter turns
-    for (int place = -1; place >= -FixedPoint::kFractionBits; --place) {
-        const auto index = static_cast<std::size_t>(place + FixedPoint::kFractionBits);
+    WideFixedPoint turns; // the fraction, in quarter turns
+    for (int place = -1; place >= -WideFixedPoint::kFractionBits; --place) {
+        const auto index = static_cast<std::size_t>(place + WideFixedPoint::kFractionBits);
         turns.words[index / 32] |= bit(place) << (index % 32);
     }
     ReducedAngle result;
     result.quarters = bit(1) * 2 + bit(0);
     if (bit(-1) != 0) { // above one half
-        turns = FixedPoint::whole(1) - turns;
+        turns = WideFixedPoint::whole(1) - turns;
         result.is_negative = true;
         ++result.quarters;
     }
@@ -132,42 +134,42 @@ ReducedAngle reduce_radians(double angle) {
     return result;
 }
 
-FixedPoint radians_of(double degrees) {
-    return FixedPoint::from(degrees) * kPi / 180;
+WideFixedPoint radians_of(double degrees) {
+    return WideFixedPoint::from(degrees) * kPi / 180;
 }
 
-FixedPoint slow_sine(const FixedPoint& angle) {
+WideFixedPoint slow_sine(const WideFixedPoint& angle) {
     return alternating(angle, angle, 1);
 }
 
-FixedPoint slow_cosine(const FixedPoint& angle) {
-    return alternating(angle, FixedPoint::whole(1), 0);
+WideFixedPoint slow_cosine(const WideFixedPoint& angle) {
+    return alternating(angle, WideFixedPoint::whole(1), 0);
 }
 
-FixedPoint table_angle(std::uint32_t index) {
-    return FixedPoint::whole(index) * kPi / 256;
+WideFixedPoint table_angle(std::uint32_t index) {
+    return WideFixedPoint::whole(index) * kPi / 256;
 }
 
 double slow_exp(double x) {
-    const FixedPoint magnitude = FixedPoint::from(std::abs(x));
+    const WideFixedPoint magnitude = WideFixedPoint::from(std::abs(x));
     auto powers = static_cast<std::uint32_t>(std::abs(x) / std::numbers::ln2);
-    while (powers > 0 && magnitude < FixedPoint::whole(powers) * kLog2) {
+    while (powers > 0 && magnitude < WideFixedPoint::whole(powers) * kLog2) {
         --powers;
     }
     if (x >= 0.0) {
-        const FixedPoint rest = magnitude - FixedPoint::whole(powers) * kLog2;
+        const WideFixedPoint rest = magnitude - WideFixedPoint::whole(powers) * kLog2;
         return rounded(exp_of(rest), static_cast<int>(powers));
     }
     ++powers;
-    while (FixedPoint::whole(powers) * kLog2 < magnitude) {
+    while (WideFixedPoint::whole(powers) * kLog2 < magnitude) {
         ++powers;
     }
-    const FixedPoint rest = FixedPoint::whole(powers) * kLog2 - magnitude;
+    const WideFixedPoint rest = WideFixedPoint::whole(powers) * kLog2 - magnitude;
     return rounded(exp_of(rest), -static_cast<int>(powers));
 }
 
-FixedPoint table_power(std::uint32_t index) {
-    return exp_of(FixedPoint::whole(index) * kLog2 / 64);
+WideFixedPoint table_power(std::uint32_t index) {
+    return exp_of(WideFixedPoint::whole(index) * kLog2 / 64);
 }
 
 double slow_small_sine_of_degrees(double degrees) {
@@ -180,19 +182,20 @@ double slow_atan2(double y, double x, bool from_half_turn) {
     constexpr int kSmall = 60; // below 2^-60, atan t = t (1 - d) with 0 < d < 2^-120
     int y_exponent = 0;
     int x_exponent = 0;
-    const FixedPoint y_part = FixedPoint::from(std::frexp(y, &y_exponent));
-    const FixedPoint x_part = FixedPoint::from(std::frexp(x, &x_exponent));
+    const WideFixedPoint y_part = WideFixedPoint::from(std::frexp(y, &y_exponent));
+    const WideFixedPoint x_part = WideFixedPoint::from(std::frexp(x, &x_exponent));
     const int exponent = y_exponent - x_exponent;
     const bool is_steep = exponent > 0 || (exponent == 0 && x_part < y_part);
-    const FixedPoint quotient = is_steep ? x_part / y_part : y_part / x_part;
+    const WideFixedPoint quotient = is_steep ? x_part / y_part : y_part / x_part;
     const int down = is_steep ? -exponent : exponent; // at most 0
     if (down <= -kSmall && !is_steep && !from_half_turn) {
-        FixedPoint least;
+        WideFixedPoint least;
         least.words[0] = 1;
         return rounded(quotient - least, exponent);
     }
-    const FixedPoint t = shifted_right(quotient, static_cast<std::uint32_t>(std::min(-down, 400)));
-    FixedPoint angle = down <= -kSmall ? t : arc_tangent_of(t);
+    const WideFixedPoint t =
+        shifted_right(quotient, static_cast<std::uint32_t>(std::min(-down, 400)));
+    WideFixedPoint angle = down <= -kSmall ? t : arc_tangent_of(t);
     if (is_steep) {
         angle = shifted_right(kPi, 1) - angle;
     }

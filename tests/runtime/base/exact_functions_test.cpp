@@ -2,8 +2,8 @@
 // Compares the exact functions with mpmath: checksums of 1,020,000 results, which
 // exact_functions_checksums.py prints, and single results that are hard to round.
 #include "runtime/base/exact_functions.h"
-#include "runtime/base/fixed_point.h"
 #include "runtime/base/slow_functions.h"
+#include "runtime/base/wide_fixed_point.h"
 
 #include <catch2/catch.hpp>
 
@@ -88,7 +88,7 @@ TEST_CASE("fast and slow results agree where both are made") {
     SplitMix numbers(7);
     for (int i = 0; i < 20000; ++i) {
         const double x = numbers.number(-20, -1);
-        const FixedPoint fixed = FixedPoint::from(std::abs(x));
+        const WideFixedPoint fixed = WideFixedPoint::from(std::abs(x));
         REQUIRE(same(exact_sine(x), std::copysign(rounded(slow_sine(fixed), 0), x)));
         REQUIRE(same(exact_cosine(x), rounded(slow_cosine(fixed), 0)));
         REQUIRE(same(exact_exp(x), slow_exp(x)));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "runtime/base/fixed_point.h"
+#include "runtime/base/wide_fixed_point.h"
 
 #include <algorithm>
 #include <bit>
@@ -10,10 +10,10 @@ namespace lsys {
 namespace {
 
 constexpr int kWordBits = 32;
-constexpr std::size_t kWords = FixedPoint::kWords;
+constexpr std::size_t kWords = WideFixedPoint::kWords;
 
 /// Bit `index` of the number; bit 0 is 2^-320. Bits outside of the number are 0.
-std::uint32_t bit(const FixedPoint& number, int index) {
+std::uint32_t bit(const WideFixedPoint& number, int index) {
     if (index < 0 || index >= kWordBits * static_cast<int>(kWords)) {
         return 0;
     }
@@ -22,7 +22,7 @@ std::uint32_t bit(const FixedPoint& number, int index) {
 }
 
 /// Whether any bit below bit `end` is set.
-bool any_below(const FixedPoint& number, int end) {
+bool any_below(const WideFixedPoint& number, int end) {
     for (int index = 0; index < std::min(end, kWordBits * static_cast<int>(kWords)); ++index) {
         if (bit(number, index) != 0) {
             return true;
@@ -32,7 +32,7 @@ bool any_below(const FixedPoint& number, int end) {
 }
 
 /// Index of the highest bit that is set. Precondition: the number is not 0.
-int top_bit(const FixedPoint& number) {
+int top_bit(const WideFixedPoint& number) {
     std::size_t word = kWords - 1;
     while (number.words[word] == 0) {
         --word;
@@ -43,8 +43,8 @@ int top_bit(const FixedPoint& number) {
 
 } // namespace
 
-FixedPoint FixedPoint::from(double number) {
-    FixedPoint result;
+WideFixedPoint WideFixedPoint::from(double number) {
+    WideFixedPoint result;
     double rest = number;
     for (std::size_t i = kWords; i-- > 0 && rest != 0.0;) {
         const double word = std::floor(rest);
@@ -54,13 +54,13 @@ FixedPoint FixedPoint::from(double number) {
     return result;
 }
 
-bool operator<(const FixedPoint& a, const FixedPoint& b) {
+bool operator<(const WideFixedPoint& a, const WideFixedPoint& b) {
     return std::lexicographical_compare(a.words.rbegin(), a.words.rend(), b.words.rbegin(),
                                         b.words.rend());
 }
 
-FixedPoint operator+(const FixedPoint& a, const FixedPoint& b) {
-    FixedPoint sum;
+WideFixedPoint operator+(const WideFixedPoint& a, const WideFixedPoint& b) {
+    WideFixedPoint sum;
     std::uint64_t carry = 0;
     for (std::size_t i = 0; i < kWords; ++i) {
         carry += std::uint64_t{a.words[i]} + b.words[i];
@@ -70,8 +70,8 @@ FixedPoint operator+(const FixedPoint& a, const FixedPoint& b) {
     return sum;
 }
 
-FixedPoint operator-(const FixedPoint& a, const FixedPoint& b) {
-    FixedPoint difference;
+WideFixedPoint operator-(const WideFixedPoint& a, const WideFixedPoint& b) {
+    WideFixedPoint difference;
     std::uint64_t borrow = 0;
     for (std::size_t i = 0; i < kWords; ++i) {
         const std::uint64_t word = std::uint64_t{a.words[i]} - b.words[i] - borrow;
@@ -81,7 +81,7 @@ FixedPoint operator-(const FixedPoint& a, const FixedPoint& b) {
     return difference;
 }
 
-FixedPoint operator*(const FixedPoint& a, const FixedPoint& b) {
+WideFixedPoint operator*(const WideFixedPoint& a, const WideFixedPoint& b) {
     std::array<std::uint32_t, 2 * kWords> product{};
     for (std::size_t i = 0; i < kWords; ++i) {
         std::uint64_t carry = 0;
@@ -92,13 +92,13 @@ FixedPoint operator*(const FixedPoint& a, const FixedPoint& b) {
         }
         product[i + kWords] = static_cast<std::uint32_t>(carry);
     }
-    FixedPoint result;
-    std::copy_n(product.begin() + FixedPoint::kFractionWords, kWords, result.words.begin());
+    WideFixedPoint result;
+    std::copy_n(product.begin() + WideFixedPoint::kFractionWords, kWords, result.words.begin());
     return result;
 }
 
-FixedPoint operator/(const FixedPoint& a, std::uint32_t divisor) {
-    FixedPoint quotient;
+WideFixedPoint operator/(const WideFixedPoint& a, std::uint32_t divisor) {
+    WideFixedPoint quotient;
     std::uint64_t rest = 0;
     for (std::size_t i = kWords; i-- > 0;) {
         rest = (rest << kWordBits) | a.words[i];
@@ -108,9 +108,9 @@ FixedPoint operator/(const FixedPoint& a, std::uint32_t divisor) {
     return quotient;
 }
 
-FixedPoint operator/(FixedPoint a, const FixedPoint& b) {
-    FixedPoint quotient;
-    for (int index = FixedPoint::kFractionBits; index >= 0; --index) {
+WideFixedPoint operator/(WideFixedPoint a, const WideFixedPoint& b) {
+    WideFixedPoint quotient;
+    for (int index = WideFixedPoint::kFractionBits; index >= 0; --index) {
         if (!(a < b)) {
             a = a - b;
             const auto at = static_cast<std::size_t>(index);
@@ -121,8 +121,8 @@ FixedPoint operator/(FixedPoint a, const FixedPoint& b) {
     return quotient;
 }
 
-FixedPoint shifted_right(const FixedPoint& number, std::uint32_t bits) {
-    FixedPoint result;
+WideFixedPoint shifted_right(const WideFixedPoint& number, std::uint32_t bits) {
+    WideFixedPoint result;
     const std::size_t words = bits / kWordBits;
     const std::uint32_t rest = bits % kWordBits;
     for (std::size_t i = words; i < kWords; ++i) {
@@ -133,14 +133,14 @@ FixedPoint shifted_right(const FixedPoint& number, std::uint32_t bits) {
     return result;
 }
 
-double rounded(const FixedPoint& number, int exponent) {
+double rounded(const WideFixedPoint& number, int exponent) {
     constexpr int kPrecision = 53;
     constexpr int kLeastExponent = -1022; // of a normal binary64
     if (number.is_zero()) {
         return 0.0;
     }
     const int top = top_bit(number);
-    const int result_exponent = top - FixedPoint::kFractionBits + exponent;
+    const int result_exponent = top - WideFixedPoint::kFractionBits + exponent;
     const int lost = std::max(0, kLeastExponent - result_exponent); // of a subnormal result
     const int kept = kPrecision - lost; // bits of the result; below 0 it is 0
     if (kept < 0) {
