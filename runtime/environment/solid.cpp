@@ -63,18 +63,35 @@ public:
     std::optional<EnvironmentFailure> answer(const SensedWord& word,
                                              std::vector<float>& answers,
                                              std::vector<std::uint32_t>& /*sizes*/) override {
-        constexpr std::size_t kPlaces = 1U << 8; // of one piece of work
         if (auto failure = check_places(word.places)) {
             return failure;
         }
-        const std::size_t count = word.places.size();
+        if (word.places.empty()) {
+            return std::nullopt;
+        }
+        using Failure = std::optional<EnvironmentFailure>;
+        return catch_out_of_memory([&]() -> Failure { return answer_all(word.places, answers); },
+                                   []() -> Failure { return stopped(Stop::OutOfMemory); });
+    }
+
+private:
+    std::optional<EnvironmentFailure> answer_all(std::span<const SensePlace> places,
+                                                 std::vector<float>& answers) const {
+        // Places next to each other are answered one after the other, because they meet the same
+        // nodes of the trees.
+        constexpr std::size_t kPlaces = 1U << 8; // of one piece of work, and of a leaf
+        LargeVector<SplitItem> order = split_items(places);
+        static_cast<void>(build_split_tree(order, kPlaces, *context_.workers, context_.cancelled));
+        const std::size_t count = places.size();
         context_.workers->for_each((count + kPlaces - 1) / kPlaces, [&](std::uint64_t piece) {
             if (is_cancelled(context_.cancelled)) {
                 return;
             }
+            std::vector<std::uint32_t> hints(trees_.size(), 0);
             const std::size_t end = std::min(count, (piece + 1) * kPlaces);
             for (std::size_t i = piece * kPlaces; i < end; ++i) {
-                answer_one(word.places[i].position, answers.data() + i * 4);
+                const std::size_t place = order[i].index;
+                answer_one(places[place].position, hints, answers.data() + place * 4);
             }
         });
         if (is_cancelled(context_.cancelled)) {
@@ -83,7 +100,6 @@ public:
         return std::nullopt;
     }
 
-private:
     /// Builds the trees of the meshes, once for all derivations.
     std::optional<EnvironmentFailure> build_trees() {
         if (trees_.size() == files_.meshes.size()) {
@@ -115,7 +131,7 @@ private:
         return std::nullopt;
     }
 
-    void answer_one(const Vector3& place, float* answer) const {
+    void answer_one(const Vector3& place, std::vector<std::uint32_t>& hints, float* answer) const {
         double distance = std::numeric_limits<double>::infinity();
         Vector3 direction{};
         bool inside = false;
@@ -132,9 +148,9 @@ private:
             }
         }
         NearestPoint nearest;
-        for (const std::unique_ptr<TriangleTree>& tree : trees_) {
-            tree->find_nearest(place, nearest);
-            inside = inside || tree->is_inside(place);
+        for (std::size_t i = 0; i < trees_.size(); ++i) {
+            trees_[i]->find_nearest(place, nearest, hints[i]);
+            inside = inside || trees_[i]->is_inside(place);
         }
         if (const double from_mesh = std::sqrt(nearest.squared); from_mesh < distance) {
             distance = from_mesh;

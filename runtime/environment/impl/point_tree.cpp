@@ -36,13 +36,7 @@ PointTree make_point_tree(std::span<const SensePlace> places, const EnvironmentC
     if (places.empty()) {
         return {};
     }
-    LargeVector<SplitItem> items(places.size());
-    for (std::size_t i = 0; i < places.size(); ++i) {
-        for (std::size_t axis = 0; axis < 3; ++axis) {
-            items[i].centre[axis] = centre_coordinate(places[i].position[axis]);
-        }
-        items[i].index = static_cast<std::uint32_t>(i);
-    }
+    LargeVector<SplitItem> items = split_items(places);
     const LargeVector<SplitNode> nodes =
         build_split_tree(items, kPointsPerLeaf, *context.workers, context.cancelled);
     PointTree tree;

@@ -128,6 +128,17 @@ LargeVector<SplitNode> build_split_tree(LargeVector<SplitItem>& items,
     return nodes;
 }
 
+LargeVector<SplitItem> split_items(std::span<const SensePlace> places) {
+    LargeVector<SplitItem> items(places.size());
+    for (std::size_t i = 0; i < places.size(); ++i) {
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            items[i].centre[axis] = centre_coordinate(places[i].position[axis]);
+        }
+        items[i].index = static_cast<std::uint32_t>(i);
+    }
+    return items;
+}
+
 float centre_coordinate(double value) {
     constexpr double kLargest = std::numeric_limits<float>::max() / 4;
     return static_cast<float>(std::clamp(value, -kLargest, kLargest));

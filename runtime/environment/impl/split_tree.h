@@ -6,11 +6,13 @@
 
 #include "runtime/base/large_vector.h"
 #include "runtime/base/workers.h"
+#include "runtime/environment/environment.h"
 
 #include <array>
 #include <atomic>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 
 namespace lsys {
 
@@ -39,6 +41,9 @@ inline constexpr std::size_t kMaxSplitDepth = 40;
                                                       std::size_t leaf_size,
                                                       Workers& workers,
                                                       const std::atomic<bool>* cancelled);
+
+/// The places as items, by their indexes.
+[[nodiscard]] LargeVector<SplitItem> split_items(std::span<const SensePlace> places);
 
 /// `value` as a centre; values beyond binary32 become its largest.
 [[nodiscard]] float centre_coordinate(double value);

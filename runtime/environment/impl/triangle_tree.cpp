@@ -210,13 +210,25 @@ bool TriangleTree::is_farther(const Node& node, const Vector3& place, double squ
     return above * above + outside * outside > squared + 1e-6 * offset_squared;
 }
 
-void TriangleTree::find_nearest(const Vector3& place, NearestPoint& nearest) const {
+void TriangleTree::find_nearest(const Vector3& place,
+                                NearestPoint& nearest,
+                                std::uint32_t& hint) const {
     struct Open {
         std::uint32_t node = 0;
         double least = 0.0;
     };
-    constexpr std::uint32_t kElsewhere = 0; // no triangle of this mesh: ties are lost
-    std::uint32_t next_index = kElsewhere;  // 1 + index of the nearest triangle
+    std::uint32_t next_index = 0; // 1 + index of the nearest triangle; 0: of another mesh
+    const auto consider = [&](std::size_t at) {
+        const NearestPoint point = nearest_point(triangle(at), place);
+        const std::uint32_t index = corners_[at].index + 1;
+        if (point.squared < nearest.squared ||
+            (point.squared == nearest.squared && index < next_index)) {
+            nearest = point;
+            next_index = index;
+            hint = static_cast<std::uint32_t>(at);
+        }
+    };
+    consider(hint);
     std::array<Open, kMaxSplitDepth> open;
     std::size_t open_count = 0;
     open[open_count++] = {0, least_squared(nodes_[0], place)};
@@ -235,13 +247,7 @@ void TriangleTree::find_nearest(const Vector3& place, NearestPoint& nearest) con
             continue;
         }
         for (std::size_t at = node.begin; at < node.begin + node.count; ++at) {
-            const NearestPoint point = nearest_point(triangle(at), place);
-            const std::uint32_t index = corners_[at].index + 1;
-            if (point.squared < nearest.squared ||
-                (point.squared == nearest.squared && index < next_index)) {
-                nearest = point;
-                next_index = index;
-            }
+            consider(at);
         }
     }
 }

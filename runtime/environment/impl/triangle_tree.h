@@ -23,8 +23,9 @@ public:
     [[nodiscard]] bool empty() const { return nodes_.empty(); }
     [[nodiscard]] bool closed() const { return closure_.closed; }
     /// Replaces `nearest` by the nearest point of the mesh if that is strictly nearer. Among
-    /// triangles at the same squared distance the first of the file counts.
-    void find_nearest(const Vector3& place, NearestPoint& nearest) const;
+    /// triangles at the same squared distance the first of the file counts. `hint` is a triangle to
+    /// begin with, 0 at first, and becomes the nearest: places near each other are found quickly.
+    void find_nearest(const Vector3& place, NearestPoint& nearest, std::uint32_t& hint) const;
     /// Whether the winding number of a closed mesh around `place` is not 0. The sign is exact for
     /// places that are not on the surface. Open meshes have no inside.
     [[nodiscard]] bool is_inside(const Vector3& place) const;
