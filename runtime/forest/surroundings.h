@@ -23,9 +23,12 @@ enum class Surroundings : std::uint8_t { Open, One, Adjacent, Opposite, Three, C
 inline constexpr std::array<std::string_view, kSurroundings> kSurroundingsNames{
     "open", "one", "adjacent", "opposite", "three", "closed"};
 
-/// Distance in crown radii within which a tree takes a quarter of another tree, and at which the
-/// neighbours of heroes stand.
+/// Distance in crown radii within which a tree takes a quarter of another tree: crowns that are
+/// farther apart do not touch.
 inline constexpr double kNeighbourReach = 2.0;
+/// Distance in crown radii at which the neighbours of heroes stand: the middle of the distances at
+/// which trees take quarters. Shadow is short, so crowns that only touch would hardly shade.
+inline constexpr double kNeighbourDistance = 1.0;
 
 /// The quarters that are taken around the heroes of a case: bit q stands for the quarter whose
 /// middle is at yaw q * 90 degrees from +X. Quarter 0 is taken in every case except Open.

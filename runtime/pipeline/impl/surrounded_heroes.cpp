@@ -53,7 +53,8 @@ CacheOutcome grow_surrounded_heroes(const Bytecode& bytecode,
     CacheOutcome outcome = make_instance_cache(bytecode, options);
     Neighbours neighbours;
     neighbours.words = recording.take_words();
-    const double distance = outcome.ok() ? kNeighbourReach * crown_radius_of(outcome.cache) : 0.0;
+    const double distance =
+        outcome.ok() ? kNeighbourDistance * crown_radius_of(outcome.cache) : 0.0;
     PlantSenses shaded = senses;
     shaded.options.neighbours = &neighbours;
     for (std::uint32_t i = 1; i < kSurroundings && outcome.ok(); ++i) {

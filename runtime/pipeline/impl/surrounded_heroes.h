@@ -15,7 +15,7 @@ namespace lsys {
 [[nodiscard]] bool senses_shade(const Bytecode& bytecode);
 
 /// Appends a cache for each case, in the order of Surroundings, to `caches`. The neighbours are the
-/// first hero without neighbours, kNeighbourReach crown radii away in the middle of each taken
+/// first hero without neighbours, kNeighbourDistance crown radii away in the middle of each taken
 /// quarter. Returns the outcome of the last cache without its value; if it is not ok(), the caches
 /// are incomplete. `options.senses` is not used. Precondition: senses_shade(bytecode).
 [[nodiscard]] CacheOutcome grow_surrounded_heroes(const Bytecode& bytecode,

@@ -18,15 +18,15 @@ using namespace lsys;
 
 namespace {
 
-/// A mast that grows by 2 m a year, and four arms, 3 m high, that grow by 1 m while only their own
-/// mast shades them. The pyramid below a mast is as wide as it is high. So an arm of 6 m stops at
-/// 4 m if a mast of the same age stands 12 m away in its direction: the mast is then 8 m high.
+/// A mast and four arms, 3 m high, that grow by 1 m a year, the arms while only their own mast
+/// shades them. The pyramid below a mast is as wide as it is high. So an arm, which would be 6 m
+/// long, stops at 3 m if a mast of the same age stands 6 m away in its direction.
 const char* const kStar =
     "#n = 6; #sense light shadow cell 1 levels 20 strength 0.1 ratio 1;"
     "#w : F(3) [ +(90) ?light(1,0,0,0,0) ] [ -(90) ?light(1,0,0,0,0) ] [ &(90) ?light(1,0,0,0,0) ]"
     "     [ ^(90) ?light(1,0,0,0,0) ] ?light(1,0,0,0);"
     "#arm  : ?light(q,x,y,z,k) : k < 2 || q > 0.85 : F(1) ?light(0,0,0,0,k+1);"
-    "#mast : ?light(q,x,y,z) : * : F(2) ?light(0,0,0,0);";
+    "#mast : ?light(q,x,y,z) : * : F(1) ?light(0,0,0,0);";
 
 struct Wood {
     Project project;
@@ -86,18 +86,18 @@ TEST_CASE("heroes grow with neighbours in the taken quarters of their case") {
             for (std::uint32_t quarter = 0; quarter < 4; ++quarter) {
                 const bool is_taken =
                     (taken_quarters(static_cast<Surroundings>(i)) >> quarter & 1U) != 0;
-                CHECK(arms[quarter] == Approx(is_taken ? 4.0F : 6.0F));
+                CHECK(arms[quarter] == Approx(is_taken ? 3.0F : 6.0F));
             }
         }
     }
 }
 
 TEST_CASE("crown radii follow the height of a grammar, and stages have radii of their own") {
-    const Outcome<Wood> made = wood_of("stages = [4, 6]\n", std::string(kStar) + "#set height 30;");
+    const Outcome<Wood> made = wood_of("stages = [4, 6]\n", std::string(kStar) + "#set height 18;");
     REQUIRE(made);
     const ForestSpecies& species = made.value().grown.forest.species[0];
     REQUIRE(species.stages.size() == 2 * kSurroundings);
-    for (std::uint32_t i = 0; i < kSurroundings; ++i) { // the plants are 15 m high without `height`
+    for (std::uint32_t i = 0; i < kSurroundings; ++i) { // the plants are 9 m high without `height`
         CHECK(species.stages[i].generations == 4);
         CHECK(species.stages[i].crown_radius == Approx(8.0));
         CHECK(species.stages[kSurroundings + i].crown_radius == Approx(12.0));
