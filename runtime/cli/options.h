@@ -109,7 +109,7 @@ enum class TileInstances : std::uint8_t { Trees, Branches };
 struct SceneCommand {
     MessageOptions messages;
     std::vector<std::string> files; // one scene, or one or more grammars
-    TileInstances instances = TileInstances::Trees;
+    TileInstances instance_kind = TileInstances::Trees;
     SceneOverrides overrides;
     RunOptions run;
 };

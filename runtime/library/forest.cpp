@@ -179,7 +179,7 @@ ExitStatus write_loaded(const ForestFileOptions& options,
                         GrownForest* changing,
                         const OutputContext& context) {
     std::vector<std::vector<InstanceMeshes>> meshes;
-    if (options.instances != ForestInstances::Lods) {
+    if (options.instance_kind != ForestInstances::Lods) {
         const ExitStatus status =
             context.console.take(mesh_forest(grown, options.mesh, context.project), meshes);
         if (status != ExitStatus::Ok) {
@@ -209,7 +209,7 @@ ExitStatus write_grown_forest(const ForestFileOptions& options,
                               const OutputContext& context) {
     const ForestSource& source = forest.source;
     const std::vector<SceneSpecies>& species = forest.forest.loaded.scene.species;
-    const bool whole_trees = options.instances != ForestInstances::Branches;
+    const bool whole_trees = options.instance_kind != ForestInstances::Branches;
     const bool has_heroes = std::all_of(species.begin(), species.end(),
                                         [](const SceneSpecies& each) { return each.rho == 0.0F; });
     if (options.frames == 0 && (!whole_trees || has_heroes)) {

@@ -103,7 +103,7 @@ public:
     void reload() override;
     void frame_all() override;
     void show_from(StandardView view) override;
-    [[nodiscard]] const std::string& file() const override { return options_.file; }
+    [[nodiscard]] const std::string& path() const override { return options_.file; }
     [[nodiscard]] Camera& camera() override { return settings.camera; }
     [[nodiscard]] bool is_unsaved() const override;
 

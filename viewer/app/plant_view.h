@@ -103,7 +103,7 @@ public:
     void redo() override;
     void reload() override;
     void frame_all() override;
-    [[nodiscard]] const std::string& file() const override { return settings.file; }
+    [[nodiscard]] const std::string& path() const override { return settings.file; }
     [[nodiscard]] Camera& camera() override { return settings.camera; }
 
     [[nodiscard]] ViewOptions picture_options(FilmKind kind) const override;

@@ -462,10 +462,10 @@ TEST_CASE("painted trees are saved to the scene shown, not to a scene with error
     viewed.press();
     REQUIRE(viewed.forest().painting().tree_count() == 51);
     viewed.views.open(broken);
-    CHECK(viewed.forest().file() == files.scene); // it waits for the answer about unsaved changes
+    CHECK(viewed.forest().path() == files.scene); // it waits for the answer about unsaved changes
     CHECK_FALSE(viewed.views.leave());
     REQUIRE(viewed.until([&] { return viewed.forest().failed(); }));
-    CHECK(viewed.forest().file() == broken);
+    CHECK(viewed.forest().path() == broken);
     viewed.forest().save();
     CHECK(viewed.forest().note() == "saved " + files.scene);
     CHECK_FALSE(viewed.forest().is_unsaved());

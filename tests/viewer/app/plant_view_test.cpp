@@ -622,7 +622,7 @@ TEST_CASE("a plant that takes long is reported, and cancelled together with its 
     view.open(other);
     REQUIRE(viewed.until([&] { return view.making().has_value(); }));
     view.cancel_making();
-    CHECK(view.file() == file);
+    CHECK(view.path() == file);
     CHECK(view.generations() == 2);
     REQUIRE(viewed.until([&] { return !view.is_busy(); }));
     CHECK(view.stats().swaps == 3);
