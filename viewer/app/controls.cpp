@@ -467,7 +467,7 @@ void Controls::use_tool(const WindowInput& input, const PixelArea& area, ForestV
                             event.shift);
         }
     }
-    if (input.over_picture && (input.any || !input.pointer_events.empty())) {
+    if (input.over_picture && (input.has_events || !input.pointer_events.empty())) {
         view.hover(place(input.mouse));
     }
 }

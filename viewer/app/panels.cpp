@@ -653,8 +653,8 @@ void draw_sheet(ViewSwitcher& switcher, PanelState& panels) {
         panels.sheet.images.at(cell) = panels.add_image ? panels.add_image(picture) : 0;
     }
     const SheetAction action = draw_contact_sheet(panels.sheet, *plant);
-    if (action.taken) {
-        take_from_sheet(*action.taken, *plant, panels);
+    if (action.chosen_cell) {
+        take_from_sheet(*action.chosen_cell, *plant, panels);
     } else if (action.closes) {
         close_sheet(panels);
     } else if (action.varies) {

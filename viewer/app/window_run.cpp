@@ -105,7 +105,7 @@ public:
             has_new_content = true;
         }
         const bool dropped_note = switcher_.current().drop_old_note(now);
-        if (input.any || has_new_content || dropped_note) {
+        if (input.has_events || has_new_content || dropped_note) {
             pictures_left_ = kPicturesAfterInput;
         }
         update_progress(now);

@@ -45,7 +45,7 @@ KeyPress pressed(Key key) {
 WindowInput presses(const std::vector<KeyPress>& keys) {
     WindowInput input;
     input.presses = keys;
-    input.any = true;
+    input.has_events = true;
     return input;
 }
 

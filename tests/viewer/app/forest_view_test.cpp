@@ -360,7 +360,8 @@ TEST_CASE("the growth of a forest has no jumps between two moments and pauses at
             return false;
         }
         moments = forest.stats().moments;
-        const double now = static_cast<double>(forest.grown()->generation) + forest.grown()->part;
+        const double now =
+            static_cast<double>(forest.grown()->generation) + forest.grown()->fraction;
         std::map<std::uint32_t, double> after = heights();
         if (last >= 0.0) {
             CHECK(now - last <= 1.0 + 1e-9);

@@ -141,7 +141,7 @@ public:
     void press_outside(const KeyPress& press) {
         WindowInput input;
         input.presses = {press};
-        input.any = true;
+        input.has_events = true;
         controls.apply(input, 0.0, {340, 0, 940, 720}, switcher, panels);
         frames(3);
     }
