@@ -112,13 +112,13 @@ Outcome<void> ForestGrowth::trees(const GrowthMoment& moment,
         const std::vector<PlacementSpecies>& species = state.options.species;
         const LargeVector<Tree> before = trees_later(species, state.start, moment.generation);
         trees =
-            moment.part > 0.0
+            moment.fraction > 0.0
                 ? trees_between(before, trees_later(species, state.start, moment.generation + 1),
-                                moment.part, height_of)
+                                moment.fraction, height_of)
                 : before;
         return step.done();
     }
-    const std::uint32_t year = moment.generation + (moment.part > 0.0 ? 1 : 0);
+    const std::uint32_t year = moment.generation + (moment.fraction > 0.0 ? 1 : 0);
     if (moment.generation + 1 < state.domination->year()) {
         if (const Result<void> begun = state.begin_again(); !begun) {
             return step.fail(begun.error());
@@ -127,7 +127,7 @@ Outcome<void> ForestGrowth::trees(const GrowthMoment& moment,
     if (const Result<void> done = state.go_to(year, project); !done) {
         return step.fail(done.error());
     }
-    const double part = moment.generation == state.domination->year() ? 1.0 : moment.part;
+    const double part = moment.generation == state.domination->year() ? 1.0 : moment.fraction;
     trees = trees_between(state.before, state.after, part, height_of);
     apply_painting(state.scene.painting, state.options.region, state.terrain, trees);
     return step.done();

@@ -124,7 +124,7 @@ struct Scene {
     std::vector<SceneSpecies> species; // at least one
     /// Has the key, the region of the terrain and one entry per `species`; no density_map.
     PlacementOptions placement;
-    Painting painting; // manual changes
+    Painting painting; // trees that the user has added and erased
     InstancingGoal goal;
     SceneLight light;
     SceneFile density_map; // DensityMap, DensityCells; spans the region of the terrain

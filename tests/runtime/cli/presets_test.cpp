@@ -182,7 +182,7 @@ TEST_CASE("docs/files.md has the table of presets") {
             return text.empty() ? std::string("-") : fmt::format("`{}`", text);
         };
         const std::string row =
-            fmt::format("| `{}` | {} | {} | {} |", preset.name, preset.use,
+            fmt::format("| `{}` | {} | {} | {} |", preset.name, preset.programs,
                         cell(PresetCommand::Export), cell(PresetCommand::Forest));
         CAPTURE(row);
         CHECK(page.find(row) != std::string::npos);
