@@ -33,7 +33,7 @@ struct CrownSums {
 
     void add(const CrownSums& other, double weight);
 };
-/// The sums of one tree of the given scale.
+/// The sums for one tree with the crown `crown` times `scale`.
 [[nodiscard]] CrownSums sums_of(const Crown& crown, double scale);
 /// The means of crowns on `ground` m2. The cover is the expected one if each tree stands anywhere on
 /// the ground, independently of the others: 1 - (1 - area of a crown / ground)^trees, in the limit
@@ -48,7 +48,8 @@ public:
 
     /// Adds a tree of the given scale in a cell.
     void add(std::uint32_t column, std::uint32_t row, const Crown& crown, double scale);
-    /// The next coarser level. Precondition: side() is even.
+    /// The cells of the next coarser level: each is the sum of four cells. Precondition: side() is
+    /// even.
     [[nodiscard]] Canopy coarser() const;
     /// Means of the up to four cells at the corner (column, row), 0 to side().
     [[nodiscard]] CanopyPoint at_corner(std::int64_t column, std::int64_t row) const;
