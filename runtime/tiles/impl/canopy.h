@@ -17,7 +17,7 @@ namespace lsys {
 inline constexpr std::uint32_t kCanopyLevels = 6; // a cell is a tile this many levels deeper
 inline constexpr std::uint32_t kCanopyCells = 1U << kCanopyLevels; // along a side of a tile
 
-/// The crowns over a place, as means of its surroundings.
+/// The canopy over a place of the ground: means over the cells around the place.
 struct CanopyPoint {
     double cover = 0.0;     // part of the ground that is covered, 0 to 1
     double height = 0.0;    // m, mean height of the surface above the ground, gaps included
