@@ -22,14 +22,14 @@ public:
     /// Replaces the bytes [begin, end) of the source. Precondition: `begin` is not before the end
     /// of the last replacement.
     void replace(std::uint32_t begin, std::uint32_t end, std::string_view replacement);
-    /// Appends the rest of the source.
+    /// Appends the source after the last replacement to text(). Call it once, at the end.
     void finish();
 
     [[nodiscard]] const std::string& text() const { return text_; }
     [[nodiscard]] bool empty() const { return edits_.empty(); }
-    /// Begin in the source of the character at `offset` of text().
+    /// The offset in the source where the character at `offset` of text() begins.
     [[nodiscard]] std::uint32_t source_begin(std::uint32_t offset) const;
-    /// End in the source of the character that ends at `offset` of text().
+    /// The offset in the source where the character that ends at `offset` of text() ends.
     [[nodiscard]] std::uint32_t source_end(std::uint32_t offset) const;
 
 private:

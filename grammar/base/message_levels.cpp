@@ -52,7 +52,7 @@ std::optional<std::string> MessageLevels::set(MessageLevel level, std::string_vi
                : std::optional("`" + std::string(code_or_group) + "` has two levels");
 }
 
-std::optional<MessageLevel> MessageLevels::of(const Diagnostic& diagnostic) const {
+std::optional<MessageLevel> MessageLevels::level_of(const Diagnostic& diagnostic) const {
     if (diagnostic.severity == Severity::Error) {
         return std::nullopt;
     }
@@ -71,7 +71,7 @@ void apply_levels(const MessageLevels& levels, const SourceMap& sources, Diagnos
             sources.allows(diagnostic.span, info(diagnostic.code).name)) {
             return std::nullopt;
         }
-        const std::optional<MessageLevel> level = levels.of(diagnostic);
+        const std::optional<MessageLevel> level = levels.level_of(diagnostic);
         if (!level) {
             return diagnostic.severity;
         }

@@ -30,7 +30,7 @@ public:
                                                  std::string_view code_or_group);
 
     /// The level of a diagnostic; nullopt if it is an error or keeps its usual severity.
-    [[nodiscard]] std::optional<MessageLevel> of(const Diagnostic& diagnostic) const;
+    [[nodiscard]] std::optional<MessageLevel> level_of(const Diagnostic& diagnostic) const;
     [[nodiscard]] bool denies_warnings() const { return warnings_ == MessageLevel::Deny; }
 
     friend bool operator==(const MessageLevels&, const MessageLevels&) = default;

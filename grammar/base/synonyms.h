@@ -28,7 +28,8 @@ using FunctionTest = std::function<bool(std::string_view name)>;
 /// letter. Rows whose spelling calls a function for which `exists` is false are skipped.
 [[nodiscard]] const Synonym*
 find_synonym(SynonymKind kind, std::string_view word, const FunctionTest& exists);
-/// The row of an operator, statement or setting; their spellings call no functions.
+/// The row of an operator, statement or setting. No spelling of these rows calls a function, so
+/// none is skipped.
 [[nodiscard]] const Synonym* find_synonym(SynonymKind kind, std::string_view word);
 
 /// A help text: "`and` of Python is `&&` here". `word`: as the author wrote it.

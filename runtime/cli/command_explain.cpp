@@ -85,7 +85,7 @@ std::string explain(const DiagnosticInfo& row, const Explanation& explanation) {
         wrapped(fmt::format("{}: {} ({})", row.name, row.meaning, severity_name(row.severity))),
         wrapped(explanation.text));
     for (const Example& example : explanation.examples) {
-        text += example.right ? "\nRight" : "\nWrong";
+        text += example.is_correct ? "\nRight" : "\nWrong";
         if (!example.arguments.empty()) {
             text += fmt::format(", with `lsc {}`", example.arguments);
         }
@@ -118,7 +118,7 @@ std::string explain_as_json(const DiagnosticInfo& row, const Explanation& explan
         for (const auto& [name, grammar] : example.files) {
             files[name] = grammar;
         }
-        object["examples"].push_back({{"right", example.right},
+        object["examples"].push_back({{"right", example.is_correct},
                                       {"arguments", example.arguments},
                                       {"files", std::move(files)}});
     }

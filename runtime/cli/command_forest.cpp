@@ -139,7 +139,7 @@ ExitStatus run_command(const ForestCommand& command, const Console& console) {
     const Project project = make_project(console, command.run);
     const OutputContext context{console, project, "lsc " LSC_VERSION};
     SceneOverrides overrides = command.overrides;
-    if (command.instances != ForestInstances::Branches) {
+    if (command.instance_kind != ForestInstances::Branches) {
         overrides.rho =
             0.0F; // no branch is replaced by a recorded one, so each hero is a single instance
     }
@@ -172,7 +172,7 @@ ExitStatus run_command(const ForestCommand& command, const Console& console) {
     const bool json = command.messages.format == MessageFormat::Json;
     if (target.value().kind != ForestOutputKind::None || json) {
         // The writer of trees with levels of detail makes their meshes itself.
-        if (command.instances != ForestInstances::Lods || json) {
+        if (command.instance_kind != ForestInstances::Lods || json) {
             status = console.take(mesh_forest(grown, command.mesh, project), meshes);
         }
         const bool has_ground = scene.terrain.kind != TerrainKind::Flat ||

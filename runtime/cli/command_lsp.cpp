@@ -55,7 +55,7 @@ std::string explain_as_markdown(std::string_view code) {
         }
         std::string text = explanation.text;
         for (const Example& example : explanation.examples) {
-            text += example.right ? "\n\nRight:\n" : "\n\nWrong:\n";
+            text += example.is_correct ? "\n\nRight:\n" : "\n\nWrong:\n";
             for (const auto& [name, grammar] : example.files) {
                 text += "\n```lsys\n" + grammar + "```";
             }

@@ -19,7 +19,7 @@ void write_part(TilesetFolder& folder, const TilesCommand& command) {
     Workers workers(command.run.threads);
     const NextFile next = files_of_part(command.part, folder.root());
     workers.for_each(workers.count(), [&](std::uint64_t) { folder.write_from(next); });
-    const bool has_root = folder.root() % command.part.of == command.part.number - 1;
+    const bool has_root = folder.root() % command.part.count == command.part.index - 1;
     if (has_root && !folder.is_stopped()) {
         folder.write(folder.root());
     }
@@ -44,7 +44,7 @@ ExitStatus run_command(const TilesCommand& command, const Console& console) {
     if (const Result<void> written = folder.result(); !written) {
         return report_error(written.error(), console);
     }
-    const bool is_whole = command.part.of == 1 && !command.resume;
+    const bool is_whole = command.part.count == 1 && !command.resume;
     return command.stats
                ? report_result(console.write(tileset_stats(*forest, folder.totals(), is_whole)),
                                console)

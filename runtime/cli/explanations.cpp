@@ -58,7 +58,7 @@ std::vector<Explanation> parse_explanations(std::string_view markdown) {
             continue; // text before the first explanation
         } else if (line.starts_with(kFence)) {
             Example example;
-            example.right = line.find(" right") != std::string_view::npos;
+            example.is_correct = line.find(" right") != std::string_view::npos;
             example.is_sketch = line.ends_with(" sketch");
             parse_example(markdown, example);
             all.back().examples.push_back(std::move(example));

@@ -15,9 +15,9 @@ namespace lsys::lsc {
 
 /// An example grammar of an explanation.
 struct Example {
-    bool right = false;     // true: a correct grammar; false: one with the mistake
-    bool is_sketch = false; // too incomplete to be run by the test
-    std::string arguments;  // command line of `lsc`; `check` if empty
+    bool is_correct = false; // false: it has the mistake
+    bool is_sketch = false;  // too incomplete to be run by the test
+    std::string arguments;   // command line of `lsc`; `check` if empty
     /// Names and texts of the grammar, `example.lsys`, and of the files that it needs.
     std::vector<std::pair<std::string, std::string>> files;
 };

@@ -25,7 +25,7 @@ ExitStatus load_tile_scene(const SceneCommand& command,
                            const Console& console,
                            LoadedScene& loaded) {
     SceneOverrides overrides = command.overrides;
-    if (command.instances == TileInstances::Trees) {
+    if (command.instance_kind == TileInstances::Trees) {
         if (overrides.rho) {
             return report_error(Error{"--rho is the part of branches that are instances, and with "
                                       "--instances trees, the default, each tree is a whole hero; "
@@ -36,7 +36,7 @@ ExitStatus load_tile_scene(const SceneCommand& command,
     }
     const ExitStatus status = console.take(load_scene(command.files, overrides, project), loaded);
     for (SceneSpecies& species : loaded.scene.species) {
-        if (command.instances == TileInstances::Branches && !species.explicit_instancing.cap) {
+        if (command.instance_kind == TileInstances::Branches && !species.explicit_instancing.cap) {
             species.cache.cap = kTileCacheCap;
         }
     }

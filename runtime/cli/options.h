@@ -103,8 +103,8 @@ struct ForestCommand : ForestFileOptions {
 
 /// The share of one process, if several processes write one tileset (`--part I/N`).
 struct TilePart {
-    std::uint64_t number = 1; // of this process, 1 to `of`
-    std::uint64_t of = 1;     // number of processes
+    std::uint64_t index = 1; // of this process, 1 to `count`
+    std::uint64_t count = 1; // number of processes
 };
 
 /// Value of `--instances`: each tree is a whole hero, or is assembled from branches of heroes.
@@ -114,7 +114,7 @@ enum class TileInstances : std::uint8_t { Trees, Branches };
 struct SceneCommand {
     MessageOptions messages;
     std::vector<std::string> files; // one scene, or one or more grammars
-    TileInstances instances = TileInstances::Trees;
+    TileInstances instance_kind = TileInstances::Trees;
     SceneOverrides overrides;
     RunOptions run;
 };

@@ -117,7 +117,7 @@ void add_files(CLI::App& app, SceneCommand& command) {
 /// Adds the options of the scene and of its trees, for `place`, `tiles` and `serve`.
 void add_scene(CLI::App& app, SceneCommand& command) {
     add_choice<TileInstances>(
-        app, "--instances", command.instances,
+        app, "--instances", command.instance_kind,
         {{"trees", TileInstances::Trees}, {"branches", TileInstances::Branches}},
         "trees: each tree is one of the --heroes; branches: trees are assembled from branches of "
         "heroes, by --rho, so that nearly all differ; far tiles show the heroes (default trees)");

@@ -21,14 +21,14 @@ namespace fs = std::filesystem;
 NextFile files_of_part(const TilePart& part, std::uint64_t end) {
     const auto taken = std::make_shared<std::atomic<std::uint64_t>>(0);
     return [taken, part, end]() -> std::optional<std::uint64_t> {
-        const std::uint64_t number = part.number - 1 + part.of * taken->fetch_add(1);
+        const std::uint64_t number = part.index - 1 + part.count * taken->fetch_add(1);
         return number < end ? std::optional(number) : std::nullopt;
     };
 }
 
 Result<void> check_tileset_folder(const TilesCommand& command) {
     const std::string& folder = command.output;
-    const bool may_have_files = command.force || command.resume || command.part.of != 1;
+    const bool may_have_files = command.force || command.resume || command.part.count != 1;
     std::error_code error;
     const fs::file_status status = fs::status(path_of(folder), error);
     if (fs::exists(status) && !fs::is_directory(status)) {

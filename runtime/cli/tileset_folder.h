@@ -32,7 +32,7 @@ struct TileTotals {
 /// several threads at once.
 using NextFile = std::function<std::optional<std::uint64_t>()>;
 
-/// The file numbers of a part: every `part.of`-th number from `part.number` - 1 on, below `end`.
+/// The file numbers of a part: every `part.count`-th number from `part.index` - 1 on, below `end`.
 [[nodiscard]] NextFile files_of_part(const TilePart& part, std::uint64_t end);
 
 /// Returns an error if the output is a file, or a folder that has files without --force, --resume
@@ -79,7 +79,7 @@ private:
         Kind kind = Kind::Shared;
         std::uint32_t level = 0;
         std::uint32_t columns = 0; // tiles of a row
-        std::uint64_t end = 0;     // one more than the last number
+        std::uint64_t end = 0;     // one more than the number of its last file
     };
 
     void add_section(Kind kind, std::uint32_t level);
@@ -90,7 +90,7 @@ private:
     const TilesCommand& command_;
     const TileForest& forest_;
     const Console& console_;
-    std::vector<Section> sections_; // in ascending order
+    std::vector<Section> sections_; // by number of their files
     std::atomic<std::uint64_t> files_{0};
     std::atomic<std::uint64_t> bytes_{0};
     std::atomic<std::uint64_t> trees_{0};

@@ -132,7 +132,7 @@ struct ExportInfo {
     std::uint64_t seed = 0;
     std::uint32_t generations = 0;
     std::string generator;                // the program and its version
-    LengthUnit unit = LengthUnit::Metres; // for FormatTraits::units
+    LengthUnit unit = LengthUnit::Metres; // only formats with FormatTraits::units take another
     std::string mtl_name;                 // the file of write_mtl() beside an OBJ; empty: none
     /// Prefix of the names of pictures beside the file; empty: no pictures, materials are plain
     /// colours.
@@ -162,7 +162,7 @@ struct ExportInfo {
     /// Write the numbers of Mesh::segments in glTF files, as the attribute `_ITEMS` of two floats;
     /// -1 for kNoSegment. Precondition: Mesh::segments has an item for each vertex.
     bool item_numbers = false;
-    UpAxis up = UpAxis::Y; // for FormatTraits::up_axes
+    UpAxis up = UpAxis::Y; // only formats with FormatTraits::up_axes take another axis
     /// Write the triangles of two-sided materials a second time, reversed and with reversed
     /// normals, for readers that draw front faces only; for FormatTraits::back_faces.
     bool both_sides = false;

@@ -17,7 +17,7 @@ Outcome<void> export_forest(const ForestScene& scene,
     return run_within_memory("the file", [&] {
         const ForestPlan plan(scene, info.cell, info.threads);
         const bool has_ground = scene.ground != nullptr && triangle_count(*scene.ground) > 0;
-        if (plan.branches() == 0 && !has_ground) {
+        if (plan.branch_count() == 0 && !has_ground) {
             return nothing_to_draw(ExportSubject::Forest);
         }
         PieceWriter out(sink);

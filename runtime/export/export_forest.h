@@ -20,7 +20,7 @@ struct ForestScene {
     const Forest& forest;
     /// Indexed by species, then by stage as in ForestSpecies::stages.
     const std::vector<std::vector<InstanceMeshes>>& meshes;
-    const Mesh* ground = nullptr; // may be null
+    const Mesh* ground = nullptr; // null: the file has no ground
 };
 
 enum class ForestForm : std::uint8_t {
@@ -35,14 +35,14 @@ struct ForestExportInfo {
     std::string generator; // the program and its version
     /// Side in m of the squares of ground whose trees are instanced together; 0: one square.
     float cell = 0.0F;
-    bool textures = true;
-    std::string picture_prefix; // as in ExportInfo
+    bool textures = true;       // as ExportInfo::textures
+    std::string picture_prefix; // as ExportInfo::picture_prefix
     /// Form of the arrays of vertices and indices, for FormatTraits::compresses. The ground keeps
     /// exact positions, and instances their transforms.
     ExportCompression compression = ExportCompression::None;
     std::uint32_t threads = 0;            // 0: as many as the machine has
-    UpAxis up = UpAxis::Y;                // for FormatTraits::up_axes
-    LengthUnit unit = LengthUnit::Metres; // for FormatTraits::units
+    UpAxis up = UpAxis::Y;                // another axis only with FormatTraits::up_axes
+    LengthUnit unit = LengthUnit::Metres; // another unit only with FormatTraits::units
     /// Collision shapes of each hero at rest, named after its mesh; for glTF files whose instances
     /// are whole trees.
     CollisionKind collision = CollisionKind::None;
@@ -74,7 +74,7 @@ Outcome<std::vector<PictureFile>> make_forest_picture_files(const ForestScene& s
 Outcome<Mesh> bake_forest(const ForestScene& scene, std::uint64_t max_bytes, std::uint32_t threads);
 
 struct ForestStatsOptions {
-    bool different_trees = false; // takes about 100 bytes per tree
+    bool different_trees = false; // count distinct shapes, in about 100 bytes per tree
     std::uint32_t threads = 0;
 };
 /// One JSON object in a line: counts of the forest, its species, their stages and caches, with

@@ -247,7 +247,8 @@ private:
     std::vector<Active> active_;
     std::size_t suspended_ = 0; // number of suspended instances, the first ones in active_
     std::unordered_map<std::string, std::uint32_t> slot_of_key_;
-    // First absolute value seen, by id and part of the key.
+    // By branch id and index of a value in its key: the absolute value in the first branch, of
+    // which CacheOptions::tolerance is a fraction.
     std::map<std::pair<std::uint32_t, std::uint32_t>, double> scales_;
     std::string key_;
     std::uint32_t part_ = 0;

@@ -81,13 +81,13 @@ Region region_of(std::span<const Tree> places) {
                                   const Scene& scene,
                                   const ::lsys::Project& project,
                                   GrownForest& grown) {
-    if (!source.places) {
+    if (!source.placed_trees) {
         return place_forest(scene, project, grown);
     }
-    grown.forest.trees.resize(source.places->size());
-    if (!source.places->empty()) {
-        std::memcpy(static_cast<void*>(grown.forest.trees.data()), source.places->data(),
-                    source.places->size() * sizeof(Tree));
+    grown.forest.trees.resize(source.placed_trees->size());
+    if (!source.placed_trees->empty()) {
+        std::memcpy(static_cast<void*>(grown.forest.trees.data()), source.placed_trees->data(),
+                    source.placed_trees->size() * sizeof(Tree));
     }
     Step step(project);
     if (!step.take(size_forest(scene, project, grown)) ||
@@ -110,8 +110,8 @@ load_forest(const ForestSource& source, bool whole_trees, const ::lsys::Project&
     if (!step.take(load_scene(source.files, overrides, project), forest.loaded)) {
         return step.end();
     }
-    if (source.places) {
-        forest.loaded.scene.placement.region = region_of(*source.places);
+    if (source.placed_trees) {
+        forest.loaded.scene.placement.region = region_of(*source.placed_trees);
         forest.loaded.scene.terrain.region = forest.loaded.scene.placement.region;
     }
     if (!step.take(choose_instancing(forest.loaded, project)) ||
@@ -148,14 +148,14 @@ Outcome<Forest> grow(ForestSource source, const ForestOptions& options, const Pr
         }
         source.overrides = std::move(overrides.value());
         source.overrides.grammar = inner_grammar_options(options.grammar);
-        if (source.places) {
+        if (source.placed_trees) {
             if (std::any_of(source.files.begin(), source.files.end(), is_scene)) {
                 return step.fail("places have grammars of their own, not a scene");
             }
             if (source.overrides.height) {
                 return step.fail("places have scales of their own, so `height` has no effect");
             }
-            if (std::string mistake = find_mistake(*source.places, source.files.size());
+            if (std::string mistake = find_mistake(*source.placed_trees, source.files.size());
                 !mistake.empty()) {
                 return step.fail(std::move(mistake));
             }
@@ -184,7 +184,7 @@ ExitStatus write_loaded(const ForestFileOptions& options,
                         GrownForest* changing,
                         const OutputContext& context) {
     std::vector<std::vector<InstanceMeshes>> meshes;
-    if (options.instances != ForestInstances::Lods) {
+    if (options.instance_kind != ForestInstances::Lods) {
         const ExitStatus status =
             context.console.take(mesh_forest(grown, options.mesh, context.project), meshes);
         if (status != ExitStatus::Ok) {
@@ -194,7 +194,7 @@ ExitStatus write_loaded(const ForestFileOptions& options,
     std::optional<::lsys::Mesh> ground;
     const bool has_ground = scene.terrain.kind != TerrainKind::Flat ||
                             grown.ground.colour != nullptr ||
-                            (source.files.size() == 1 && !source.places);
+                            (source.files.size() == 1 && !source.placed_trees);
     if (has_ground) {
         const ExitStatus status = ::lsys::make_ground(target, grown, context, ground);
         if (status != ExitStatus::Ok) {
@@ -214,7 +214,7 @@ ExitStatus write_grown_forest(const ForestFileOptions& options,
                               const OutputContext& context) {
     const ForestSource& source = forest.source;
     const std::vector<SceneSpecies>& species = forest.forest.loaded.scene.species;
-    const bool whole_trees = options.instances != ForestInstances::Branches;
+    const bool whole_trees = options.instance_kind != ForestInstances::Branches;
     const bool has_heroes = std::all_of(species.begin(), species.end(),
                                         [](const SceneSpecies& each) { return each.rho == 0.0F; });
     if (options.frames == 0 && (!whole_trees || has_heroes)) {
@@ -229,7 +229,7 @@ ExitStatus write_grown_forest(const ForestFileOptions& options,
     }
     const Scene& scene = again.loaded.scene;
     const bool by_years = scene.placement.method == PlacementMethod::Domination;
-    if (options.frames != 0 && (source.places || (last_year(scene) == 0 && !by_years))) {
+    if (options.frames != 0 && (source.placed_trees || (last_year(scene) == 0 && !by_years))) {
         return report_error(Error{"frames show a forest that grows, which is placed by domination "
                                   "or has several stages"},
                             context.console);

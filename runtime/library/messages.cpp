@@ -101,7 +101,7 @@ std::shared_ptr<const Messages::Data> make_message_data(::lsys::Messages message
     auto data = std::make_shared<Messages::Data>();
     data->messages = std::move(messages);
     for (const Message& message : data->messages.all()) {
-        add_message(message, data->all);
+        add_message(message, data->diagnostics);
     }
     return data;
 }
@@ -120,7 +120,7 @@ Messages& Messages::operator=(Messages&& other) noexcept {
 Messages::~Messages() = default;
 
 const std::vector<Diagnostic>& Messages::all() const {
-    return data_->all;
+    return data_->diagnostics;
 }
 
 bool Messages::has_errors() const {

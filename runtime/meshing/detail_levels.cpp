@@ -161,14 +161,14 @@ public:
         result.levels.push_back(level);
         last_ = chain.pictures ? kLastCardTriangles : kLastTriangles;
         while (result.levels.size() <= chain.last && !stop_) {
-            const std::uint64_t end = !chain.pictures  ? kMinDetailTriangles
-                                      : level.impostor ? kMinBeforeFewer
-                                                       : kMinBeforeCards;
+            const std::uint64_t end = !chain.pictures     ? kMinDetailTriangles
+                                      : level.is_impostor ? kMinBeforeFewer
+                                                          : kMinBeforeCards;
             if (level.triangles <= end) {
                 break;
             }
             DetailLevel next = level;
-            if (!level.impostor && (!chain.pictures || level.triangles > kMaxBeforeCards)) {
+            if (!level.is_impostor && (!chain.pictures || level.triangles > kMaxBeforeCards)) {
                 next = coarser(level);
             }
             if (chain.pictures) {
@@ -209,7 +209,7 @@ public:
             if (!which[k]) {
                 continue;
             }
-            if (level.impostor) {
+            if (level.is_impostor) {
                 fit_impostor(level);
                 continue;
             }
@@ -271,7 +271,7 @@ private:
     }
 
     std::uint64_t wood_triangles(const DetailLevel& level) {
-        if (!level.thinned) {
+        if (!level.is_thinned) {
             count(wood_, level.options);
             return triangles_of(mesh_);
         }
@@ -324,7 +324,7 @@ private:
         }
     }
     VisibleAreas areas_of(const DetailLevel& level, bool third = false) {
-        if (!level.thinned) {
+        if (!level.is_thinned) {
             draw(wood_, level.options, mesh_);
             draw(foliage_, level.options, foliage_mesh_);
         } else {
@@ -352,8 +352,8 @@ private:
     /// method ("A class of methods for solving nonlinear simultaneous equations", 1965). Returns
     /// the covered areas. `finer`: the next finer level.
     VisibleAreas fit_areas(const DetailLevel& finer, DetailLevel& level) {
-        const bool is_fixed = !level.thinned && (level.options.method != MeshMethod::Tubes ||
-                                                 skeleton_.l3d_compatible_surface);
+        const bool is_fixed = !level.is_thinned && (level.options.method != MeshMethod::Tubes ||
+                                                    skeleton_.l3d_compatible_surface);
         const DetailLevel planned = level;
         DetailLevel tried = level;
         VisibleAreas result;
@@ -407,7 +407,7 @@ private:
                 third = false;
             }
             scales += step;
-            tried.thinned = true;
+            tried.is_thinned = true;
         }
         return result;
     }
@@ -443,7 +443,7 @@ private:
         level.options.axis_error = planned.options.axis_error;
         level.paths = planned.paths;
         level.foliage = planned.foliage;
-        if (!level.thinned) {
+        if (!level.is_thinned) {
             return;
         }
         const auto wanted = static_cast<double>(planned.triangles);
@@ -547,7 +547,7 @@ private:
 
     /// The number of triangles of a level as it will be drawn.
     std::uint64_t exact_triangles(const DetailLevel& level) {
-        if (!level.thinned) {
+        if (!level.is_thinned) {
             count(skeleton_, level.options);
         } else {
             Skeleton thin;
@@ -582,7 +582,7 @@ private:
                                   ? std::clamp(all / last_, kLowFactor, kMaxFactor)
                                   : factor_from(all);
         const double wanted = std::min(all / factor, kMaxCardTriangles);
-        DetailLevel level{.options = options_, .impostor = true};
+        DetailLevel level{.options = options_, .is_impostor = true};
         level.triangles = 2 * static_cast<std::uint64_t>(0.5 * wanted);
         if (kMaxFactor * static_cast<double>(level.triangles) < all &&
             static_cast<double>(level.triangles + 2) <= kMaxCardTriangles) {
@@ -639,7 +639,7 @@ private:
         const double min = kSafeFactor * all / (is_boxes ? kMaxFactorOfBoxes : kMaxFactor);
         const double max = std::max(all / (kSafeFactor * kLowFactor), wanted);
         DetailLevel base = before;
-        base.options.deviation = before.thinned ? 0.0F : options_.deviation;
+        base.options.deviation = before.is_thinned ? 0.0F : options_.deviation;
         set_error(wanted, base);
         base.options.axis_error = std::max(base.options.axis_error, before.options.axis_error);
         auto wood = static_cast<double>(wood_triangles(base));
@@ -763,7 +763,7 @@ private:
     /// Leaves out paths and foliage until about `wanted` triangles are left, in the proportion of
     /// the triangles `wood` and `foliage`.
     DetailLevel thinner(DetailLevel level, double wood, double foliage, double wanted) {
-        level.thinned = true;
+        level.is_thinned = true;
         most_paths_ = level.paths;
         const float deviation = level.options.deviation;
         make_plain(level.options);
@@ -1008,10 +1008,10 @@ std::optional<Stop> make_detail_mesh(const Skeleton& skeleton,
     all.segments = options.segments;
     all.threads = options.threads;
     all.max_bytes = options.max_bytes;
-    if (level.impostor) {
+    if (level.is_impostor) {
         return make_impostor(skeleton, user_meshes, all, level, mesh);
     }
-    if (!level.thinned) {
+    if (!level.is_thinned) {
         const std::optional<Stop> stop = make_mesh(skeleton, user_meshes, all, mesh);
         colour_materials(level, mesh);
         return stop;

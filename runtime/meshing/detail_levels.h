@@ -28,8 +28,8 @@ inline constexpr float kFinestPixels = 1024.0F;
 /// One mesh of the chain.
 struct DetailLevel {
     MeshOptions options;
-    bool thinned = false;      // drawn from a thinned skeleton
-    bool impostor = false;     // drawn as cards with pictures of the finest level
+    bool is_thinned = false;   // drawn from a thinned skeleton
+    bool is_impostor = false;  // drawn as cards with pictures of the finest level
     double cover = 1.0;        // impostors: area of opaque texels / area of the plant
     std::uint64_t paths = 0;   // thinned levels: number of paths of wood that stay
     std::uint64_t foliage = 0; // thinned levels: number of objects and polygons that stay

@@ -29,14 +29,15 @@ void add_look(ItemColour index, Look look, Looks& looks) {
     if (look.colour || look.picture != nullptr) {
         const glm::vec3 texels =
             look.picture != nullptr ? mean_colour(*look.picture) : glm::vec3(1.0F);
-        looks.plain[index] = look.colour.value_or(glm::vec3(1.0F)) * texels;
+        looks.plain_colours[index] = look.colour.value_or(glm::vec3(1.0F)) * texels;
     }
     looks.of_index[index] = std::move(look);
 }
 
 glm::vec3 plain_colour(const Looks* looks, ItemColour colour) {
     if (looks != nullptr) {
-        if (const auto found = looks->plain.find(colour); found != looks->plain.end()) {
+        if (const auto found = looks->plain_colours.find(colour);
+            found != looks->plain_colours.end()) {
             return found->second;
         }
     }
@@ -44,7 +45,7 @@ glm::vec3 plain_colour(const Looks* looks, ItemColour colour) {
 }
 
 ItemColour without_look(const Looks* looks, ItemColour colour) {
-    if (looks == nullptr || !looks->plain.contains(colour)) {
+    if (looks == nullptr || !looks->plain_colours.contains(colour)) {
         return colour;
     }
     const glm::vec3 linear = plain_colour(looks, colour);

@@ -28,7 +28,8 @@ struct Look {
 
 struct Looks {
     std::map<ItemColour, Look> of_index;
-    std::map<ItemColour, glm::vec3> plain; // colour times mean texel, for output without pictures
+    std::map<ItemColour, glm::vec3>
+        plain_colours; // colour times mean texel, for output without pictures
 
     [[nodiscard]] const Look* find(ItemColour colour) const {
         const auto found = of_index.find(colour);

@@ -63,7 +63,7 @@ struct Mesh {
     LargeVector<glm::vec2> texture_coordinates; // empty unless requested
     LargeVector<glm::vec4> tangents;            // empty unless requested; w: sign of the bitangent
     LargeVector<ItemColour> colours;            // colour of each vertex; empty unless requested
-    LargeVector<VertexSegments> segments;       // empty unless requested
+    LargeVector<VertexSegments> segments;       // of each vertex; empty unless requested
     TriangleList indices;
     std::vector<MeshPart> parts; // one for each material in use, in order of indices
     std::vector<Material> materials;
@@ -86,6 +86,7 @@ enum class MeshMethod : std::uint8_t {
     Solid,     // one closed surface around the union of all parts, for printing
 };
 
+// Defaults of MeshOptions::subdivisions, and with grooves of the sides and subdivisions.
 inline constexpr std::uint32_t kSubdivisions = 2;
 inline constexpr std::uint32_t kGrooveSides = 32;
 inline constexpr std::uint32_t kGrooveSubdivisions = 3;
@@ -102,10 +103,11 @@ struct MeshOptions {
     /// Tubes: max distance in metres of joints from the edge that replaces them, for any radius.
     /// 0: joints are left out by `level` only.
     float axis_error = 0.0F;
+    // Optional arrays of Mesh to fill.
     bool texture_coordinates = true;
     bool tangents = true;
     bool colours = true;
-    bool segments = false; // Mesh::segments, for a skin
+    bool segments = false; // for a skin or wind data
     /// Fraction of the radius by which smooth noise moves the bark (Baele and Warzee 2005); 0:
     /// none.
     float bark_noise = 0.0F;
@@ -133,7 +135,7 @@ struct MeshOptions {
 /// A name in an OBJ or MTL file.
 struct ObjName {
     std::string name;
-    std::uint64_t offset = 0;
+    std::uint64_t offset = 0; // of the name in the file, in bytes
 };
 
 /// A mesh read from a file for `#object X "leaf.obj"`; length() is the step of the turtle.

@@ -117,7 +117,8 @@ void for_each_chunk(const TriangleList& list, const Visit& visit) {
     }
 }
 
-/// Random access to indices, fast for nearly sequential reads: expands some thousands at a time.
+/// Random access to the indices of a TriangleList, fast for nearly sequential reads: expands up to
+/// 3,072 indices at a time.
 class TriangleReader {
 public:
     explicit TriangleReader(const TriangleList& list) : list_(list) {}

@@ -246,7 +246,7 @@ void add_forest_form(CLI::App& app, ForestFileOptions& options) {
                  "glTF without EXT_mesh_gpu_instancing: one node per instance");
     app.add_flag("--bake", options.bake, "Write all triangles as one mesh");
     add_choice<ForestInstances>(
-        app, "--instances", options.instances,
+        app, "--instances", options.instance_kind,
         {{"branches", ForestInstances::Branches},
          {"trees", ForestInstances::Trees},
          {"lods", ForestInstances::Lods}},

@@ -85,7 +85,7 @@ struct ForestFileOptions {
     ForestPivot pivot = ForestPivot::Origin;
     CollisionKind collision = CollisionKind::None;
     CollisionNames collision_names = CollisionNames::Unreal;
-    ForestInstances instances = ForestInstances::Branches;
+    ForestInstances instance_kind = ForestInstances::Branches;
     std::optional<glm::vec3> viewpoint; // m, for ForestInstances::Lods
     /// Side in m of the square cells of ground whose trees share a node. 0: a single cell. Unset:
     /// 100 for ForestInstances::Branches, else 0.

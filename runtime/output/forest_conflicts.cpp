@@ -28,7 +28,7 @@ std::string find_option_conflict(const ForestFileOptions& options, const ForestT
                 "--collision is for {} with instances",
                 format_names("and", [](const auto& each) { return each.collision; }));
         }
-        if (options.instances != ForestInstances::Trees) {
+        if (options.instance_kind != ForestInstances::Trees) {
             return "--collision is for whole trees of one level of detail: --instances trees";
         }
     }
@@ -92,8 +92,8 @@ std::string find_conflict(const ForestFileOptions& options,
         return "--compress is for " +
                format_names("and", [](const auto& each) { return each.compresses; });
     }
-    const bool lods = options.instances == ForestInstances::Lods;
-    if (options.instances != ForestInstances::Branches && rho.value_or(0.0F) > 0.0F) {
+    const bool lods = options.instance_kind == ForestInstances::Lods;
+    if (options.instance_kind != ForestInstances::Branches && rho.value_or(0.0F) > 0.0F) {
         return fmt::format(
             "--instances {} shows heroes as they are, so --rho does not go with it; more "
             "--heroes make more different trees",

@@ -58,7 +58,7 @@ ExitStatus write_instances(const ForestOutput& run,
     info.name = path_text(path_of(path).stem());
     info.generator = run.context.generator;
     constexpr float kCell = 100.0F;
-    const bool whole_trees = run.options.instances != ForestInstances::Branches;
+    const bool whole_trees = run.options.instance_kind != ForestInstances::Branches;
     info.cell = run.options.cell.value_or(whole_trees ? 0.0F : kCell);
     info.up = run.options.surface.up;
     info.unit = run.options.unit;
@@ -158,7 +158,7 @@ ExitStatus write_lods(const ForestOutput& run, const GrownForest& grown, const s
 }
 
 ExitStatus write_at(const ForestOutput& run, const GrownForest& grown, const std::string& path) {
-    if (run.options.instances == ForestInstances::Lods &&
+    if (run.options.instance_kind == ForestInstances::Lods &&
         run.target.kind != ForestOutputKind::None) {
         return write_lods(run, grown, path);
     }

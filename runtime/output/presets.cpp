@@ -21,7 +21,7 @@ bool omits_up_axis(const FormatTraits& format) {
 }
 
 constexpr std::array kPresets{
-#define LSYS_PRESET(name, use, plants, forests) Preset{#name, use, plants, forests},
+#define LSYS_PRESET(name, programs, plants, forests) Preset{#name, programs, plants, forests},
 #define LSYS_PRESET_OPTION(...)
 #include "runtime/output/presets.def"
 #undef LSYS_PRESET
@@ -122,9 +122,10 @@ std::string preset_table(PresetCommand command) {
     std::string text;
     for (const Preset& preset : kPresets) {
         if (!formats_of(preset, command).empty()) {
-            text += fmt::format("  {:<{}}{} ({})\n  {:<{}}{}\n", preset.name, kColumn, preset.use,
-                                fmt::join(words_of(formats_of(preset, command)), ", "), "", kColumn,
-                                preset_text(preset, command));
+            text +=
+                fmt::format("  {:<{}}{} ({})\n  {:<{}}{}\n", preset.name, kColumn, preset.programs,
+                            fmt::join(words_of(formats_of(preset, command)), ", "), "", kColumn,
+                            preset_text(preset, command));
         }
     }
     return text;

@@ -32,7 +32,7 @@ struct PresetOption {
 /// A row of presets.def.
 struct Preset {
     std::string_view name;
-    std::string_view use;            // programs that read the files
+    std::string_view programs;       // names of the programs that read the files
     std::string_view plant_formats;  // names of formats for `lsc export`, separated by blanks
     std::string_view forest_formats; // names of formats for `lsc forest`; empty: none
 };

@@ -546,12 +546,12 @@ void PlantPhysics::pose(Skeleton& out) const {
         rest_on_ground(s.plant.rest, s.rest, poses);
     }
     const auto moved = [&](std::uint32_t segment, const glm::vec3& point) {
-        const BodyPose& pose = poses[s.plant.rest.places[segment]];
+        const BodyPose& pose = poses[s.plant.rest.body_of_segment[segment]];
         const glm::dvec3 arm = glm::dvec3(point) - glm::dvec3(s.rest.segments[segment].base);
         return glm::vec3(glm::dvec3(point) + pose.shift + (pose.turn * arm - arm));
     };
     const auto turned = [&](std::uint32_t segment, const glm::quat& frame) {
-        const glm::dquat& turn = poses[s.plant.rest.places[segment]].turn;
+        const glm::dquat& turn = poses[s.plant.rest.body_of_segment[segment]].turn;
         return turn == glm::dquat(1.0, 0.0, 0.0, 0.0)
                    ? frame
                    : glm::quat(glm::normalize(turn * glm::dquat(frame)));

@@ -143,12 +143,12 @@ Outcome<void> ForestGrowth::trees(const GrowthMoment& moment,
             return later;
         };
         const LargeVector<Tree> before = year(moment.generation);
-        trees = moment.part > 0.0
-                    ? trees_between(before, year(moment.generation + 1), moment.part, height_of)
+        trees = moment.fraction > 0.0
+                    ? trees_between(before, year(moment.generation + 1), moment.fraction, height_of)
                     : before;
         return step.done();
     }
-    const std::uint32_t year = moment.generation + (moment.part > 0.0 ? 1 : 0);
+    const std::uint32_t year = moment.generation + (moment.fraction > 0.0 ? 1 : 0);
     if (moment.generation + 1 < state.domination->year()) {
         if (const Result<void> begun = state.begin_again(); !begun) {
             return step.fail(begun.error());
@@ -157,7 +157,7 @@ Outcome<void> ForestGrowth::trees(const GrowthMoment& moment,
     if (const Result<void> done = state.go_to(year, project); !done) {
         return step.fail(done.error());
     }
-    const double part = moment.generation == state.domination->year() ? 1.0 : moment.part;
+    const double part = moment.generation == state.domination->year() ? 1.0 : moment.fraction;
     const State::Year before = state.finished(state.before);
     const State::Year after = state.finished(state.after);
     trees = trees_between(before.placed, after.placed, part, height_of);

@@ -6,11 +6,11 @@
 
 namespace lsys {
 
-/// A moment of a growth: the fraction `part`, 0 <= part < 1, of the way from generation (or year)
+/// A moment of a growth: `fraction`, 0 <= fraction < 1, of the way from generation (or year)
 /// `generation` to the next one.
 struct GrowthMoment {
     std::uint32_t generation = 0;
-    double part = 0.0;
+    double fraction = 0.0;
 };
 
 /// The moment of frame `frame`, counted from 0, of `frames` frames that show generations (or years)

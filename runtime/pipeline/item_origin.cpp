@@ -88,14 +88,14 @@ Outcome<ItemOrigin> find(const PlantOptions& options,
         }
     }
     ItemOrigin found;
-    found.modules = word.module_count();
+    found.module_count = word.module_count();
     found.generation = generation;
     const LargeVector<Origin>& drawn = origins_of(turtle.skeleton(), item.kind);
     if (item.index < drawn.size()) {
-        found.number = drawn[item.index].place;
-        found.module = module_text(bytecode, word, found.number);
-        OriginPrinter(bytecode).append(origins[found.number], found.origin);
-        found.place = position_of(origins[found.number], bytecode);
+        found.module_index = drawn[item.index].place;
+        found.module = module_text(bytecode, word, found.module_index);
+        OriginPrinter(bytecode).append(origins[found.module_index], found.origin);
+        found.place = position_of(origins[found.module_index], bytecode);
     }
     return step.done(std::move(found));
 }

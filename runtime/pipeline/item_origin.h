@@ -15,10 +15,10 @@
 namespace lsys {
 
 struct ItemOrigin {
-    std::string module;        // text of the module as in a word: "F(1.5)"
-    std::uint64_t number = 0;  // position of the module in the word, from 0
-    std::uint64_t modules = 0; // number of modules in the word
-    std::string origin;        // "from p2 at tree.lsys:7:14, generation 3"
+    std::string module;             // text of the module as in a word: "F(1.5)"
+    std::uint64_t module_index = 0; // in the word
+    std::uint64_t module_count = 0; // of the word
+    std::string origin;             // "from p2 at tree.lsys:7:14, generation 3"
     std::optional<FilePosition> place;
     std::uint32_t generation = 0; // of the word
 };

@@ -121,7 +121,7 @@ struct PlantGrowth::State {
     }
 
     [[nodiscard]] std::optional<Stop> go_to(const GrowthMoment& moment, Step& step) {
-        const std::uint32_t wanted = moment.generation + (moment.part > 0.0 ? 1 : 0);
+        const std::uint32_t wanted = moment.generation + (moment.fraction > 0.0 ? 1 : 0);
         LSYS_CHECK(wanted <= derive.generations, wanted, derive.generations);
         // The stored skeletons belong to the generations age() - 1 and age().
         if (!is_consistent || moment.generation + 1 < age() ||
@@ -143,7 +143,7 @@ struct PlantGrowth::State {
 
     void pose(const GrowthMoment& moment, Skeleton& out) const {
         if (growth) {
-            growth->pose(moment.generation == age() ? 1.0 : moment.part, out);
+            growth->pose(moment.generation == age() ? 1.0 : moment.fraction, out);
             return;
         }
         out = drawn;

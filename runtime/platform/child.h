@@ -25,7 +25,7 @@ namespace lsys::platform {
 
 /// A program that runs beside this one and may outlive it.
 struct Child {
-    int number = 0; // of the process; 0: none
+    int process_id = 0; // 0: none
 };
 
 /// Starts `arguments`[0], the path of a program, with all `arguments`, and returns at once. The

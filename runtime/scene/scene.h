@@ -127,7 +127,7 @@ struct Scene {
     std::vector<SceneSpecies> species; // at least one
     /// Has the key, the region of the terrain and one entry per `species`; no density_map.
     PlacementOptions placement;
-    Painting painting; // manual changes
+    Painting painting; // trees that the user has added and erased
     InstancingGoal goal;
     SceneLight light;
     /// Whether the region is a tile of a forest without borders.

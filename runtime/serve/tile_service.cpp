@@ -370,7 +370,7 @@ std::shared_ptr<TileService::Entry> TileService::entry_of(const std::string& pat
     const std::lock_guard<std::mutex> lock(mutex_);
     const auto found = cache_.find(path);
     if (found != cache_.end()) {
-        uses_.splice(uses_.begin(), uses_, found->second.use);
+        uses_.splice(uses_.begin(), uses_, found->second.last_use);
         return found->second.entry;
     }
     uses_.push_front(path);
@@ -403,7 +403,7 @@ void TileService::forget(const std::string& path) {
     const auto found = cache_.find(path);
     if (found != cache_.end()) {
         used_bytes_ -= found->second.bytes;
-        uses_.erase(found->second.use);
+        uses_.erase(found->second.last_use);
         cache_.erase(found);
     }
 }

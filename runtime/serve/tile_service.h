@@ -77,7 +77,7 @@ private:
     struct Cached {
         std::shared_ptr<Entry> entry;
         std::uint64_t bytes = 0;
-        std::list<std::string>::iterator use; // in uses_
+        std::list<std::string>::iterator last_use; // place of its path in uses_
     };
     enum class FileKind : std::uint8_t { Content, Tileset, Subtree };
     /// A file that is made on request: the content, tileset or subtree of `tile`.

@@ -17,7 +17,7 @@ struct NoiseAxis {
     explicit NoiseAxis(std::span<const float> places);
 
     std::vector<std::uint32_t> cells; // lattice points below the places
-    std::vector<float> parts;         // distance of each place from its lattice point
+    std::vector<float> offsets;       // distance of each place from its lattice point
     std::vector<float> weights;       // of the lattice points above the places
 };
 

@@ -91,7 +91,7 @@ struct TileForest::State {
     void plan_levels();
     [[nodiscard]] Outcome<void> make_models(const Project& project);
     [[nodiscard]] bool is_plant(std::size_t hero) const;
-    [[nodiscard]] std::vector<Tree> some_trees() const;
+    [[nodiscard]] std::vector<Tree> sample_trees() const;
     [[nodiscard]] double height_of(const Tree& tree) const;
     void make_ground_picture();
     void order_ground();
@@ -344,7 +344,7 @@ void TileForest::State::plan_levels() {
             reach.below = std::max(reach.below, scale * (margin - at.y));
         }
     }
-    const std::vector<Tree> trees = some_trees();
+    const std::vector<Tree> trees = sample_trees();
     plan = plan_tile_levels({*grown.terrain, grid, grown.forest, heroes, *hero_table,
                              std::move(deviations), trees, max_scales, density, largest_extent,
                              options});
@@ -551,7 +551,7 @@ bool TileForest::State::is_plant(std::size_t hero) const {
 }
 
 /// Some trees, for means: of each species of a placement on a grid, else every n-th placed tree.
-std::vector<Tree> TileForest::State::some_trees() const {
+std::vector<Tree> TileForest::State::sample_trees() const {
     constexpr std::size_t kTrees = 64; // of each species, or about 4 * kTrees of all placed trees
     std::vector<Tree> trees;
     for (const std::vector<Tree>& of_species : samples) {

@@ -56,7 +56,8 @@ struct TileOptions {
     std::string generator; // the program and its version
 };
 
-inline constexpr double kMaxKeptTrees = 4e6; // 160 MB
+/// Max trees kept by TileOptions::keep_trees; they take 160 MB.
+inline constexpr double kMaxKeptTrees = 4e6;
 
 /// A square of the quadtree. Level 0 is the whole square of the scene; column and row run along +X
 /// and +Z.

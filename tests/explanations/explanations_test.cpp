@@ -70,8 +70,8 @@ TEST_CASE("every diagnostic has an explanation, in the same order") {
         INFO(explanation.code);
         CHECK(explanation.text.size() > 20);
         REQUIRE(explanation.examples.size() >= 2);
-        CHECK(!explanation.examples.front().right);
-        CHECK(explanation.examples.back().right);
+        CHECK(!explanation.examples.front().is_correct);
+        CHECK(explanation.examples.back().is_correct);
     }
     CHECK(found == wanted);
 }
@@ -83,10 +83,10 @@ TEST_CASE("wrong examples give their diagnostic, correct ones give none") {
                 continue;
             }
             const Messages messages = run_example(example);
-            INFO(explanation.code << (example.right ? ", right:\n" : ", wrong:\n")
+            INFO(explanation.code << (example.is_correct ? ", right:\n" : ", wrong:\n")
                                   << example.files.front().second << messages.text);
-            CHECK(messages.codes.contains(explanation.code) == !example.right);
-            if (example.right) {
+            CHECK(messages.codes.contains(explanation.code) == !example.is_correct);
+            if (example.is_correct) {
                 CHECK(messages.status == 0);
                 CHECK(!messages.severities.contains("error"));
                 CHECK(!messages.severities.contains("warning"));
@@ -108,12 +108,12 @@ TEST_CASE("examples of scenes give their diagnostic, or none") {
             lsys::Diagnostics diagnostics;
             const bool fine = lsys::parse_scene(file, sources, diagnostics).has_value();
             INFO(explanation.code << "\n" << example.files.front().second);
-            CHECK(fine == example.right);
+            CHECK(fine == example.is_correct);
             std::set<std::string> codes;
             for (const lsys::Diagnostic& diagnostic : diagnostics.all()) {
                 codes.emplace(lsys::info(diagnostic.code).name);
             }
-            CHECK(codes.contains(explanation.code) == !example.right);
+            CHECK(codes.contains(explanation.code) == !example.is_correct);
         }
     }
     CHECK(scenes >= 10);

@@ -95,7 +95,7 @@ private:
                    DepthBuffer& buffer,
                    std::vector<Sample>& samples) {
         const Material& material = mesh_.materials[part.material];
-        const LinearTexture& texture = textures_.of(material);
+        const LinearTexture& texture = textures_.texture_of(material);
         for (std::uint64_t i = part.first_index; i < part.first_index + part.index_count; i += 3) {
             const std::array<std::uint32_t, 3> v{indices_[i], indices_[i + 1], indices_[i + 2]};
             const glm::vec3 face = glm::cross(mesh_.positions[v[1]] - mesh_.positions[v[0]],
@@ -182,7 +182,7 @@ TEST_CASE("impostors are about as bright as the plant under any sun", "[levels]"
     }
     std::size_t impostors = 0;
     for (std::size_t number = 1; number < levels.levels.size(); ++number) {
-        if (!levels.levels[number].impostor) {
+        if (!levels.levels[number].is_impostor) {
             continue;
         }
         ++impostors;

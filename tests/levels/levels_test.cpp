@@ -392,7 +392,7 @@ TEST_CASE("each level has a third to a half of the triangles of the previous lev
         CHECK(before >= kMinFactor * static_cast<double>(levels.levels[k].triangles));
         CHECK(before <= kMaxFactor * static_cast<double>(levels.levels[k].triangles));
     }
-    CHECK(levels.levels.back().impostor);
+    CHECK(levels.levels.back().is_impostor);
     CHECK(levels.levels.back().triangles <= kMinDetailTriangles);
 }
 
@@ -410,7 +410,7 @@ TEST_CASE("levels without impostors have fewer triangles too", "[levels]") {
         CHECK(before >= kMinFactor * static_cast<double>(level.triangles));
         CHECK(before <= (before > kManyTriangles ? kMaxFactor : kMaxLastFactor) *
                             static_cast<double>(level.triangles));
-        CHECK_FALSE(level.impostor);
+        CHECK_FALSE(level.is_impostor);
         CHECK(level.tint == glm::vec3(1.0F));
     }
     CHECK(levels.levels.back().triangles <= kMinDetailTriangles);
@@ -461,8 +461,8 @@ TEST_CASE("a short chain goes from the finest level to the coarsest", "[levels]"
         const std::size_t expected = std::min<std::size_t>(count, all.levels.size());
         CAPTURE(count);
         REQUIRE(few.levels.size() == expected);
-        CHECK_FALSE(few.levels.front().impostor);
-        CHECK(few.levels.back().impostor == (count > 1));
+        CHECK_FALSE(few.levels.front().is_impostor);
+        CHECK(few.levels.back().is_impostor == (count > 1));
         // A shorter chain has levels of the whole chain, with steps between them that differ by at
         // most one.
         std::size_t at = 0;
@@ -539,7 +539,7 @@ TEST_CASE("a finer level keeps all paths of a coarser level", "[levels]") {
             CHECK(order.path_ranks[parent] <= order.path_ranks[i]);
         }
     }
-    for (std::size_t k = 1; k < levels.levels.size() && !levels.levels[k].impostor; ++k) {
+    for (std::size_t k = 1; k < levels.levels.size() && !levels.levels[k].is_impostor; ++k) {
         CHECK(levels.levels[k].paths <= levels.levels[k - 1].paths);
         CHECK(levels.levels[k].foliage <= levels.levels[k - 1].foliage);
     }

@@ -283,7 +283,7 @@ SheetAction draw_contact_sheet(ContactSheet& sheet, const PlantView& view) {
             const ImVec2 corner = ImGui::GetCursorScreenPos();
             ImGui::PushID(static_cast<int>(i));
             if (ImGui::Selectable("##cell", false, 0, cell)) {
-                action.taken = i;
+                action.chosen_cell = i;
             }
             if (i == 0) {
                 ImGui::SetItemDefaultFocus();

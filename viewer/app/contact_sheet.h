@@ -101,7 +101,7 @@ private:
 
 /// The action of the user in a frame of draw_contact_sheet().
 struct SheetAction {
-    std::optional<std::size_t> taken; // cell
+    std::optional<std::size_t> chosen_cell; // whose plant the user takes
     bool closes = false;
     bool varies = false; // ContactSheet::varied has changed
 };

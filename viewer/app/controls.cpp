@@ -80,13 +80,13 @@ void open_in_editor(const FilePosition& place, View& view, PanelState& panels) {
 }
 
 void show_open_dialog(const View& view, PanelState& panels) {
-    panels.browser.show(std::string(folder_of_path(view.file())));
+    panels.browser.show(std::string(folder_of_path(view.path())));
     panels.dialog = OpenDialog::File;
 }
 
 void show_picture_dialog(const View& view, PanelState& panels) {
     panels.picture.name =
-        unused_picture_name(panels.picture.folder, path_text(path_of(view.file()).stem()));
+        unused_picture_name(panels.picture.folder, path_text(path_of(view.path()).stem()));
     panels.dialog = OpenDialog::Picture;
 }
 
@@ -250,7 +250,7 @@ void Controls::apply_to_view(const WindowInput& input,
 void Controls::press_with_alt(Key key, ViewSwitcher& switcher, PanelState& panels) {
     View& view = switcher.current();
     if (const std::optional<std::size_t> index = bookmark_of(key)) {
-        panels.bookmarks.show(panels.state_folder, view.file());
+        panels.bookmarks.show(panels.state_folder, view.path());
         if (const std::optional<CameraBookmark>& bookmark = panels.bookmarks.all().at(*index)) {
             view.camera() = bookmark->camera;
         } else {
@@ -263,7 +263,7 @@ void Controls::press_with_alt(Key key, ViewSwitcher& switcher, PanelState& panel
 }
 
 bool Controls::use_pages(const WindowInput& input, ViewSwitcher& switcher, PanelState& panels) {
-    const bool is_start = switcher.current().file().empty();
+    const bool is_start = switcher.current().path().empty();
     if (!is_start && panels.dialog == OpenDialog::None) {
         return false;
     }
@@ -467,7 +467,7 @@ void Controls::use_tool(const WindowInput& input, const PixelArea& area, ForestV
                             event.shift);
         }
     }
-    if (input.over_picture && (input.any || !input.pointer_events.empty())) {
+    if (input.over_picture && (input.has_events || !input.pointer_events.empty())) {
         view.hover(place(input.mouse));
     }
 }
@@ -491,8 +491,8 @@ bool Controls::press_common(const KeyPress& press, View& view, PanelState& panel
         return true; // press_with_alt() has handled it
     }
     if (const std::optional<std::size_t> index = bookmark_of(press.key);
-        press.control && index && !view.file().empty()) {
-        panels.bookmarks.show(panels.state_folder, view.file());
+        press.control && index && !view.path().empty()) {
+        panels.bookmarks.show(panels.state_folder, view.path());
         panels.bookmarks.set(*index, view.camera(), view.console());
         view.set_note(fmt::format("Camera {0} is set: Alt+{0} goes to it", *index + 1));
         return true;

@@ -7,10 +7,10 @@
 
 namespace lsys::view {
 
-/// The values that `changes` sets, else those of `scene`.
+/// `scene` with the values that `changes` sets.
 [[nodiscard]] SceneLight replaced(const SceneLight& scene, const SceneLight& changes);
 
-/// Place of the sun of a light.
+/// The place of the sun in the direction `light.to_sun`.
 [[nodiscard]] SunPlace sun_of(const Light& light);
 
 /// `light` with the sun and the turbidity of `scene`; unchanged if it sets neither. The luminance of

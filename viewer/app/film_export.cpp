@@ -125,7 +125,7 @@ ExitStatus write_film(const FilmExportRequest& request,
     options.height = settings.height;
     options.samples = settings.samples;
     options.transparent = settings.transparent && !options.is_forest && !settings.as_mp4;
-    options.pictures_done = request.done.get();
+    options.pictures_done = request.finished_pictures.get();
     options.beside_window = true;
     if (!settings.as_mp4) {
         options.screenshot = settings.path();

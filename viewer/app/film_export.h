@@ -48,7 +48,7 @@ struct FilmExportRequest {
     // Options of the film's pictures; values of `settings` replace them.
     std::shared_ptr<const ViewOptions> options;
     PictureSettings settings;
-    std::shared_ptr<std::atomic<std::uint32_t>> done; // count of pictures
+    std::shared_ptr<std::atomic<std::uint32_t>> finished_pictures; // count, for progress
     SteadyClock::time_point changed_at;
     bool is_repeat = false;
 };

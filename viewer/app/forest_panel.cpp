@@ -72,7 +72,7 @@ void edit_length(const char* name,
 }
 
 void draw_numbers(const ForestView& view) {
-    line(std::filesystem::path(view.file()).filename().string());
+    line(std::filesystem::path(view.path()).filename().string());
     const ForestDocument* const document = view.document();
     if (document == nullptr) {
         line("No forest yet");
@@ -172,7 +172,7 @@ std::string draw_species(ForestView& view) {
         !ImGui::CollapsingHeader("Species", ImGuiTreeNodeFlags_DefaultOpen)) {
         return wanted;
     }
-    const std::filesystem::path folder = std::filesystem::path(view.file()).parent_path();
+    const std::filesystem::path folder = std::filesystem::path(view.path()).parent_path();
     for (std::size_t i = 0; i < document->scene.species.size(); ++i) {
         const SceneSpecies& species = document->scene.species[i];
         const PlacementSpecies& placed = document->scene.placement.species[i];
@@ -208,7 +208,7 @@ std::string draw_species(ForestView& view) {
                   [](bool& value) { return ImGui::Checkbox("##value", &value); });
         if (ImGui::SmallButton("Show plant")) {
             const std::filesystem::path grammar(species.grammar.path);
-            wanted = (view.file() == species.grammar.path ? grammar : folder / grammar).string();
+            wanted = (view.path() == species.grammar.path ? grammar : folder / grammar).string();
         }
         ImGui::TreePop();
     }

@@ -229,7 +229,7 @@ ViewOptions ForestView::picture_options(FilmKind kind) const {
 void ForestView::request_load() {
     requested_ = settings.edits;
     // After an error, read all files again: the cause may lie in any of them.
-    const bool is_known = !failed() && document_ != nullptr && document_->files.front() == file();
+    const bool is_known = !failed() && document_ != nullptr && document_->files.front() == path();
     loader_.request({options_, settings.edits, is_known ? document_ : nullptr, SteadyClock::now()});
 }
 
@@ -400,7 +400,7 @@ void ForestView::picture_shown(double draw_seconds) {
     stats_.shown_seconds = seconds_since(changed_at_);
     console_.detail(fmt::format(
         "loaded {}: {} trees of {} species, {:.0f} ms; reload {:.0f} ms, first frame {:.0f} ms",
-        file(), tree_count(*document_), document_->scene.species.size(),
+        path(), tree_count(*document_), document_->scene.species.size(),
         kMillisecondsPerSecond * stats_.make_seconds, kMillisecondsPerSecond * stats_.swap_seconds,
         kMillisecondsPerSecond * stats_.shown_seconds));
 }
@@ -701,7 +701,7 @@ void ForestView::save() {
         set_note("no forest to save yet");
         return;
     }
-    // file() may be a scene that is still loading or has errors.
+    // path() may be a scene that is still loading or has errors.
     const std::string& scene = document_->files.front();
     if (!is_scene(scene)) {
         set_note("this forest has no scene file to save to");

@@ -61,10 +61,10 @@ struct CacheStats {
     std::uint32_t heroes = 0;
     std::uint64_t keys = 0;     // pairs of a branch id and an age
     std::uint64_t branches = 0; // recorded branches, whole plants included
-    std::uint64_t hits = 0;
+    std::uint64_t hits = 0;     // hits, misses and dropped: sums over all InstanceSlots
     std::uint64_t misses = 0;
     std::uint64_t dropped = 0;
-    std::uint64_t bytes = 0;
+    std::uint64_t bytes = 0; // InstanceCache::byte_count()
 };
 
 /// Statistics of the forest shown.
@@ -75,7 +75,7 @@ struct ForestViewStats {
     double shown_seconds = 0.0;  // from the change to the first picture on the screen
     double draw_seconds = 0.0;   // last picture
     FrameStats drawn;
-    std::uint64_t swaps = 0;
+    std::uint64_t swaps = 0;   // count of forests shown
     std::uint64_t moments = 0; // count of moments of growth shown
     std::vector<CacheStats> caches;
 };
@@ -103,7 +103,7 @@ public:
     void reload() override;
     void frame_all() override;
     void show_from(StandardView view) override;
-    [[nodiscard]] const std::string& file() const override { return options_.file; }
+    [[nodiscard]] const std::string& path() const override { return options_.file; }
     [[nodiscard]] Camera& camera() override { return settings.camera; }
     [[nodiscard]] bool is_unsaved() const override;
 
@@ -130,8 +130,8 @@ public:
     void apply_tool(const glm::vec2& place, bool begins, bool erases);
     /// Ends a stroke and reports its changes.
     void end_stroke();
-    /// Saves painted trees and the season in the file of the scene shown and reports the result. If a scene with
-    /// errors was opened later, its file is not written.
+    /// Saves painted trees and the season in the file of the scene shown and reports the result. If
+    /// a scene with errors was opened later, its file is not written.
     void save() override;
 
     /// The moment of growth shown; empty: the forest of a whole year is shown.

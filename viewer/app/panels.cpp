@@ -438,7 +438,7 @@ void draw_making(View& view, PanelState& panels, const Area& area) {
 
 /// Draws the cameras that are kept for the file, with their names.
 void draw_bookmarks(View& view, PanelState& panels) {
-    panels.bookmarks.show(panels.state_folder, view.file());
+    panels.bookmarks.show(panels.state_folder, view.path());
     if (!ImGui::CollapsingHeader("Cameras")) {
         return;
     }
@@ -653,8 +653,8 @@ void draw_sheet(ViewSwitcher& switcher, PanelState& panels) {
         panels.sheet.images.at(cell) = panels.add_image ? panels.add_image(picture) : 0;
     }
     const SheetAction action = draw_contact_sheet(panels.sheet, *plant);
-    if (action.taken) {
-        take_from_sheet(*action.taken, *plant, panels);
+    if (action.chosen_cell) {
+        take_from_sheet(*action.chosen_cell, *plant, panels);
     } else if (action.closes) {
         close_sheet(panels);
     } else if (action.varies) {
@@ -747,7 +747,7 @@ void draw_panels(ViewSwitcher& switcher, PanelState& panels, float scale) {
         draw_sheet(switcher, panels);
     } else {
         std::string wanted =
-            switcher.current().file().empty()
+            switcher.current().path().empty()
                 ? draw_start(switcher.current(), panels)
                 : draw_view_panels(switcher, panels, picture_area(panels, scale), scale);
         if (std::string chosen = draw_dialog(switcher, panels); !chosen.empty()) {

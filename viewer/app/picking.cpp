@@ -110,7 +110,7 @@ Outcome<Description> describe(const PickedTriangle& picked,
     plant.generations = generations_of(options, document);
     plant.seed = document.plant.seed;
     const std::uint32_t generation =
-        picked.moment ? picked.moment->generation + (picked.moment->part > 0.0 ? 1 : 0)
+        picked.moment ? picked.moment->generation + (picked.moment->fraction > 0.0 ? 1 : 0)
                       : document.plant.generations;
     ItemOrigin origin;
     if (!step.take(origin_of_item(plant, generation, *item, grammar, project), origin)) {
@@ -122,10 +122,10 @@ Outcome<Description> describe(const PickedTriangle& picked,
         lines.push_back(
             fmt::format("a part that generation {} no longer draws", origin.generation));
     } else {
-        lines.push_back(fmt::format("{}, module {} of {}", origin.module, origin.number,
-                                    grouped(origin.modules)));
+        lines.push_back(fmt::format("{}, module {} of {}", origin.module, origin.module_index,
+                                    grouped(origin.module_count)));
         lines.push_back(origin.origin);
-        description.module = {origin.number, origin.generation};
+        description.module = {origin.module_index, origin.generation};
         description.place = origin.place;
     }
     lines.push_back(item_text(*item, *picked.pose));

@@ -41,7 +41,7 @@ void draw_numbers(const PlantView& view) {
         grown == nullptr
             ? fmt::format("{:.4g} m high", document->height)
             : fmt::format("generation {:5.2f}",
-                          static_cast<double>(grown->moment.generation) + grown->moment.part));
+                          static_cast<double>(grown->moment.generation) + grown->moment.fraction));
     row(skeleton.segments.size(), "segments", "");
     row(mesh.indices.size() / 3, "triangles",
         fmt::format("turtle {}", name_of(document->grammar.bytecode.settings.turtle)));

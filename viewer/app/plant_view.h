@@ -76,10 +76,10 @@ struct PlantViewStats {
     double shown_seconds = 0.0; // from the change to the first picture on the screen
     double draw_seconds = 0.0;  // last picture
     double bend_seconds = 0.0;  // time to make the last moment of motion
-    double bend_time = 0.0;     // s, simulated
+    double bend_time = 0.0;     // s, time of the simulation
     std::uint64_t moments = 0;  // count of moments of growth shown
     FrameStats drawn;
-    std::uint64_t swaps = 0;
+    std::uint64_t swaps = 0; // count of plants shown
 };
 
 class PlantView final : public View {
@@ -103,7 +103,7 @@ public:
     void redo() override;
     void reload() override;
     void frame_all() override;
-    [[nodiscard]] const std::string& file() const override { return settings.file; }
+    [[nodiscard]] const std::string& path() const override { return settings.file; }
     [[nodiscard]] Camera& camera() override { return settings.camera; }
 
     [[nodiscard]] ViewOptions picture_options(FilmKind kind) const override;

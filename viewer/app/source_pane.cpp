@@ -163,7 +163,7 @@ void SourcePane::take(std::shared_ptr<const SourceText> text, View& view) {
                               text->files[index].path == path &&
                               text->files[index].file->text() == old_text;
     const std::shared_ptr<const SourceText> kept = std::exchange(text_, std::move(text));
-    file_ = index;
+    file_index_ = index;
     columns_ = 0;
     if (!is_same_text) {
         highlighted_ = {};
@@ -186,7 +186,7 @@ void SourcePane::take(std::shared_ptr<const SourceText> text, View& view) {
                 first_error = fmt::format("{}:{}:{}: {}", text_->files[i].path, message.line,
                                           message.column, plain_text(message.text.front()));
                 if (first_error != first_error_) { // not seen before
-                    file_ = i;
+                    file_index_ = i;
                     target_ = message.line;
                 }
             }
@@ -198,14 +198,15 @@ void SourcePane::take(std::shared_ptr<const SourceText> text, View& view) {
 }
 
 const ShownSource* SourcePane::source() const {
-    return text_ != nullptr && file_ < text_->files.size() ? &text_->files[file_] : nullptr;
+    return text_ != nullptr && file_index_ < text_->files.size() ? &text_->files[file_index_]
+                                                                 : nullptr;
 }
 
 void SourcePane::select_file(std::size_t file) {
-    if (file == file_) {
+    if (file == file_index_) {
         return;
     }
-    file_ = file;
+    file_index_ = file;
     columns_ = 0;
     anchor_ = 0;
     selected_ = 0;
@@ -254,7 +255,7 @@ void SourcePane::go_to_message(int step, View& view) {
                                        : "There are no messages in the source");
         return;
     }
-    const Place here{file_, selected_};
+    const Place here{file_index_, selected_};
     const auto next = step > 0 ? std::upper_bound(places.begin(), places.end(), here)
                                : std::lower_bound(places.begin(), places.end(), here);
     const Place to = step > 0 ? (next == places.end() ? places.front() : *next)
@@ -317,7 +318,7 @@ FilePosition SourcePane::place_to_open(const View& view) const {
             return *message.place;
         }
     }
-    return {view.file(), 1, 1};
+    return {view.path(), 1, 1};
 }
 
 std::string SourcePane::selected_text() const {

@@ -80,7 +80,7 @@ public:
     [[nodiscard]] const SourceText* text() const { return text_.get(); }
     /// The file shown; null: none.
     [[nodiscard]] const ShownSource* source() const;
-    [[nodiscard]] std::size_t file() const { return file_; }
+    [[nodiscard]] std::size_t file_index() const { return file_index_; }
     [[nodiscard]] const std::vector<SourceRow>& rows() const { return rows_; }
     [[nodiscard]] const std::vector<TextLine>& texts() const { return texts_; }
     [[nodiscard]] LineRange selected() const;
@@ -98,7 +98,7 @@ private:
     std::uint64_t followed_pick_ = 0;
     std::string shown_file_; // of the view whose text_ is shown
     std::shared_ptr<const SourceText> text_;
-    std::size_t file_ = 0;
+    std::size_t file_index_ = 0;
     std::string first_error_; // of text_, with its place
     std::uint32_t anchor_ = 0;
     std::uint32_t selected_ = 0; // line; 0: none

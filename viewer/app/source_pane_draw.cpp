@@ -223,7 +223,7 @@ void draw_files(SourcePane& pane) {
     if (ImGui::BeginCombo("##files", file_label(*pane.source()).c_str())) {
         for (std::size_t i = 0; i < text.files.size(); ++i) {
             ImGui::PushID(static_cast<int>(i));
-            if (ImGui::Selectable(file_label(text.files[i]).c_str(), i == pane.file())) {
+            if (ImGui::Selectable(file_label(text.files[i]).c_str(), i == pane.file_index())) {
                 pane.select_file(i);
             }
             draw_tooltip(text.files[i].path.c_str());
@@ -413,7 +413,7 @@ draw_source_pane(SourcePane& pane, View& view, PlantView* plant, float width, fl
             draw_files(pane);
             ImGui::Separator();
             // Each file scrolls on its own.
-            ImGui::PushID(static_cast<int>(pane.file()));
+            ImGui::PushID(static_cast<int>(pane.file_index()));
             if (ImGui::BeginChild("Text", {0.0F, 0.0F}, false,
                                   ImGuiWindowFlags_HorizontalScrollbar | ImGuiWindowFlags_NoNav)) {
                 draw_rows(pane, plant, actions);

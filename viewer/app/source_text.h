@@ -56,9 +56,9 @@ struct ShownSource {
     std::uint32_t columns = 0;           // of the longest line
 };
 
-/// Lines from 1, both included.
+/// A range of lines, counted from 1, with both ends.
 struct LineRange {
-    std::uint32_t first = 0; // 0: none
+    std::uint32_t first = 0; // 0: an empty range
     std::uint32_t last = 0;
 };
 
@@ -68,7 +68,7 @@ struct SourceText {
     std::string failure;            // why there are no files
     /// The bytes that `lsc check --fix` would write, by path. Empty if there is no certain fix.
     std::map<std::string, std::string> fixed;
-    std::size_t fix_count = 0; // certain fixes
+    std::size_t fix_count = 0; // count of the certain fixes in `fixed`
 
     /// Index of the file with this path; nothing if it is not shown.
     [[nodiscard]] std::optional<std::size_t> find(std::string_view path) const;

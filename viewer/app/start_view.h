@@ -30,7 +30,7 @@ public:
     void reload() override {}
     void frame_all() override {}
     /// Always empty.
-    [[nodiscard]] const std::string& file() const override { return options_.file; }
+    [[nodiscard]] const std::string& path() const override { return options_.file; }
     [[nodiscard]] LoadedSources loaded_sources() const override { return common_sources(); }
     [[nodiscard]] ViewOptions picture_options(FilmKind /*kind*/) const override { return options_; }
     [[nodiscard]] Camera& camera() override { return camera_; }

@@ -17,7 +17,7 @@ std::optional<UnsavedAnswer> draw_unsaved_dialog(ViewSwitcher& switcher, const P
     bool is_open = true;
     if (begin_dialog("Unsaved changes", is_open)) {
         line(fmt::format("{} of {} are not saved.", view.is_forest() ? "Changes" : "Values",
-                         name_of_path(view.file())));
+                         name_of_path(view.path())));
         line(next.empty() ? "The window is about to close."
                           : fmt::format("{} is about to be opened.", name_of_path(next)));
         draw_problem(panels.save_failure);

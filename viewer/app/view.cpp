@@ -69,7 +69,7 @@ void View::take_messages(const Messages& messages, bool succeeded) {
     }
     failed_ = !succeeded;
     messages_ = std::make_shared<Messages>(messages);
-    loaded_file_ = file();
+    loaded_file_ = path();
     ++taken_request_count_;
 }
 
@@ -228,7 +228,7 @@ void View::write_screenshot() {
     if (!frame_) {
         return;
     }
-    const std::string stem = std::filesystem::path(file()).stem().string();
+    const std::string stem = std::filesystem::path(path()).stem().string();
     const std::string name = unused_picture_name({}, stem) + ".png";
     Texture picture;
     picture.width = frame_->width;

@@ -78,7 +78,8 @@ public:
         camera() = seen_from(view, camera());
         frame_all();
     }
-    [[nodiscard]] virtual const std::string& file() const = 0;
+    /// Path of the grammar or scene shown; empty in the start view.
+    [[nodiscard]] virtual const std::string& path() const = 0;
     [[nodiscard]] virtual Camera& camera() = 0;
     /// Whether a forest is shown.
     [[nodiscard]] virtual bool is_forest() const { return false; }

@@ -35,10 +35,10 @@ void ViewSwitcher::make(const ViewOptions& options) {
 }
 
 void ViewSwitcher::open_neighbour(int step) {
-    if (current_->file().empty()) {
+    if (current_->path().empty()) {
         return;
     }
-    const std::string file = neighbour_file(current_->file(), step);
+    const std::string file = neighbour_file(current_->path(), step);
     if (file.empty()) {
         current_->set_note("There is no other file in this folder");
     } else {
@@ -71,8 +71,8 @@ bool ViewSwitcher::leave() {
 
 void ViewSwitcher::open_now(const std::string& file) {
     const bool is_forest = is_scene(file);
-    if (forest_ != nullptr && is_scene(forest_->file())) {
-        last_scene_ = forest_->file();
+    if (forest_ != nullptr && is_scene(forest_->path())) {
+        last_scene_ = forest_->path();
     }
     if (is_forest && forest_ != nullptr) {
         forest_->open(file);

@@ -55,8 +55,8 @@ public:
         source_look_ = panels_.source.look;
         panels_.wake = [this] { window_.wake(); };
         panels_.add_image = [this](const Texture& picture) { return window_.add_image(picture); };
-        if (!switcher_.current().file().empty()) {
-            remember_file(panels_.state_folder, switcher_.current().file(), console_);
+        if (!switcher_.current().path().empty()) {
+            remember_file(panels_.state_folder, switcher_.current().path(), console_);
         }
     }
 
@@ -73,7 +73,7 @@ public:
             std::min(std::chrono::duration<double>(now - last_).count(), kMaxFlightStep);
         last_ = now;
         const bool flew = panels_.flies;
-        const std::string file = switcher_.current().file();
+        const std::string file = switcher_.current().path();
         panels_.window_width = window_.width();
         panels_.window_height = window_.height();
         controls_.apply(input, passed, picture_area(), switcher_, panels_);
@@ -105,19 +105,19 @@ public:
             has_new_content = true;
         }
         const bool dropped_note = switcher_.current().drop_old_note(now);
-        if (input.any || has_new_content || dropped_note) {
+        if (input.has_events || has_new_content || dropped_note) {
             pictures_left_ = kPicturesAfterInput;
         }
         update_progress(now);
         draw();
-        if (switcher_.current().file() != file) { // panels open files too
-            window_.set_title(title_of(switcher_.current().file()));
+        if (switcher_.current().path() != file) { // panels open files too
+            window_.set_title(title_of(switcher_.current().path()));
             window_.drop_images(); // pictures of the start page, which is not shown again
             panels_.start = {};
             if (panels_.dialog == OpenDialog::Sheet) {
                 close_sheet(panels_);
             }
-            remember_file(panels_.state_folder, switcher_.current().file(), console_);
+            remember_file(panels_.state_folder, switcher_.current().path(), console_);
             pictures_left_ = kPicturesAfterInput;
         }
         if (is_loading(panels_.start) || panels_.sheet.has_pictures()) {
@@ -135,7 +135,7 @@ private:
                 std::min(static_cast<std::uint32_t>(panel_width(window_.scale())), area.width - 1);
             area.width -= area.x;
         }
-        if (!switcher_.current().file().empty()) {
+        if (!switcher_.current().path().empty()) {
             const float source =
                 source_width(panels_, static_cast<float>(window_.width()), window_.scale());
             area.width -= std::min(static_cast<std::uint32_t>(source), area.width);

@@ -290,9 +290,9 @@ public:
         const auto kind = static_cast<PickedKind>(content.kind);
         Picked picked;
         if (kind == PickedKind::Plant) {
-            picked.triangle = content.item;
+            picked.triangle = content.index;
         } else if (is_forest_) {
-            picked = forest_.picked(kind, content.item);
+            picked = forest_.picked(kind, content.index);
         }
         picked.kind = kind;
         const glm::vec4 place = block.clip_to_world * glm::vec4(0.0F, 0.0F, content.depth, 1.0F);

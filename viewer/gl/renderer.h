@@ -195,7 +195,7 @@ public:
     /// Sets the quality of later pictures; Auto at first. Error: a shader does not compile; the old
     /// quality stays.
     [[nodiscard]] virtual Result<void> set_quality(Quality quality) = 0;
-    /// Low, Medium or High.
+    /// The quality of later pictures: Low, Medium or High.
     [[nodiscard]] virtual Quality quality() const = 0;
     /// Sets the processor that chooses the trees of later forests; Auto at first.
     virtual void set_culling(Culling culling) = 0;

@@ -145,7 +145,7 @@ struct Window::State {
     }
 
     void press_button(int button, int action, int modifiers) {
-        input.any = true;
+        input.has_events = true;
         if (button < 0 || static_cast<std::size_t>(button) >= held.size()) {
             return;
         }
@@ -182,7 +182,7 @@ struct Window::State {
     }
 
     void move_mouse(const glm::vec2& to) {
-        input.any = true;
+        input.has_events = true;
         const glm::vec2 way = has_mouse ? to - mouse : glm::vec2(0.0F);
         mouse = to;
         has_mouse = true;
@@ -200,7 +200,7 @@ struct Window::State {
 
     /// Handles a key event; returns whether the panels receive it too.
     bool press_key(int code, int scan_code, int action, int modifiers) {
-        input.any = true;
+        input.has_events = true;
         const Key key = key_of(code, scan_code);
         if (action == GLFW_RELEASE) {
             std::erase_if(keys, [code](const auto& held_key) { return held_key.first == code; });
@@ -275,29 +275,30 @@ struct Window::State {
         });
         glfwSetScrollCallback(window, [](GLFWwindow* from, double /*x*/, double y) {
             State& state = of(from);
-            state.input.any = true;
+            state.input.has_events = true;
             if (state.mouse_captured || !ImGui::GetIO().WantCaptureMouse) {
                 state.input.wheel += static_cast<float>(y);
             }
         });
         glfwSetCharCallback(window, [](GLFWwindow* from, unsigned character) {
             State& state = of(from);
-            state.input.any = true;
+            state.input.has_events = true;
             if (!state.mouse_captured && !state.panels_have_keys && !ImGui::GetIO().WantTextInput) {
                 append_utf8(state.input.text, character);
             }
         });
         glfwSetDropCallback(window, [](GLFWwindow* from, int count, const char** paths) {
             State& state = of(from);
-            state.input.any = true;
+            state.input.has_events = true;
             state.input.dropped.assign(paths, paths + count);
         });
-        glfwSetWindowRefreshCallback(window, [](GLFWwindow* from) { of(from).input.any = true; });
+        glfwSetWindowRefreshCallback(window,
+                                     [](GLFWwindow* from) { of(from).input.has_events = true; });
         glfwSetFramebufferSizeCallback(
-            window, [](GLFWwindow* from, int, int) { of(from).input.any = true; });
+            window, [](GLFWwindow* from, int, int) { of(from).input.has_events = true; });
         glfwSetWindowFocusCallback(window, [](GLFWwindow* from, int /*focused*/) {
             State& state = of(from);
-            state.input.any = true;
+            state.input.has_events = true;
             state.keys.clear(); // releases may go to another window
             state.held = {};
         });

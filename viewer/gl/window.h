@@ -103,7 +103,7 @@ struct WindowInput {
     glm::vec2 motion{0.0F};                   // as drags, while the mouse is captured
     float wheel = 0.0F;                       // positive away from the user
     std::vector<std::string> dropped;
-    bool any = false;             // any event, also of panels
+    bool has_events = false;      // any event, also of panels
     bool close_requested = false; // by the window manager
 };
 

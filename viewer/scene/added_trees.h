@@ -33,7 +33,7 @@ static_assert(sizeof(LodTree) == 24);
 class AddedTrees {
 public:
     struct Cell {
-        std::vector<std::uint32_t> trees; // slots
+        std::vector<std::uint32_t> trees; // slots of its trees
         glm::vec3 low{};                  // box around its trees, removed ones included
         glm::vec3 high{};
     };

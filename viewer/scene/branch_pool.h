@@ -59,7 +59,7 @@ public:
     /// Ranges of the trees in the pool, by tree.
     [[nodiscard]] std::map<std::uint32_t, PoolSpan> spans() const;
 
-    static constexpr std::uint32_t kMaxBranches = 2U << 20U; // 64 MiB
+    static constexpr std::uint32_t kMaxBranches = 2U << 20U; // 64 MiB of PoolBranch
 
 private:
     struct Entry {

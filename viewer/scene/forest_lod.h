@@ -122,8 +122,8 @@ struct DrawLists {
     std::vector<BranchEntry> branches; // grouped by run
     std::vector<BranchRun> runs;
     // In `trees` and `clusters`, entries with the whole blend range precede blended ones.
-    std::vector<ImpostorEntry> trees;    // impostors; index: see ForestLod::lod_tree()
-    std::vector<ImpostorEntry> clusters; // index: cell
+    std::vector<ImpostorEntry> trees;    // their index is that of ForestLod::lod_tree()
+    std::vector<ImpostorEntry> clusters; // impostors of cells; their index is that of the cell
     std::array<std::uint32_t, kTreeLevels> trees_of_level{}; // count of trees with branches in view
     std::uint64_t far_trees = 0;                             // trees in `trees` without branches
     std::uint64_t clustered_trees = 0; // trees of `clusters`, without those in `trees`

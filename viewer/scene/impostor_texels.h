@@ -34,7 +34,7 @@ void dilate(ImpostorTexels& picture, std::uint32_t rounds);
 
 /// A square of texels.
 struct Tile {
-    std::uint32_t x = 0; // first texel
+    std::uint32_t x = 0; // of the corner with the lowest coordinates
     std::uint32_t y = 0;
     std::uint32_t side = 0;
 };

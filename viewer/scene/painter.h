@@ -27,7 +27,7 @@ struct Brush {
 
 /// A tree that was added or removed.
 struct TreeChange {
-    std::uint32_t index = 0; // for Painter::tree()
+    std::uint32_t index = 0; // of Painter::tree()
     bool alive = false;
 };
 

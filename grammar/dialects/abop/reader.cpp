@@ -166,7 +166,7 @@ private:
         return trimmed_span(
             file_.text, {id_, static_cast<std::uint32_t>(begin), static_cast<std::uint32_t>(end)});
     }
-    [[nodiscard]] std::string_view text(SourceSpan part) const { return file_.of(part); }
+    [[nodiscard]] std::string_view text(SourceSpan part) const { return file_.text_of(part); }
 
     Diagnostic* report(DiagnosticCode code, SourceSpan place, const std::string& message) {
         return context_ == nullptr ? nullptr : &context_->diagnostics.add(code, place, message);
@@ -598,7 +598,7 @@ private:
 } // namespace
 
 void split_contexts(const AbopFile& file, AbopRule& rule) {
-    const std::string_view words = file.of(rule.head);
+    const std::string_view words = file.text_of(rule.head);
     std::size_t depth = 0;
     std::size_t less = kNone;
     std::size_t greater = kNone;

@@ -62,7 +62,7 @@ struct AbopFile {
     std::vector<std::string> names; // declared symbols of several characters
     bool is_lpy = false;            // `_` is a command, functions are Python's
 
-    [[nodiscard]] std::string_view of(SourceSpan span) const {
+    [[nodiscard]] std::string_view text_of(SourceSpan span) const {
         return std::string_view(text).substr(span.begin, span.end - span.begin);
     }
     [[nodiscard]] const AbopSetting* find(AbopKey key) const;

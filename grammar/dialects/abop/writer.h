@@ -37,7 +37,7 @@ private:
         bool has_comma = false; // between two arguments
     };
 
-    [[nodiscard]] std::string_view text(SourceSpan span) const { return file_.of(span); }
+    [[nodiscard]] std::string_view text(SourceSpan span) const { return file_.text_of(span); }
     [[nodiscard]] SourceSpan part(std::size_t begin, std::size_t end) const;
     void report(SourceSpan place, const std::string& message);
 

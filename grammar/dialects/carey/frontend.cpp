@@ -133,7 +133,7 @@ void write_rules(const CareyFile& file,
                                         "` is not a ratio");
         }
         RuleSelection selection{i + 1, alternatives[left_sides[i]] > 1, {}};
-        if (parameters.any && turns.size() > 1) {
+        if (parameters.has_counts && turns.size() > 1) {
             selection.condition = "mod(step(), " + std::to_string(turns.size()) +
                                   ") == " + std::to_string(turns[left_sides[i]]);
         }
@@ -167,7 +167,7 @@ void translate_carey(const DialectRow& row, const ParseContext& context, Transla
     // generator rewrites them in one turn.
     translation.put("#set turtle " + std::string(row.turtle) +
                     ";\n#set names letters;\n#set rewriting " +
-                    (parameters.any ? "leftmost" : "cyclic") + ";\n");
+                    (parameters.has_counts ? "leftmost" : "cyclic") + ";\n");
     if (any_choice) {
         translation.put("#set weights any;\n");
     }

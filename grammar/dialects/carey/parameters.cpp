@@ -56,7 +56,7 @@ public:
             for (std::size_t i = 0; i < rules_.size(); ++i) {
                 if (ends_in(rules_[i].left, module.form.first) && follow(rules_[i], module)) {
                     found.counts_by_rule[i].push_back(module.form.second);
-                    found.any = true;
+                    found.has_counts = true;
                 }
             }
         }

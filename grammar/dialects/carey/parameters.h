@@ -14,7 +14,7 @@ namespace lsys {
 /// Parameter counts that can follow the left side of each rule of the file, ascending.
 struct LeftParameters {
     std::vector<std::vector<std::size_t>> counts_by_rule;
-    bool any = false; // true if a rule has a count
+    bool has_counts = false; // some rule has a count
 };
 
 /// Follows the parameters of axiom and right sides through the rules. A note reports a parameter

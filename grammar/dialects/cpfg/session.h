@@ -73,7 +73,8 @@ public:
     ForeignId seed = kNoForeign;
     ForeignId decompose_depth = kNoForeign;
     ForeignId interpret_depth = kNoForeign;
-    std::vector<int> definitions; // statements
+    // Indices in `statements` of the statements of `Define:` and of the blocks of a run.
+    std::vector<int> definitions;
     std::vector<int> start;
     std::vector<int> start_each;
     std::vector<int> end_each;

@@ -114,7 +114,7 @@ public:
     template <typename Predicate>
     [[nodiscard]] bool has(ForeignId root, const Predicate& wanted) const {
         std::vector<ForeignId> open{root};
-        std::set<std::uint32_t> seen; // local values
+        std::set<std::uint32_t> seen_locals; // indices of local values
         while (!open.empty()) {
             const ForeignNode& node = (*this)[open.back()];
             open.pop_back();
@@ -122,7 +122,7 @@ public:
                 return true;
             }
             open.insert(open.end(), node.parts.begin(), node.parts.end());
-            if (node.kind == ForeignKind::Local && seen.insert(node.index).second) {
+            if (node.kind == ForeignKind::Local && seen_locals.insert(node.index).second) {
                 open.push_back(locals_[node.index].value);
             }
         }

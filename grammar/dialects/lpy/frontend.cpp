@@ -199,8 +199,8 @@ private:
             return true;
         }
         AbopRule rule = rule_of(trimmed(line.substr(0, arrow)));
-        if (const std::size_t colon = file_.of(rule.head).find(':'); colon != kNone) {
-            const std::string_view head = file_.of(rule.head);
+        if (const std::size_t colon = file_.text_of(rule.head).find(':'); colon != kNone) {
+            const std::string_view head = file_.text_of(rule.head);
             rule.condition = span(trimmed(head.substr(colon + 1)));
             rule.head = span(trimmed(head.substr(0, colon)));
         }

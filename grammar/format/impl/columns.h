@@ -19,7 +19,7 @@ inline constexpr std::size_t kCells = 4;
 
 /// A statement as measured before its cells are aligned.
 struct LayoutRow {
-    std::uint32_t begin = 0; // bytes
+    std::uint32_t begin = 0; // byte offsets in the text
     std::uint32_t end = 0;
     std::uint32_t comments_end = 0; // end of the comments after it on its line; `end` without any
     std::uint32_t column = 0;       // first column

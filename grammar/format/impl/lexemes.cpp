@@ -27,17 +27,17 @@ bool LexemeReader::next(Lexeme& lexeme) {
         const std::size_t end = text_.find("*/", at_ + 2);
         take(LexemeKind::BlockComment, end == text_.npos ? bytes_left() : end + 2 - at_);
     } else if (c == '/' && area_ == Area::Between && starts('/', '/')) {
-        line_comment();
+        read_line_comment();
     } else if (c == '#') {
-        keyword();
+        read_keyword();
     } else if (c == ';') {
         take(LexemeKind::Semicolon, 1);
         area_ = Area::Between;
     } else if (c == ':' && depth_ == 0) {
         take(LexemeKind::Colon, 1);
-        next_part();
+        enter_next_part();
     } else {
-        token();
+        read_token();
     }
     lexeme = lexeme_;
     return true;
@@ -62,7 +62,7 @@ void LexemeReader::take(LexemeKind kind, std::size_t length) {
     }
 }
 
-void LexemeReader::line_comment() {
+void LexemeReader::read_line_comment() {
     std::size_t length = std::min(text_.find('\n', at_), text_.size()) - at_;
     while (length > 2 && is_blank(text_[at_ + length - 1])) {
         --length;
@@ -78,7 +78,7 @@ std::size_t LexemeReader::word_length(std::size_t from) const {
     return end - from;
 }
 
-void LexemeReader::keyword() {
+void LexemeReader::read_keyword() {
     using enum StatementShape;
     const std::string_view name = text_.substr(at_ + 1, word_length(at_ + 1));
     take(LexemeKind::Keyword, name.size() + 1);
@@ -138,7 +138,7 @@ char LexemeReader::next_character() const {
 
 /// Enters the next part of a production, `#name :` head `:` condition `:` successor, or of an
 /// axiom, `#w ~` probability `:` modules.
-void LexemeReader::next_part() {
+void LexemeReader::enter_next_part() {
     if (in_probability_) { // the modules of the axiom follow the probability
         in_probability_ = false;
         area_ = Area::Modules;
@@ -156,28 +156,28 @@ void LexemeReader::next_part() {
     after_value_ = false;
 }
 
-void LexemeReader::token() {
+void LexemeReader::read_token() {
     if (area_ == Area::Modules && depth_ == 0) {
-        module();
+        read_module();
     } else if ((area_ == Area::Object || (area_ == Area::Set && text_[at_] == '"')) &&
                depth_ == 0) {
-        quoted();
+        read_quoted();
     } else {
-        expression();
+        read_expression();
     }
 }
 
 /// A file name or a module; a single `"` is a module.
-void LexemeReader::quoted() {
+void LexemeReader::read_quoted() {
     const std::size_t end = text_[at_] == '"' ? text_.find_first_of("\"\n", at_ + 1) : text_.npos;
     if (end != text_.npos && text_[end] == '"') {
         take(LexemeKind::Quoted, end + 1 - at_);
     } else {
-        module();
+        read_module();
     }
 }
 
-void LexemeReader::module() {
+void LexemeReader::read_module() {
     const char c = text_[at_];
     if (is_letter(c)) {
         take(LexemeKind::Module, word_length(at_));
@@ -201,7 +201,7 @@ void LexemeReader::module() {
     }
 }
 
-void LexemeReader::value(LexemeKind kind, std::size_t length) {
+void LexemeReader::read_value(LexemeKind kind, std::size_t length) {
     take(kind, length);
     // After a value of `#set` and after the name of a constant comes a value, not an operator.
     after_value_ = !(area_ == Area::Set && depth_ == 0) && (area_ != Area::Name || in_formals_);
@@ -210,12 +210,12 @@ void LexemeReader::value(LexemeKind kind, std::size_t length) {
     }
 }
 
-void LexemeReader::expression() {
+void LexemeReader::read_expression() {
     const char c = text_[at_];
     if (is_letter(c)) {
-        value(LexemeKind::Word, word_length(at_));
+        read_value(LexemeKind::Word, word_length(at_));
     } else if (is_digit(c) || c == '.') {
-        value(LexemeKind::Number, number_length());
+        read_value(LexemeKind::Number, number_length());
     } else if (c == '(' || c == '{') {
         const bool call = c == '(' && after_value_ && previous_ == LexemeKind::Word;
         const bool bounds = c == '{' && after_value_ && depth_ == 0;
@@ -236,7 +236,7 @@ void LexemeReader::expression() {
         take(LexemeKind::Comma, 1);
         after_value_ = false;
     } else {
-        operation();
+        read_operation();
     }
 }
 
@@ -261,7 +261,7 @@ std::size_t LexemeReader::number_length() const {
     return end - at_;
 }
 
-void LexemeReader::operation() {
+void LexemeReader::read_operation() {
     const char c = text_[at_];
     const bool is_comparison = (c == '=' || c == '!' || c == '<' || c == '>') && starts(c, '=');
     if (is_comparison || ((c == '&' || c == '|') && starts(c, c))) {

@@ -80,15 +80,15 @@ private:
     [[nodiscard]] char next_character() const;
     bool skip_blanks();
     void take(LexemeKind kind, std::size_t length);
-    void line_comment();
-    void keyword();
-    void next_part();
-    void token();
-    void module();
-    void quoted();
-    void value(LexemeKind kind, std::size_t length);
-    void expression();
-    void operation();
+    void read_line_comment();
+    void read_keyword();
+    void enter_next_part();
+    void read_token();
+    void read_module();
+    void read_quoted();
+    void read_value(LexemeKind kind, std::size_t length);
+    void read_expression();
+    void read_operation();
 
     std::string_view text_;
     std::size_t at_;

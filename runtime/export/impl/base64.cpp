@@ -39,7 +39,7 @@ void Base64Writer::put(std::span<const std::byte> bytes) {
         bytes = bytes.subspan(1);
     }
     if (pending_size_ == 3) {
-        out_.used(put_group(out_.room(4), pending_.data()));
+        out_.advance_to(put_group(out_.room(4), pending_.data()));
         pending_size_ = 0;
     }
     constexpr std::size_t kGroups = 4096;
@@ -49,7 +49,7 @@ void Base64Writer::put(std::span<const std::byte> bytes) {
         for (std::size_t i = 0; i < groups; ++i) {
             at = put_group(at, bytes.data() + 3 * i);
         }
-        out_.used(at);
+        out_.advance_to(at);
         bytes = bytes.subspan(3 * groups);
     }
     if (bytes.size() < 3) {
@@ -66,7 +66,7 @@ void Base64Writer::finish() {
         char* const at = out_.room(4);
         put_group(at, pending_.data());
         std::fill(at + pending_size_ + 1, at + 4, '=');
-        out_.used(at + 4);
+        out_.advance_to(at + 4);
         pending_size_ = 0;
     }
 }

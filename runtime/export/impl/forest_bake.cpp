@@ -46,7 +46,7 @@ public:
             return {Stop::Limit,
                     messages_of(plant_limit_diagnostic("the baked forest", max_bytes))};
         };
-        if (plan_.triangles() > max_bytes / (3 * sizeof(std::uint32_t))) {
+        if (plan_.triangle_count() > max_bytes / (3 * sizeof(std::uint32_t))) {
             return limit(); // before the slow counting of shares
         }
         count_shares();

@@ -54,8 +54,8 @@ void put_plain_view(JsonWriter& json, std::uint64_t offset, std::uint64_t bytes)
 
 void ForestDocument::put_extras(JsonWriter& json) const {
     json.object("extras").member("scene", info_.name).member("key", scene_.forest.key);
-    json.member("trees", scene_.forest.trees.size()).member("branches", plan_.branches());
-    json.member("triangles", plan_.triangles()).array("species");
+    json.member("trees", scene_.forest.trees.size()).member("branches", plan_.branch_count());
+    json.member("triangles", plan_.triangle_count()).array("species");
     for (const ExportedStage& stage : plan_.stages()) {
         const ForestSpecies& species = scene_.forest.species[stage.species];
         json.object().member("name", species.name);
@@ -141,7 +141,7 @@ void ForestDocument::put_instanced_nodes(JsonWriter& json) const {
 
 std::uint64_t ForestDocument::node_count() const {
     std::uint64_t count = 1 + (ground_surface_ == kNoSurface ? 0 : 1) + plan_.cells().size() +
-                          (instanced() ? plan_.groups().size() : plan_.branches());
+                          (instanced() ? plan_.groups().size() : plan_.branch_count());
     for_each_collider(
         [&](std::uint32_t instance) { count += collisions_[instance].shapes.size(); });
     return count;
@@ -156,12 +156,12 @@ std::string ForestDocument::mesh_name(const ExportedStage& stage, std::uint32_t 
 
 void ForestDocument::put_expanded_nodes(JsonWriter& json) const {
     std::uint64_t child =
-        1 + (ground_surface_ == kNoSurface ? 0 : 1) + plan_.cells().size() + plan_.branches();
+        1 + (ground_surface_ == kNoSurface ? 0 : 1) + plan_.cells().size() + plan_.branch_count();
     std::vector<bool> written(collisions_.size());
     for (const ForestCell& cell : plan_.cells()) {
         plan_.for_each_branch(cell, [&](const ExportedStage& stage, std::uint32_t instance,
                                         const BranchInstance& branch) {
-            if (plan_.uses()[instance] == 0) {
+            if (plan_.instance_counts()[instance] == 0) {
                 return;
             }
             const auto number = static_cast<std::size_t>(&stage - plan_.stages().data());
@@ -217,7 +217,7 @@ void ForestDocument::put_meshes(JsonWriter& json) const {
     for (std::size_t k = 0; k < plan_.stages().size(); ++k) {
         const ExportedStage& stage = plan_.stages()[k];
         for (std::uint32_t i = 0; i < stage.cache->instances.size(); ++i) {
-            if (plan_.uses()[stage.first + i] > 0) {
+            if (plan_.instance_counts()[stage.first + i] > 0) {
                 put_mesh(json, mesh_name(stage, i), surfaces_[surface_of_stage_[k]],
                          stage.meshes->parts_of(i), accessor);
             }
@@ -353,7 +353,7 @@ void ForestDocument::put_views(JsonWriter& json) const {
     }
     std::uint64_t offset = transforms_offset_;
     if (packed_.empty() && first_image_view_ > transforms_view_) {
-        const std::uint64_t bytes = kInstanceBytes * plan_.branches();
+        const std::uint64_t bytes = kInstanceBytes * plan_.branch_count();
         put_plain_view(json, offset, bytes);
         offset += bytes;
     }

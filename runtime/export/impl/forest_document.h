@@ -36,7 +36,7 @@ struct ForestView {
     /// EXT_meshopt_compression: contents in the buffer, and the place of the decoded items.
     GltfBuffer compressed = {};
     std::uint64_t decoded_offset = 0;
-    std::string_view filter = {}; // of compressed items; empty: none
+    std::string_view filter = {}; // of EXT_meshopt_compression; empty: none
 
     [[nodiscard]] std::uint64_t item_bytes() const { return type.stride * count; }
 };
@@ -55,8 +55,8 @@ struct ForestBlock {
 struct ForestSurface {
     std::size_t stage = kNoStage; // index in ForestPlan::stages(); kNoStage: the ground
     const Mesh* mesh = nullptr;
-    const std::vector<std::uint32_t>* materials =
-        nullptr; // numbers among all materials of the scene
+    /// By material of the mesh: its index among all materials of the scene.
+    const std::vector<std::uint32_t>* materials = nullptr;
     SlicedMesh sliced;
     std::vector<ForestBlock> blocks; // by material of the mesh
 };
@@ -212,7 +212,7 @@ void ForestDocument::for_each_collider(const Visit& visit) const {
     for (const ForestCell& cell : plan_.cells()) {
         plan_.for_each_branch(
             cell, [&](const ExportedStage&, std::uint32_t instance, const BranchInstance&) {
-                if (plan_.uses()[instance] > 0) {
+                if (plan_.instance_counts()[instance] > 0) {
                     visit_once(instance);
                 }
             });
@@ -227,7 +227,7 @@ void ForestDocument::for_each_mesh(const Visit& visit) const {
     for (std::size_t k = 0; k < plan_.stages().size(); ++k) {
         const ExportedStage& stage = plan_.stages()[k];
         for (std::uint32_t i = 0; i < stage.cache->instances.size(); ++i) {
-            if (plan_.uses()[stage.first + i] > 0) {
+            if (plan_.instance_counts()[stage.first + i] > 0) {
                 visit(surfaces_[surface_of_stage_[k]], stage.meshes->parts_of(i));
             }
         }

@@ -40,7 +40,7 @@ ForestDocument::ForestDocument(const ForestScene& scene,
     for (std::size_t k = 0; k < plan.stages().size(); ++k) {
         const ExportedStage& stage = plan.stages()[k];
         const auto uses =
-            std::span(plan.uses()).subspan(stage.first, stage.cache->instances.size());
+            std::span(plan.instance_counts()).subspan(stage.first, stage.cache->instances.size());
         const bool used = std::any_of(uses.begin(), uses.end(), [](auto n) { return n > 0; });
         surface_of_stage_.push_back(used ? surfaces_.size() : kNoSurface);
         if (used) {
@@ -48,7 +48,7 @@ ForestDocument::ForestDocument(const ForestScene& scene,
         }
     }
     std::uint32_t meshes = ground_surface_ == kNoSurface ? 0 : 1;
-    for (const std::uint64_t uses : plan.uses()) {
+    for (const std::uint64_t uses : plan.instance_counts()) {
         mesh_of_instance_.push_back(uses > 0 ? meshes++ : 0);
     }
     plan_texture_forms();
@@ -74,9 +74,9 @@ ForestDocument::ForestDocument(const ForestScene& scene,
         compress_transforms();
     }
     transforms_offset_ = bytes_;
-    if (instanced() && packed_.empty() && plan.branches() > 0) {
+    if (instanced() && packed_.empty() && plan.branch_count() > 0) {
         ++view_count_;
-        bytes_ += kInstanceBytes * plan.branches();
+        bytes_ += kInstanceBytes * plan.branch_count();
     }
     first_image_view_ = view_count_;
     for (std::string& image : images_) {
@@ -98,7 +98,7 @@ ForestDocument::ForestDocument(const ForestScene& scene,
 }
 
 void ForestDocument::add_collisions() {
-    collisions_.resize(plan_.uses().size());
+    collisions_.resize(plan_.instance_counts().size());
     ExportInfo shapes;
     shapes.collision = info_.collision;
     shapes.collision_names = info_.collision_names;
@@ -106,7 +106,7 @@ void ForestDocument::add_collisions() {
         const ExportedStage& stage = plan_.stages()[k];
         const ItemGrid& grid = grids_[k];
         for (std::uint32_t i = 0; i < stage.cache->instances.size(); ++i) {
-            if (plan_.uses()[stage.first + i] == 0) {
+            if (plan_.instance_counts()[stage.first + i] == 0) {
                 continue;
             }
             shapes.name = mesh_name(stage, i);
@@ -425,7 +425,7 @@ void ForestDocument::put_data(const GltfSink& write) const {
 namespace {
 
 Outcome<void> write(const ForestExportJob& job, bool binary, PieceWriter& out) {
-    if (job.form == ForestForm::Expanded && job.plan.branches() > kMaxForestNodes) {
+    if (job.form == ForestForm::Expanded && job.plan.branch_count() > kMaxForestNodes) {
         return {Stop::Limit, messages_of(plant_limit_diagnostic(
                                  "the expanded forest",
                                  fmt::format("{} branches", grouped_digits(kMaxForestNodes)),

@@ -32,7 +32,7 @@ ForestPlan::ForestPlan(const ForestScene& scene, float cell, std::uint32_t threa
             instances += static_cast<std::uint32_t>(cache.instances.size());
         }
     }
-    uses_.assign(instances, 0);
+    instance_counts_.assign(instances, 0);
     for (const Tree& tree : forest.trees) {
         ++stages_[first_stage_[tree.species] + forest.stage_of(tree)].trees;
     }
@@ -112,7 +112,7 @@ void ForestPlan::count_pieces(std::uint32_t threads) {
     Workers(threads).for_each(pieces_.size(), [this](std::uint64_t number) {
         ForestPiece& piece = pieces_[number];
         std::vector<TreeExpander> expanders = make_expanders();
-        std::vector<std::uint32_t> counts(uses_.size(), 0);
+        std::vector<std::uint32_t> counts(instance_counts_.size(), 0);
         for (std::uint64_t i = 0; i < piece.tree_count; ++i) {
             const Tree& tree = tree_at(piece.first_tree + i);
             const ExportedStage& stage = stage_of(tree);
@@ -143,13 +143,13 @@ void ForestPlan::find_groups() {
         cell.first_group = groups_.size();
         cell.group_count = counts.size();
         for (const auto& [instance, count] : counts) {
-            groups_.push_back({instance, branches_ + cell.branches, count});
+            groups_.push_back({instance, branch_count_ + cell.branches, count});
             cell.branches += count;
-            uses_[instance] += count;
+            instance_counts_[instance] += count;
             const ExportedStage& stage = stage_of_instance(instance);
-            triangles_ += stage.meshes->triangle_count_of(instance - stage.first) * count;
+            triangle_count_ += stage.meshes->triangle_count_of(instance - stage.first) * count;
         }
-        branches_ += cell.branches;
+        branch_count_ += cell.branches;
     }
     std::erase_if(cells_, [](const ForestCell& cell) { return cell.group_count == 0; });
 }
@@ -198,7 +198,7 @@ InstanceVertices number_vertices(const ExportedStage& stage, const ForestPlan& p
     std::vector<std::uint32_t> numbers(mesh.positions.size());
     for (std::uint32_t i = 0; i < stage.cache->instances.size(); ++i) {
         instance_vertices.first.push_back(instance_vertices.vertices.size());
-        if (plan.uses()[stage.first + i] == 0) {
+        if (plan.instance_counts()[stage.first + i] == 0) {
             continue;
         }
         for (const MeshPart& part : stage.meshes->parts_of(i)) {

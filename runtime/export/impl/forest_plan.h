@@ -64,11 +64,13 @@ public:
         return std::span(pieces_).subspan(cell.first_piece, cell.piece_count);
     }
     /// Count of each instance in the forest; 0 for instances without triangles.
-    [[nodiscard]] const std::vector<std::uint64_t>& uses() const { return uses_; }
+    [[nodiscard]] const std::vector<std::uint64_t>& instance_counts() const {
+        return instance_counts_;
+    }
     [[nodiscard]] const ExportedStage& stage_of_instance(std::uint32_t instance) const;
     /// Branch instances with triangles.
-    [[nodiscard]] std::uint64_t branches() const { return branches_; }
-    [[nodiscard]] std::uint64_t triangles() const { return triangles_; }
+    [[nodiscard]] std::uint64_t branch_count() const { return branch_count_; }
+    [[nodiscard]] std::uint64_t triangle_count() const { return triangle_count_; }
 
     /// Calls visit(stage, number of the instance among all stages, branch) for all branches of a
     /// cell, even without triangles, tree by tree in the order of the forest.
@@ -103,9 +105,9 @@ private:
     std::vector<ForestCell> cells_;
     std::vector<ForestPiece> pieces_;
     std::vector<ForestGroup> groups_;
-    std::vector<std::uint64_t> uses_;
-    std::uint64_t branches_ = 0;
-    std::uint64_t triangles_ = 0;
+    std::vector<std::uint64_t> instance_counts_;
+    std::uint64_t branch_count_ = 0;
+    std::uint64_t triangle_count_ = 0;
 };
 
 template <typename Visit>

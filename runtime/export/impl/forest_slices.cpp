@@ -31,7 +31,7 @@ std::vector<std::uint32_t> find_parents(const ExportedStage& stage, const Forest
     LargeVector<std::uint32_t> owners; // of each item, the innermost instance so far
     owners.assign(heroes.segments.size() + heroes.polygons.size() + heroes.objects.size(), kNone);
     for (std::uint32_t i = 0; i < cache.instances.size(); ++i) {
-        if (plan.uses()[stage.first + i] == 0) {
+        if (plan.instance_counts()[stage.first + i] == 0) {
             continue;
         }
         bool is_first = true;
@@ -122,7 +122,9 @@ private:
 std::vector<PartList> nested_lists(const ExportedStage& stage, const ForestPlan& plan) {
     const std::vector<std::uint32_t> parents = find_parents(stage, plan);
     const auto count = static_cast<std::uint32_t>(parents.size());
-    const auto is_used = [&](std::uint32_t i) { return plan.uses()[stage.first + i] > 0; };
+    const auto is_used = [&](std::uint32_t i) {
+        return plan.instance_counts()[stage.first + i] > 0;
+    };
     // Children of each instance as linked lists, by ascending number; the last entry is the list of
     // instances without a parent.
     std::vector<std::uint32_t> first_child(count + std::size_t{1}, kNone);

@@ -47,8 +47,8 @@ struct Slice {
 struct SliceBlock {
     std::uint64_t first_vertex = 0; // index in SlicedMesh::vertices
     std::uint64_t vertex_count = 0;
-    std::uint64_t narrow_indices = 0; // 16 bits
-    std::uint64_t wide_indices = 0;   // 32 bits
+    std::uint64_t narrow_indices = 0; // count of indices of 16 bits
+    std::uint64_t wide_indices = 0;   // count of indices of 32 bits
 };
 
 struct SlicedMesh {

@@ -102,7 +102,7 @@ std::string forest_stats_json(const ForestScene& scene, const ForestStatsOptions
         }
         json.member("branches", counts.branches).member("most_branches", counts.max_branches);
         json.member("segments", counts.segments).member("objects", counts.objects);
-        json.member("polygons", counts.polygons).member("triangles", plan.triangles());
+        json.member("polygons", counts.polygons).member("triangles", plan.triangle_count());
         json.member("bytes", bytes).member("digest", fmt::format("{:016x}", counts.digest));
         json.array("species");
         std::span<const ExportedStage> stages = plan.stages(); // sorted by species

@@ -101,7 +101,7 @@ private:
             std::uint64_t count = 0;
             std::uint64_t next = 0;
         };
-        std::vector<Place> places(plan_.uses().size());
+        std::vector<Place> places(plan_.instance_counts().size());
         auto group = groups.begin();
         for (const auto& [instance, before] : piece.counts_before) {
             while (group != groups.end() && group->instance < instance) {

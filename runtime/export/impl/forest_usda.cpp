@@ -56,7 +56,7 @@ public:
 private:
     [[nodiscard]] std::uint32_t count_used(const ExportedStage& stage) const {
         const auto uses =
-            std::span(plan_.uses()).subspan(stage.first, stage.cache->instances.size());
+            std::span(plan_.instance_counts()).subspan(stage.first, stage.cache->instances.size());
         return static_cast<std::uint32_t>(
             std::count_if(uses.begin(), uses.end(), [](std::uint64_t n) { return n > 0; }));
     }
@@ -77,7 +77,7 @@ private:
                               "    }}\n"
                               ")\n\n",
                               json_text(one_line(info_.generator)), json_text(one_line(info_.name)),
-                              scene_.forest.key, scene_.forest.trees.size(), plan_.branches(),
+                              scene_.forest.key, scene_.forest.trees.size(), plan_.branch_count(),
                               usda_axis(info_.up), metres_per_unit(info_.unit)));
     }
 
@@ -107,7 +107,7 @@ private:
         prototypes_.assign(stage.cache->instances.size(), 0);
         std::vector<std::uint32_t> used;
         for (std::uint32_t i = 0; i < stage.cache->instances.size(); ++i) {
-            if (plan_.uses()[stage.first + i] > 0) {
+            if (plan_.instance_counts()[stage.first + i] > 0) {
                 prototypes_[i] = static_cast<std::uint32_t>(used.size());
                 used.push_back(i);
             }
@@ -195,7 +195,7 @@ private:
         for (const ForestCell& cell : plan_.cells()) {
             plan_.for_each_branch(cell, [&](const ExportedStage& of, std::uint32_t instance,
                                             const BranchInstance& branch) {
-                if (&of != &stage || plan_.uses()[instance] == 0 || out_->stopped()) {
+                if (&of != &stage || plan_.instance_counts()[instance] == 0 || out_->stopped()) {
                     return;
                 }
                 char* at = out_->room(kUsdaItemBytes + kNumberBytes);
@@ -222,7 +222,7 @@ private:
 /// Whether USD can count the vertices and branches: its integers are signed.
 bool is_countable(const ForestPlan& plan) {
     constexpr std::uint64_t kMax = 0x7FFFFFFF;
-    return plan.branches() <= kMax &&
+    return plan.branch_count() <= kMax &&
            std::all_of(plan.stages().begin(), plan.stages().end(), [](const ExportedStage& stage) {
                return stage.meshes->mesh.positions.size() <= kMax;
            });

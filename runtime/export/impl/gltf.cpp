@@ -182,7 +182,7 @@ private:
     /// Returns the end of the streams of the shape whose streams begin at `first`.
     [[nodiscard]] std::size_t end_of_shape(std::size_t first) const {
         const auto shape_of = [this](std::size_t i) {
-            return buffer_.primitives.list[buffer_.streams[i].item].shape;
+            return buffer_.primitives.list[buffer_.streams[i].index].shape;
         };
         std::size_t end = first;
         while (end < buffer_.first_motion && shape_of(end) == shape_of(first)) {
@@ -198,7 +198,7 @@ private:
             const std::size_t end = end_of_shape(first);
             json_.object();
             if (film_ != nullptr) {
-                put_target_names(buffer_.primitives.list[buffer_.streams[first].item].shape);
+                put_target_names(buffer_.primitives.list[buffer_.streams[first].index].shape);
             } else {
                 json_.member("name", plant_name(info_));
             }
@@ -246,7 +246,7 @@ private:
                 json_.end(); // targets
             }
             json_.end().member("indices", i);
-            json_.member("material", materials_[stream.item]).end();
+            json_.member("material", materials_[stream.index]).end();
         }
     }
 
@@ -363,7 +363,7 @@ Outcome<void> write(const ExportJob& job, bool binary, PieceWriter& out) {
     file.data_name = job.info.buffer_name;
     file.decoded_bytes = buffer.decoded_bytes;
     file.put_data = [&](const GltfSink& write_bytes) {
-        write_gltf_buffer(contents.plant(job), buffer, write_bytes);
+        write_gltf_streams(contents.plant(job), buffer, write_bytes);
         write_collision(contents.collision, write_bytes);
     };
     return put_gltf_file(file, out) ? finish(out) : too_large_for_format(job.info.subject);
@@ -384,7 +384,7 @@ MeshDocument mesh_document(const Mesh& mesh, const ExportInfo& info, const MeshO
     }));
     document.decoded_bytes = contents.buffer.decoded_bytes;
     document.data.reserve(contents.buffer.bytes);
-    write_gltf_buffer(
+    write_gltf_streams(
         contents.plant(job), contents.buffer, [&document](std::span<const std::byte> bytes) {
             document.data.append(reinterpret_cast<const char*>(bytes.data()), bytes.size());
             return true;
@@ -438,8 +438,8 @@ Outcome<void> write_gltf_buffer(const Mesh& mesh,
             out.put_bytes(bytes);
             return !out.stopped();
         };
-        write_gltf_buffer(planned.value().plant({mesh, skeleton, info}), planned.value().buffer,
-                          write_bytes);
+        write_gltf_streams(planned.value().plant({mesh, skeleton, info}), planned.value().buffer,
+                           write_bytes);
         write_collision(planned.value().collision, write_bytes);
         return finish(out);
     });

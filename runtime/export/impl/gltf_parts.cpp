@@ -48,7 +48,7 @@ void put_packed_view(JsonWriter& json, const GltfPackedView& view) {
     json.object("extensions").object("EXT_meshopt_compression").member("buffer", 0);
     json.member("byteOffset", view.offset).member("byteLength", view.bytes);
     json.member("byteStride", view.stride).member("count", view.count);
-    json.member("mode", view.triangles ? "TRIANGLES" : "ATTRIBUTES");
+    json.member("mode", view.is_index_list ? "TRIANGLES" : "ATTRIBUTES");
     if (!view.filter.empty()) {
         json.member("filter", view.filter);
     }

@@ -41,7 +41,7 @@ struct GltfPackedView {
     std::uint64_t bytes = 0;
     std::uint32_t stride = 0;
     std::uint64_t count = 0;
-    bool triangles = false;       // indices of triangles, else attributes
+    bool is_index_list = false;   // indices of triangles; false: attributes
     std::string_view filter = {}; // "QUATERNION"; empty: none
 };
 /// The member `extensions` of a view in the buffer of decoded items.

@@ -72,8 +72,8 @@ void write_primitive_stream(const GltfPlant& plant,
                             const GltfStream& stream,
                             const GltfBytes& write) {
     const Mesh& mesh = plant.mesh;
-    const GltfPrimitive& primitive = buffer.primitives.list[stream.item];
-    const GltfForm& form = buffer.forms[stream.item];
+    const GltfPrimitive& primitive = buffer.primitives.list[stream.index];
+    const GltfForm& form = buffer.forms[stream.index];
     const std::span<const std::uint32_t> vertices = buffer.primitives.vertices_of(primitive);
     switch (stream.array) {
     case GltfArray::Joints:
@@ -132,7 +132,7 @@ public:
         GltfForm& form = buffer_.forms[number];
         const auto add = [&](GltfArray array) {
             buffer_.streams.push_back({.array = array,
-                                       .item = number,
+                                       .index = number,
                                        .type = item_of(array, form),
                                        .count = primitive.vertex_count});
         };
@@ -170,7 +170,7 @@ public:
             add(GltfArray::WindPivots);
             add(GltfArray::WindMotions);
         }
-        if (plant_.items) {
+        if (plant_.has_item_numbers) {
             add(GltfArray::Items);
         }
         if (plant_.film != nullptr) {
@@ -211,7 +211,7 @@ public:
             stream.offset = buffer_.bytes;
             stream.bytes = stream.decoded_bytes();
             if (stream.array == GltfArray::Image) {
-                stream.bytes = buffer_.images[stream.item].size();
+                stream.bytes = buffer_.images[stream.index].size();
             } else if (!stream.compressed.empty()) {
                 stream.bytes = stream.compressed.size();
                 stream.decoded_offset = buffer_.decoded_bytes;
@@ -238,7 +238,7 @@ private:
         for (std::uint32_t frame = 0; frame < shape.earlier.size(); ++frame) {
             GltfStream stream;
             stream.array = GltfArray::PositionChanges;
-            stream.item = number;
+            stream.index = number;
             stream.frame = frame;
             stream.type = vector;
             stream.count = primitive.vertex_count;
@@ -252,7 +252,7 @@ private:
     }
 
     void compress(GltfStream& stream) {
-        const GltfPrimitive& primitive = buffer_.primitives.list[stream.item];
+        const GltfPrimitive& primitive = buffer_.primitives.list[stream.index];
         if (stream.array != GltfArray::Indices) {
             const GltfBuffer items =
                 written_items(stream.decoded_bytes(), [&](const GltfBytes& write) {
@@ -290,7 +290,7 @@ GltfBufferPlan plan_gltf_buffer(const GltfPlant& plant,
     std::optional<GltfCompressionInput> compressed;
     if (info.compression == ExportCompression::Meshopt) {
         compressed.emplace(GltfCompressionInput{
-            pictures, plant.motion != nullptr || plant.wind != nullptr || plant.items,
+            pictures, plant.motion != nullptr || plant.wind != nullptr || plant.has_item_numbers,
             plant.order});
     }
     buffer.primitives = plan_gltf_primitives(mesh, compressed, plant.film);
@@ -314,7 +314,7 @@ GltfBufferPlan plan_gltf_buffer(const GltfPlant& plant,
     for (std::size_t i = 0; i < buffer.images.size(); ++i) {
         GltfStream& stream = buffer.streams.emplace_back();
         stream.array = GltfArray::Image;
-        stream.item = i;
+        stream.index = i;
     }
     if (info.compression == ExportCompression::Meshopt) {
         planner.compress(info.threads);
@@ -323,9 +323,9 @@ GltfBufferPlan plan_gltf_buffer(const GltfPlant& plant,
     return buffer;
 }
 
-void write_gltf_buffer(const GltfPlant& plant,
-                       const GltfBufferPlan& buffer,
-                       const GltfSink& write) {
+void write_gltf_streams(const GltfPlant& plant,
+                        const GltfBufferPlan& buffer,
+                        const GltfSink& write) {
     std::uint64_t written = 0;
     bool stopped = false;
     const GltfBytes put = [&](std::span<const std::byte> bytes) {
@@ -357,7 +357,7 @@ void write_gltf_buffer(const GltfPlant& plant,
             write_rotations(*plant.motion, put);
             break;
         case GltfArray::Image:
-            put(std::as_bytes(std::span(buffer.images[stream.item])));
+            put(std::as_bytes(std::span(buffer.images[stream.index])));
             break;
         default:
             if (!stream.compressed.empty()) {
@@ -403,8 +403,8 @@ void put_stream_accessor(JsonWriter& json,
     begin_accessor(json, {view, {}, stream.type.component, stream.count, stream.type.type});
     if (stream.array == GltfArray::Positions || stream.array == GltfArray::PositionChanges) {
         const bool changes = stream.array == GltfArray::PositionChanges;
-        put_position_bounds(json, buffer.forms[stream.item],
-                            changes ? stream.bounds : buffer.primitives.list[stream.item].bounds);
+        put_position_bounds(json, buffer.forms[stream.index],
+                            changes ? stream.bounds : buffer.primitives.list[stream.index].bounds);
     }
     if (stream.type.normalized) {
         json.member("normalized", true);

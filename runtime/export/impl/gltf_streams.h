@@ -27,13 +27,13 @@ struct GltfPlant {
     const GltfMotion* motion = nullptr; // null: no skin
     const WindData* wind = nullptr;     // null: no wind data; else texture coordinates are complete
     const MeshFilm* film = nullptr;     // null: no film; else `mesh` is the mesh of the film
-    bool items = false;                 // whether vertices have the numbers of Mesh::segments
+    bool has_item_numbers = false;      // whether vertices have the numbers of Mesh::segments
     const MeshOrder* order = nullptr;   // null: the order is computed for compressed files
 };
 
 struct GltfStream {
     GltfArray array = GltfArray::Positions;
-    std::size_t item = 0;    // number of the primitive or of the image
+    std::size_t index = 0;   // of the primitive or image that the stream belongs to
     std::uint32_t frame = 0; // of a morph target, in MeshFilm::Shape::earlier
     Bounds bounds = {};      // of PositionChanges
     GltfItem type;
@@ -65,7 +65,9 @@ struct GltfBufferPlan {
                                               std::vector<std::string> images,
                                               const ExportInfo& info);
 /// Writes the buffer, from its first byte to its last.
-void write_gltf_buffer(const GltfPlant& plant, const GltfBufferPlan& buffer, const GltfSink& write);
+void write_gltf_streams(const GltfPlant& plant,
+                        const GltfBufferPlan& buffer,
+                        const GltfSink& write);
 
 /// The view of a stream: in buffer 0, or for a compressed stream in buffer 1, which holds decoded
 /// items.

@@ -8,7 +8,7 @@ namespace lsys {
 JsonWriter& JsonWriter::begin(char open, char close) {
     char* const at = begin_value(2);
     *at = open;
-    out_.used(at + 1);
+    out_.advance_to(at + 1);
     closing_ += close;
     comma_ = false;
     return *this;
@@ -18,7 +18,7 @@ JsonWriter& JsonWriter::end() {
     LSYS_CHECK(!closing_.empty());
     char* const at = out_.room(1);
     *at = closing_.back();
-    out_.used(at + 1);
+    out_.advance_to(at + 1);
     closing_.pop_back();
     comma_ = true;
     return *this;
@@ -28,7 +28,7 @@ JsonWriter& JsonWriter::name(std::string_view key) {
     char* at = begin_value(key.size() + 4);
     *at++ = '"';
     at = put_text(at, key);
-    out_.used(put_text(at, "\":"));
+    out_.advance_to(put_text(at, "\":"));
     comma_ = false;
     return *this;
 }
@@ -41,7 +41,7 @@ JsonWriter& JsonWriter::value(std::string_view text) {
 }
 
 JsonWriter& JsonWriter::literal(std::string_view json) {
-    out_.used(begin_value(1));
+    out_.advance_to(begin_value(1));
     out_.put(json);
     return *this;
 }

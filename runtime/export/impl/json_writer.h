@@ -81,7 +81,7 @@ private:
     template <typename T>
     JsonWriter& put(T number) {
         char* const at = begin_value(kNumberBytes + 1);
-        out_.used(fmt::format_to(at, FMT_COMPILE("{}"), number));
+        out_.advance_to(fmt::format_to(at, FMT_COMPILE("{}"), number));
         return *this;
     }
     /// Room for `bytes - 1` bytes of a value, after a comma if the value needs one.

@@ -9,7 +9,8 @@
 
 namespace lsys {
 
-/// Adds a part with the material unless a part has it already. Returns the number of the material.
+/// Adds a part with the material to `samples` unless a part has it already. Returns the index of
+/// the material.
 std::uint32_t add_material(Mesh& samples, const Material& material);
 /// Called after the last material. Makes names unique, and adds the vertex: with texture
 /// coordinates if `textured`, with a tangent if `tangents`.

@@ -38,7 +38,7 @@ void put_line(PieceWriter& out, std::string_view keyword, const std::array<float
         at = put_number(at, value);
     }
     *at++ = '\n';
-    out.used(at);
+    out.advance_to(at);
 }
 
 char* put_corner(char* at, std::uint64_t vertex, std::uint64_t normal, bool textured) {
@@ -64,7 +64,7 @@ void put_faces(TriangleReader& indices, const MeshPart& part, bool textured, Pie
             at = put_corner(at, number, number, textured);
         }
         *at++ = '\n';
-        out.used(at);
+        out.advance_to(at);
     }
 }
 
@@ -115,7 +115,7 @@ void put_back_faces(TriangleReader& indices,
                             textured);
         }
         *at++ = '\n';
-        out.used(at);
+        out.advance_to(at);
     }
 }
 

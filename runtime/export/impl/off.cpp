@@ -32,7 +32,7 @@ Outcome<void> write(const Mesh& mesh, UpAxis up, bool plus, PieceWriter& out) {
             at = put_number(at, 1.0F - t.y);
         }
         *at++ = '\n';
-        out.used(at);
+        out.advance_to(at);
     }
     TriangleReader indices(mesh.indices);
     for (const MeshPart& part : mesh.parts) {
@@ -48,7 +48,7 @@ Outcome<void> write(const Mesh& mesh, UpAxis up, bool plus, PieceWriter& out) {
                 at = put_text(at, leaf ? " 1" : " 0");
             }
             *at++ = '\n';
-            out.used(at);
+            out.advance_to(at);
         }
     }
     return finish(out);

@@ -37,7 +37,7 @@ bool is_in_use(const Mesh& mesh, std::size_t material) {
 std::size_t number_of(std::vector<Picture>& list, const Picture& wanted) {
     const auto found = std::find_if(list.begin(), list.end(), [&wanted](const Picture& picture) {
         return picture.kind == wanted.kind && picture.material == wanted.material &&
-               picture.tint == wanted.tint && picture.file == wanted.file;
+               picture.tint == wanted.tint && picture.file_texture == wanted.file_texture;
     });
     if (found != list.end()) {
         return static_cast<std::size_t>(found - list.begin());
@@ -81,7 +81,7 @@ void tint(Texture& texture, const glm::vec3& colour) {
 }
 
 Texture paint(const Picture& picture) {
-    Texture texture = picture.file != nullptr                  ? *picture.file
+    Texture texture = picture.file_texture != nullptr          ? *picture.file_texture
                       : picture.kind == PictureKind::NormalMap ? bark_normals()
                                                                : material_texture(picture.material);
     if (picture.kind == PictureKind::Opacity) {
@@ -96,10 +96,11 @@ Texture paint(const Picture& picture) {
 }
 
 std::string encode_picture(const Picture& picture) {
-    const bool is_unchanged = picture.file != nullptr && picture.kind != PictureKind::Opacity &&
+    const bool is_unchanged = picture.file_texture != nullptr &&
+                              picture.kind != PictureKind::Opacity &&
                               picture.tint == glm::vec3(1.0F);
     if (is_unchanged) { // avoids a copy, since the file may be large
-        return encode_png(*picture.file);
+        return encode_png(*picture.file_texture);
     }
     return encode_png(paint(picture));
 }
@@ -126,9 +127,11 @@ Pictures find_pictures(const Mesh& mesh, ExportPictures kind, const ExportInfo& 
         }
         Picture wanted;
         wanted.material = material.kind;
-        wanted.file = material.picture;
+        wanted.file_texture = material.picture;
         const bool bark = material.kind == MaterialKind::Bark;
-        const std::string what = wanted.file != nullptr ? material.name : bark ? "bark" : "leaf";
+        const std::string what = wanted.file_texture != nullptr ? material.name
+                                 : bark                         ? "bark"
+                                                                : "leaf";
         MaterialPictures& shown = pictures.of_materials[i];
         if (shows_texture(material)) {
             wanted.tint = inside ? glm::vec3(1.0F) : glm::vec3(material.colour);
@@ -143,9 +146,9 @@ Pictures find_pictures(const Mesh& mesh, ExportPictures kind, const ExportInfo& 
         }
         if (shows_normal_map(material) && (!inside || has_tangents)) {
             wanted.kind = PictureKind::NormalMap;
-            wanted.file = material.normal_map;
+            wanted.file_texture = material.normal_map;
             wanted.name =
-                name(wanted.file != nullptr ? material.name + " normals" : "bark normals");
+                name(wanted.file_texture != nullptr ? material.name + " normals" : "bark normals");
             shown.normal_map = number_of(pictures.list, wanted);
         }
     }

@@ -25,9 +25,10 @@ enum class PictureKind : std::uint8_t {
 struct Picture {
     PictureKind kind = PictureKind::Colour;
     MaterialKind material = MaterialKind::Bark;
-    glm::vec3 tint{1.0F};                // linear
-    std::shared_ptr<const Texture> file; // replaces the texture of the material's kind; null: none
-    std::string name;                    // of the file, or of the image in the document
+    glm::vec3 tint{1.0F}; // linear
+    std::shared_ptr<const Texture>
+        file_texture; // replaces the texture of the material's kind; null: none
+    std::string name; // of the file, or of the image in the document
 };
 
 /// Numbers of the pictures of a material.

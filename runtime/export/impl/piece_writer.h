@@ -21,15 +21,16 @@ public:
     explicit PieceWriter(const ByteSink& sink); // `sink` must outlive the writer
     explicit PieceWriter(ByteSink&&) = delete;
 
-    /// Room for the next bytes, at most `bytes`. The caller writes them and calls used() with their
-    /// end.
+    /// Room for the next `bytes` bytes, at most kPieceBytes. The caller writes there and calls
+    /// advance_to() with the end of what it wrote.
     [[nodiscard]] char* room(std::size_t bytes) {
         if (static_cast<std::size_t>(end_ - at_) < bytes) {
             flush();
         }
         return at_;
     }
-    void used(char* end) { at_ = end; }
+    /// Keeps the bytes written to room() up to `end`.
+    void advance_to(char* end) { at_ = end; }
 
     void put(std::string_view text);
     /// Long spans are not copied.

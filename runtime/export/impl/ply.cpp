@@ -84,7 +84,7 @@ Outcome<void> write_ply(const ExportJob& job, PieceWriter& out) {
         if (coloured) {
             at = put_bytes(at, bytes_of[mesh.colours[i]]);
         }
-        out.used(at);
+        out.advance_to(at);
     }
     constexpr std::size_t kFaceBytes = 1 + 3 * sizeof(std::uint32_t);
     TriangleReader indices(mesh.indices);
@@ -94,7 +94,7 @@ Outcome<void> write_ply(const ExportJob& job, PieceWriter& out) {
             const std::array corners{indices[corner], indices[corner + 1], indices[corner + 2]};
             char* const at = out.room(kFaceBytes);
             *at = 3;
-            out.used(put_bytes(at + 1, corners));
+            out.advance_to(put_bytes(at + 1, corners));
         }
     }
     return finish(out);

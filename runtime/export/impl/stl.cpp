@@ -46,7 +46,7 @@ Outcome<void> write_stl(const ExportJob& job, PieceWriter& out) {
             std::memcpy(at, vectors.data(), sizeof vectors);
             at[kTriangleBytes - 2] = 0;
             at[kTriangleBytes - 1] = 0;
-            out.used(at + kTriangleBytes);
+            out.advance_to(at + kTriangleBytes);
         }
     }
     return finish(out);

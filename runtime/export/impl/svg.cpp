@@ -134,7 +134,7 @@ void Drawing::put_point(const glm::vec2& point) {
     char* at = put_number(out_.room(kPointBytes), point.x);
     *at++ = ',';
     at = put_number(at, 0.0F - point.y); // avoids -0
-    out_.used(at);
+    out_.advance_to(at);
 }
 
 void Drawing::put_segments() {

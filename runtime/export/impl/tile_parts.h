@@ -77,8 +77,8 @@ struct TilePart {
     std::vector<std::size_t> items;   // in the order in which a document lists them
     std::vector<JsonTemplate> accessors;
     JsonTemplate mesh;
-    std::vector<std::string> used; // extensions
-    std::vector<std::string> required;
+    std::vector<std::string> used;     // members of `extensionsUsed`
+    std::vector<std::string> required; // members of `extensionsRequired`
     /// Quantised positions are low + step * item.
     glm::vec3 low{0.0F};
     float step = 1.0F;

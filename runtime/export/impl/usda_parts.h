@@ -46,7 +46,7 @@ void put_list(PieceWriter& out, std::string_view name, std::uint64_t count, cons
     for (std::uint64_t i = 0; i < count && !out.stopped(); ++i) {
         char* at = out.room(kUsdaItemBytes);
         at = put_text(at, i == 0 ? "" : i % kUsdaItemsPerLine == 0 ? ",\n            " : ", ");
-        out.used(put(i, at));
+        out.advance_to(put(i, at));
     }
     out.put("]");
 }

@@ -118,17 +118,17 @@ void put_samples(const UsdaMotion& motion,
 }
 
 void put_rotation(const glm::quat& q, PieceWriter& out) {
-    out.used(put_tuple<4>(out.room(kUsdaItemBytes + kNumberBytes), {q.w, q.x, q.y, q.z}));
+    out.advance_to(put_tuple<4>(out.room(kUsdaItemBytes + kNumberBytes), {q.w, q.x, q.y, q.z}));
 }
 
 /// Samples of joints that turn and move, relative to the world.
 void put_segment_samples(const UsdaMotion& motion, PieceWriter& out) {
-    put_samples(motion, "float3[] translations", "(0, 0, 0)", out,
-                [&](std::uint32_t frame, std::size_t joint) {
-                    const glm::vec3& base =
-                        motion.poses.frame(frame)[motion.skin.segments[joint - 1]].base;
-                    out.used(put_tuple<3>(out.room(kUsdaItemBytes), {base.x, base.y, base.z}));
-                });
+    put_samples(
+        motion, "float3[] translations", "(0, 0, 0)", out,
+        [&](std::uint32_t frame, std::size_t joint) {
+            const glm::vec3& base = motion.poses.frame(frame)[motion.skin.segments[joint - 1]].base;
+            out.advance_to(put_tuple<3>(out.room(kUsdaItemBytes), {base.x, base.y, base.z}));
+        });
     // As in joint_rotations(), consecutive rotations have a positive dot product.
     std::vector<glm::quat> last(motion.joint_count(), glm::quat(0.0F, 0.0F, 0.0F, 0.0F));
     put_samples(motion, "quatf[] rotations", "(1, 0, 0, 0)", out,
@@ -147,7 +147,7 @@ void put_bone_samples(const UsdaMotion& motion, PieceWriter& out) {
     const std::vector<Bone>& joints = motion.bones->joints;
     put_items(out, "            float3[] translations = ", joints.size(), [&](std::size_t joint) {
         const glm::vec3& at = joints[joint].translation;
-        out.used(put_tuple<3>(out.room(kUsdaItemBytes), {at.x, at.y, at.z}));
+        out.advance_to(put_tuple<3>(out.room(kUsdaItemBytes), {at.x, at.y, at.z}));
     });
     out.put("\n");
     put_samples(motion, "quatf[] rotations", "(1, 0, 0, 0)", out,

@@ -14,7 +14,7 @@
 
 namespace lsys {
 
-/// A moving plant.
+/// The motion of a plant: its poses, frame by frame, and the joints that move its mesh.
 struct UsdaMotion {
     Skin skin;                   // unused if `bones` is set
     const PlantAnimation& poses; // at least one frame

@@ -27,8 +27,8 @@ public:
         : files_(std::move(files)), generator_(std::move(generator)), send_(std::move(send)) {}
 
     /// Begins to grow the plant of a request, and ends the plants of earlier requests for the same
-    /// document, which are answered with RpcError::ServerCancelled. Throws RequestError, and exceptions of Json, for
-    /// invalid parameters; such a request ends no other.
+    /// document, which are answered with RpcError::ServerCancelled. Throws RequestError, and
+    /// exceptions of Json, for invalid parameters; such a request ends no other.
     void start(const Json& id, const Json& params, Workspace& workspace);
     /// Cancels the request with this id, if it is not answered yet.
     void cancel(const Json& id);

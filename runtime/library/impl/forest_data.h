@@ -18,7 +18,7 @@ namespace lsys::v0 {
 struct ForestSource {
     std::vector<std::string> files;
     SceneOverrides overrides;
-    std::optional<std::vector<Tree>> places; // unset: the places of the scene
+    std::optional<std::vector<Tree>> placed_trees; // unset: the scene places its trees
 };
 
 struct LoadedForest {

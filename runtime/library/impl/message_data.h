@@ -12,7 +12,7 @@ namespace lsys::v0 {
 
 struct Messages::Data {
     ::lsys::Messages messages;
-    std::vector<Diagnostic> all;
+    std::vector<Diagnostic> diagnostics;
 };
 
 [[nodiscard]] std::shared_ptr<const Messages::Data> make_message_data(::lsys::Messages messages);

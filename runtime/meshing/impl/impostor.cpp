@@ -286,7 +286,7 @@ void ImpostorBaker::render_slab(const Mesh& mesh, int slab, Canvas& canvas, View
     for (std::uint32_t number = 0; number < mesh.parts.size(); ++number) {
         const MeshPart& part = mesh.parts[number];
         const Material& material = mesh.materials[part.material];
-        const LinearTexture& texture = canvas.textures.of(material);
+        const LinearTexture& texture = canvas.textures.texture_of(material);
         const bool has_holes = material.cut_out && !texture.texels.empty();
         for (std::uint64_t i = 0; i + 2 < part.index_count; i += 3) {
             const std::uint64_t first = part.first_index + i;
@@ -339,7 +339,7 @@ void ImpostorBaker::render_slab(const Mesh& mesh, int slab, Canvas& canvas, View
         const std::array<std::uint32_t, 3> corners = corners_of(fragment.first_index);
         const glm::vec3 w(fragment.u, fragment.v, 1.0F - fragment.u - fragment.v);
         const Material& material = mesh.materials[mesh.parts[fragment.part].material];
-        const LinearTexture& texture = canvas.textures.of(material);
+        const LinearTexture& texture = canvas.textures.texture_of(material);
         glm::vec3 colour(material.colour);
         if (mesh.colours.size() == mesh.positions.size() && material.picture == nullptr) {
             colour = w.x * plain_colour(mesh.looks.get(), mesh.colours[corners[0]]) +

@@ -32,7 +32,8 @@ public:
     /// Renders the pictures of `mesh`, which has texture coordinates. The pictures are the same on
     /// every machine. `pixels`: size on screen of the plant's largest extent where the impostor is
     /// first shown. Pictures have about as many texels, so that viewers do not start with mipmaps,
-    /// in which thin plants vanish. `triangles`: number of triangles of both sides of all cards, at least 4.
+    /// in which thin plants vanish. `triangles`: number of triangles of both sides of all cards, at
+    /// least 4.
     ImpostorBaker(const Mesh& mesh, float pixels, std::uint64_t triangles);
 
     /// Makes the cards, which have `triangles` triangles together, rounded down to a multiple of 4;

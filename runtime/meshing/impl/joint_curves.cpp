@@ -131,8 +131,8 @@ struct Neighbours {
     std::optional<glm::vec3> after;
 };
 
-/// Whether all parts can be drawn and no ring crosses the next one, both if the neighbouring edges
-/// become curves and if they stay straight.
+/// Whether `curve` can replace its edge: no ring crosses the next one, whether the neighbouring
+/// edges become curves or stay straight.
 bool can_draw(const Parts& parts, const Cubic& curve, const Neighbours& beside) {
     // Normals of two planes of a ring: across the curve, and halfway between the headings of the
     // adjacent edges.

@@ -80,7 +80,7 @@ bool LinearTexture::is_opaque(const glm::vec2& place) const {
     return opaque.empty() || opaque[texel_number(place.x, place.y, width, height)] != 0;
 }
 
-const LinearTexture& LinearTextures::of(const Material& material) {
+const LinearTexture& LinearTextures::texture_of(const Material& material) {
     static const LinearTexture none;
     static const LinearTexture bark = linear_texture(material_texture(MaterialKind::Bark));
     static const LinearTexture leaf = linear_texture(material_texture(MaterialKind::Leaf));

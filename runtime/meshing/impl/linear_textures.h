@@ -30,7 +30,7 @@ struct LinearTexture {
 class LinearTextures {
 public:
     /// The texture of a material; valid as long as this object, which keeps the picture.
-    [[nodiscard]] const LinearTexture& of(const Material& material);
+    [[nodiscard]] const LinearTexture& texture_of(const Material& material);
 
 private:
     std::map<std::shared_ptr<const Texture>, LinearTexture> files_;

@@ -20,7 +20,8 @@ struct ProfilePoint {
 
 /// Smooth normals of a rising profile.
 void smooth_normals(std::span<ProfilePoint> profile);
-/// Turns a rising profile about +Y. A point of radius 0 is a pole. u goes around, v down.
+/// Appends the surface that a rising profile makes when it turns about +Y. A point of radius 0 is a
+/// pole. The texture coordinate u goes around, v down.
 void append_revolution(ShapePart& part, std::span<const ProfilePoint> profile, std::uint32_t sides);
 /// A disc of diameter 1 across +Y, its front up or down.
 void append_disc(ShapePart& part, float y, bool up, std::uint32_t sides);

@@ -123,7 +123,8 @@ std::vector<Ball> make_balls(const Solid& solid) {
         }
         const double thickest = std::max(shape.base_radius, shape.tip_radius);
         const double thinnest = std::min(shape.base_radius, shape.tip_radius);
-        // The surface is moved outwards by kChord, and above a base cells are smaller.
+        // The surface is moved outwards by kChord times the radius. With a ground, cells near it
+        // are smaller.
         ball.radius += (1.0 + kChord) * thickest;
         ball.cell = solid.cell * thinnest * (solid.ground ? kBaseCells : 1.0);
         balls.push_back(ball);
@@ -219,7 +220,7 @@ private:
         }
         const double distance =
             at.distance - (shape.is_triangle ? 0.0 : kChord * cell * cell / at.radius);
-        // Near a base, the size of cells has already grown with `away`.
+        // Near the ground, `cell` already includes the growth over the height `away`.
         return {distance, cell + kGrowth * std::max(std::abs(distance) - away, 0.0)};
     }
 

@@ -95,7 +95,7 @@ void order_foliage(const Skeleton& skeleton, ThinningOrder& order) {
             key = {false, static_cast<std::uint8_t>(object.kind), object.mesh_file, object.colour};
         } else {
             const Polygon& polygon = skeleton.polygons[i - objects];
-            group.polygons = true;
+            group.is_polygons = true;
             key = {true, std::uint8_t{0}, polygon.picture, polygon.colour};
         }
         const auto [place, is_new] =
@@ -229,7 +229,7 @@ std::vector<float> growth_of(const Skeleton& skeleton,
         const std::uint32_t group = order.group_of[item];
         double area = 1.0;
         double coarse_area = 1.0;
-        if (order.groups[group].polygons) {
+        if (order.groups[group].is_polygons) {
             const Polygon& polygon = skeleton.polygons[item - skeleton.objects.size()];
             area = polygon_area(
                 std::span(skeleton.corners).subspan(polygon.first_corner, polygon.corner_count));

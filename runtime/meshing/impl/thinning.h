@@ -18,7 +18,7 @@ namespace lsys {
 /// Items of foliage that look alike: objects of a kind, file and colour, or polygons of a picture
 /// and a colour.
 struct FoliageGroup {
-    bool polygons = false;
+    bool is_polygons = false;                        // false: objects
     TurtleOperation kind = TurtleOperation::Nothing; // kind of the objects
     std::uint32_t mesh_file = 0;                     // mesh file of the objects
 };

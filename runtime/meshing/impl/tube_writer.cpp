@@ -209,7 +209,8 @@ void TubeWriter::advance(const Run& run, std::size_t end) {
     }
 }
 
-/// Carries the normal of the place around a joint from one edge to the next, both unit.
+/// Rotates the normal of `place` as the shortest rotation turns `in`, the direction of the edge
+/// before a joint, to `out`, the direction of the next edge. Both have unit length.
 void TubeWriter::transport_normal(const glm::vec3& in, const glm::vec3& out, Place& place) {
     if (in == out) {
         return;

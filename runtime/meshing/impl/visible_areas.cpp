@@ -70,7 +70,7 @@ struct DrawnMesh {
             surface.part = part;
             surface.colour = glm::vec3(material.colour);
             surface.is_wood = is_wood;
-            const LinearTexture& texture = textures.of(material);
+            const LinearTexture& texture = textures.texture_of(material);
             if (!texture.texels.empty() && !drawn.texture_coordinates.empty()) {
                 surface.texture = &texture;
                 surface.has_holes = material.cut_out;

@@ -86,7 +86,7 @@ void order_by_depth(const Skeleton& rest, Bodies& out) {
     out.bodies.resize(count);
     out.segments.clear();
     out.segments.reserve(count);
-    out.places.resize(count);
+    out.body_of_segment.resize(count);
     for (std::uint32_t s = 0; s < count; ++s) {
         const std::uint32_t parent = parent_of(s);
         if (parent == kNoSegment) {
@@ -101,9 +101,10 @@ void order_by_depth(const Skeleton& rest, Bodies& out) {
         out.level_ends.push_back(end);
         for (std::uint32_t b = begin; b < end; ++b) {
             const std::uint32_t s = out.segments[b];
-            out.places[s] = b;
+            out.body_of_segment[s] = b;
             Body& body = out.bodies[b];
-            body.parent = parent_of(s) == kNoSegment ? kNoSegment : out.places[parent_of(s)];
+            body.parent =
+                parent_of(s) == kNoSegment ? kNoSegment : out.body_of_segment[parent_of(s)];
             body.first_child = static_cast<std::uint32_t>(out.segments.size());
             body.child_count = child_counts[s];
             const auto first = children.begin() + (ends[s] - child_counts[s]);
@@ -230,17 +231,17 @@ Bodies make_bodies(const Skeleton& rest, double surface_mass) {
         }
     }
     for (const PlacedObject& object : rest.objects) {
-        if (object.parent < out.places.size()) {
+        if (object.parent < out.body_of_segment.size()) {
             const double size = magnitude(std::abs(object.size));
             const glm::dvec3 place = place_of(object.position) -
                                      place_of(rest.segments[object.parent].base) +
                                      0.5 * size * heading_of(object.frame);
-            const std::uint32_t b = out.places[object.parent];
+            const std::uint32_t b = out.body_of_segment[object.parent];
             add_sheet(size * size, surface_mass, place, out.bodies[b], loads[b]);
         }
     }
     for (const Polygon& polygon : rest.polygons) {
-        if (polygon.parent < out.places.size() && polygon.corner_count > 0) {
+        if (polygon.parent < out.body_of_segment.size() && polygon.corner_count > 0) {
             const glm::dvec3 base = place_of(rest.segments[polygon.parent].base);
             const auto corner = [&](std::uint32_t c) {
                 return place_of(rest.corners[polygon.first_corner + c % polygon.corner_count]) -
@@ -252,7 +253,7 @@ Bodies make_bodies(const Skeleton& rest, double surface_mass) {
                 sum += corner(c);
                 normal += glm::cross(corner(c), corner(c + 1));
             }
-            const std::uint32_t b = out.places[polygon.parent];
+            const std::uint32_t b = out.body_of_segment[polygon.parent];
             add_sheet(0.5 * glm::length(normal), surface_mass,
                       sum / static_cast<double>(polygon.corner_count), out.bodies[b], loads[b]);
         }

@@ -52,10 +52,10 @@ struct Body {
 /// Bodies by depth, and within a depth by their parents, so that siblings are neighbours.
 struct Bodies {
     std::vector<Body> bodies;
-    std::vector<std::uint32_t> segments;   // index of the segment of each body
-    std::vector<std::uint32_t> places;     // index of the body of each segment
-    std::vector<std::uint32_t> level_ends; // for each depth, the index after its last body
-    std::vector<Contact> contacts;         // see Body::first_contact
+    std::vector<std::uint32_t> segments;        // index of the segment of each body
+    std::vector<std::uint32_t> body_of_segment; // index of the body of each segment
+    std::vector<std::uint32_t> level_ends;      // for each depth, the index after its last body
+    std::vector<Contact> contacts;              // see Body::first_contact
 };
 
 /// Calls `use` for all contacts of a body with the ground.

@@ -19,7 +19,7 @@ inline constexpr std::uint32_t kMinCoarsened = 2000;
 /// of bodies, each the only kept child of its predecessor: the run is rigid in the coarse plant,
 /// and its joints bend together.
 struct CoarsePlant {
-    Bodies bodies; // `segments` and `places` are empty
+    Bodies bodies; // `segments` and `body_of_segment` are empty
     /// Bodies of the whole plant in the runs, run by run, from base to tip of a run.
     std::vector<std::uint32_t> run_bodies;
     std::vector<std::uint32_t>

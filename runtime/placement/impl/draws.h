@@ -33,12 +33,12 @@ placement_draws(std::uint64_t key, std::uint64_t position, std::uint32_t block) 
     return draw_block(key, kPlacementGeneration, position, block);
 }
 
-/// A word as u in [0, 1), with all 32 bits.
+/// The number in [0, 1) that a random word stands for; all 32 bits count.
 [[nodiscard]] inline double unit(std::uint32_t word) {
     return static_cast<double>(word) * 0x1p-32;
 }
 
-/// A word as a number below `count`.
+/// The whole number below `count` that a random word stands for.
 [[nodiscard]] inline std::uint32_t number_below(std::uint32_t word, std::uint32_t count) {
     return static_cast<std::uint32_t>((std::uint64_t{word} * count) >> 32U);
 }

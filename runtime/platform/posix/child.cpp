@@ -102,12 +102,12 @@ Reason run_program(const std::vector<std::string>& arguments,
 }
 
 Reason start_program(const std::vector<std::string>& arguments, Child& child) {
-    return spawn(arguments, "/dev/null", true, child.number);
+    return spawn(arguments, "/dev/null", true, child.process_id);
 }
 
 bool has_ended(Child& child, int& status) {
     int ended = 0;
-    if (child.number == 0 || ::waitpid(child.number, &ended, WNOHANG) != child.number) {
+    if (child.process_id == 0 || ::waitpid(child.process_id, &ended, WNOHANG) != child.process_id) {
         return false;
     }
     status = exit_status(ended);

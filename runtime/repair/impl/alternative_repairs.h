@@ -26,7 +26,8 @@ struct StatementRepair {
 /// Whether the repair of a mistake may have alternatives: true for brackets and commas.
 [[nodiscard]] bool may_have_alternatives(DiagnosticCode code);
 
-inline constexpr std::size_t kMaxComparedStatement = 2000; // bytes
+/// Longer statements, in bytes, have no alternatives.
+inline constexpr std::size_t kMaxComparedStatement = 2000;
 
 /// Statement texts after alternative repairs: each changes the broken statement at one place,
 /// parses, and has a syntax tree unlike those of `repaired` and the other alternatives. Empty for

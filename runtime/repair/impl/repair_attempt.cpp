@@ -165,7 +165,7 @@ bool RepairAttempt::may_apply(const Diagnostic& diagnostic, const Fix& fix) {
     if (diagnostic.severity != Severity::Error && fixed_.compiled.diagnostics.has_errors()) {
         return false;
     }
-    if (subject_.project.levels.of(diagnostic) == MessageLevel::Allow) {
+    if (subject_.project.levels.level_of(diagnostic) == MessageLevel::Allow) {
         return false;
     }
     const SourceMap& sources = *fixed_.compiled.grammar.sources;

@@ -21,7 +21,7 @@ float mix(float a, float b, float part) {
 
 /// Points of a row in one lattice cell.
 struct NoiseRun {
-    const float* parts;   // along X
+    const float* offsets; // along X
     const float* weights; // along X
     double* sums;
     std::size_t count;
@@ -45,7 +45,7 @@ struct RowCell {
 
 [[gnu::always_inline]] inline void add_run_inline(const RowCell& cell, const NoiseRun& run) {
     for (std::size_t i = 0; i < run.count; ++i) {
-        const float near = run.parts[i];
+        const float near = run.offsets[i];
         const float far = near - 1.0F;
         const float low = mix(cell.near_near.along_x * near + cell.near_near.rest,
                               cell.near_far.along_x * near + cell.near_far.rest, cell.weight_z);
@@ -75,8 +75,8 @@ constexpr auto add_run = add_run_plain;
 NoiseAxis::NoiseAxis(std::span<const float> places) {
     for (const float place : places) {
         cells.push_back(static_cast<std::uint32_t>(place));
-        parts.push_back(place - static_cast<float>(cells.back()));
-        weights.push_back(fade(parts.back()));
+        offsets.push_back(place - static_cast<float>(cells.back()));
+        weights.push_back(fade(offsets.back()));
     }
 }
 
@@ -120,7 +120,7 @@ void NoiseLayer::add_grid(const NoiseAxis& x,
                           std::span<double> sums) const {
     const std::size_t columns = x.cells.size();
     for (std::size_t row = 0; row < z.cells.size(); ++row) {
-        const float near = z.parts[row];
+        const float near = z.offsets[row];
         const float far = near - 1.0F;
         for (std::size_t first = 0; first < columns;) {
             const std::uint32_t cell = x.cells[first];
@@ -136,7 +136,7 @@ void NoiseLayer::add_grid(const NoiseAxis& x,
             add_run(
                 {product(0, 0), product(0, 1), product(1, 0), product(1, 1), z.weights[row],
                  amplitude},
-                {&x.parts[first], &x.weights[first], &sums[row * columns + first], end - first});
+                {&x.offsets[first], &x.weights[first], &sums[row * columns + first], end - first});
             first = end;
         }
     }

@@ -17,7 +17,7 @@ namespace lsys {
 inline constexpr std::uint32_t kCanopyLevels = 6; // a cell is a tile this many levels deeper
 inline constexpr std::uint32_t kCanopyCells = 1U << kCanopyLevels; // along a side of a tile
 
-/// The crowns over a place, as means of its surroundings.
+/// The canopy over a place of the ground: means over the cells around the place.
 struct CanopyPoint {
     double cover = 0.0;     // part of the ground that is covered, 0 to 1
     double height = 0.0;    // m, mean height of the surface above the ground, gaps included
@@ -33,7 +33,7 @@ struct CrownSums {
 
     void add(const CrownSums& other, double weight);
 };
-/// The sums of one tree of the given scale.
+/// The sums for one tree with the crown `crown` times `scale`.
 [[nodiscard]] CrownSums sums_of(const Crown& crown, double scale);
 /// The means of crowns on `ground` m2. The cover is the expected one if each tree stands anywhere on
 /// the ground, independently of the others: 1 - (1 - area of a crown / ground)^trees, in the limit
@@ -48,7 +48,8 @@ public:
 
     /// Adds a tree of the given scale in a cell.
     void add(std::uint32_t column, std::uint32_t row, const Crown& crown, double scale);
-    /// The next coarser level. Precondition: side() is even.
+    /// The cells of the next coarser level: each is the sum of four cells. Precondition: side() is
+    /// even.
     [[nodiscard]] Canopy coarser() const;
     /// Means of the up to four cells at the corner (column, row), 0 to side().
     [[nodiscard]] CanopyPoint at_corner(std::int64_t column, std::int64_t row) const;

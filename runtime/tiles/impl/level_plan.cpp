@@ -103,10 +103,10 @@ private:
         }
         return sum / static_cast<double>(std::max<std::size_t>(plants, 1));
     }
-    /// Means over LevelNeeds::some_trees, shown as `level` says.
+    /// Means over LevelNeeds::sample_trees, shown as `level` says.
     [[nodiscard]] Means means_of(const LevelDetail& level) const {
         Means sum;
-        for (const Tree& tree : needs_.some_trees) {
+        for (const Tree& tree : needs_.sample_trees) {
             const std::span<const InstanceHeroes> heroes = needs_.hero_table.instances_of(tree);
             TreeExpander expander(needs_.forest.cache_of(tree), needs_.forest.key);
             expander.expand_until(tree, [&](const BranchInstance& branch) {
@@ -119,7 +119,8 @@ private:
                 return !is_whole;
             });
         }
-        const auto trees = static_cast<double>(std::max<std::size_t>(needs_.some_trees.size(), 1));
+        const auto trees =
+            static_cast<double>(std::max<std::size_t>(needs_.sample_trees.size(), 1));
         return {sum.triangles / trees, sum.heroes / trees};
     }
     /// Shows a hero with its stand-ins if no branch is then off by more than `deviation`, in levels

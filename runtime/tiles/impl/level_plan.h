@@ -27,11 +27,11 @@ struct LevelNeeds {
     const Forest& forest;         // its trees are not used
     std::span<const Hero> heroes; // plants, then branches
     const HeroTable& hero_table;
-    std::vector<double> deviations;   // m, by hero: TreeBounds::deviation; 0 if Hero::is_alone
-    std::span<const Tree> some_trees; // for means
-    std::vector<double> max_scales;   // by species, of a tree
-    double density = 0.0;             // mean number of trees per m2
-    double largest_extent = 0.0;      // m, of a tree, at least its height
+    std::vector<double> deviations;     // m, by hero: TreeBounds::deviation; 0 if Hero::is_alone
+    std::span<const Tree> sample_trees; // trees over which means are computed
+    std::vector<double> max_scales;     // by species, of a tree
+    double density = 0.0;               // mean number of trees per m2
+    double largest_extent = 0.0;        // m, of a tree, at least its height
     const TileOptions& options;
 };
 

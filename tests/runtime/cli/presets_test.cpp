@@ -95,7 +95,7 @@ TEST_CASE("each preset gives the same file as its options one by one") {
                 } else {
                     const auto named = parsed<ForestCommand>(by_name);
                     const auto spelt = parsed<ForestCommand>(one_by_one);
-                    CHECK(named.instances == spelt.instances);
+                    CHECK(named.instance_kind == spelt.instance_kind);
                     CHECK(named.compression == spelt.compression);
                     CHECK(named.expand == spelt.expand);
                     CHECK(named.pivot == spelt.pivot);
@@ -147,7 +147,7 @@ TEST_CASE("an explicit option overrides the preset") {
     CHECK(with({"--method", "tubes"}).lods == 12);
     const auto web = [](std::vector<std::string> more) {
         more.insert(more.begin(), {"forest", "a.lsys", "-o", "a.glb", "--preset", "web"});
-        return parsed<ForestCommand>(more).instances;
+        return parsed<ForestCommand>(more).instance_kind;
     };
     CHECK(web({}) == ForestInstances::Lods);
     CHECK(web({"--frames", "3"}) == ForestInstances::Trees);
@@ -182,7 +182,7 @@ TEST_CASE("docs/files.md has the table of presets") {
             return text.empty() ? std::string("-") : fmt::format("`{}`", text);
         };
         const std::string row =
-            fmt::format("| `{}` | {} | {} | {} |", preset.name, preset.use,
+            fmt::format("| `{}` | {} | {} | {} |", preset.name, preset.programs,
                         cell(PresetCommand::Export), cell(PresetCommand::Forest));
         CAPTURE(row);
         CHECK(page.find(row) != std::string::npos);

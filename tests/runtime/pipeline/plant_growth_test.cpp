@@ -138,7 +138,7 @@ const std::vector<GrowthSample> kGrowthSamples = {
 
 TEST_CASE("frames of a growth begin at the axiom and end at the last generation") {
     const auto is = [](const GrowthMoment& moment, std::uint32_t generation, double part) {
-        return moment.generation == generation && moment.part == part;
+        return moment.generation == generation && moment.fraction == part;
     };
     CHECK(is(moment_of_frame(0, 1, 7), 7, 0.0));
     CHECK(is(moment_of_frame(0, 9, 4), 0, 0.0));

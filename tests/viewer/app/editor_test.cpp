@@ -104,7 +104,7 @@ TEST_CASE("a program runs beside, and its status is taken when it has ended") {
         std::this_thread::sleep_for(std::chrono::milliseconds(10));
     }
     CHECK(status == 3);
-    CHECK(child.number == 0);
+    CHECK(child.process_id == 0);
     CHECK_FALSE(platform::has_ended(child, status));
     CHECK(platform::start_program({"/nowhere/editor", "+1"}, child) != 0);
 }

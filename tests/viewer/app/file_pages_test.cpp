@@ -45,7 +45,7 @@ KeyPress pressed(Key key) {
 WindowInput presses(const std::vector<KeyPress>& keys) {
     WindowInput input;
     input.presses = keys;
-    input.any = true;
+    input.has_events = true;
     return input;
 }
 
@@ -226,7 +226,7 @@ TEST_CASE(
     const ScratchFolder folder;
     make_files(folder);
     Run run({});
-    CHECK(run.switcher.current().file().empty());
+    CHECK(run.switcher.current().path().empty());
     CHECK(run.switcher.plant() == nullptr);
     CHECK(run.switcher.current().draw(64, 48));
     StartPage& start = run.panels.start;
@@ -259,11 +259,11 @@ TEST_CASE(
     CHECK(start.in_recent);
     run.apply(presses({pressed(Key::Right), pressed(Key::Right), pressed(Key::Enter)}));
     REQUIRE(run.switcher.plant() != nullptr);
-    CHECK(run.switcher.current().file() == folder / "b.lsys");
+    CHECK(run.switcher.current().path() == folder / "b.lsys");
 
     // Alt+Left opens the previous file; Ctrl+O a dialog, which takes letters.
     run.apply(presses({{Key::Left, false, false, true}}));
-    CHECK(run.switcher.current().file() == folder / "a.lsys");
+    CHECK(run.switcher.current().path() == folder / "a.lsys");
     run.apply(presses({{Key::O, true, false, false}}));
     REQUIRE(run.panels.dialog == OpenDialog::File);
     CHECK(run.panels.browser.folder() == folder.path().string());
@@ -274,13 +274,13 @@ TEST_CASE(
     CHECK(names_of(run.panels.browser) == std::vector<std::string>{"wood.toml"});
     run.apply(presses({pressed(Key::Escape)}));
     CHECK(run.panels.dialog == OpenDialog::None);
-    CHECK(run.switcher.current().file() == folder / "a.lsys");
+    CHECK(run.switcher.current().path() == folder / "a.lsys");
     run.apply(presses({{Key::O, true, false, false}}));
     run.apply(typed);
     run.apply(presses({pressed(Key::Enter)}));
     CHECK(run.panels.dialog == OpenDialog::None);
     REQUIRE(run.switcher.forest() != nullptr);
-    CHECK(run.switcher.current().file() == folder / "wood.toml");
+    CHECK(run.switcher.current().path() == folder / "wood.toml");
     run.apply(presses({{Key::Q, true, false, false}}));
     CHECK(run.panels.quits);
 }

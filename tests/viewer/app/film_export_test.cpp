@@ -41,7 +41,7 @@ FilmExportRequest film_in(const ScratchFolder& folder) {
     request.settings.is_film = true;
     request.settings.seconds = 1.0F;
     request.settings.frames_per_second = 3.0F;
-    request.done = std::make_shared<std::atomic<std::uint32_t>>(0);
+    request.finished_pictures = std::make_shared<std::atomic<std::uint32_t>>(0);
     return request;
 }
 
@@ -59,7 +59,7 @@ TEST_CASE("a film of numbered pictures appears as a whole") {
     write_text(folder / "turn.0002.png", "old");
     CHECK(export_film(request, kNotCancelled) ==
           fmt::format("Wrote {} to {}", folder / "turn.0001.png", folder / "turn.0003.png"));
-    CHECK(*request.done == 3);
+    CHECK(*request.finished_pictures == 3);
     CHECK(folder.file_count() == 4); // with the grammar
     const Texture second = picture_in(folder / "turn.0002.png");
     CHECK(second.width == 32);
@@ -81,14 +81,14 @@ TEST_CASE("a film that fails or is cancelled changes no file") {
     request.settings.seconds = 3600.0F;
     std::atomic<bool> cancelled{false};
     std::thread canceller([&] {
-        while (*request.done == 0) {
+        while (*request.finished_pictures == 0) {
             std::this_thread::sleep_for(1ms);
         }
         cancelled = true;
     });
     CHECK_FALSE(export_film(request, cancelled).starts_with("Wrote "));
     canceller.join();
-    CHECK(*request.done < request.settings.frames());
+    CHECK(*request.finished_pictures < request.settings.frames());
     CHECK(read_text(folder / "turn.0001.png") == "old");
     CHECK(folder.file_count() == 2);
     write_text(request.options->file, "#n = 1;\n#w : F(;\n");

@@ -360,7 +360,8 @@ TEST_CASE("the growth of a forest has no jumps between two moments and pauses at
             return false;
         }
         moments = forest.stats().moments;
-        const double now = static_cast<double>(forest.grown()->generation) + forest.grown()->part;
+        const double now =
+            static_cast<double>(forest.grown()->generation) + forest.grown()->fraction;
         std::map<std::uint32_t, double> after = heights();
         if (last >= 0.0) {
             CHECK(now - last <= 1.0 + 1e-9);
@@ -462,10 +463,10 @@ TEST_CASE("painted trees are saved to the scene shown, not to a scene with error
     viewed.press();
     REQUIRE(viewed.forest().painting().tree_count() == 51);
     viewed.views.open(broken);
-    CHECK(viewed.forest().file() == files.scene); // it waits for the answer about unsaved changes
+    CHECK(viewed.forest().path() == files.scene); // it waits for the answer about unsaved changes
     CHECK_FALSE(viewed.views.leave());
     REQUIRE(viewed.until([&] { return viewed.forest().failed(); }));
-    CHECK(viewed.forest().file() == broken);
+    CHECK(viewed.forest().path() == broken);
     viewed.forest().save();
     CHECK(viewed.forest().note() == "saved " + files.scene);
     CHECK_FALSE(viewed.forest().is_unsaved());

@@ -141,7 +141,7 @@ public:
     void press_outside(const KeyPress& press) {
         WindowInput input;
         input.presses = {press};
-        input.any = true;
+        input.has_events = true;
         controls.apply(input, 0.0, {340, 0, 940, 720}, switcher, panels);
         frames(3);
     }
@@ -478,7 +478,7 @@ TEST_CASE("unsaved values are saved, given up or kept by keys") {
     drawn.press(ImGuiKey_RightArrow); // to Discard
     drawn.press(ImGuiKey_Enter);
     CHECK(drawn.panels.dialog == OpenDialog::None);
-    CHECK(view.file() == folder / "b.lsys");
+    CHECK(view.path() == folder / "b.lsys");
     CHECK(read_text(folder / "a.lsys").find("seed") == std::string::npos);
 }
 

@@ -344,7 +344,7 @@ TEST_CASE("growth plays from the axiom to the end, with moments between generati
     bool was_between = false;
     REQUIRE(viewed.until([&] {
         const FilmMoment* const grown = viewed.view.grown();
-        was_between = was_between || (grown != nullptr && grown->moment.part > 0.0);
+        was_between = was_between || (grown != nullptr && grown->moment.fraction > 0.0);
         return !viewed.view.settings.plays;
     }));
     CHECK(was_between);
@@ -363,7 +363,7 @@ TEST_CASE("growth can be paused and resumed, and ends if a generation is chosen"
     ViewedPlant viewed(options);
     REQUIRE(viewed.until([&] {
         const FilmMoment* const grown = viewed.view.grown();
-        return grown != nullptr && grown->moment.part > 0.0;
+        return grown != nullptr && grown->moment.fraction > 0.0;
     }));
     viewed.view.play_or_pause();
     const GrowthMoment paused = viewed.view.grown()->moment;
@@ -371,12 +371,12 @@ TEST_CASE("growth can be paused and resumed, and ends if a generation is chosen"
         viewed.step();
     }
     REQUIRE(viewed.view.grown() != nullptr);
-    CHECK(viewed.view.grown()->moment.part == paused.part);
+    CHECK(viewed.view.grown()->moment.fraction == paused.fraction);
     CHECK(viewed.view.stats().swaps == 1);
     viewed.view.play_or_pause();
     REQUIRE(viewed.until([&] {
         const GrowthMoment& now = viewed.view.grown()->moment;
-        return now.generation > paused.generation || now.part > paused.part;
+        return now.generation > paused.generation || now.fraction > paused.fraction;
     }));
     step_generations(viewed.view, 1);
     REQUIRE(viewed.until_swaps(2));
@@ -622,7 +622,7 @@ TEST_CASE("a plant that takes long is reported, and cancelled together with its 
     view.open(other);
     REQUIRE(viewed.until([&] { return view.making().has_value(); }));
     view.cancel_making();
-    CHECK(view.file() == file);
+    CHECK(view.path() == file);
     CHECK(view.generations() == 2);
     REQUIRE(viewed.until([&] { return !view.is_busy(); }));
     CHECK(view.stats().swaps == 3);

@@ -556,7 +556,7 @@ void ForestBuffers::bind_storage() const {
     if (uses_device_draws()) {
         branches = device_draws_->branches;
         constexpr GLsizei kPair = 2 * sizeof(std::uint32_t);
-        glVertexArrayVertexBuffer(array_.name(), 1, device_draws_->list, sizeof(std::uint32_t),
+        glVertexArrayVertexBuffer(array_.name(), 1, device_draws_->entries, sizeof(std::uint32_t),
                                   kPair);
     } else {
         glVertexArrayVertexBuffer(array_.name(), 1, current_->lists.name(), 0, sizeof(BranchEntry));

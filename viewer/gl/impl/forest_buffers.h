@@ -58,7 +58,7 @@ struct CommandTemplates {
 /// Buffers that compute shaders have written, for the draws of a forest.
 struct DeviceDraws {
     GLuint branches = 0; // PoolBranch
-    GLuint list = 0;     // pairs of a key and a BranchEntry
+    GLuint entries = 0;  // pairs of a key and a BranchEntry
     GLuint commands = 0;
     std::vector<CommandRange> ranges; // as CommandTemplates::ranges
 };

@@ -743,23 +743,23 @@ void ForestPass::draw_picked_impostors(const ForestPickPrograms& picks, bool clu
     }
 }
 
-Picked ForestPass::picked(PickedKind kind, std::uint32_t item) const {
+Picked ForestPass::picked(PickedKind kind, std::uint32_t index) const {
     Picked picked;
     picked.kind = kind;
     if (kind == PickedKind::Cluster) {
-        picked.trees = lod_->cells()[item].count;
+        picked.trees = lod_->cells()[index].count;
         return picked;
     }
-    std::uint32_t number = item;
+    std::uint32_t tree = index;
     if (kind == PickedKind::Branch) {
         const PoolBranch branch =
-            is_culled_on_device_ ? culling_->branch(item) : lod_->pool().branches()[item];
+            is_culled_on_device_ ? culling_->branch(index) : lod_->pool().branches()[index];
         picked.instance = branch.mesh;
-        number = branch.tree;
+        tree = branch.tree;
     }
     if (kind == PickedKind::Branch || kind == PickedKind::Impostor) {
-        picked.form = lod_->lod_tree(number).form;
-        picked.tree = lod_->tree_of(number);
+        picked.form = lod_->lod_tree(tree).form;
+        picked.tree = lod_->tree_of(tree);
         picked.tree.position = glm::vec3(glm::dvec3(picked.tree.position) + origin());
     }
     return picked;

@@ -94,7 +94,7 @@ public:
     /// after prepare().
     void draw_picked(MaterialTextures& textures);
     /// The part for a kind and an index that draw_picked() has written.
-    [[nodiscard]] Picked picked(PickedKind kind, std::uint32_t item) const;
+    [[nodiscard]] Picked picked(PickedKind kind, std::uint32_t index) const;
     /// Numbers of the living trees of a form.
     [[nodiscard]] std::vector<std::uint32_t> trees_of(std::uint32_t form) const;
 
@@ -179,9 +179,9 @@ private:
     double upload_seconds_ = 0.0;
     double cull_seconds_ = 0.0;
     double cull_cpu_seconds_ = 0.0;
-    std::unique_ptr<ForestCulling> culling_; // null: never used
-    bool culls_on_device_ = false;           // later forests
-    bool is_culled_on_device_ = false;       // the forest shown
+    std::unique_ptr<ForestCulling> culling_; // null until the first cull_on_device(true)
+    bool culls_on_device_ = false;           // compute shaders choose the trees of later forests
+    bool is_culled_on_device_ = false;       // they choose the trees of the forest shown
     ForestCulling::View view_;               // parameters of the prepared frame
 };
 

@@ -381,7 +381,7 @@ void ImpostorAtlas::step(const ForestModel& model,
     BakeState& bake = *bake_;
     buffers.use(BufferSet::Impostor);
     if (bake.elevation == 0) {
-        bake.all = {kWidth, kHeight, {}, {}};
+        bake.finished = {kWidth, kHeight, {}, {}};
     }
     begin_layer(layer, model, buffers);
     buffers.bind_storage();
@@ -407,13 +407,15 @@ void ImpostorAtlas::step(const ForestModel& model,
     glBindFramebuffer(GL_FRAMEBUFFER, 0);
     buffers.use(BufferSet::Forest);
     const ImpostorTexels half = halved(bake.row);
-    bake.all.albedos.insert(bake.all.albedos.end(), half.albedos.begin(), half.albedos.end());
-    bake.all.normals.insert(bake.all.normals.end(), half.normals.begin(), half.normals.end());
+    bake.finished.albedos.insert(bake.finished.albedos.end(), half.albedos.begin(),
+                                 half.albedos.end());
+    bake.finished.normals.insert(bake.finished.normals.end(), half.normals.begin(),
+                                 half.normals.end());
     if (++bake.elevation < kElevations) {
         return;
     }
     bake.elevation = 0;
-    upload_layer(layer, std::move(bake.all));
+    upload_layer(layer, std::move(bake.finished));
     keys_[layer] = target_keys_[layer];
     filled_[layer] = 1;
     stand_in(layer);

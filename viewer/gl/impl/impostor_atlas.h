@@ -56,8 +56,8 @@ private:
         Framebuffer target;
         std::array<Renderbuffer, 3> storage; // albedos, normals, depths
         Buffer frame;
-        ImpostorTexels row; // one elevation, supersampled
-        ImpostorTexels all; // finished elevations of the layer
+        ImpostorTexels row;      // one elevation, supersampled
+        ImpostorTexels finished; // elevations of the layer
         std::uint32_t elevation = 0;
     };
 

@@ -13,9 +13,9 @@ class PickTarget {
 public:
     /// Values written by shaders/pick.frag.glsl; all 0 if nothing was drawn.
     struct Content {
-        std::uint32_t kind = 0; // PickedKind
-        std::uint32_t item = 0;
-        float depth = 0.0F; // reversed: 1 at the near plane, 0 at infinity
+        std::uint32_t kind = 0;  // PickedKind
+        std::uint32_t index = 0; // of the triangle, tree, cluster or branch; see PickedKind
+        float depth = 0.0F;      // reversed: 1 at the near plane, 0 at infinity
     };
 
     explicit PickTarget(Device& device);

@@ -89,7 +89,7 @@ TextureObject make_noise(Device& device) {
 } // namespace
 
 TerrainPass::TerrainPass(Device& device)
-    : device_(&device), array_(make_vertex_array(device)), empty_(make_vertex_array(device)),
+    : device_(&device), array_(make_vertex_array(device)), grass_array_(make_vertex_array(device)),
       corners_(device), indices_(device), patches_(device) {}
 
 Result<void> TerrainPass::reload(const ShaderSource& shaders) {
@@ -251,7 +251,7 @@ void TerrainPass::draw_grass(FrameStats& stats) const {
                 cell_of(static_cast<double>(eye_.z)) - cells / 2, lattice_of(origin_.x),
                 lattice_of(origin_.z));
     glUniform2i(kSides, cells, kBlades);
-    glBindVertexArray(empty_.name());
+    glBindVertexArray(grass_array_.name());
     glDrawArraysInstanced(GL_TRIANGLES, 0, 9 * kBlades, cells * cells);
     ++stats.draws;
     stats.triangles += std::uint64_t{3} * static_cast<std::uint64_t>(kBlades) *

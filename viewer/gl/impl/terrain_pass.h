@@ -68,7 +68,7 @@ private:
     float tree_range_ = 0.0F;
     TextureObject noise_;
     VertexArray array_;
-    VertexArray empty_; // for grass
+    VertexArray grass_array_; // without attributes
     Buffer corners_;
     Buffer indices_;
     Buffer patches_;

@@ -108,7 +108,7 @@ ExitStatus write_placed(const Json& request, const Session& session, const Outpu
         return report_error(overrides.error(), console);
     }
     overrides.value().grammar = grammar_options_of(request);
-    if (options.instances != ForestInstances::Branches) {
+    if (options.instance_kind != ForestInstances::Branches) {
         overrides.value().rho = 0.0F; // trees are whole heroes
     }
     if (std::string conflict = find_conflict(options, target.value(), overrides.value().rho);
@@ -132,7 +132,7 @@ ExitStatus write_placed(const Json& request, const Session& session, const Outpu
         status = console.take(place_forest(loaded.scene, project, grown));
     }
     std::vector<std::vector<InstanceMeshes>> meshes;
-    if (status == ExitStatus::Ok && options.instances != ForestInstances::Lods) {
+    if (status == ExitStatus::Ok && options.instance_kind != ForestInstances::Lods) {
         status = console.take(mesh_forest(grown, options.mesh, project), meshes);
     }
     std::optional<Mesh> ground;
