@@ -135,7 +135,8 @@ void find_call(std::string_view field, bool is_modules, CursorContext& context) 
     std::size_t end = open.back().first;
     end = end == 0 ? 0 : field.find_last_not_of(kWhitespace, end - 1) + 1;
     std::size_t begin = word_begin(field, end);
-    begin -= begin > 0 && begin < end && field[begin - 1] == '?' ? std::size_t{1} : 0; // a sense module
+    begin -=
+        begin > 0 && begin < end && field[begin - 1] == '?' ? std::size_t{1} : 0; // a sense module
     context.callee = field.substr(begin, end - begin);
     if (context.callee.empty() && end > 0 && context.is_module_call) {
         context.callee = field[end - 1]; // a turtle command of one character, such as `+`
