@@ -50,7 +50,7 @@ private:
     const Terrain& terrain_;
     TreeSizer sizer_;
     DensityField field_;
-    double all_places_ = 0.0;
+    double all_places_ = 0.0; // expected places in the whole region
 };
 
 } // namespace lsys::view
