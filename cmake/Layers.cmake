@@ -37,10 +37,10 @@ set(LSYS_LAYERS
   "runtime/serve: grammar/base runtime/base runtime/tiles"
   "runtime/names: grammar/base grammar/ast grammar/lsys grammar/dialects compiler/bytecode compiler/resolve"
   "runtime/languageserver: grammar/base grammar/ast grammar/lsys grammar/format grammar/dialects compiler/bytecode compiler/growth compiler/program compiler/resolve runtime/base runtime/derive runtime/turtle runtime/meshing runtime/export runtime/pipeline runtime/names"
-  "runtime/program: grammar/base grammar/rendering grammar/dialects compiler/bytecode compiler/program runtime/platform runtime/base runtime/derive runtime/turtle runtime/meshing runtime/physics runtime/placement runtime/scene runtime/pipeline"
+  "runtime/program: grammar/base grammar/rendering grammar/dialects compiler/bytecode compiler/program runtime/platform runtime/base runtime/derive runtime/turtle runtime/meshing runtime/environment runtime/physics runtime/placement runtime/scene runtime/pipeline"
   "runtime/repair: grammar/base grammar/rendering grammar/ast grammar/lsys grammar/dialects compiler/program runtime/pipeline runtime/program"
   "runtime/output: grammar/base runtime/base runtime/derive runtime/turtle runtime/meshing runtime/physics runtime/forest runtime/terrain runtime/placement runtime/scene runtime/export runtime/pipeline runtime/program"
-  "runtime/cli: grammar/base grammar/rendering grammar/ast grammar/lsys grammar/format grammar/dialects compiler/bytecode compiler/growth compiler/program compiler/instancing runtime/platform runtime/base runtime/derive runtime/turtle runtime/meshing runtime/physics runtime/forest runtime/terrain runtime/placement runtime/scene runtime/export runtime/pipeline runtime/tiles runtime/serve runtime/languageserver runtime/program runtime/repair runtime/output"
+  "runtime/cli: grammar/base grammar/rendering grammar/ast grammar/lsys grammar/format grammar/dialects compiler/bytecode compiler/growth compiler/program compiler/instancing runtime/platform runtime/base runtime/derive runtime/turtle runtime/meshing runtime/environment runtime/physics runtime/forest runtime/terrain runtime/placement runtime/scene runtime/export runtime/pipeline runtime/tiles runtime/serve runtime/languageserver runtime/program runtime/repair runtime/output"
   "runtime/mpi: grammar/base runtime/platform runtime/base runtime/tiles runtime/program runtime/cli"
   "runtime/library: grammar/base grammar/rendering compiler/bytecode compiler/growth compiler/program runtime/base runtime/derive runtime/turtle runtime/meshing runtime/forest runtime/terrain runtime/scene runtime/export runtime/pipeline runtime/program runtime/output"
   "runtime/python:"
@@ -48,7 +48,7 @@ set(LSYS_LAYERS
   "packaging/pages: grammar/base grammar/dialects runtime/export runtime/cli runtime/mpi viewer/app"
   "viewer/scene: grammar/base runtime/base runtime/turtle runtime/physics runtime/forest runtime/terrain runtime/scene"
   "viewer/gl: grammar/base runtime/platform runtime/meshing runtime/physics viewer/scene"
-  "viewer/app: grammar/base runtime/platform runtime/base runtime/turtle runtime/meshing runtime/placement runtime/physics runtime/scene runtime/names runtime/pipeline runtime/program runtime/repair runtime/export runtime/output viewer/scene viewer/gl")
+  "viewer/app: grammar/base runtime/platform runtime/base runtime/turtle runtime/meshing runtime/forest runtime/placement runtime/physics runtime/scene runtime/names runtime/pipeline runtime/program runtime/repair runtime/export runtime/output viewer/scene viewer/gl")
 
 # lsys_layer(PATH RESULT): sets RESULT to the innermost folder of the table that contains PATH.
 function(lsys_layer path result)

@@ -154,6 +154,11 @@ function(lsys_optimise_for_size)
   endforeach()
 endfunction()
 
+# lsys_optimise_files_for_size(FILES...): the same for single files of a library.
+function(lsys_optimise_files_for_size)
+  set_source_files_properties(${ARGN} PROPERTIES COMPILE_OPTIONS "$<$<CONFIG:Release>:-Os>" SKIP_PRECOMPILE_HEADERS ON)
+endfunction()
+
 # lsys_group(NAME FOLDERS...): adds a target that links the libraries of several folders.
 function(lsys_group name)
   add_library(${name} INTERFACE)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "compiler/bytecode/disassemble.h"
 
+#include "compiler/bytecode/environment_keys.h"
 #include "compiler/bytecode/instructions.h"
 #include "grammar/base/counted_text.h"
 #include "grammar/base/number_chars.h"
@@ -121,7 +122,7 @@ private:
         }
         for (std::size_t i = 0; i < bytecode_.environments.size(); ++i) {
             const BytecodeEnvironment& each = bytecode_.environments[i];
-            line("{:5} {} {}", i, each.name, name_of(each.kind));
+            line("{:5} {} {}", i, each.name, environment_text(each));
         }
     }
 

@@ -27,14 +27,19 @@ struct Listing {
     std::vector<GenerationSize> high;
     std::vector<double> expected;
     std::optional<std::uint32_t> unchanged_from;
+    SymbolId depends_on = kNoSymbol; // see GrowthPrediction::depends_on
 };
 
 /// Advances the walk to generation `generations`. Ends earlier if the lower bound of the modules
-/// exceeds `max_modules`, if all later words are equal, or if the next generation would exceed
-/// kMaxListWork.
-Listing follow(GrowthWalk& walk, std::uint32_t generations, const Count& max_modules) {
+/// exceeds `max_modules`, if all later words are equal, if the next generation would exceed
+/// kMaxListWork, or if it depends on an answer or a sweep.
+Listing follow(const Bytecode& bytecode,
+               GrowthWalk& walk,
+               std::uint32_t generations,
+               const Count& max_modules) {
     Listing listing;
     std::uint64_t work = 0;
+    const bool changes = bytecode.has_senses() || bytecode.has_sweeps();
     for (;;) {
         listing.low.push_back(walk.low());
         listing.high.push_back(walk.high());
@@ -47,7 +52,8 @@ Listing follow(GrowthWalk& walk, std::uint32_t generations, const Count& max_mod
             listing.unchanged_from = walk.age();
             return listing;
         }
-        if (work + walk.work() > kMaxListWork) {
+        listing.depends_on = changes ? walk.cause_of_next() : kNoSymbol;
+        if (listing.depends_on != kNoSymbol || work + walk.work() > kMaxListWork) {
             return listing;
         }
         walk.advance();
@@ -103,11 +109,12 @@ GrowthPrediction predict_growth(const Bytecode& bytecode, std::uint32_t generati
     ModuleClasses classes(bytecode, generations);
     GrowthWalk walk(classes);
     const std::uint32_t listed = std::min(generations, kMaxListedGenerations);
-    Listing listing = follow(walk, listed, kNoLimit);
+    Listing listing = follow(bytecode, walk, listed, kNoLimit);
     narrow_bounds(listing, classes);
 
     GrowthPrediction prediction;
     prediction.unchanged_from = listing.unchanged_from;
+    prediction.depends_on = listing.depends_on;
     if (listing.unchanged_from) {
         const std::size_t count = std::size_t{listed} + 1;
         listing.low.resize(count, listing.low.back());
@@ -128,11 +135,13 @@ GrowthPrediction predict_growth(const Bytecode& bytecode, std::uint32_t generati
         prediction.has_last = true;
         prediction.last_low = prediction.low.back();
         prediction.last_high = prediction.high.back();
-    } else if (std::optional<GrowthPowers> powers = GrowthPowers::make(classes)) {
-        powers->advance_to(walk, generations);
-        prediction.has_last = true;
-        prediction.last_low = walk.low();
-        prediction.last_high = walk.high();
+    } else if (prediction.depends_on == kNoSymbol) {
+        if (std::optional<GrowthPowers> powers = GrowthPowers::make(classes)) {
+            powers->advance_to(walk, generations);
+            prediction.has_last = true;
+            prediction.last_low = walk.low();
+            prediction.last_high = walk.high();
+        }
     }
     return prediction;
 }
@@ -145,11 +154,11 @@ find_growth_end(const Bytecode& bytecode, std::uint32_t generations, std::uint64
     ModuleClasses classes(bytecode, generations);
     GrowthWalk walk(classes);
     const std::uint32_t listed = std::min(generations, kMaxListedGenerations);
-    Listing listing = follow(walk, listed, {max_modules, false, 0.0});
+    Listing listing = follow(bytecode, walk, listed, {max_modules, false, 0.0});
     narrow_bounds(listing, classes);
 
     std::optional<GrowthPowers> powers;
-    if (walk.age() < generations && !listing.unchanged_from) {
+    if (walk.age() < generations && !listing.unchanged_from && listing.depends_on == kNoSymbol) {
         powers = GrowthPowers::make(classes);
     }
     GrowthLimit limit;
@@ -189,8 +198,8 @@ find_growth_end(const Bytecode& bytecode, std::uint32_t generations, std::uint64
     // The size of the requested word, if it can be computed quickly.
     if (powers) {
         powers->advance_to(walk, generations);
-    } else if (walk.age() < listed) {
-        follow(walk, listed, kNoLimit);
+    } else if (walk.age() < listed && listing.depends_on == kNoSymbol) {
+        follow(bytecode, walk, listed, kNoLimit);
     }
     if (walk.age() == generations) {
         limit.has_requested = true;

@@ -64,6 +64,9 @@ struct GrowthPrediction {
     GenerationSize last_high;
     /// The first generation from which the word never changes, for any seed; unset if unknown.
     std::optional<std::uint32_t> unchanged_from;
+    /// The module whose answer or sweep in the last listed word decides the counts of the
+    /// generations after it, which are not predicted; else kNoSymbol.
+    SymbolId depends_on = kNoSymbol;
 };
 
 /// Whether growth can be predicted. It cannot with `#decompose`, whose number of passes is unknown,

@@ -133,6 +133,30 @@ void ProductionIndex::find_age_dependence() {
     }
 }
 
+std::vector<std::uint32_t> changed_parameters(const Bytecode& bytecode) {
+    constexpr std::uint32_t kTurtleAnswer = 3; // x, y and z
+    std::vector<std::uint32_t> changed(bytecode.symbols.size(), 0);
+    for (std::size_t i = 0; i < bytecode.symbols.size(); ++i) {
+        const BytecodeSymbol& symbol = bytecode.symbols[i];
+        if (symbol.senses()) {
+            const std::uint32_t answer =
+                asks_environment(symbol.sense)
+                    ? answer_size(
+                          bytecode.environments[static_cast<std::size_t>(symbol.sense)].kind)
+                    : kTurtleAnswer;
+            changed[i] = std::min(symbol.parameter_count, answer);
+        }
+    }
+    for (const BytecodeProduction& production : bytecode.productions) {
+        if (production.stage == Stage::Down || production.stage == Stage::Up) {
+            const auto swept =
+                static_cast<std::size_t>(bytecode.patterns[production.predecessor.first].symbol);
+            changed[swept] = bytecode.symbols[swept].parameter_count;
+        }
+    }
+    return changed;
+}
+
 std::uint32_t ProductionIndex::relevant_count(SymbolId symbol) const {
     std::uint32_t count = 0;
     for (std::uint32_t i = 0; i < bytecode_->symbol(symbol).parameter_count; ++i) {

@@ -56,6 +56,10 @@ private:
     bool depends_on_age_ = false;
 };
 
+/// Per symbol: the number of its first parameters that an answer of an environment or a sweep may
+/// change; all of them in a module that is swept.
+[[nodiscard]] std::vector<std::uint32_t> changed_parameters(const Bytecode& bytecode);
+
 /// Calls visit(code, argument, instructions of the argument) for each stored parameter of a word
 /// until `visit` returns false.
 template <typename Visit>

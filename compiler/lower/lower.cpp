@@ -31,6 +31,7 @@ public:
             bytecode_.curves.push_back({std::string(names_.text(curve.name)), curve.points});
         }
         materials();
+        environments();
         symbols();
         globals();
         bytecode_.template_codes.reserve(program_.modules.size());
@@ -72,6 +73,17 @@ private:
         }
         std::sort(bytecode_.materials.begin(), bytecode_.materials.end(),
                   [](const auto& a, const auto& b) { return a.index < b.index; });
+    }
+
+    void environments() {
+        for (const ProgramEnvironment& environment : program_.environments) {
+            BytecodeEnvironment& lowered = bytecode_.environments.emplace_back(environment.values);
+            lowered.name = names_.text(environment.name);
+            lowered.site = emitter_.add_site(environment.name_span);
+            for (std::size_t i = 0; i < lowered.surfaces.size(); ++i) {
+                lowered.surfaces[i].site = emitter_.add_site(environment.surface_spans[i]);
+            }
+        }
     }
 
     BytecodePicture picture(const MaterialPictureName& name) {

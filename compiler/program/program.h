@@ -176,6 +176,14 @@ struct ProgramMaterial {
     std::optional<bool> two_sided;
 };
 
+/// `#sense`: an environment that modules `?NAME` ask.
+struct ProgramEnvironment {
+    NameId name = kNoName; // without the `?`
+    SourceSpan name_span;
+    BytecodeEnvironment values;            // without name and sites
+    std::vector<SourceSpan> surface_spans; // of values.surfaces: file names with quotes, or keys
+};
+
 /// A constant of the grammar, for dumps and for sliders.
 struct Constant {
     NameId name = kNoName;
@@ -234,11 +242,12 @@ struct Program {
     std::vector<Constant> constants;
     std::vector<Global> globals;
     std::vector<Curve> curves;
-    std::vector<ProgramMaterial> materials; // in source order, one per colour index
-    std::vector<Production> productions;    // stage Rewrite first, Interpret last
-    std::uint32_t rule_count = 0;           // rules: productions with equal predecessors
-    std::uint32_t context_group_count = 0;  // groups: productions of a rule with equal contexts
-    std::vector<Axiom> axioms;              // at least one if `is_valid`
+    std::vector<ProgramMaterial> materials;       // in source order, one per colour index
+    std::vector<ProgramEnvironment> environments; // in source order; Symbol::sense numbers them
+    std::vector<Production> productions;          // by stage
+    std::uint32_t rule_count = 0;                 // rules: productions with equal predecessors
+    std::uint32_t context_group_count = 0; // groups: productions of a rule with equal contexts
+    std::vector<Axiom> axioms;             // at least one if `is_valid`
 
     ChunkedVector<ProgramModule> modules;
     ChunkedVector<ValueId> arguments;

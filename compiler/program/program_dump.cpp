@@ -2,6 +2,7 @@
 #include "compiler/program/program_dump.h"
 
 #include "compiler/bytecode/distributions.h"
+#include "compiler/bytecode/environment_keys.h"
 #include "grammar/base/contract.h"
 #include "grammar/base/counted_text.h"
 #include "grammar/base/number_chars.h"
@@ -34,6 +35,7 @@ public:
         symbols();
         curves();
         materials();
+        environments();
         constants();
         for (const Axiom& axiom : program_.axioms) {
             out_ += "axiom";
@@ -182,6 +184,14 @@ private:
         }
     }
 
+    void environments() {
+        for (const ProgramEnvironment& environment : program_.environments) {
+            out_ += "sense ";
+            name(environment.name);
+            out_ += ' ' + environment_text(environment.values) + '\n';
+        }
+    }
+
     void constants() {
         if (program_.constants.empty()) {
             return;
@@ -214,7 +224,7 @@ private:
     void name(NameId id) {
         const std::string_view text = names_.text(id);
         const bool plain =
-            is_identifier(text) ||
+            is_identifier(text) || is_sense_name(text) ||
             (text.size() == 1 && std::string_view("+-/\\^&|$!\"'.[]{}%").find(text) != text.npos);
         out_ += plain ? std::string(text) : fmt::format("`{}`", text);
     }

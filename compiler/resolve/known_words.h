@@ -11,5 +11,7 @@ namespace lsys {
 [[nodiscard]] std::vector<std::string_view> function_names();
 /// The keys of `#material`, in the order in which messages list them, without the synonym `color`.
 [[nodiscard]] std::vector<std::string_view> material_keys();
+/// The keys of `#sense`, of all kinds.
+[[nodiscard]] std::vector<std::string_view> sense_keys();
 
 } // namespace lsys

@@ -5,6 +5,7 @@
 #include "compiler/resolve/impl/constants.h"
 #include "compiler/resolve/impl/declarations.h"
 #include "compiler/resolve/impl/definitions.h"
+#include "compiler/resolve/impl/environments.h"
 #include "compiler/resolve/impl/expressions.h"
 #include "compiler/resolve/impl/materials.h"
 #include "compiler/resolve/impl/productions.h"
@@ -68,10 +69,12 @@ public:
         : resolution_(resolution), values_(resolution.program.values), constants_(resolution),
           expressions_(resolution, values_, constants_), symbols_(resolution),
           definitions_(resolution, constants_, expressions_), materials_(resolution, expressions_),
-          declarations_(resolution, symbols_) {}
+          environments_(resolution, expressions_, symbols_),
+          declarations_(resolution, symbols_, environments_) {}
 
     void run(SetResolver& settings) {
         const Ast& ast = resolution_.ast;
+        environments_.declare_all();
         for (const ObjectNode& object : ast.objects) {
             declarations_.object(object);
         }
@@ -86,6 +89,7 @@ public:
                               symbols_,
                               splitter,
                               expressions_,
+                              environments_,
                               SplitReport(resolution_),
                               std::vector<SymbolId>(resolution_.names.count(), kNoSymbol)};
         ProductionResolver productions(reading, constants_);
@@ -105,6 +109,9 @@ public:
                 break;
             case StatementKind::Material:
                 materials_.material(ast.materials[statement.index], statement.span);
+                break;
+            case StatementKind::Sense:
+                environments_.environment(statement.index);
                 break;
             case StatementKind::Generations:
                 definitions_.generations(ast.generations[statement.index], statement.span);
@@ -264,6 +271,7 @@ private:
     SymbolTable symbols_;
     DefinitionResolver definitions_;
     MaterialResolver materials_;
+    EnvironmentResolver environments_;
     DeclarationResolver declarations_;
     std::optional<SourceSpan> first_axiom_;
     bool first_has_weight_ = false;
@@ -300,6 +308,9 @@ ResolveOutcome resolve(Ast ast,
     }
     for (const TurtleCommand& command : turtle_commands(outcome.program.settings.turtle)) {
         static_cast<void>(names.intern(command.name));
+    }
+    for (const SenseNode& node : ast.senses) {
+        static_cast<void>(names.intern(sense_name(names.text(node.name))));
     }
     Resolver resolver(resolution);
     resolver.run(settings);

@@ -147,13 +147,14 @@ enum class StatementKind : std::uint8_t {
     Function,    // #function NAME(formals) expr;
     Curve,       // #curve NAME x y, x y, ...;
     Material,    // #material INDEX key values ...;
+    Sense,       // #sense NAME KIND key values ...;
     Module,      // #module NAME(formals);
     Object,      // #object NAME OBJECT;
     Include,     // #include "file"; its statements follow
     Set,         // #set KEY values;
     Ignore,      // #ignore : names; #consider : names;
     Axiom,       // #w : modules;
-    Production,  // #NAME : ... ; #decompose NAME : ... ; #interpret NAME : ... ;
+    Production,  // #NAME : ... ; #decompose, #interpret, #down or #up NAME : ... ;
 };
 
 struct Statement {
@@ -214,13 +215,13 @@ struct IncludeNode {
     FileId file = kNoFile; // kNoFile until it is read
 };
 
-/// A word, number or file name after the key of a #set or in a #material.
+/// A word, number or file name after the key of a #set, in a #material or in a #sense.
 struct SetValue {
     SourceSpan span;      // includes the quotes of a file name
-    bool is_word = false; // a mode, a profile or a constant; a key of a #material
+    bool is_word = false; // a mode, a profile or a constant; a key of a #material or #sense
     NameId word = kNoName;
     ExpressionId value = kNoExpression; // kNoExpression for a word or a file
-    bool is_file = false;               // `word` is a file name; in a #material only
+    bool is_file = false;               // `word` is a file name; in #material and #sense
 };
 
 struct SetNode {
@@ -233,6 +234,13 @@ struct SetNode {
 struct MaterialNode {
     SourceSpan keyword_span; // `#material`
     ListRange values;        // in Ast::set_values
+};
+
+/// The kind, keys and their values as written; the resolver tells them apart.
+struct SenseNode {
+    NameId name = kNoName; // without `?`
+    SourceSpan name_span;
+    ListRange values; // in Ast::set_values
 };
 
 struct IgnoreNode {
@@ -312,6 +320,7 @@ struct Ast {
     std::vector<FunctionNode> functions;
     std::vector<CurveNode> curves;
     std::vector<MaterialNode> materials;
+    std::vector<SenseNode> senses;
     std::vector<ModuleDeclarationNode> module_declarations;
     std::vector<ObjectNode> objects;
     std::vector<IncludeNode> includes;

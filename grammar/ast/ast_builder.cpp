@@ -250,6 +250,11 @@ void AstBuilder::material(SourceSpan keyword) {
     ast_.materials.push_back({keyword, new_set_values()});
 }
 
+void AstBuilder::sense(NameId name, SourceSpan name_span) {
+    begin_node(StatementKind::Sense, ast_.senses.size());
+    ast_.senses.push_back({name, name_span, new_set_values()});
+}
+
 void AstBuilder::ignore(SourceSpan keyword, ModuleList modules, bool considers) {
     begin_node(StatementKind::Ignore, ast_.ignores.size());
     ast_.ignores.push_back({modules, considers, keyword});
@@ -375,6 +380,9 @@ void AstBuilder::rollback() {
             break;
         case StatementKind::Material:
             ast_.materials.pop_back();
+            break;
+        case StatementKind::Sense:
+            ast_.senses.pop_back();
             break;
         case StatementKind::Module:
             ast_.module_declarations.pop_back();

@@ -107,6 +107,8 @@ public:
     void set(NameId key, SourceSpan key_span);
     /// Adds a #material with the values set since the last statement.
     void material(SourceSpan keyword);
+    /// Adds a #sense with the values set since the last statement.
+    void sense(NameId name, SourceSpan name_span);
     void ignore(SourceSpan keyword, ModuleList modules, bool considers);
     void axiom(ModuleList modules, ExpressionId probability);
     void left_context(ModuleList left, SourceSpan less);
@@ -171,6 +173,7 @@ private:
     std::uint32_t read_plain_arguments(std::uint32_t open, std::uint32_t name_end);
     ExpressionId plain_number(std::uint32_t begin, std::uint32_t end);
     void push_letters(TextRange word);
+    std::uint32_t push_sense(TextRange run);
     void push_character(std::string_view character, TextRange text);
     NameId intern_word(std::string_view word);
     void count_bracket(char bracket, SourceSpan span);

@@ -83,6 +83,11 @@ private:
             out_ += "material";
             values(ast_.materials[statement.index].values);
             return;
+        case StatementKind::Sense:
+            out_ += "sense ";
+            name(ast_.senses[statement.index].name);
+            values(ast_.senses[statement.index].values);
+            return;
         case StatementKind::Module:
             out_ += "module ";
             modules(ast_.module_declarations[statement.index].modules);
@@ -141,9 +146,8 @@ private:
     }
 
     void production(const ProductionNode& node) {
-        out_ += node.stage == Stage::Decompose   ? "decompose "
-                : node.stage == Stage::Interpret ? "interpret "
-                                                 : "production ";
+        out_ += node.stage == Stage::Rewrite ? "production" : keyword_of(node.stage) + 1;
+        out_ += ' ';
         name(node.name);
         if (node.has_left) {
             out_ += "\n      left ";

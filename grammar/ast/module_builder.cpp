@@ -13,7 +13,7 @@ namespace lsys {
 
 namespace {
 
-enum class CharacterClass : std::uint8_t { Blank, Letter, Symbol, Bracket, Slash, Open };
+enum class CharacterClass : std::uint8_t { Blank, Letter, Symbol, Bracket, Slash, Open, Question };
 
 constexpr std::array<CharacterClass, 128> kClasses = [] {
     std::array<CharacterClass, 128> classes{};
@@ -30,6 +30,7 @@ constexpr std::array<CharacterClass, 128> kClasses = [] {
     classes[']'] = CharacterClass::Bracket;
     classes['/'] = CharacterClass::Slash;
     classes['('] = CharacterClass::Open;
+    classes['?'] = CharacterClass::Question;
     return classes;
 }();
 
@@ -133,6 +134,9 @@ ModuleList AstBuilder::modules(ModuleList list, TextRange run) {
         case CharacterClass::Bracket:
             count_bracket(c, scanned_.span(at, at + 1));
             break;
+        case CharacterClass::Question: // begins a name: the scanner reads a lone `?` apart
+            at = name_end = push_sense({at, run.end});
+            continue;
         case CharacterClass::Symbol:
             break;
         }
@@ -160,6 +164,23 @@ NameId AstBuilder::intern_word(std::string_view word) {
         cached = {key, names_.intern(word)};
     }
     return cached.name;
+}
+
+/// Appends the sense module `?NAME` at the beginning of `run`; returns its end. With single letters
+/// NAME is one letter.
+std::uint32_t AstBuilder::push_sense(TextRange run) {
+    const std::string_view text = scanned_.text;
+    std::uint32_t end = run.begin + 2;
+    if (module_names_ != ModuleNames::Words && text[run.begin + 1] == '_') {
+        report_not_a_letter(diagnostics_, scanned_.span(run.begin + 1, end), '_');
+        last_name_ = LastName::None;
+        return end;
+    }
+    while (module_names_ == ModuleNames::Words && end < run.end && is_name_character(text[end])) {
+        ++end;
+    }
+    push_module(intern_word(text.substr(run.begin, end - run.begin)), {run.begin, end});
+    return end;
 }
 
 void AstBuilder::push_letters(TextRange word) {

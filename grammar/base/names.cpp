@@ -43,4 +43,8 @@ bool is_identifier(std::string_view text) {
            std::all_of(text.begin(), text.end(), is_word_character);
 }
 
+bool is_sense_name(std::string_view text) {
+    return text.starts_with('?') && is_identifier(text.substr(1));
+}
+
 } // namespace lsys

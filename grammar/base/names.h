@@ -37,5 +37,11 @@ private:
 
 /// Whether `text` matches [A-Za-z_][A-Za-z0-9_]*.
 [[nodiscard]] bool is_identifier(std::string_view text);
+/// Whether `text` is `?` and an identifier: the name of a sense module.
+[[nodiscard]] bool is_sense_name(std::string_view text);
+/// The name of the sense module that asks the environment `name`.
+[[nodiscard]] inline std::string sense_name(std::string_view name) {
+    return '?' + std::string(name);
+}
 
 } // namespace lsys

@@ -64,7 +64,7 @@ NUMBER  ([0-9]+("."[0-9]*)?|"."[0-9]+)([eE][+-]?[0-9]+)?
 NUMBER_LIKE ([0-9]|"."[0-9])[0-9A-Za-z_.]*
 PLAIN   "-"?{BLANK}*{NUMBER}
 PLAINS  "("{BLANK}*{PLAIN}{BLANK}*(","{BLANK}*{PLAIN}{BLANK}*)*")"
-NAME    {IDENT}|{SYMBOL}
+NAME    "?"?{IDENT}|{SYMBOL}
 ITEM    ({NAME})({BLANK}*{PLAINS})?
 RUN     {ITEM}({BLANK}*{ITEM})*
 CONTROL [\x01-\x08\x0B\x0C\x0E-\x1F\x7F]
@@ -238,7 +238,7 @@ CONTROL [\x01-\x08\x0B\x0C\x0E-\x1F\x7F]
                           } else if (scan.keyword == Keyword::Function) {
                               scan.enter(Part::FunctionHead);
                               scan.name_before = true; // the `(` is next
-                          } else if (scan.keyword == Keyword::Curve) {
+                          } else if (scan.keyword == Keyword::Curve || scan.keyword == Keyword::Sense) {
                               scan.enter(Part::Setting);
                           } else {
                               scan.enter(scan.keyword == Keyword::Set ? Part::Setting : Part::Value);
@@ -250,7 +250,9 @@ CONTROL [\x01-\x08\x0B\x0C\x0E-\x1F\x7F]
                               SHORTEN(0);
                               return *missing;
                           }
-                          return Token(Parser::token::TOK_OTHER, session.token());
+                          if (!report_needless_question_mark(session)) {
+                              return Token(Parser::token::TOK_OTHER, session.token());
+                          }
                         }
 }
 
@@ -261,7 +263,7 @@ CONTROL [\x01-\x08\x0B\x0C\x0E-\x1F\x7F]
   }
 }
 <OBJECT_NAME>{
-  {IDENT}|{SYMBOL}      {
+  {NAME}                {
                           if (yytext[0] == '"' && scan.keyword == Keyword::Include) {
                               return unclosed_quote(session);
                           }
@@ -318,7 +320,7 @@ CONTROL [\x01-\x08\x0B\x0C\x0E-\x1F\x7F]
                           return Token(Parser::token::TOK_BAD_VALUE, span);
                         }
   "\""[^"\n\0]*"\""     {
-                          if (scan.keyword != Keyword::Material) {
+                          if (!takes_file_names(scan.keyword)) {
                               SHORTEN(1);
                               return Token(Parser::token::TOK_OTHER, session.token());
                           }
@@ -326,7 +328,7 @@ CONTROL [\x01-\x08\x0B\x0C\x0E-\x1F\x7F]
                                        session.builder.intern(TEXT.substr(1, TEXT.size() - 2)), session.token());
                         }
   "\""                  {
-                          if (scan.keyword == Keyword::Material) {
+                          if (takes_file_names(scan.keyword)) {
                               return unclosed_quote(session);
                           }
                           return Token(Parser::token::TOK_OTHER, session.token());

@@ -5,6 +5,7 @@
 #include "grammar/ast/ast_dump.h"
 #include "grammar/format/tokens.h"
 #include "runtime/cli/commands.h"
+#include "runtime/cli/dump_environment.h"
 #include "runtime/cli/dump_heroes.h"
 #include "runtime/cli/dump_word.h"
 #include "runtime/cli/plant_options.h"
@@ -48,6 +49,9 @@ std::string find_conflict(const DumpCommand& command) {
         return "a plant is drawn from the last word, so --all, --count, --steps, --save-state and "
                "--from do not go with --stage skeleton or mesh";
     }
+    if (command.environment_format && command.stage != DumpStage::Environment) {
+        return "--format goes with --stage environment";
+    }
     if (draws) {
         return {};
     }
@@ -80,6 +84,12 @@ std::string find_conflict(const DumpCommand& command) {
         return command.all || command.stream || command.origins || uses_states
                    ? "--stage heroes and cache are of the last words, so --all, --stream, "
                      "--origins, --steps, --save-state and --from do not go with them"
+                   : "";
+    }
+    if (command.stage == DumpStage::Environment) {
+        return command.all || command.count || command.stream || command.origins || uses_states
+                   ? "--stage environment is of the last word, so --all, --count, --stream, "
+                     "--origins, --steps, --save-state and --from do not go with it"
                    : "";
     }
     if (command.origins && command.count) {
@@ -305,6 +315,9 @@ ExitStatus run_command(const DumpCommand& command, const Console& console) {
     case DumpStage::Mesh:
         grammar.program.reset();
         return dump_plant(command, grammar, console);
+    case DumpStage::Environment:
+        grammar.program.reset();
+        return dump_environment(command, grammar, console);
     case DumpStage::Tokens:
     case DumpStage::Ast:
     case DumpStage::Cache:

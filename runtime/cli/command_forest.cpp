@@ -3,6 +3,7 @@
 #include "runtime/cli/commands.h"
 #include "runtime/export/export_forest.h"
 #include "runtime/forest/different_trees.h"
+#include "runtime/forest/surroundings.h"
 #include "runtime/output/forest_files.h"
 #include "runtime/pipeline/forest.h"
 #include "runtime/pipeline/instancing_choice.h"
@@ -11,6 +12,7 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <map>
 #include <optional>
 #include <string>
@@ -20,6 +22,22 @@
 namespace lsys::lsc {
 
 namespace {
+
+/// Number of trees of a species in each case of surroundings, as a line; empty if it senses none.
+std::string surroundings_text(const Forest& forest, std::size_t species) {
+    if (!forest.species[species].senses_surroundings) {
+        return {};
+    }
+    std::array<std::uint64_t, kSurroundings> counts{};
+    for (const Tree& tree : forest.trees) {
+        counts[surroundings_of(tree)] += tree.species == species ? 1 : 0;
+    }
+    std::string text = "  surroundings:";
+    for (std::size_t i = 0; i < counts.size(); ++i) {
+        text += fmt::format("{} {} {}", i == 0 ? "" : ",", counts[i], kSurroundingsNames[i]);
+    }
+    return text + '\n';
+}
 
 /// Statistics as a table.
 std::string stats_text(const GrownForest& grown,
@@ -48,7 +66,9 @@ std::string stats_text(const GrownForest& grown,
     }
     for (std::size_t s = 0; s < forest.species.size(); ++s) {
         text += fmt::format("{}: {} trees\n", forest.species[s].name, trees[s]);
-        for (const ForestStage& stage : forest.species[s].stages) {
+        text += surroundings_text(forest, s);
+        for (std::size_t i = 0; i < forest.species[s].stages.size(); ++i) {
+            const ForestStage& stage = forest.species[s].stages[i];
             const InstanceCache& cache = stage.cache;
             std::uint64_t hits = 0;
             std::uint64_t misses = 0;
@@ -57,9 +77,13 @@ std::string stats_text(const GrownForest& grown,
                 misses += slot.misses;
             }
             text += fmt::format(
-                "  {} generations: {} instances of {} keys, {} segments; {} hits, {} misses\n",
-                stage.generations, cache.instances.size(), cache.slots.size(),
-                cache.skeleton.segments.size(), hits, misses);
+                "  {} generations{}: {} instances of {} keys, {} segments; {} hits, {} misses\n",
+                stage.generations,
+                forest.species[s].senses_surroundings
+                    ? fmt::format(" ({})", kSurroundingsNames[i % kSurroundings])
+                    : std::string(),
+                cache.instances.size(), cache.slots.size(), cache.skeleton.segments.size(), hits,
+                misses);
             // Sum over the slots with the same id and age.
             std::map<std::pair<std::uint32_t, std::uint32_t>, InstanceSlot> rows;
             for (const InstanceSlot& slot : cache.slots) {

@@ -128,9 +128,16 @@ void add_dump(CLI::App& app, DumpCommand& command) {
          {"skeleton", DumpStage::Skeleton},
          {"mesh", DumpStage::Mesh},
          {"heroes", DumpStage::Heroes},
-         {"cache", DumpStage::Cache}},
+         {"cache", DumpStage::Cache},
+         {"environment", DumpStage::Environment}},
         "Output of a compiler stage, the derived word, its skeleton or its mesh, the words of the "
-        "heroes of a forest or the branches recorded from them (default word)");
+        "heroes of a forest or the branches recorded from them, or what the plant sensed last "
+        "(default word)");
+    add_choice<std::optional<EnvironmentFormat>>(
+        app, "--format", command.environment_format,
+        {{"json", EnvironmentFormat::Json}, {"ply", EnvironmentFormat::Ply}},
+        "For --stage environment: places, answers, voxels and markers as JSON, or as a PLY file of "
+        "points (default json)");
     app.add_flag("--all", command.all, "Print every generation, one per line");
     app.add_flag("--count", command.count,
                  "Print the number of modules, from the growth matrix where possible; of --stage "
@@ -148,6 +155,7 @@ void add_dump(CLI::App& app, DumpCommand& command) {
     add_seed(app, command.seed);
     add_height(app, command.height);
     add_run_limits(app, command.run);
+    add_environments(app, command.run);
     add_parsed(app, "--steps", command.steps, integer(0, kMaxGenerations),
                "Derive only K generations in this run")
         ->type_name("K")
@@ -165,7 +173,8 @@ void add_dump(CLI::App& app, DumpCommand& command) {
                "          lsc dump -n 10 --steps 5 --save-state half.lss --count tree.lsys\n"
                "          lsc dump --from half.lss tree.lsys\n"
                "          lsc dump --stage skeleton --origins tree.lsys\n"
-               "          lsc dump --stage heroes --heroes 2 tree.lsys");
+               "          lsc dump --stage heroes --heroes 2 tree.lsys\n"
+               "          lsc dump --stage environment --format ply -o light.ply tree.lsys");
 }
 
 /// Parses `season=0,0.5`: a name and several numbers.
@@ -221,6 +230,7 @@ void add_export(CLI::App& app, ExportCommand& command) {
     add_seed(app, command.seed);
     add_height(app, command.height);
     add_run_limits(app, command.run);
+    add_environments(app, command.run);
     add_message_options(app, command.messages);
     add_levels(app, command.messages);
     app.footer(
@@ -263,6 +273,7 @@ void add_forest(CLI::App& app, ForestCommand& command) {
     add_grammar(app, command.overrides.grammar, command.run);
     add_seed(app, command.overrides.seed);
     add_run_limits(app, command.run);
+    add_environments(app, command.run);
     add_message_options(app, command.messages);
     add_levels(app, command.messages);
     app.footer(
@@ -349,6 +360,7 @@ void add_trace(CLI::App& app, TraceCommand& command) {
     add_base_option(app, command.run);
     add_seed(app, command.seed);
     add_run_limits(app, command.run);
+    add_environments(app, command.run);
     add_message_options(app, command.messages);
     add_levels(app, command.messages);
     app.footer(

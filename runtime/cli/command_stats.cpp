@@ -5,6 +5,7 @@
 #include "runtime/derive/derive.h"
 #include "runtime/pipeline/grammar.h"
 #include "runtime/pipeline/plant.h"
+#include "runtime/pipeline/senses.h"
 #include "runtime/program/arguments.h"
 #include "runtime/program/files.h"
 #include "runtime/program/host.h"
@@ -112,6 +113,14 @@ std::string_view accuracy_note(const GrowthPrediction& growth) {
                : "bounds: the productions depend on parameters, neighbours or chance\n";
 }
 
+/// What decides the generations that are not predicted.
+std::string dependence_note(const Bytecode& bytecode, const GrowthPrediction& growth) {
+    const BytecodeSymbol& symbol = bytecode.symbol(growth.depends_on);
+    return fmt::format("no further: from generation {} on the counts depend on {} `{}`\n",
+                       growth.low.size(),
+                       symbol.senses() ? "what is answered to" : "the sweeps over", symbol.name);
+}
+
 /// The size of a derived word, counted in the same way as a GrowthPrediction.
 GenerationSize size_of(const Bytecode& bytecode, const Word& word) {
     std::vector<std::uint64_t> census(bytecode.code_count(), 0);
@@ -141,6 +150,14 @@ ExitStatus count_words(const StatsCommand& command,
     options.seed = bytecode.settings.seed;
     options.limits = command.run.limits;
     options.cancelled = console.io().interrupted;
+    PlantSenses senses;
+    const ExitStatus read = console.take(
+        read_senses(command.file, grammar, make_project(console, command.run)), senses);
+    if (read != ExitStatus::Ok) {
+        return read;
+    }
+    const std::unique_ptr<EnvironmentSense> own_senses = senses.make(bytecode);
+    options.senses = own_senses.get();
     Derivation derivation(bytecode, options);
     std::optional<Stop> stop = derivation.start();
     while (!stop) {
@@ -341,6 +358,9 @@ ExitStatus run_command(const StatsCommand& command, const Console& console) {
     if (known) {
         growth = predict_growth(grammar.bytecode, shown);
         note = accuracy_note(growth);
+        if (growth.depends_on != kNoSymbol) {
+            note += dependence_note(grammar.bytecode, growth);
+        }
     } else {
         count_status = count_words(command, shown, grammar, console, growth);
         note = fmt::format("counted in the words of seed {}, which were derived: the grammar {}\n",
@@ -352,7 +372,8 @@ ExitStatus run_command(const StatsCommand& command, const Console& console) {
         }
     }
     std::optional<double> height;
-    if (shown == wanted && count_status == ExitStatus::Ok) {
+    const bool has_last = shown == wanted && growth.depends_on == kNoSymbol;
+    if (has_last && count_status == ExitStatus::Ok) {
         height = find_height(command, growth.high.back().modules, grammar, console);
     }
     if (height) {

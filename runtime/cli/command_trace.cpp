@@ -59,6 +59,7 @@ ExitStatus run_command(const TraceCommand& command, const Console& console) {
         return status;
     }
     TraceOptions options;
+    options.file = command.file;
     options.generation = command.grammar.generations;
     options.seed = command.seed;
     options.position = command.position;

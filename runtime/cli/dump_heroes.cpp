@@ -9,6 +9,7 @@
 #include "runtime/pipeline/forest.h"
 #include "runtime/pipeline/growth_forecast.h"
 #include "runtime/pipeline/plant.h"
+#include "runtime/pipeline/senses.h"
 #include "runtime/program/files.h"
 #include "runtime/program/host.h"
 #include "runtime/scene/scene.h"
@@ -246,7 +247,15 @@ ExitStatus dump_heroes(const DumpCommand& command, Grammar& grammar, const Conso
     PlantOptions options;
     options.generations = command.grammar.generations;
     options.seed = command.seed.value_or(0); // default seed of the heroes of a forest
-    DeriveOptions derive = derive_options(options, bytecode, make_project(console, command.run));
+    const Project project = make_project(console, command.run);
+    PlantSenses senses;
+    const ExitStatus read = console.take(read_senses(command.file, grammar, project), senses);
+    if (read != ExitStatus::Ok) {
+        return read;
+    }
+    const std::unique_ptr<EnvironmentSense> own_senses = senses.make(bytecode);
+    DeriveOptions derive = derive_options(options, bytecode, project);
+    derive.senses = own_senses.get();
     const std::uint64_t seed = derive.seed;
     const auto derive_hero = [&](std::uint32_t hero, std::optional<Derivation>& derivation) {
         derive.seed = seed + hero;

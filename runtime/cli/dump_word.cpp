@@ -12,6 +12,7 @@
 #include "runtime/derive/word_text.h"
 #include "runtime/pipeline/growth_forecast.h"
 #include "runtime/pipeline/plant.h"
+#include "runtime/pipeline/senses.h"
 #include "runtime/program/files.h"
 #include "runtime/program/host.h"
 
@@ -20,6 +21,7 @@
 #include <algorithm>
 #include <chrono>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <utility>
 
@@ -36,6 +38,7 @@ struct Plan {
     std::uint32_t first_age = 0;
     std::uint32_t last_age = 0;
     std::string saved_bytes; // contents of the file of --from; empty: start at the axiom
+    PlantSenses senses;      // for each derivation
 };
 
 Result<SavedState> read_saved(const Plan& plan, const std::string& path, const Bytecode& bytecode) {
@@ -146,7 +149,8 @@ ExitStatus derive(Derivation& derivation,
         if (!state) {
             return report_error(state.error(), console);
         }
-        stop = derivation.resume(std::move(state.value().word), state.value().header.age);
+        stop = derivation.resume(std::move(state.value().word), state.value().header.age,
+                                 state.value().sense_state);
     }
     while (!stop) {
         console.detail(fmt::format("generation {}: {}, {}", derivation.age(),
@@ -177,7 +181,7 @@ Result<void> save_state(const Plan& plan,
                         Writer& writer) {
     const StateHeader header{digest(bytecode), plan.derive.seed, plan.derive.generations,
                              derivation.age()};
-    static_cast<void>(write_state(header, derivation.word(),
+    static_cast<void>(write_state(header, derivation.word(), derivation.sense_state(),
                                   [&](std::string_view bytes) { return writer.write(bytes); }));
     return writer.commit();
 }
@@ -210,7 +214,10 @@ ExitStatus dump_stored(const DumpCommand& command,
     const auto ignore = [](const Derivation&) { return true; };
     if (command.all && !command.count && command.output == "-") {
         // Written output cannot be undone, so a first run checks that the derivation succeeds.
-        Derivation trial(bytecode, plan.derive);
+        DeriveOptions options = plan.derive;
+        const std::unique_ptr<EnvironmentSense> senses = plan.senses.make(bytecode);
+        options.senses = senses.get();
+        Derivation trial(bytecode, options);
         const ExitStatus status = derive(trial, command, plan, grammar, console, ignore);
         if (status != ExitStatus::Ok) {
             return status;
@@ -223,7 +230,10 @@ ExitStatus dump_stored(const DumpCommand& command,
         return report_error(opened.error(), console);
     }
     Writer& writer = *word_writer;
-    Derivation derivation(bytecode, plan.derive);
+    DeriveOptions options = plan.derive;
+    const std::unique_ptr<EnvironmentSense> senses = plan.senses.make(bytecode);
+    options.senses = senses.get();
+    Derivation derivation(bytecode, options);
     std::string counts;
     const auto print = [&](const Derivation& now) {
         if (command.count) {
@@ -359,6 +369,11 @@ ExitStatus dump_word(const DumpCommand& command, Grammar& grammar, const Console
         return report_error(planned.error(), console);
     }
     Plan& plan = planned.value();
+    const ExitStatus read = console.take(
+        read_senses(command.file, grammar, make_project(console, command.run)), plan.senses);
+    if (read != ExitStatus::Ok) {
+        return read;
+    }
     console.detail(
         fmt::format("{} generations, seed {}", plan.derive.generations, plan.derive.seed));
     const bool from_axiom = command.from.empty();

@@ -49,8 +49,12 @@ enum class DumpStage : std::uint8_t {
     Skeleton,
     Mesh,
     Heroes,
-    Cache
+    Cache,
+    Environment
 };
+
+/// Format of `dump --stage environment`.
+enum class EnvironmentFormat : std::uint8_t { Json, Ply };
 
 struct DumpCommand {
     MessageOptions messages;
@@ -61,7 +65,8 @@ struct DumpCommand {
     std::string output = "-";
     DumpStage stage = DumpStage::Word;
     MeshOptions mesh;
-    std::optional<float> height;        // m, of the plant
+    std::optional<float> height; // m, of the plant
+    std::optional<EnvironmentFormat> environment_format;
     bool all = false;                   // --all: every generation
     bool count = false;                 // --count: the number of modules in place of the word
     bool stream = false;                // --stream: derive without storing words

@@ -126,6 +126,7 @@ void add_scene(CLI::App& app, SceneCommand& command) {
     add_grammar(app, command.overrides.grammar, command.run);
     add_seed(app, command.overrides.seed);
     add_run_limits(app, command.run);
+    add_environments(app, command.run);
     add_message_options(app, command.messages);
     add_levels(app, command.messages);
 }

@@ -95,6 +95,10 @@ struct DerivationPass {
     std::uint64_t first_draw = 0; // number of the first draw of each module
     const Word* in = nullptr;
     const Word* out = nullptr; // null: the pass is about to begin
+    /// Down, Up: the module at which the sweep ended with an error; kNoFault: none. Modules that it
+    /// had not visited are in `out` as in `in`.
+    std::uint64_t fault = kNoFault;
+    static constexpr std::uint64_t kNoFault = ~std::uint64_t{0};
 };
 
 struct DeriveOptions {
@@ -114,7 +118,7 @@ struct DeriveOptions {
     std::function<void(std::uint32_t generation, std::uint64_t modules_written)> progress;
     /// Called before and after each pass. Before a pass, each origin in `in` is set to the index of
     /// its module, so the origins in `out` name the modules of `in` that were rewritten. Not called
-    /// for passes that cannot change the word. Precondition: `origins`; fewer than 2^32 modules.
+    /// for passes that cannot change the word; after a pass with an error only if it is a sweep. Precondition: `origins`; fewer than 2^32 modules.
     std::function<void(const DerivationPass& pass)> on_pass;
 };
 
@@ -137,8 +141,12 @@ public:
     /// Draws the globals and makes the axiom. start() or resume() must be called first.
     [[nodiscard]] std::optional<Stop> start();
     /// Continues from a saved word of age `age`. Globals are drawn again from the seed, with the
-    /// same values. Modules of a word without origins get unknown origins.
-    [[nodiscard]] std::optional<Stop> resume(Word word, std::uint32_t age);
+    /// same values. Modules of a word without origins get unknown origins. `sense_state`: the
+    /// WordSense::state() that was saved with the word.
+    [[nodiscard]] std::optional<Stop>
+    resume(Word word, std::uint32_t age, std::string_view sense_state = {});
+    /// What the environments hold after the last generation, to be saved with the word.
+    [[nodiscard]] std::string sense_state() const;
     /// Rewrites the word once. After a Stop the word still has the age age().
     [[nodiscard]] std::optional<Stop> step();
     /// Steps until the age is `age`, or until a Stop.

@@ -126,6 +126,9 @@ void add_facts(Diagnostic& diagnostic, const RuntimeError& error, const Bytecode
         return;
     }
     diagnostic.facts.push_back({"generation", std::uint64_t{error.generation}});
+    if (error.symbol == kNoSymbol) {
+        return; // an environment that no module asks
+    }
     diagnostic.facts.push_back({"position", error.position});
     diagnostic.facts.push_back({"module", module_text(error, bytecode)});
 }
@@ -380,11 +383,12 @@ Diagnostic sense_not_finite(const RuntimeError& error, const Bytecode& bytecode)
 }
 
 Diagnostic sense_failed(const RuntimeError& error, const Bytecode& bytecode) {
-    const std::string name =
-        error.environment == kNone ? "" : bytecode.environments[error.environment].name;
-    Diagnostic diagnostic =
-        make_diagnostic(DiagnosticCode::SenseFailed, {},
-                        fmt::format("the environment `{}` has no answer: {}", name, error.text));
+    const std::string subject = error.environment == kNone
+                                    ? "the plant cannot sense"
+                                    : fmt::format("the environment `{}` has no answer",
+                                                  bytecode.environments[error.environment].name);
+    Diagnostic diagnostic = make_diagnostic(DiagnosticCode::SenseFailed, {},
+                                            fmt::format("{}: {}", subject, error.text));
     if (error.symbol != kNoSymbol) {
         diagnostic.notes.push_back(fmt::format(
             "asked by `{}`, module {} of generation {} (counted from 0)",

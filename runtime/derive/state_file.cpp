@@ -5,10 +5,11 @@
 //  16  program digest     u64    24  seed                u64
 //  32  generations        u32    36  age                 u32
 //  40  modules            u64    48  parameters          u64
-//  56  code width         u64
-//  64  codes, of the code width each
+//  56  code width         u64    64  bytes of senses     u64
+//  72  codes, of the code width each
 //      parameters, binary32
-//      checksum           u64, over the checksums of header, codes and parameters
+//      senses: the state of the environments
+//      checksum           u64, over the checksums of header, codes, parameters and senses
 #include "runtime/derive/state_file.h"
 
 #include "compiler/bytecode/module_file.h"
@@ -32,7 +33,7 @@ static_assert(std::endian::native == std::endian::little,
               "words are written as they are in memory");
 
 constexpr std::string_view kMagic = "lsystate";
-constexpr std::size_t kHeaderBytes = 64;
+constexpr std::size_t kHeaderBytes = 72;
 constexpr std::size_t kChecksumBytes = 8;
 
 template <typename T>
@@ -54,11 +55,18 @@ std::string_view bytes_of(std::span<const T> values) {
     return {reinterpret_cast<const char*>(values.data()), values.size_bytes()};
 }
 
-std::uint64_t
-combined_checksum(std::string_view header, std::string_view codes, std::string_view parameters) {
-    const std::array<std::uint64_t, 3> parts{checksum(header), checksum(codes),
-                                             checksum(parameters)};
-    return checksum(bytes_of(std::span<const std::uint64_t>(parts)));
+/// The parts of a file that its checksum covers.
+struct Parts {
+    std::string_view header;
+    std::string_view codes;
+    std::string_view parameters;
+    std::string_view senses;
+};
+
+std::uint64_t checksum_of(const Parts& parts) {
+    const std::array<std::uint64_t, 4> sums{checksum(parts.header), checksum(parts.codes),
+                                            checksum(parts.parameters), checksum(parts.senses)};
+    return checksum(bytes_of(std::span<const std::uint64_t>(sums)));
 }
 
 /// Whether every code exists, the parameters are as many as the codes store, and all are finite.
@@ -94,6 +102,7 @@ bool is_state_file(std::string_view bytes) {
 
 bool write_state(const StateHeader& header,
                  const Word& word,
+                 std::string_view sense_state,
                  const std::function<bool(std::string_view)>& flush) {
     std::array<char, kHeaderBytes> head{};
     char* at = head.data();
@@ -108,14 +117,21 @@ bool write_state(const StateHeader& header,
     put(at, word.module_count());
     put(at, word.parameter_count());
     put(at, std::uint64_t{word.code_width()});
-    const std::string_view head_bytes(head.data(), head.size());
-    const std::string_view codes = bytes_of(word.code_bytes());
-    const std::string_view parameters = bytes_of(word.parameters());
+    put(at, std::uint64_t{sense_state.size()});
+    const Parts parts{{head.data(), head.size()},
+                      bytes_of(word.code_bytes()),
+                      bytes_of(word.parameters()),
+                      sense_state};
     std::array<char, kChecksumBytes> tail{};
     at = tail.data();
-    put(at, combined_checksum(head_bytes, codes, parameters));
-    return flush(head_bytes) && (codes.empty() || flush(codes)) &&
-           (parameters.empty() || flush(parameters)) && flush({tail.data(), tail.size()});
+    put(at, checksum_of(parts));
+    for (const std::string_view part :
+         {parts.header, parts.codes, parts.parameters, parts.senses}) {
+        if (!part.empty() && !flush(part)) {
+            return false;
+        }
+    }
+    return flush({tail.data(), tail.size()});
 }
 
 Result<SavedState> read_state(std::string_view bytes, const Bytecode& bytecode) {
@@ -144,6 +160,7 @@ Result<SavedState> read_state(std::string_view bytes, const Bytecode& bytecode) 
     const auto modules = get<std::uint64_t>(at);
     const auto parameters = get<std::uint64_t>(at);
     const auto width = get<std::uint64_t>(at);
+    const auto sense_size = get<std::uint64_t>(at);
 
     // Sizes are compared before they are multiplied, so that no product overflows.
     const std::uint64_t body = bytes.size() - kHeaderBytes - kChecksumBytes;
@@ -153,14 +170,18 @@ Result<SavedState> read_state(std::string_view bytes, const Bytecode& bytecode) 
     }
     const std::uint64_t code_size = modules * width;
     const std::uint64_t parameter_size = parameters * sizeof(float);
-    if (code_size + parameter_size != body) {
+    const std::uint64_t rest = body - code_size - parameter_size;
+    if (sense_size > rest) {
+        return Error{"the saved state is cut off or damaged: it is shorter than its header says"};
+    }
+    if (sense_size != rest) {
         return Error{"the saved state is damaged: it is longer than its header says"};
     }
-    const std::string_view codes = bytes.substr(kHeaderBytes, code_size);
-    const std::string_view values = bytes.substr(kHeaderBytes + code_size, parameter_size);
+    const Parts parts{bytes.substr(0, kHeaderBytes), bytes.substr(kHeaderBytes, code_size),
+                      bytes.substr(kHeaderBytes + code_size, parameter_size),
+                      bytes.substr(kHeaderBytes + code_size + parameter_size, sense_size)};
     const char* tail = bytes.data() + kHeaderBytes + body;
-    if (get<std::uint64_t>(tail) !=
-        combined_checksum(bytes.substr(0, kHeaderBytes), codes, values)) {
+    if (get<std::uint64_t>(tail) != checksum_of(parts)) {
         return Error{"the saved state is damaged: its checksum does not fit"};
     }
     if (state.header.program_digest != digest(bytecode)) {
@@ -174,9 +195,10 @@ Result<SavedState> read_state(std::string_view bytes, const Bytecode& bytecode) 
     if (!state.word.resize(modules, parameters)) {
         return Error{"there is not enough memory for the saved word"};
     }
-    std::memcpy(state.word.code_bytes().data(), codes.data(), code_size);
-    std::memcpy(state.word.parameters().data(), values.data(), parameter_size);
-    if (!fits(bytecode, state.word)) {
+    std::memcpy(state.word.code_bytes().data(), parts.codes.data(), code_size);
+    std::memcpy(state.word.parameters().data(), parts.parameters.data(), parameter_size);
+    state.sense_state = parts.senses;
+    if (!fits(bytecode, state.word) || (!state.sense_state.empty() && !bytecode.has_senses())) {
         return Error{"the saved state is damaged: the program has no such word"};
     }
     return state;

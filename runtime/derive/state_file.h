@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // State files: derivations saved before their end (`--save-state`, `--from`). A file holds the
-// digest of the program, seed, number of generations, age and word, with magic, versions and a
-// checksum; state_file.cpp shows the layout.
+// digest of the program, seed, number of generations, age, word and what the environments of sense
+// modules keep, with magic, versions and a checksum; state_file.cpp shows the layout.
 #pragma once
 
 #include "compiler/bytecode/bytecode.h"
@@ -10,6 +10,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <string>
 #include <string_view>
 
 namespace lsys {
@@ -17,7 +18,8 @@ namespace lsys {
 // Version history.
 //   1  The first format. Its digest left out the source of random numbers.
 //   2  Adds the version of the bytecode (kModuleFileVersion), on which the digest depends.
-inline constexpr std::uint32_t kStateFileVersion = 2;
+//   3  Adds the state of the environments, WordSense::state().
+inline constexpr std::uint32_t kStateFileVersion = 3;
 
 struct StateHeader {
     std::uint64_t program_digest = 0; // digest() of the bytecode
@@ -29,12 +31,14 @@ struct StateHeader {
 struct SavedState {
     StateHeader header;
     Word word;
+    std::string sense_state; // Derivation::sense_state(), for Derivation::resume()
 };
 
 /// Hands the bytes of a state file to `flush`, in order and in few pieces, without copying the
 /// word. Returns false as soon as flush does.
 [[nodiscard]] bool write_state(const StateHeader& header,
                                const Word& word,
+                               std::string_view sense_state,
                                const std::function<bool(std::string_view)>& flush);
 /// Reads a state file. Errors: not a state file; another version; truncated or damaged bytes; a
 /// state of another program; a word that the program cannot have. The message does not name the

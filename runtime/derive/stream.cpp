@@ -166,6 +166,19 @@ std::optional<std::string> streaming_obstacle(const Bytecode& bytecode) {
         return "`rewriting " + std::string(name_of(bytecode.settings.rewriting)) +
                "` needs the whole word";
     }
+    if (bytecode.has_senses()) {
+        const auto asking =
+            std::find_if(bytecode.symbols.begin(), bytecode.symbols.end(),
+                         [](const BytecodeSymbol& symbol) { return symbol.senses(); });
+        return "`" + asking->name + "` senses, which needs the whole word";
+    }
+    for (const Stage stage : {Stage::Down, Stage::Up}) {
+        if (bytecode.has(stage)) {
+            const std::uint32_t first = bytecode.productions_of(stage).first;
+            return "production `" + bytecode.productions[first].name + "` of `" +
+                   keyword_of(stage) + "` sweeps the whole word";
+        }
+    }
     for (const BytecodeProduction& production : bytecode.productions) {
         if (production.has_left || production.has_right) {
             return "production `" + production.name + "` has a context, which needs the whole word";

@@ -12,7 +12,8 @@
 
 namespace lsys {
 
-/// The reason, for the user, why the system cannot be streamed: it is not parallel or has contexts.
+/// The reason, for the user, why the system cannot be streamed: it is not parallel, or has
+/// contexts, sense modules or sweeps.
 [[nodiscard]] std::optional<std::string> streaming_obstacle(const Bytecode& bytecode);
 
 /// A run of modules of the last word, in order.

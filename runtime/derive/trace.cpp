@@ -143,7 +143,7 @@ struct StepTracer::State {
     void begin_productions(const TracedPass& pass) {
         for (std::size_t i = 0; i < places.size(); ++i) {
             const Place& place = places[i];
-            if (is_explained(pass, place.position)) {
+            if (is_visited(pass.facts, place.position) && is_explained(pass, place.position)) {
                 trace_of_place[i] =
                     add(explain_module(pass, pass_productions, place.position), place);
             }
@@ -202,6 +202,40 @@ struct StepTracer::State {
         return trace;
     }
 
+    /// Explains the tracked sense modules: what they asked with and what was answered.
+    void explain_answers(const DerivationPass& facts) {
+        const TracedWord before(bytecode, *facts.in);
+        const TracedWord after(bytecode, *facts.out);
+        for (std::size_t i = 0; i < places.size(); ++i) {
+            const std::uint64_t position = places[i].position;
+            if (!bytecode.symbol(before.symbol(position)).senses()) {
+                continue;
+            }
+            ModuleTrace trace;
+            trace.kind = facts.kind;
+            trace.generation = facts.generation;
+            trace.position = position;
+            trace.module = before.module(position);
+            trace.fate = Fate::Sensed;
+            trace.written = {after.module(position)};
+            trace_of_place[i] = add(std::move(trace), places[i]);
+        }
+    }
+
+    /// Explains a sweep, whose contexts are the modules that it has written.
+    void explain_sweep(const DerivationPass& facts) {
+        const TracedWord before(bytecode, *facts.in);
+        const TracedWord after(bytecode, *facts.out);
+        pass_productions = productions_of_pass(bytecode, facts);
+        begin_productions({bytecode, inputs, before, after, facts});
+    }
+    /// Whether a sweep has visited the module at `position` before it ended.
+    [[nodiscard]] static bool is_visited(const DerivationPass& facts, std::uint64_t position) {
+        return facts.fault == DerivationPass::kNoFault ||
+               (facts.kind == DerivationPass::Kind::Up ? position <= facts.fault
+                                                       : position >= facts.fault);
+    }
+
     /// Compares the successors with the written word, and tracks their modules from then on.
     void end(const Word& out) {
         const TracedWord word(bytecode, out);
@@ -230,7 +264,7 @@ struct StepTracer::State {
                     trace.agrees = equals(word, begin + k, trace.written[k]);
                 }
                 ok = ok && trace.agrees;
-                if (trace.fate == Fate::Rewritten) {
+                if (trace.fate == Fate::Rewritten || trace.fate == Fate::Sensed) {
                     place.parent = index;
                     place.offset = 0;
                 }
@@ -274,7 +308,7 @@ void StepTracer::begin(const std::vector<std::uint64_t>& positions,
     }
     const std::vector<std::uint32_t> productions = productions_of_pass(bytecode, facts);
     const TracedWord traced(bytecode, word);
-    const TracedPass pass{bytecode, state.inputs, traced, facts};
+    const TracedPass pass{bytecode, state.inputs, traced, traced, facts};
     for (const std::uint64_t position : positions) {
         const Place place{position, state.places.size(), kNoTrace, 0};
         state.places.push_back(place);
@@ -287,19 +321,32 @@ void StepTracer::begin(const std::vector<std::uint64_t>& positions,
 
 void StepTracer::on_pass(const DerivationPass& facts) {
     State& state = *state_;
+    const bool senses = facts.kind == DerivationPass::Kind::Sense;
+    const bool sweeps =
+        facts.kind == DerivationPass::Kind::Down || facts.kind == DerivationPass::Kind::Up;
     if (facts.out != nullptr) {
-        state.end(*facts.out);
+        if (senses) {
+            state.explain_answers(facts);
+        } else if (sweeps) {
+            state.explain_sweep(facts);
+        }
+        if (facts.fault == DerivationPass::kNoFault) {
+            state.end(*facts.out);
+        }
         return;
     }
     state.first_of_pass = state.traces.size();
     state.trace_of_place.assign(state.places.size(), kNoTrace);
+    if (senses || sweeps) {
+        return; // explained by their results
+    }
     const TracedWord word(state.bytecode, *facts.in);
     if (facts.kind == DerivationPass::Kind::Cut) {
         state.begin_cuts(word, facts);
         return;
     }
     state.pass_productions = productions_of_pass(state.bytecode, facts);
-    const TracedPass pass{state.bytecode, state.inputs, word, facts};
+    const TracedPass pass{state.bytecode, state.inputs, word, word, facts};
     const bool has_several_modules = std::any_of(
         state.pass_productions.begin(), state.pass_productions.end(), [&](std::uint32_t index) {
             return state.bytecode.productions[index].predecessor.count > 1;

@@ -154,6 +154,7 @@ LSYS_COUNTED_ENUM(Fate,
                   Rewritten, // by a production
                   Cut,       // removed with the rest of its branch
                   Consumed,  // by a match that begins before it
+                  Sensed,    // the module, a sense module, got an answer
                   Failed);   // a value is not finite, or a range cannot be drawn from
 
 /// A module in one pass.

@@ -34,8 +34,9 @@ char* put_number(char* at, float value) {
 
 std::string spelled_name(std::string_view name, bool letters) {
     const bool symbol = name.size() == 1 && kSymbols.find(name[0]) != std::string_view::npos;
-    const bool letter = name.size() == 1 && is_identifier(name) && name[0] != '_';
-    if (symbol || (letters ? letter : is_identifier(name))) {
+    const std::string_view word = is_sense_name(name) ? name.substr(1) : name;
+    const bool letter = word.size() == 1 && is_identifier(word) && word[0] != '_';
+    if (symbol || (letters ? letter : is_identifier(word))) {
         return std::string(name);
     }
     return '`' + std::string(name) + '`';
@@ -66,7 +67,7 @@ WordPrinter::WordPrinter(const Bytecode& bytecode) {
             text.insert(0, 1,
                         ' '); // separates two adjacent back quotes, which would read as one text
         }
-        const bool identifier = !letters && is_identifier(text);
+        const bool identifier = !letters && (is_identifier(text) || is_sense_name(text));
         spelling.starts_identifier = identifier;
         spelling.ends_identifier = identifier && symbol.parameter_count == 0;
         if (code < bytecode.symbols.size()) {

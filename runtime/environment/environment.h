@@ -102,6 +102,8 @@ public:
         const SensedWord& word, std::vector<float>& answers, std::vector<std::uint32_t>& sizes) = 0;
     /// What the environment keeps from one word to the next, as bytes for a saved state.
     [[nodiscard]] virtual std::string state() const { return {}; }
+    /// Appends the places of the markers that are left, for dumps and viewers.
+    virtual void append_markers(std::vector<Vector3>& /*markers*/) const {}
     /// Continues from bytes of state(), after begin(). False: the bytes are not of this environment.
     [[nodiscard]] virtual bool restore(std::string_view state) { return state.empty(); }
 };

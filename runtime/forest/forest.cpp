@@ -3,6 +3,7 @@
 
 #include "grammar/base/hash.h"
 #include "runtime/base/workers.h"
+#include "runtime/forest/surroundings.h"
 
 #include <algorithm>
 #include <bit>
@@ -54,6 +55,19 @@ ForestCounts count_trees(const Forest& forest, std::span<const Tree> trees) {
 }
 
 } // namespace
+
+std::string stage_name(const ForestSpecies& species, std::size_t stage) {
+    const bool is_one_age = species.stages.size() == species.cases();
+    std::string name;
+    if (!is_one_age) {
+        name = 'n' + std::to_string(species.stages[stage].generations);
+    }
+    if (species.senses_surroundings) {
+        name += is_one_age ? "" : " ";
+        name += kSurroundingsNames[stage % kSurroundings];
+    }
+    return name;
+}
 
 void ForestCounts::add(const ForestCounts& other) {
     trees += other.trees;

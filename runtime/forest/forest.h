@@ -15,21 +15,36 @@
 
 namespace lsys {
 
-/// Plants of one species with the same number of generations.
+/// Plants of one species with the same number of generations and, if the species senses its
+/// surroundings, with the same surroundings.
 struct ForestStage {
     std::uint32_t generations = 0;
     InstanceCache cache;
+    /// m, of the plants of scale 1 without neighbours; 0 unless the species senses its
+    /// surroundings.
+    double crown_radius = 0.0;
 };
 
 struct ForestSpecies {
     std::string name;
-    std::vector<ForestStage> stages; // by ascending generations; at least one
+    /// By ascending generations; at least one. If the species senses its surroundings, each number
+    /// of generations has kSurroundings stages, in the order of Surroundings.
+    std::vector<ForestStage> stages;
+    bool senses_surroundings = false; // see surroundings.h
     /// Years between two stages; 0: all plants have the last stage.
     float years_of_stage = 0.0F;
     /// Height in m of tree 0 of the last stage at scale 1, from the grammar's `#set height`; 0: not
     /// set.
     float height = 0.0F;
+
+    /// Number of stages for each number of generations.
+    [[nodiscard]] std::uint32_t cases() const { return senses_surroundings ? kSurroundings : 1; }
+    /// The stage of full-grown plants, without neighbours if the species senses its surroundings.
+    [[nodiscard]] const ForestStage& last_stage() const { return stages[stages.size() - cases()]; }
 };
+
+/// Name of a stage among those of its species: "n5", "closed", "n5 closed"; empty if it is alone.
+[[nodiscard]] std::string stage_name(const ForestSpecies& species, std::size_t stage);
 
 struct Forest {
     std::uint64_t key = 0;
@@ -39,12 +54,19 @@ struct Forest {
     /// Index of the tree's stage in ForestSpecies::stages.
     [[nodiscard]] std::uint32_t stage_of(const Tree& tree) const {
         const ForestSpecies& kind = species[tree.species];
-        const auto last = static_cast<std::uint32_t>(kind.stages.size()) - 1;
+        return first_stage_of(tree) + (kind.senses_surroundings ? surroundings_of(tree) : 0);
+    }
+    /// Index of the first stage with the tree's number of generations.
+    [[nodiscard]] std::uint32_t first_stage_of(const Tree& tree) const {
+        const ForestSpecies& kind = species[tree.species];
+        const auto count = static_cast<std::uint32_t>(kind.stages.size());
+        const std::uint32_t last = count / kind.cases() - 1;
         if (kind.years_of_stage <= 0.0F || tree.age == 0) {
-            return last;
+            return last * kind.cases();
         }
         const float stage = static_cast<float>(tree.age) / kind.years_of_stage;
-        return stage >= static_cast<float>(last) ? last : static_cast<std::uint32_t>(stage);
+        return kind.cases() *
+               (stage >= static_cast<float>(last) ? last : static_cast<std::uint32_t>(stage));
     }
     [[nodiscard]] const InstanceCache& cache_of(const Tree& tree) const {
         return species[tree.species].stages[stage_of(tree)].cache;

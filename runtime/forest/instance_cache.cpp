@@ -277,6 +277,7 @@ CacheOutcome record_heroes(const Bytecode& bytecode, const CacheOptions& options
         derive.origins = options.origins;
         derive.limits = options.limits;
         derive.cancelled = options.cancelled;
+        derive.senses = options.senses;
         Derivation derivation(bytecode, derive);
         if (derivation.derive()) {
             outcome.derivation_end = derivation.end();

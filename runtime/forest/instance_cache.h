@@ -117,6 +117,7 @@ struct CacheOptions {
     Limits limits;                               // limits of each word
     std::uint64_t max_bytes = ~std::uint64_t{0}; // limit of the skeleton
     std::vector<float> mesh_lengths;             // as in TurtleOptions
+    WordSense* senses = nullptr;                 // as in DeriveOptions
     std::shared_ptr<const Looks> looks;          // as in TurtleOptions
     bool origins = false;                        // record the origins of instances and drawn items
     const std::atomic<bool>* cancelled = nullptr;

@@ -74,8 +74,8 @@ public:
     [[nodiscard]] std::optional<double> height_of(const Tree& tree) {
         std::optional<TreeMeasure>& measure = measures_[tree.species];
         if (!measure) {
-            measure.emplace(forest_.species[tree.species].stages.back().cache,
-                            tables_[tree.species], forest_.key);
+            measure.emplace(forest_.species[tree.species].last_stage().cache, tables_[tree.species],
+                            forest_.key);
         }
         return measure->height_of(tree.number);
     }
@@ -265,7 +265,7 @@ TreeSizer::TreeSizer(std::span<const double> heights, const Forest& forest)
     : heights_(heights.begin(), heights.end()), forest_(forest), tables_(heights.size()) {
     for (std::size_t s = 0; s < tables_.size(); ++s) {
         if (heights[s] != 0.0) {
-            tables_[s] = make_height_table(forest.species[s].stages.back().cache);
+            tables_[s] = make_height_table(forest.species[s].last_stage().cache);
         }
     }
 }
@@ -295,7 +295,7 @@ double TreeSizer::max_factor(std::uint16_t species) const {
     if (heights_[species] == 0.0) {
         return 1.0;
     }
-    const InstanceCache& cache = forest_.species[species].stages.back().cache;
+    const InstanceCache& cache = forest_.species[species].last_stage().cache;
     const HeightTable& table = tables_[species];
     double factor = 1.0; // the factor of trees that draw nothing
     const InstanceSlot& whole = cache.slots[0];
@@ -318,7 +318,7 @@ std::uint64_t TreeSizer::digest() const {
             state = combine_numbers(state, height.value_or(-1.0));
         }
         if (!tables_[s].whole.empty()) {
-            state = combine_exits(state, forest_.species[s].stages.back().cache, tables_[s]);
+            state = combine_exits(state, forest_.species[s].last_stage().cache, tables_[s]);
         }
     }
     return finish(state);

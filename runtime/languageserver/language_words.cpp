@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "runtime/languageserver/language_words.h"
 
+#include "compiler/bytecode/environment_keys.h"
 #include "compiler/resolve/known_words.h"
 #include "compiler/resolve/profiles.h"
 #include "grammar/base/characters.h"
@@ -38,6 +39,15 @@ LanguageWords language_words() {
     for (const std::string_view key : material_keys()) {
         words.material_keys.emplace_back(key);
     }
+    for (const std::string_view key : sense_keys()) {
+        words.sense_keys.emplace_back(key);
+    }
+    for (const std::string_view kind : environment_kind_names()) {
+        words.sense_kinds.emplace_back(kind);
+    }
+    for (const std::string_view shape : space_shape_names()) {
+        words.sense_kinds.emplace_back(shape);
+    }
     for (const TurtleObject& object : turtle_objects()) {
         words.objects.emplace_back(object.name);
     }
@@ -46,7 +56,7 @@ LanguageWords language_words() {
     }
     for (std::vector<std::string>* const list :
          {&words.statements, &words.functions, &words.settings, &words.values, &words.material_keys,
-          &words.objects, &words.commands}) {
+          &words.sense_keys, &words.sense_kinds, &words.objects, &words.commands}) {
         tidy(*list);
     }
     return words;

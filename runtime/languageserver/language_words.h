@@ -14,6 +14,8 @@ struct LanguageWords {
     std::vector<std::string> settings;      // keys of `#set`
     std::vector<std::string> values;        // words that are values of settings
     std::vector<std::string> material_keys; // keys of `#material`
+    std::vector<std::string> sense_keys;    // keys of `#sense`
+    std::vector<std::string> sense_kinds;   // kinds of environments, and shapes
     std::vector<std::string> objects;       // names after `#object NAME`
     std::vector<std::string> commands;      // turtle commands of the default profile with letters
 };

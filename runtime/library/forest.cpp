@@ -89,7 +89,12 @@ Region region_of(std::span<const Tree> places) {
         std::memcpy(static_cast<void*>(grown.forest.trees.data()), source.placed_trees->data(),
                     source.placed_trees->size() * sizeof(Tree));
     }
-    return size_forest(scene, project, grown);
+    Step step(project);
+    if (!step.take(size_forest(scene, project, grown)) ||
+        !step.take(sense_forest(scene, project, grown))) {
+        return step.end();
+    }
+    return step.done();
 }
 
 /// Reads the scene and derives its heroes. `whole_trees`: sets rho to 0, so that trees are whole
@@ -122,7 +127,7 @@ std::vector<Species> species_of(const LoadedForest& forest) {
         Species& result = all.emplace_back();
         result.name = species.name;
         result.height = species.height;
-        result.heroes = species.stages.back().cache.heroes;
+        result.heroes = species.last_stage().cache.heroes;
         for (const ForestStage& stage : species.stages) {
             result.generations.push_back(stage.generations);
         }

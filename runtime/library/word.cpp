@@ -98,6 +98,7 @@ std::string Word::text() const {
 Outcome<Word> derive(const Grammar& grammar, const DeriveOptions& options, const Project& project) {
     Call call(project);
     PlantOptions inner;
+    inner.file = grammar.name();
     inner.generations = options.generations;
     inner.seed = options.seed;
     return call.run<Word>(

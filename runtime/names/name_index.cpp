@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "runtime/names/name_index.h"
 
+#include "compiler/bytecode/environment_keys.h"
+#include "compiler/resolve/known_words.h"
 #include "compiler/resolve/profiles.h"
 #include "grammar/ast/include_chain.h"
 #include "grammar/base/characters.h"
@@ -160,6 +162,16 @@ private:
         return ends;
     }
 
+    /// `?NAME` names an environment; `?P` and the like are built in.
+    void add_sense(std::string_view name, SourceSpan span) {
+        if (is_turtle_sense(name)) {
+            put(NameKind::Module, name, span, false);
+        } else if (parsed_.sources.text(span) == name) {
+            ++span.begin;
+            put(NameKind::Environment, name.substr(1), span, false);
+        }
+    }
+
     void add_module(const ModuleView& module, bool is_definition) {
         constexpr std::size_t kMaxSplit = 256; // longer names are not split here
         const std::string_view name = names_.text(module.name);
@@ -168,6 +180,10 @@ private:
         if (written.size() == name.size() + 2 && written.starts_with('`')) {
             ++span.begin;
             --span.end;
+        }
+        if (is_sense_name(name)) {
+            add_sense(name, span);
+            return;
         }
         if (!is_definition && !module.is_indivisible && is_identifier(name) &&
             name.size() <= kMaxSplit && !known_.contains(name) && written == name) {
@@ -260,9 +276,8 @@ private:
         }
     }
 
-    void add_values(ListRange values, bool is_material) {
-        constexpr std::array<std::string_view, 6> kKeys{"colour",    "picture",      "normal",
-                                                        "roughness", "translucency", "two_sided"};
+    /// Values of `#set`, `#material` or `#sense`; `keys` are words that are no constants there.
+    void add_values(ListRange values, const std::vector<std::string_view>& keys) {
         for (std::uint32_t i = 0; i < values.count; ++i) {
             const SetValue& value = ast_.set_values[values.first + i];
             if (!value.is_word) {
@@ -270,12 +285,24 @@ private:
                 continue;
             }
             const std::string_view word = names_.text(value.word);
-            const bool is_key =
-                is_material && std::find(kKeys.begin(), kKeys.end(), word) != kKeys.end();
+            const bool is_key = std::find(keys.begin(), keys.end(), word) != keys.end();
             if (!value.is_file && !is_key && constants_.contains(word)) {
                 put(NameKind::Constant, word, value.span, false);
             }
         }
+    }
+
+    void add_sense_values(ListRange values) {
+        if (values.count == 0) {
+            return;
+        }
+        if (const SetValue& kind = ast_.set_values[values.first]; kind.is_word && !kind.is_file) {
+            outline_.environment_kind = names_.text(kind.word);
+        }
+        std::vector<std::string_view> keys = sense_keys();
+        const std::vector<std::string_view> shapes = space_shape_names();
+        keys.insert(keys.end(), shapes.begin(), shapes.end());
+        add_values({values.first + 1, values.count - 1}, keys);
     }
 
     void add_heads(ModuleList list) {
@@ -342,7 +369,11 @@ private:
             }
             break;
         case StatementKind::Material:
-            add_values(ast_.materials[i].values, true);
+            add_values(ast_.materials[i].values, material_keys());
+            break;
+        case StatementKind::Sense:
+            put_definition(NameKind::Environment, ast_.senses[i].name, ast_.senses[i].name_span);
+            add_sense_values(ast_.senses[i].values);
             break;
         case StatementKind::Module:
             name_outline(ast_.module_declarations[i].modules);
@@ -359,7 +390,7 @@ private:
         case StatementKind::Set:
             outline_.name = names_.text(ast_.sets[i].key);
             outline_.name_place = place(ast_.sets[i].key_span);
-            add_values(ast_.sets[i].values, false);
+            add_values(ast_.sets[i].values, {});
             break;
         case StatementKind::Ignore:
             add_modules(ast_.ignores[i].modules, false, Arguments::Values);

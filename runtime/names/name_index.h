@@ -16,8 +16,9 @@
 
 namespace lsys {
 
-/// The name spaces (docs/language.md section 2.1). Local values count as formals.
-enum class NameKind : std::uint8_t { Module, Constant, Formal, Function, Production };
+/// The name spaces (docs/language.md section 2.1). Local values count as formals. The name of a sense
+/// module `?NAME` is the environment NAME, without the `?`.
+enum class NameKind : std::uint8_t { Module, Constant, Formal, Function, Production, Environment };
 
 /// Bytes [begin, end) of a file.
 struct TextPlace {
@@ -57,6 +58,7 @@ struct StatementOutline {
     std::string detail;               // the text without the name, on one line, cut
     std::vector<std::string> formals; // formals of a production, function or module
     std::vector<ModuleHead> heads;    // heads of a production
+    std::string environment_kind;     // word of the kind of a #sense
 };
 
 /// A parsed grammar: the syntax tree and the tables that its ids refer to.

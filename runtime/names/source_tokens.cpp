@@ -18,8 +18,10 @@ bool is_before(const SourceToken& a, const SourceToken& b) {
 void add_names(const NameIndex& index, const std::string& path, std::vector<SourceToken>& tokens) {
     for (const NameUse& use : index.uses) {
         if (use.place.path == path) {
+            const bool is_sense = use.kind == NameKind::Environment;
             tokens.push_back(
-                {use.place.begin, use.place.end, static_cast<SourceTokenKind>(use.kind)});
+                {use.place.begin, use.place.end,
+                 is_sense ? SourceTokenKind::Module : static_cast<SourceTokenKind>(use.kind)});
         }
     }
 }

@@ -232,6 +232,11 @@ ExitStatus write_year(const ForestOutput& run,
     }
     apply_painting(run.scene.painting, run.scene.placement.region, *grown.terrain,
                    grown.forest.trees);
+    if (const ExitStatus sensed =
+            run.context.console.take(sense_forest(run.scene, run.context.project, grown));
+        sensed != ExitStatus::Ok) {
+        return sensed;
+    }
     return write_at(run, grown, path);
 }
 

@@ -5,11 +5,15 @@
 #include "grammar/base/hash.h"
 #include "grammar/base/paths.h"
 #include "grammar/dialects/dialect.h"
+#include "runtime/base/out_of_memory.h"
+#include "runtime/forest/surroundings.h"
 #include "runtime/meshing/texture.h"
 #include "runtime/pipeline/grammar.h"
 #include "runtime/pipeline/impl/drawing_end.h"
 #include "runtime/pipeline/impl/mesh_files.h"
+#include "runtime/pipeline/impl/surrounded_heroes.h"
 #include "runtime/pipeline/impl/variety_note.h"
+#include "runtime/pipeline/senses.h"
 #include "runtime/pipeline/setting_options.h"
 #include "runtime/pipeline/stopwatch.h"
 #include "runtime/turtle/plant_size.h"
@@ -18,6 +22,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <iterator>
 #include <set>
 #include <system_error>
 #include <utility>
@@ -197,13 +202,14 @@ Outcome<GroundPictures> make_ground_pictures(const LoadedScene& loaded,
 /// One stage of a species: its heroes with one number of generations, and the mesh files of its
 /// grammar.
 struct GrownStage {
-    ForestStage stage;
+    std::vector<ForestStage> stages; // one, or one for each case of Surroundings
     std::vector<UserMesh> user_meshes;
     Settings settings;      // of the grammar
     SourceSpan height_span; // of `#set height` in the grammar
     std::shared_ptr<const SourceMap> sources;
     AxiomPlace axiom;
-    bool can_reuse_branches = false;   // some branch can be replaced by a recorded one
+    bool can_reuse_branches = false; // some branch can be replaced by a recorded one
+    bool is_blind = false; // should sense its surroundings, but asks no environment with shade
     std::vector<BranchOrigin> origins; // by instance; empty unless grow_stage() is asked for them
 };
 
@@ -223,6 +229,7 @@ std::vector<BranchOrigin> branch_origins(const InstanceCache& cache, const Bytec
     return origins;
 }
 
+/// `origins_of`: index in GrownStage::stages of the stage whose origins are wanted.
 Outcome<GrownStage> grow_stage(const SceneSpecies& species,
                                const std::string& path,
                                std::optional<std::uint32_t> generations,
@@ -230,7 +237,7 @@ Outcome<GrownStage> grow_stage(const SceneSpecies& species,
                                NotedAxioms& noted,
                                const Project& project,
                                FileBudget& budget,
-                               bool origins) {
+                               std::optional<std::size_t> origins_of) {
     Step step(project);
     GrammarOptions options;
     options.dialect = species.dialect.text;
@@ -257,8 +264,8 @@ Outcome<GrownStage> grow_stage(const SceneSpecies& species,
         return step.fail(fmt::format("`{}` is compiled; a forest needs the grammar itself", path));
     }
     GrownStage grown;
-    ForestStage& stage = grown.stage;
-    stage.generations = generations.value_or(grammar.bytecode.generations.value_or(0));
+    const std::uint32_t last_generation =
+        generations.value_or(grammar.bytecode.generations.value_or(0));
     grown.axiom.span = grammar.program->axiom_span();
     grown.axiom.sources = grammar.sources;
     Diagnostics diagnostics;
@@ -275,33 +282,55 @@ Outcome<GrownStage> grow_stage(const SceneSpecies& species,
         return step.end();
     }
     grown.user_meshes = std::move(meshes.meshes);
+    PlantSenses senses;
+    if (!step.take(read_senses(path, grammar, project), senses)) {
+        return step.end();
+    }
+    if (species.senses_surroundings && !senses_shade(grammar.bytecode)) {
+        grown.is_blind = true;
+        return step.done(std::move(grown));
+    }
+    const std::unique_ptr<EnvironmentSense> own_senses = senses.make(grammar.bytecode);
     CacheOptions cache = species.cache;
+    cache.senses = own_senses.get();
     cache.mesh_lengths = std::move(meshes.lengths);
     cache.looks = std::move(meshes.looks);
-    cache.generations = stage.generations;
+    cache.generations = last_generation;
     cache.depends_on_vertical = system->depends_on_vertical;
     cache.threads = project.threads;
     cache.limits = project.limits;
     cache.max_bytes = project.limits.max_bytes;
     cache.cancelled = project.host.cancelled;
-    cache.origins = origins;
-    CacheOutcome outcome = make_instance_cache(grammar.bytecode, cache);
+    cache.origins = origins_of.has_value();
+    std::vector<InstanceCache> caches;
+    CacheOutcome outcome = species.senses_surroundings
+                               ? grow_surrounded_heroes(grammar.bytecode, senses, cache, caches)
+                               : make_instance_cache(grammar.bytecode, cache);
     if (const std::optional<Stop> stop =
             report_drawing(outcome.derivation_end, outcome.drawing_end, grammar, step)) {
         return step.end(*stop);
     }
-    stage.cache = std::move(outcome.cache);
-    grown.origins = branch_origins(stage.cache, grammar.bytecode);
+    if (!species.senses_surroundings) {
+        caches.push_back(std::move(outcome.cache));
+    }
+    for (InstanceCache& each : caches) {
+        grown.stages.push_back({last_generation, std::move(each), 0.0});
+    }
+    if (origins_of) {
+        grown.origins = branch_origins(grown.stages.at(*origins_of).cache, grammar.bytecode);
+    }
     const Settings& settings = grammar.bytecode.settings;
     grown.settings = settings;
     grown.height_span = grammar.height_span;
     grown.sources = grammar.sources;
     if (settings.pipe.is_set()) {
         // With a pipe model no branch is replaced by an instance, so every hero has all its tips.
-        if (const std::optional<Stop> stop =
-                apply_pipe(settings.pipe, material_of(settings), project.limits.max_bytes,
-                           stage.cache.skeleton)) {
-            return step.end_too_large(*stop, "the pipe model");
+        for (ForestStage& stage : grown.stages) {
+            if (const std::optional<Stop> stop =
+                    apply_pipe(settings.pipe, material_of(settings), project.limits.max_bytes,
+                               stage.cache.skeleton)) {
+                return step.end_too_large(*stop, "the pipe model");
+            }
         }
     }
     grown.can_reuse_branches = system->kind_count != 0 && species.rho > 0.0F;
@@ -323,7 +352,7 @@ bool size_heroes(const Settings& settings, bool wants_height, ForestSpecies& spe
     if (settings.height == 0.0F && !wants_height) {
         return true;
     }
-    const InstanceCache& last = species.stages.back().cache;
+    const InstanceCache& last = species.last_stage().cache;
     const HeightTable table = make_height_table(last);
     constexpr std::uint32_t kFirstTree = 0;
     const std::optional<double> height = TreeMeasure(last, table, 0).height_of(kFirstTree);
@@ -340,6 +369,38 @@ bool size_heroes(const Settings& settings, bool wants_height, ForestSpecies& spe
     return true;
 }
 
+/// Sets the crown radii of a species that senses its surroundings.
+void measure_crowns(ForestSpecies& species) {
+    for (std::size_t first = 0; species.senses_surroundings && first < species.stages.size();
+         first += kSurroundings) {
+        const double radius = crown_radius_of(species.stages[first].cache);
+        for (std::size_t i = 0; i < kSurroundings; ++i) {
+            species.stages[first + i].crown_radius = radius;
+        }
+    }
+}
+
+/// Ends the step with an error: `species` cannot sense its surroundings.
+Step::Ended end_blind(const SceneSpecies& species,
+                      const std::string& path,
+                      const LoadedScene& loaded,
+                      Step& step) {
+    std::string message =
+        fmt::format("`{}` senses neither shadow nor sky, so its plants cannot depend on the trees "
+                    "around them",
+                    path);
+    if (species.surroundings_span.file == kNoFile) {
+        return step.fail(std::move(message));
+    }
+    Diagnostic diagnostic = make_diagnostic(DiagnosticCode::BadSceneValue,
+                                            species.surroundings_span, std::move(message));
+    diagnostic.help.emplace_back("declare the light in the grammar, `#sense light shadow;`, and "
+                                 "ask for it with a module: `?light(q, x, y, z)`");
+    diagnostic.help.emplace_back("or write `surroundings = \"ignored\"`");
+    step.diagnose(std::move(diagnostic), loaded.sources);
+    return step.end(Stop::Diagnosed);
+}
+
 /// Whether all values on which heroes depend are equal, file names included.
 bool has_same_heroes(const SceneSpecies& a, const SceneSpecies& b) {
     const auto same_definition = [](const SceneDefinition& one, const SceneDefinition& other) {
@@ -350,7 +411,7 @@ bool has_same_heroes(const SceneSpecies& a, const SceneSpecies& b) {
            a.stages == b.stages && a.rho == b.rho && a.cache.heroes == b.cache.heroes &&
            a.cache.seed == b.cache.seed && a.cache.cap == b.cache.cap &&
            a.cache.tolerance == b.cache.tolerance && a.settings == b.settings &&
-           a.season == b.season &&
+           a.senses_surroundings == b.senses_surroundings && a.season == b.season &&
            std::equal(a.definitions.begin(), a.definitions.end(), b.definitions.begin(),
                       b.definitions.end(), same_definition);
 }
@@ -454,6 +515,7 @@ grow_species(const LoadedScene& loaded, const Project& project, const PreviousFo
         }
         ForestSpecies& forest_species = grown.forest.species.emplace_back();
         forest_species.name = species.name;
+        forest_species.senses_surroundings = species.senses_surroundings;
         forest_species.years_of_stage = years_of_stage(scene, grown.forest.species.size() - 1);
         std::vector<UserMesh>& meshes = grown.user_meshes.emplace_back();
         Messages& messages = grown.messages.emplace_back();
@@ -487,14 +549,18 @@ grow_species(const LoadedScene& loaded, const Project& project, const PreviousFo
             }
             meshes.clear();
             Outcome<GrownStage> stage =
-                grow_stage(species, path, generations, i == 0, noted, project, budget, false);
+                grow_stage(species, path, generations, i == 0, noted, project, budget, {});
             messages.append(stage.messages());
             step.messages.append(stage.messages());
             if (!stage) {
                 return step.end(stage.stop());
             }
             last = std::move(stage.value());
-            forest_species.stages.push_back(std::move(last.stage));
+            if (last.is_blind) {
+                return end_blind(species, path, loaded, step);
+            }
+            std::move(last.stages.begin(), last.stages.end(),
+                      std::back_inserter(forest_species.stages));
             meshes = std::move(last.user_meshes);
         }
         AxiomPlace& axiom = grown.axioms.emplace_back(last.axiom);
@@ -523,6 +589,7 @@ grow_species(const LoadedScene& loaded, const Project& project, const PreviousFo
                           last.sources);
             return step.end(Stop::Diagnosed);
         }
+        measure_crowns(forest_species);
     }
     grown.cache_seconds = growing.seconds();
     return step.done(std::move(grown));
@@ -537,12 +604,14 @@ Outcome<std::vector<BranchOrigin>> origins_of_branches(const SceneSpecies& speci
                                                        std::size_t stage,
                                                        const Project& project) {
     Step step(project);
+    const std::size_t cases = species.senses_surroundings ? kSurroundings : 1;
     const std::optional<std::uint32_t> generations =
-        species.stages.empty() ? std::nullopt : std::optional(species.stages.at(stage));
+        species.stages.empty() ? std::nullopt : std::optional(species.stages.at(stage / cases));
     FileBudget budget{project.limits.max_bytes};
     NotedAxioms noted;
-    Outcome<GrownStage> grown = grow_stage(species, path_in(folder, species.grammar.path),
-                                           generations, false, noted, project, budget, true);
+    Outcome<GrownStage> grown =
+        grow_stage(species, path_in(folder, species.grammar.path), generations, false, noted,
+                   project, budget, stage % cases);
     if (!grown) { // warnings of a success were shown when the forest was grown
         step.messages.append(grown.messages());
         return step.end(grown.stop());
@@ -598,6 +667,24 @@ std::vector<double> unit_heights(const Scene& scene, const GrownForest& grown) {
     return heights;
 }
 
+double max_scale(const PlacementOptions& options, const TreeSizer& sizer, std::uint16_t species) {
+    const PlacementSpecies& placed = options.species[species];
+    const float largest = placed.max_height > 0.0F ? placed.max_height : placed.max_scale;
+    return static_cast<double>(largest) * sizer.max_factor(species);
+}
+
+double halo_of(const PlacementOptions& options, const Forest& kinds, const TreeSizer& sizer) {
+    if (!has_sensed_surroundings(kinds)) {
+        return 0.0;
+    }
+    std::vector<double> scales;
+    for (std::size_t s = 0; s < kinds.species.size(); ++s) {
+        scales.push_back(max_scale(options, sizer, static_cast<std::uint16_t>(s)));
+    }
+    constexpr double kRounding = 1.0 + 1e-6; // of scales to binary32
+    return kRounding * reach_of_surroundings(kinds, scales);
+}
+
 // Structured bindings list all members, so that a new member which the hash lacks does not compile.
 std::uint64_t placement_digest(const Scene& scene,
                                const Project& project,
@@ -634,6 +721,11 @@ std::uint64_t placement_digest(const Scene& scene,
     for (const std::uint32_t number : erased) {
         state = combine(state, number);
     }
+    for (const ForestSpecies& each : grown.forest.species) {
+        for (const ForestStage& stage : each.stages) {
+            state = combine_numbers(state, each.senses_surroundings, stage.crown_radius);
+        }
+    }
     return finish(combine_numbers(state, grown.terrain->digest(), sizer.digest()));
 }
 
@@ -646,6 +738,37 @@ Outcome<void> size_forest(const Scene& scene, const Project& project, GrownFores
     if (const auto flat = size_trees(heights, project.threads, grown.forest)) {
         return step.fail(fmt::format("{}: a tree lies flat, so it cannot be given a height",
                                      grown.forest.species[*flat].name));
+    }
+    return step.done();
+}
+
+Outcome<void> sense_forest(const Scene& scene, const Project& project, GrownForest& grown) {
+    Step step(project);
+    Forest& forest = grown.forest;
+    if (!has_sensed_surroundings(forest)) {
+        return step.done();
+    }
+    LargeVector<Tree> around; // trees of the tile and of a border around it
+    if (scene.is_tile) {
+        PlacementOptions options = placement_options(scene, project, grown);
+        const TreeSizer sizer(unit_heights(scene, grown), forest);
+        options.region = widened(options.region, halo_of(options, forest, sizer));
+        Result<Placement> placed = place_trees(options, *grown.terrain);
+        if (!placed) {
+            return step.fail(fmt::format("placement: {}", placed.error().message));
+        }
+        around = std::move(placed.value().trees);
+        apply_painting(scene.painting, options.region, *grown.terrain, around);
+    }
+    const bool has_room = catch_out_of_memory(
+        [&] {
+            sense_surroundings(forest, scene.is_tile ? around : forest.trees, forest.trees,
+                               project.threads);
+            return true;
+        },
+        [] { return false; });
+    if (!has_room) {
+        return step.end_too_large(Stop::OutOfMemory, "the surroundings of the trees");
     }
     return step.done();
 }
@@ -664,6 +787,9 @@ Outcome<void> place_forest(const Scene& scene, const Project& project, GrownFore
         return step.end();
     }
     apply_painting(scene.painting, options.region, *grown.terrain, grown.forest.trees);
+    if (!step.take(sense_forest(scene, project, grown))) {
+        return step.end();
+    }
     grown.placed = placed.value().report;
     grown.place_seconds = placing.seconds();
     if (std::string note = placement_note(grown.placed); !note.empty()) {

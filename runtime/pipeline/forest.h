@@ -85,6 +85,14 @@ placement_options(const Scene& scene, const Project& project, const GrownForest&
 /// By species: the height in m that TreeSizer gives a tree of scale 1; 0: trees keep their size.
 [[nodiscard]] std::vector<double> unit_heights(const Scene& scene, const GrownForest& grown);
 
+/// An upper bound of the scale of a tree of a species. Not for Domination, whose trees grow.
+[[nodiscard]] double
+max_scale(const PlacementOptions& options, const TreeSizer& sizer, std::uint16_t species);
+/// Width in m of a border around a part of a forest: trees in it can be neighbours of trees of the
+/// part. 0 if no species of `kinds` senses its surroundings. Not for Domination.
+[[nodiscard]] double
+halo_of(const PlacementOptions& options, const Forest& kinds, const TreeSizer& sizer);
+
 /// Hash of all values that the trees of place_forest() depend on. `sizer`: made from
 /// unit_heights(). Time is linear in the pixels of maps and in painted trees.
 [[nodiscard]] std::uint64_t placement_digest(const Scene& scene,
@@ -97,7 +105,13 @@ placement_options(const Scene& scene, const Project& project, const GrownForest&
 [[nodiscard]] Outcome<void>
 size_forest(const Scene& scene, const Project& project, GrownForest& grown);
 
-/// Places the trees of `grown`, gives them their heights, and applies the scene's painting.
+/// Senses the surroundings of all trees of `grown`, for species that have heroes for each case. If
+/// the scene is a tile of an unbounded forest, the trees around the tile are neighbours too.
+[[nodiscard]] Outcome<void>
+sense_forest(const Scene& scene, const Project& project, GrownForest& grown);
+
+/// Places the trees of `grown`, gives them their heights, applies the scene's painting, and senses
+/// the surroundings of the trees.
 [[nodiscard]] Outcome<void>
 place_forest(const Scene& scene, const Project& project, GrownForest& grown);
 

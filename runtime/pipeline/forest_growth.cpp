@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "runtime/pipeline/forest_growth.h"
 
+#include "runtime/forest/surroundings.h"
 #include "runtime/pipeline/step.h"
 #include "runtime/placement/domination.h"
 
@@ -36,6 +37,7 @@ LargeVector<Tree> trees_later(const std::vector<PlacementSpecies>& species,
 
 struct ForestGrowth::State {
     const Scene& scene;
+    const Forest& kinds; // the species of the trees; its trees are not used
     const Terrain& terrain;
     PlacementOptions options;
     std::optional<Domination> domination;
@@ -43,8 +45,33 @@ struct ForestGrowth::State {
     LargeVector<Tree> before; // trees of year domination->year() - 1; empty in year 0
     LargeVector<Tree> after;  // trees of year domination->year()
 
-    State(const Scene& source, const Terrain& ground, PlacementOptions placement)
-        : scene(source), terrain(ground), options(std::move(placement)) {}
+    State(const Scene& source, const GrownForest& grown, PlacementOptions placement)
+        : scene(source), kinds(grown.forest), terrain(*grown.terrain),
+          options(std::move(placement)) {}
+
+    void sense(LargeVector<Tree>& trees) const {
+        if (has_sensed_surroundings(kinds)) {
+            sense_surroundings(kinds, trees, trees, options.threads);
+        }
+    }
+
+    /// Placed and painted trees of one year.
+    struct Year {
+        LargeVector<Tree> placed;
+        LargeVector<Tree> painted;
+    };
+    /// Applies the painting to the placed trees of a year and senses their surroundings.
+    [[nodiscard]] Year finished(const LargeVector<Tree>& placed) const {
+        Year year{placed, {}};
+        apply_painting(scene.painting, options.region, terrain, year.placed);
+        sense(year.placed);
+        const auto painted = std::count_if(
+            scene.painting.trees.begin(), scene.painting.trees.end(),
+            [&](const PaintedTree& tree) { return options.region.contains(tree.x, tree.z); });
+        year.painted.assign(year.placed.end() - painted, year.placed.end());
+        year.placed.resize(year.placed.size() - year.painted.size());
+        return year;
+    }
 
     [[nodiscard]] Result<void> go_to(std::uint32_t year, const Project& project) {
         while (domination->year() < year) {
@@ -83,7 +110,7 @@ ForestGrowth::begin(const Scene& scene, const GrownForest& grown, const Project&
     Step step(project);
     PlacementOptions options = scene.placement;
     options.threads = project.threads;
-    auto state = std::make_unique<State>(scene, *grown.terrain, std::move(options));
+    auto state = std::make_unique<State>(scene, grown, std::move(options));
     if (scene.placement.method == PlacementMethod::Domination) {
         if (const Result<void> begun = state->begin_again(); !begun) {
             return step.fail(begun.error());
@@ -110,12 +137,15 @@ Outcome<void> ForestGrowth::trees(const GrowthMoment& moment,
     State& state = *state_;
     if (!state.domination) {
         const std::vector<PlacementSpecies>& species = state.options.species;
-        const LargeVector<Tree> before = trees_later(species, state.start, moment.generation);
-        trees =
-            moment.fraction > 0.0
-                ? trees_between(before, trees_later(species, state.start, moment.generation + 1),
-                                moment.fraction, height_of)
-                : before;
+        const auto year = [&](std::uint32_t stages) {
+            LargeVector<Tree> later = trees_later(species, state.start, stages);
+            state.sense(later);
+            return later;
+        };
+        const LargeVector<Tree> before = year(moment.generation);
+        trees = moment.fraction > 0.0
+                    ? trees_between(before, year(moment.generation + 1), moment.fraction, height_of)
+                    : before;
         return step.done();
     }
     const std::uint32_t year = moment.generation + (moment.fraction > 0.0 ? 1 : 0);
@@ -128,8 +158,11 @@ Outcome<void> ForestGrowth::trees(const GrowthMoment& moment,
         return step.fail(done.error());
     }
     const double part = moment.generation == state.domination->year() ? 1.0 : moment.fraction;
-    trees = trees_between(state.before, state.after, part, height_of);
-    apply_painting(state.scene.painting, state.options.region, state.terrain, trees);
+    const State::Year before = state.finished(state.before);
+    const State::Year after = state.finished(state.after);
+    trees = trees_between(before.placed, after.placed, part, height_of);
+    const LargeVector<Tree>& painted = part < 1.0 ? before.painted : after.painted;
+    trees.insert(trees.end(), painted.begin(), painted.end());
     return step.done();
 }
 

@@ -62,7 +62,8 @@ bool cannot_fail(const Bytecode& bytecode) {
                !rewrites_bracket(bytecode, production) &&
                !closes_too_much(bytecode, production.successor.codes);
     };
-    return std::all_of(bytecode.symbols.begin(), bytecode.symbols.end(), is_plain) &&
+    return !bytecode.has_senses() && // an environment may have no answer
+           std::all_of(bytecode.symbols.begin(), bytecode.symbols.end(), is_plain) &&
            std::none_of(bytecode.axioms.begin(), bytecode.axioms.end(),
                         [&](const BytecodeAxiom& axiom) {
                             return closes_too_much(bytecode, axiom.word.codes);

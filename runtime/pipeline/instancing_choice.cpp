@@ -21,6 +21,11 @@ namespace lsys {
 
 namespace {
 
+/// Cases of surroundings for which a species has heroes of their own.
+std::size_t cases_of(const SceneSpecies& species) {
+    return species.senses_surroundings ? kSurroundings : 1;
+}
+
 constexpr std::uint64_t kNoBytes = std::numeric_limits<std::uint64_t>::max();
 // Values to try. The default rho comes first, since the first of equally good choices is taken.
 constexpr std::array<float, 9> kRhos{0.6F, 0.5F, 0.7F, 0.4F, 0.8F, 0.3F, 0.2F, 0.1F, 0.0F};
@@ -139,7 +144,8 @@ public:
             return quiet.end();
         }
         grown.forest.trees.assign(trees_.begin(), trees_.end());
-        const std::uint64_t shapes = std::max<std::size_t>(species.stages.size(), 1);
+        const std::uint64_t shapes =
+            std::max<std::size_t>(species.stages.size(), 1) * cases_of(species);
         return step.done(count_different_trees(grown.forest, project_.threads) > shapes);
     }
 
@@ -318,7 +324,8 @@ Outcome<void> choose_instancing(LoadedScene& loaded, const Project& project) {
         Search& search = searches.emplace_back(loaded, s, std::move(trees[s]), project);
         search.needed =
             goal.variety > 0.0 ? share_of(goal.variety, search.tree_count()) : search.tree_count();
-        const std::uint64_t shapes = std::max<std::size_t>(species.stages.size(), 1);
+        const std::uint64_t shapes =
+            std::max<std::size_t>(species.stages.size(), 1) * cases_of(species);
         if (goal.variety > 0.0 && is_noted[s] && search.needed > shapes) {
             Outcome<bool> is_random = search.compare_heroes();
             bool differs = false;

@@ -5,6 +5,7 @@
 #include "runtime/derive/word_text.h"
 #include "runtime/pipeline/impl/drawing_end.h"
 #include "runtime/pipeline/impl/mesh_files.h"
+#include "runtime/pipeline/senses.h"
 #include "runtime/pipeline/step.h"
 #include "runtime/turtle/turtle.h"
 
@@ -58,6 +59,12 @@ Outcome<ItemOrigin> find(const PlantOptions& options,
     if (!step.take(read_mesh_files(options.file, grammar, project, budget), meshes)) {
         return step.end();
     }
+    PlantSenses senses;
+    if (!step.take(read_senses(options.file, grammar, project), senses)) {
+        return step.end();
+    }
+    const std::unique_ptr<EnvironmentSense> own_senses = senses.make(bytecode);
+    derive.senses = own_senses.get();
     Derivation derivation(bytecode, derive);
     if (derivation.start() || derivation.run_to(generation)) {
         return step.end(*report_drawing(derivation.end(), {}, grammar, step));

@@ -7,6 +7,7 @@
 #include "runtime/pipeline/growth_forecast.h"
 #include "runtime/pipeline/impl/drawing_end.h"
 #include "runtime/pipeline/impl/mesh_files.h"
+#include "runtime/pipeline/senses.h"
 #include "runtime/pipeline/step.h"
 #include "runtime/pipeline/stopwatch.h"
 #include "runtime/turtle/plant_size.h"
@@ -15,6 +16,7 @@
 
 #include <fmt/format.h>
 
+#include <memory>
 #include <utility>
 
 namespace lsys {
@@ -170,6 +172,10 @@ derive_word(const PlantOptions& options, const Grammar& grammar, const Project& 
     if (exceeds_limit(derive, grammar, step)) {
         return step.end(Stop::Limit);
     }
+    PlantSenses senses;
+    if (!step.take(read_senses(options.file, grammar, project), senses)) {
+        return step.end();
+    }
     project.begin(LongStep::Derive);
     DerivedWord derived;
     derived.generations = derive.generations;
@@ -178,6 +184,8 @@ derive_word(const PlantOptions& options, const Grammar& grammar, const Project& 
     const Bytecode& bytecode = derived.folded ? *derived.folded : grammar.bytecode;
     std::vector<double> expected;
     report_progress(bytecode, project, expected, derive);
+    const std::unique_ptr<EnvironmentSense> own_senses = senses.make(bytecode);
+    derive.senses = own_senses.get();
     Derivation derivation(bytecode, derive);
     if (const std::optional<Stop> stop = derivation.derive()) {
         if (stop != Stop::Cancelled) {
@@ -214,6 +222,12 @@ Outcome<Plant> grow_plant(const PlantOptions& options, Grammar& grammar, const P
         return step.end();
     }
     plant.user_meshes = std::move(meshes.meshes);
+    PlantSenses senses;
+    if (!step.take(read_senses(options.file, grammar, project), senses)) {
+        return step.end();
+    }
+    const std::unique_ptr<EnvironmentSense> own_senses = senses.make(bytecode);
+    derive.senses = own_senses.get();
     project.begin(LongStep::Derive);
     turtle_options.mesh_lengths = std::move(meshes.lengths);
     turtle_options.looks = std::move(meshes.looks);

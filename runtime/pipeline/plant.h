@@ -38,7 +38,8 @@ struct Plant {
     double draw_seconds = 0.0;
 };
 
-/// Options for a derivation of the grammar: generations, seed, limits, threads, cancellation.
+/// Options for a derivation of the grammar: generations, seed, limits, threads, cancellation. The
+/// caller sets DeriveOptions::senses (PlantSenses::make()).
 [[nodiscard]] DeriveOptions
 derive_options(const PlantOptions& options, const Bytecode& bytecode, const Project& project);
 
@@ -56,7 +57,7 @@ struct DerivedWord {
 };
 
 /// Derives the grammar, with a folded copy of its bytecode unless fold_reached() returns nothing.
-/// Uses only `generations`, `seed` and `origins` of the options.
+/// Uses only `file`, `generations`, `seed` and `origins` of the options.
 [[nodiscard]] Outcome<DerivedWord>
 derive_word(const PlantOptions& options, const Grammar& grammar, const Project& project);
 

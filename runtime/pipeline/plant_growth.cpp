@@ -7,6 +7,7 @@
 #include "runtime/pipeline/growth_forecast.h"
 #include "runtime/pipeline/impl/drawing_end.h"
 #include "runtime/pipeline/impl/mesh_files.h"
+#include "runtime/pipeline/senses.h"
 #include "runtime/pipeline/step.h"
 #include "runtime/pipeline/stopwatch.h"
 #include "runtime/turtle/turtle.h"
@@ -20,10 +21,19 @@
 namespace lsys {
 
 struct PlantGrowth::State {
-    State(Grammar& source, DeriveOptions options)
-        : grammar(source), derive(std::move(options)), derivation(source.bytecode, derive) {}
+    State(Grammar& source, DeriveOptions options, PlantSenses sensing)
+        : grammar(source), senses(std::move(sensing)), own_senses(senses.make(source.bytecode)),
+          derive(with_senses(std::move(options), own_senses.get())),
+          derivation(source.bytecode, derive) {}
+
+    static DeriveOptions with_senses(DeriveOptions options, WordSense* senses) {
+        options.senses = senses;
+        return options;
+    }
 
     Grammar& grammar;
+    PlantSenses senses;
+    std::unique_ptr<EnvironmentSense> own_senses;
     DeriveOptions derive;
     TurtleOptions turtle;
     Plant plant;
@@ -161,7 +171,11 @@ PlantGrowth::begin(const PlantOptions& options, Grammar& grammar, const Project&
         return step.end(Stop::Limit);
     }
     fold_modules(derive, grammar.bytecode);
-    auto state = std::make_unique<State>(grammar, derive);
+    PlantSenses senses;
+    if (!step.take(read_senses(options.file, grammar, project), senses)) {
+        return step.end();
+    }
+    auto state = std::make_unique<State>(grammar, derive, std::move(senses));
     MeshFiles meshes;
     FileBudget budget{project.limits.max_bytes};
     if (!step.take(read_mesh_files(options.file, grammar, project, budget), meshes)) {

@@ -7,6 +7,7 @@
 #include "grammar/base/message_levels.h"
 #include "grammar/base/result.h"
 #include "runtime/base/limits.h"
+#include "runtime/environment/program.h"
 
 #include <atomic>
 #include <cstdint>
@@ -56,8 +57,18 @@ struct Host {
     const std::atomic<bool>* cancelled = nullptr;
     /// Reports progress. May be empty.
     std::function<void(const DerivationProgress& progress)> progress;
+    /// Starts the programs of `--environment`. Empty: none can be started.
+    StartProgram start_program;
     /// Reports that a step begins. May be empty.
     std::function<void(LongStep step)> step_begins;
+};
+
+/// The program that answers an environment of kind Program: `--environment NAME=COMMAND`.
+struct EnvironmentCommand {
+    std::string name;    // of the environment, without the `?`
+    std::string command; // a command line of the shell
+
+    friend bool operator==(const EnvironmentCommand&, const EnvironmentCommand&) = default;
 };
 
 struct Project {
@@ -65,6 +76,8 @@ struct Project {
     Limits limits;             // max modules per word; max bytes per word, skeleton, mesh and file
     std::uint32_t threads = 0; // 0: as many as the machine has
     MessageLevels levels;      // levels of diagnostics, from --allow, --warn and --deny
+    std::vector<EnvironmentCommand> environments{};
+    double answer_seconds = 60.0; // max time of an answer of a program of `environments`
 
     [[nodiscard]] bool is_cancelled() const {
         return host.cancelled != nullptr && host.cancelled->load(std::memory_order_relaxed);

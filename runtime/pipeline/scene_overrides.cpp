@@ -129,6 +129,7 @@ Result<void> apply(const SceneOverrides& overrides, Scene& scene) {
         const SpeciesOverrides& species_overrides = found->second;
         replace_if_set(species_overrides.heroes, species.cache.heroes);
         replace_if_set(species_overrides.rho, species.rho);
+        replace_if_set(species_overrides.senses_surroundings, species.senses_surroundings);
         mark_explicit(species_overrides.heroes.has_value(), species_overrides.rho.has_value(),
                       species);
         PlacementSpecies& placed = scene.placement.species[i];
@@ -174,6 +175,7 @@ Result<void> apply(const SceneOverrides& overrides, Scene& scene) {
                          "poisson-cells and density-cells have tiles that fit"};
         }
         const ForestTile& tile = *overrides.tile;
+        scene.is_tile = true;
         placement.region = {static_cast<double>(tile.column) * tile.size,
                             static_cast<double>(tile.row) * tile.size, tile.size, tile.size};
         if (scene.terrain.kind != TerrainKind::HeightMap) {

@@ -44,6 +44,7 @@ struct SpeciesOverrides {
     std::optional<float> max_height; // m; raised to min_height if it is less
     std::optional<std::uint32_t> heroes;
     std::optional<float> rho;
+    std::optional<bool> senses_surroundings;
 
     friend bool operator==(const SpeciesOverrides&, const SpeciesOverrides&) = default;
 };

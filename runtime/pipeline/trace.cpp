@@ -7,11 +7,13 @@
 #include "runtime/pipeline/growth_forecast.h"
 #include "runtime/pipeline/impl/wanted_module.h"
 #include "runtime/pipeline/plant.h"
+#include "runtime/pipeline/senses.h"
 #include "runtime/pipeline/step.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <memory>
 #include <utility>
 
 namespace lsys {
@@ -65,7 +67,11 @@ public:
                 grammar_.sources);
             return step_.end(Stop::Limit);
         }
-        Derivation derivation(bytecode_, derive_);
+        if (!step_.take(read_senses(options_.file, grammar_, step_.project()), senses_)) {
+            return step_.end();
+        }
+        const std::unique_ptr<EnvironmentSense> senses = senses_.make(bytecode_);
+        Derivation derivation(bytecode_, with_senses(derive_, senses.get()));
         std::optional<Stop> stop = derivation.start();
         keep(derivation);
         while (!stop && derivation.age() < trace_.generation) {
@@ -79,6 +85,7 @@ public:
         }
         inputs_ = {derive_.seed, static_cast<float>(derive_.generations), derivation.globals(),
                    production_names(grammar_)};
+        sense_state_ = derivation.sense_state();
         trace_.modules = derivation.word().module_count();
         if (trace_.modules >= kNone) {
             return step_.fail(fmt::format("generation {} has {} modules, and at most {} can be "
@@ -121,11 +128,18 @@ private:
         }
     }
 
+    /// The options of one derivation with senses of its own.
+    static DeriveOptions with_senses(DeriveOptions options, WordSense* senses) {
+        options.senses = senses;
+        return options;
+    }
+
     // --- stored words: starting points for earlier generations, nearer than the axiom
 
     struct StoredWord {
         std::uint32_t age = 0;
         Word word;
+        std::string sense_state;
     };
 
     /// Stores a copy of the word if its age is a multiple of stride_. If the copies take more than
@@ -138,11 +152,11 @@ private:
         if (!copy) {
             return;
         }
-        stored_words_.push_back({derivation.age(), std::move(*copy)});
+        stored_words_.push_back({derivation.age(), std::move(*copy), derivation.sense_state()});
         const auto too_much = [this] {
             std::uint64_t bytes = 0;
             for (const StoredWord& each : stored_words_) {
-                bytes += each.word.held_bytes();
+                bytes += each.word.held_bytes() + each.sense_state.size();
             }
             return bytes > derive_.limits.max_bytes / 4;
         };
@@ -169,7 +183,7 @@ private:
             if (!copy) {
                 return Stop::OutOfMemory;
             }
-            stop = derivation.resume(std::move(*copy), from.age);
+            stop = derivation.resume(std::move(*copy), from.age, from.sense_state);
         }
         return stop ? stop : derivation.run_to(age);
     }
@@ -338,12 +352,14 @@ private:
         if (!(trace_.is_last || options_.is_drawn) || !bytecode_.has(Stage::Interpret)) {
             return std::nullopt;
         }
-        Derivation drawing(bytecode_, derive_);
+        const std::unique_ptr<EnvironmentSense> senses = senses_.make(bytecode_);
+        Derivation drawing(bytecode_, with_senses(derive_, senses.get()));
         std::optional<Word> copy = copy_of_word(word);
         if (!copy) {
             return Stop::OutOfMemory;
         }
-        if (const std::optional<Stop> stop = drawing.resume(std::move(*copy), trace_.generation)) {
+        if (const std::optional<Stop> stop =
+                drawing.resume(std::move(*copy), trace_.generation, sense_state_)) {
             return stop;
         }
         StepTracer tracer(bytecode_, inputs_);
@@ -370,12 +386,13 @@ private:
             tracer.on_pass(pass);
             written = pass.out;
         };
-        Derivation stepping(bytecode_, options);
+        const std::unique_ptr<EnvironmentSense> senses = senses_.make(bytecode_);
+        Derivation stepping(bytecode_, with_senses(options, senses.get()));
         std::optional<Word> copy = copy_of_word(from.word());
         if (!copy) {
             return Stop::OutOfMemory;
         }
-        std::optional<Stop> stop = stepping.resume(std::move(*copy), from.age());
+        std::optional<Stop> stop = stepping.resume(std::move(*copy), from.age(), sense_state_);
         if (!stop) {
             stop = work(stepping);
         }
@@ -411,12 +428,14 @@ private:
     [[nodiscard]] std::optional<Stop> follow_back(TracedPlace& place) {
         std::uint64_t position = place.position;
         for (std::uint32_t age = trace_.generation; age-- > 0;) {
-            Derivation derivation(bytecode_, derive_);
+            const std::unique_ptr<EnvironmentSense> senses = senses_.make(bytecode_);
+            Derivation derivation(bytecode_, with_senses(derive_, senses.get()));
             std::optional<Stop> stop = go_to(derivation, age);
             std::optional<Word> before;
             if (!stop && !(before = copy_of_word(derivation.word()))) {
                 stop = Stop::OutOfMemory;
             }
+            const std::string sense_state = derivation.sense_state();
             if (!stop && !derivation.follow()) {
                 stop = Stop::Limit;
             }
@@ -431,7 +450,7 @@ private:
             back.generation = age;
             back.next_position = position;
             back.position = derivation.word().origins()[position].place;
-            stop = trace_back_step(std::move(*before), position, back);
+            stop = trace_back_step(std::move(*before), sense_state, position, back);
             if (stop) {
                 return stop;
             }
@@ -442,7 +461,8 @@ private:
             }
         }
         if (!place.back.empty()) {
-            Derivation start(bytecode_, derive_);
+            const std::unique_ptr<EnvironmentSense> senses = senses_.make(bytecode_);
+            Derivation start(bytecode_, with_senses(derive_, senses.get()));
             if (const std::optional<Stop> stop = start.start()) {
                 report(start, *stop);
                 return stop;
@@ -452,15 +472,18 @@ private:
         return std::nullopt;
     }
 
-    [[nodiscard]] std::optional<Stop>
-    trace_back_step(Word before, std::uint64_t target, AncestorStep& back) {
+    [[nodiscard]] std::optional<Stop> trace_back_step(Word before,
+                                                      const std::string& sense_state,
+                                                      std::uint64_t target,
+                                                      AncestorStep& back) {
         StepTracer tracer(bytecode_, inputs_);
         tracer.begin({back.position}, before, back.generation, DerivationPass::Kind::Rewrite);
         back.module = modules_at(bytecode_, before, {back.position}).front();
         DeriveOptions options = derive_;
         options.on_pass = [&](const DerivationPass& pass) { tracer.on_pass(pass); };
-        Derivation stepping(bytecode_, options);
-        std::optional<Stop> stop = stepping.resume(std::move(before), back.generation);
+        const std::unique_ptr<EnvironmentSense> senses = senses_.make(bytecode_);
+        Derivation stepping(bytecode_, with_senses(options, senses.get()));
+        std::optional<Stop> stop = stepping.resume(std::move(before), back.generation, sense_state);
         if (!stop) {
             stop = stepping.step();
         }
@@ -479,7 +502,8 @@ private:
         }
         back.offset = found->offset;
         for (std::size_t i = found->parent; i != kNoTrace; i = tracer.traces()[i].parent) {
-            if (tracer.traces()[i].fate == Fate::Rewritten) {
+            const Fate fate = tracer.traces()[i].fate;
+            if (fate == Fate::Rewritten || fate == Fate::Sensed) {
                 back.steps.insert(back.steps.begin(), tracer.traces()[i]);
             }
         }
@@ -494,8 +518,10 @@ private:
     const Bytecode& bytecode_;
     Step step_;
     DeriveOptions derive_;
+    PlantSenses senses_;
     TraceInputs inputs_;
     Trace trace_;
+    std::string sense_state_;              // of the environments, at the traced generation
     std::vector<TracedModule> next_;       // modules at StepTracer::places()
     std::vector<StoredWord> stored_words_; // by ascending age
     std::uint32_t stride_ = 1;

@@ -25,6 +25,7 @@ LSYS_COUNTED_ENUM(TraceScope,
 
 /// The modules to trace, and how to trace them.
 struct TraceOptions {
+    std::string file;                        // path of the grammar, base of files of `#sense`
     std::optional<std::uint32_t> generation; // of the modules; unset: the value of #n
     /// Number of generations of the whole derivation, which steps() returns. Unset: #n, or
     /// `generation` if that is more.

@@ -129,6 +129,23 @@ Result<std::uint64_t> parse_size(std::string_view text) {
     return static_cast<std::uint64_t>(bytes);
 }
 
+Result<EnvironmentCommand> parse_environment(std::string_view text) {
+    const std::size_t equals = text.find('=');
+    if (equals == std::string_view::npos) {
+        return Error{fmt::format("`{}` is not NAME=COMMAND", text)};
+    }
+    std::string_view name = text.substr(0, equals);
+    name.remove_prefix(name.starts_with('?') ? 1 : 0);
+    if (!is_identifier(name)) {
+        return Error{fmt::format("`{}` is not the name of an environment", name)};
+    }
+    const std::string_view command = text.substr(equals + 1);
+    if (command.find_first_not_of(" \t") == std::string_view::npos) {
+        return Error{fmt::format("`{}` names no program", text)};
+    }
+    return EnvironmentCommand{std::string(name), std::string(command)};
+}
+
 Result<Definition> parse_definition(std::string_view text) {
     const std::size_t equals = text.find('=');
     if (equals == std::string_view::npos) {

@@ -5,6 +5,7 @@
 #include "compiler/program/compile_options.h"
 #include "grammar/base/result.h"
 #include "runtime/physics/physics.h"
+#include "runtime/pipeline/project.h"
 #include "runtime/scene/sun.h"
 
 #include <cstdint>
@@ -38,5 +39,7 @@ parse_integer(std::string_view text, std::uint64_t low, std::uint64_t high);
 
 /// `NAME=number`.
 [[nodiscard]] Result<Definition> parse_definition(std::string_view text);
+/// NAME=COMMAND of --environment. NAME may begin with `?`.
+[[nodiscard]] Result<EnvironmentCommand> parse_environment(std::string_view text);
 
 } // namespace lsys

@@ -2,6 +2,7 @@
 #include "runtime/program/host.h"
 
 #include "grammar/base/paths.h"
+#include "runtime/program/environment_program.h"
 #include "runtime/program/files.h"
 #include "runtime/program/memory_size.h"
 
@@ -23,6 +24,7 @@ Host make_file_host(const std::atomic<bool>* cancelled) {
         std::error_code ignored;
         return std::filesystem::exists(path_of(path), ignored);
     };
+    host.start_program = start_environment_program;
     host.cancelled = cancelled;
     return host;
 }
@@ -40,7 +42,8 @@ Host make_host(const Console& console, const std::string& standard_input) {
 Project make_project(const Console& console, const RunOptions& run) {
     const std::string input =
         run.stdin_name.empty() ? standard_input_in(run.base) : standard_input_as(run.stdin_name);
-    return {make_host(console, input), run.limits, run.threads, console.options().levels};
+    return {make_host(console, input), run.limits, run.threads, console.options().levels,
+            run.environments};
 }
 
 FileLoader make_include_loader(const Project& project) {

@@ -138,6 +138,31 @@ void add_grammar(CLI::App& app, GrammarOptions& options, RunOptions& run) {
         ->group("Limits");
 }
 
+void add_environments(CLI::App& app, RunOptions& run) {
+    app.add_option_function<std::vector<std::string>>(
+           "--environment",
+           [&run](const std::vector<std::string>& texts) {
+               for (const std::string& text : texts) {
+                   Result<EnvironmentCommand> given = parse_environment(text);
+                   if (!given) {
+                       throw CLI::ValidationError("--environment", given.error().message);
+                   }
+                   for (const EnvironmentCommand& known : run.environments) {
+                       if (known.name == given.value().name) {
+                           throw CLI::ValidationError(
+                               "--environment", fmt::format("`{}` is given twice", known.name));
+                       }
+                   }
+                   run.environments.push_back(std::move(given.value()));
+               }
+           },
+           "Program that answers `?NAME` of a `#sense NAME program`: a command line of the shell; "
+           "repeatable")
+        ->type_name("NAME=COMMAND")
+        ->allow_extra_args(false)
+        ->group("Grammar");
+}
+
 void add_base_option(CLI::App& app, RunOptions& run) {
     const auto folder = [](const std::string& text) -> Result<std::string> {
         std::error_code ignored;

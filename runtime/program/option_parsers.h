@@ -95,6 +95,8 @@ void add_base_option(CLI::App& app, RunOptions& run);
 /// both are given.
 [[nodiscard]] std::optional<UsageError> apply_base(const RunOptions& run,
                                                    std::span<std::string> files);
+/// The option --environment of commands that derive.
+void add_environments(CLI::App& app, RunOptions& run);
 void add_seed(CLI::App& app, std::optional<std::uint64_t>& seed);
 /// The option for the height of the plant, in m.
 void add_height(CLI::App& app, std::optional<float>& height);

@@ -3,9 +3,11 @@
 #pragma once
 
 #include "runtime/base/limits.h"
+#include "runtime/pipeline/project.h"
 
 #include <cstdint>
 #include <string>
+#include <vector>
 
 namespace lsys {
 
@@ -17,6 +19,8 @@ struct RunOptions {
     /// Path that a grammar from standard input has in messages and for its included files; empty:
     /// none.
     std::string stdin_name;
+
+    std::vector<EnvironmentCommand> environments; // of --environment
 
     friend bool operator==(const RunOptions&, const RunOptions&) = default;
 };

@@ -33,8 +33,8 @@ Json numbers(const std::vector<float>& values) {
 
 constexpr std::array<std::string_view, 7> kKinds{"cut",   "rewrite", "decompose", "interpret",
                                                  "sense", "down",    "up"};
-constexpr std::array<std::string_view, kCountOf<Fate>> kFates{"copied", "rewritten", "cut",
-                                                              "used-up", "failed"};
+constexpr std::array<std::string_view, kCountOf<Fate>> kFates{"copied",  "rewritten", "cut",
+                                                              "used-up", "sensed",    "failed"};
 constexpr std::array<std::string_view, kCountOf<Verdict>> kVerdicts{
     "applies",   "other-count", "other-rule", "predecessor", "left-context", "right-context",
     "condition", "fault",       "no-weight",  "not-drawn",   "not-tried"};

@@ -604,6 +604,18 @@ private:
         }
     }
 
+    /// What a sense module asks: "the environment `light` (shadow)", "the turtle".
+    [[nodiscard]] std::string asked_text(const TracedModule& asking) const {
+        const Sense sense = bytecode_.symbol(asking.symbol).sense;
+        if (!asks_environment(sense)) {
+            return "the turtle";
+        }
+        const BytecodeEnvironment& environment =
+            bytecode_.environments[static_cast<std::size_t>(sense)];
+        return fmt::format("the environment `{}` ({})", environment.name,
+                           lsys::name_of(environment.kind));
+    }
+
     /// Prints the outcome of the module in this pass. `word`: names the word that the positions
     /// refer to, such as " of generation 3"; empty: without positions.
     void outcome(const ModuleTrace& trace, const std::string& word) {
@@ -620,6 +632,9 @@ private:
             line("consumed by the match of {} that begins at position {}", name(trace.production),
                  trace.cause);
             return;
+        case Fate::Sensed:
+            line("{} answers: {}", asked_text(trace.module), modules(trace.written));
+            break;
         case Fate::Failed:
             line("{}", trace.fault.empty() ? std::string("the derivation ends here")
                                            : fmt::format("fails: {}", trace.fault));
@@ -832,6 +847,9 @@ private:
     /// The module of a successor that a trace wrote, with a label; nothing for a .lsb file.
     [[nodiscard]] std::optional<Label> successor_label(const ModuleTrace& trace,
                                                        std::uint64_t offset) const {
+        if (trace.production == kNoProduction) {
+            return std::nullopt; // an answer
+        }
         const TableRange codes = production(trace.production).successor.codes;
         if (source_of(trace.production) == nullptr || offset >= codes.count) {
             return std::nullopt;
@@ -899,11 +917,19 @@ private:
     void back_step(const AncestorStep& each) {
         for (std::size_t i = each.steps.size(); i-- > 0;) {
             const ModuleTrace& trace = each.steps[i];
+            if (trace.fate == Fate::Sensed) {
+                line("generation {}: {} answers {} at position {}: {}", each.generation + 1,
+                     asked_text(trace.module), module(trace.module), trace.position,
+                     modules(trace.written));
+                continue;
+            }
             const bool is_last = i + 1 == each.steps.size();
             const std::uint64_t offset = is_last ? each.offset : each.steps[i + 1].offset;
             const std::string pass =
                 trace.kind == DerivationPass::Kind::Decompose
                     ? fmt::format("the word of decomposition pass {}", trace.pass)
+                : trace.kind == DerivationPass::Kind::Down || trace.kind == DerivationPass::Kind::Up
+                    ? std::string("the word that is swept")
                 : bytecode_.settings.rewriting == RewritingMode::Sequential
                     ? fmt::format("the word of pass {}", trace.rule)
                     : fmt::format("generation {}", each.generation);

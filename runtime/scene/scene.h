@@ -114,9 +114,12 @@ struct SceneSpecies {
     std::optional<StageStart> start; // none: First if domination places the trees, else Random
     float rho = kSceneRho;
     CacheOptions cache; // only heroes, seed, cap and tolerance are set
+    /// Whether there are heroes for each case of surroundings (runtime/forest/surroundings.h).
+    bool senses_surroundings = false;
     ExplicitInstancing explicit_instancing;
-    SourceSpan span;        // place of `[[species]]`
-    SourceSpan height_span; // place of the value of `height`; kNoFile: none
+    SourceSpan span;              // place of `[[species]]`
+    SourceSpan height_span;       // place of the value of `height`; kNoFile: none
+    SourceSpan surroundings_span; // place of the value of `surroundings`; kNoFile: none
 };
 
 struct Scene {
@@ -127,6 +130,8 @@ struct Scene {
     Painting painting; // trees that the user has added and erased
     InstancingGoal goal;
     SceneLight light;
+    /// Whether the region is a tile of a forest without borders.
+    bool is_tile = false;
     SceneFile density_map; // DensityMap, DensityCells; spans the region of the terrain
     SourceSpan span;       // place of `[placement]`; kNoFile if missing
 };

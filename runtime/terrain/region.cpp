@@ -3,9 +3,18 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace lsys {
+
+Region widened(const Region& region, double margin) {
+    const auto inside = [](double at) { return std::clamp(at, -kMaxCoordinate, kMaxCoordinate); };
+    const double x = inside(region.x - margin);
+    const double z = inside(region.z - margin);
+    return {x, z, inside(region.x + region.width + margin) - x,
+            inside(region.z + region.depth + margin) - z};
+}
 
 Result<void> check_region(const Region& region) {
     if (!std::isfinite(region.width) || !std::isfinite(region.depth) || region.width <= 0.0 ||

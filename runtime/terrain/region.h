@@ -25,6 +25,9 @@ struct Region {
     friend bool operator==(const Region&, const Region&) = default;
 };
 
+/// The region with a border of `margin` m, cut off at kMaxCoordinate.
+[[nodiscard]] Region widened(const Region& region, double margin);
+
 /// Checks `region`. Errors: a side that is not a positive number; a corner beyond kMaxCoordinate.
 [[nodiscard]] Result<void> check_region(const Region& region);
 

@@ -214,10 +214,7 @@ Outcome<void> TileForest::State::sample_trees(const Project& project) {
     field = std::make_unique<DensityField>(placement, *grown.terrain);
     for (std::size_t i = 0; i < max_scales.size(); ++i) {
         const auto s = static_cast<std::uint16_t>(i);
-        const PlacementSpecies& species = placement.species[s];
-        const double largest =
-            static_cast<double>(species.max_height > 0.0F ? species.max_height : species.max_scale);
-        max_scales[s] = largest * sizer->max_factor(s);
+        max_scales[s] = max_scale(placement, *sizer, s);
         std::vector<Tree>& trees = samples.emplace_back();
         for (std::uint32_t number = 0; number < kSampleTrees; ++number) {
             trees.push_back(field->tree_of(number, s));
@@ -382,9 +379,11 @@ Outcome<void> TileForest::State::make_models(const Project& project) {
             first = i;
         }
         const ForestSpecies& species = grown.forest.species[hero.species];
-        const std::string stage = species.stages.size() == 1
-                                      ? std::string()
-                                      : fmt::format("-n{}", species.stages[hero.stage].generations);
+        std::string stage = stage_name(species, hero.stage);
+        if (!stage.empty()) {
+            std::replace(stage.begin(), stage.end(), ' ', '-');
+            stage.insert(0, 1, '-');
+        }
         names.push_back(
             fmt::format("{}{}{} {}", species.name, stage, is_plant(i) ? "" : " branch", i - first));
     }
@@ -626,7 +625,7 @@ make_tile_forest(LoadedScene loaded, const TileOptions& options, const Project& 
     if (is_grid && !keeps_trees) {
         made.note_missing_trees(step.messages);
         made.source = std::make_unique<CellTrees>(made.placement, *made.grown.terrain, *made.sizer,
-                                                  made.grid);
+                                                  made.grown.forest, made.grid);
     } else {
         if (is_grid && !step.take(made.place_trees(project))) {
             return step.end();

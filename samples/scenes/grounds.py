@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
 """Draws the pictures of the ground of the scenes of species, each seen from above and repeated without seams:
-spruce-wood/needles.png, beech-wood/leaves.png, birch-heath/heath.png, park/lawn.png, meadow/turf.png.
+spruce-wood/needles.png, beech-wood/leaves.png, birch-heath/heath.png, park/lawn.png, meadow/turf.png; and the map of
+sensing-wood/wood.png.
 Usage: samples/scenes/grounds.py      Needs Pillow and NumPy (Debian: python3-pil, python3-numpy)."""
 import math
 import os
@@ -82,3 +83,18 @@ save(ground, "park/lawn.png")
 ground = soil((42, 52, 24), (58, 70, 32), 41)
 scatter(ground, 42, 3000, [(58, 76, 32), (74, 88, 42), (46, 62, 26), (104, 98, 60)], strip(12, 0.6))
 save(ground, "meadow/turf.png")
+
+# Where trees stand in sensing-wood: a wood with an edge, a clearing, and a few lone trees on a meadow. 1 pixel = 2 m.
+SIDE = 215
+lone = random.Random(5)
+lone = {(lone.randrange(8, SIDE - 8), lone.randrange(6, 36)) for _ in range(9)}
+
+
+def has_trees(x, z):
+    is_clearing = ((x - 127) / 15)**2 + ((z - 122) / 14)**2 < 1
+    return (x, z) in lone or (z > 48 + 4 * math.sin(x / 21) and not is_clearing)
+
+
+wood = Image.new("L", (SIDE, SIDE))
+wood.putdata([255 if has_trees(x, z) else 0 for z in range(SIDE) for x in range(SIDE)])
+wood.save("sensing-wood/wood.png", optimize=True)

@@ -50,7 +50,7 @@ struct Workload {
     LimitProgram limit;
 };
 
-/// W1 to W6; W3 and W5 again with local values and if(); W7 twice: with one draw for both
+/// W1 to W6 and W8; W3 and W5 again with local values and if(); W7 twice: with one draw for both
 /// parameters, as a local value, and with one draw for each parameter.
 std::vector<Workload> workloads() {
     using namespace lsys::bench;
@@ -98,6 +98,16 @@ std::vector<Workload> workloads() {
          200, 100'002, [](Pages a, Pages b, Pages, Pages) {
              return derive_w6(200, 100'001, a.as<std::uint8_t>(), b.as<std::uint8_t>());
          }});
+    std::string swept = "A(0)";
+    for (int i = 0; i < 100'000; ++i) {
+        swept += "A(0)";
+    }
+    all.push_back({"W8/n=200",
+                   "#n = 200; #w : " + swept +
+                       "; #down d : A(x) > A(y) : * : A(y+1); #up u : A(y) < A(x) : * : A(y-1);",
+                   200, 100'002, [](Pages, Pages, Pages c, Pages) {
+                       return derive_w8(200, 100'001, c.as<float>());
+                   }});
     all.push_back({"W3-let/n=11",
                    "#n = 11; #w : !(1.4)F(2)/(45)A; #p : A : * : let l = 2, a = 22.5 :"
                    "!(1.4)F(l)[&(a)F(l)A]/(112.5)[&(a)F(l)A]/(157.5)[&(a)F(l)A];"
@@ -347,9 +357,12 @@ public:
                 fmt::print(" {:>15}", fmt::format("{:.3f} [{:.2f}]", spent, spent / limit));
             }
             const double best = std::min(time(name + "/lsc cold 1"), time(name + "/lsc cold 2"));
-            // The word of W6 does not grow, so each generation rewrites the same number of modules.
+            // The words of W6 and W8 do not grow, so each generation rewrites the same number of
+            // modules; W8 has two sweeps.
             const double modules =
-                counters.at("modules") * (name.starts_with("W6") ? workload.generations : 1.0);
+                counters.at("modules") * (name.starts_with("W6")   ? workload.generations
+                                          : name.starts_with("W8") ? 2.0 * workload.generations
+                                                                   : 1.0);
             fmt::print(" {:>15.0f} {:>15.2f} {:>15.2f}\n", modules / best / 1000.0,
                        counters.at("bytes_per_module"), counters.at("peak_bytes_per_module"));
         }

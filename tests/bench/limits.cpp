@@ -8,6 +8,7 @@
 #include <cstring>
 #include <sys/mman.h>
 #include <utility>
+#include <vector>
 
 namespace lsys::bench {
 
@@ -224,6 +225,21 @@ std::size_t derive_w6(int generations, std::size_t count, std::uint8_t* a, std::
     return static_cast<std::size_t>(static_cast<const std::uint8_t*>(found) - a) - 1;
 }
 
+std::size_t derive_w8(int generations, std::size_t count, float* parameters) {
+    std::fill_n(parameters, count, 0.0F);
+    float first = 0.0F;
+    for (int generation = 0; generation <= generations; ++generation) {
+        for (std::size_t i = count - 1; i-- > 0;) {
+            parameters[i] = parameters[i + 1] + 1.0F;
+        }
+        first = parameters[0];
+        for (std::size_t i = 1; i < count; ++i) {
+            parameters[i] = parameters[i - 1] - 1.0F;
+        }
+    }
+    return static_cast<std::size_t>(first);
+}
+
 namespace {
 
 struct Vector {
@@ -321,6 +337,74 @@ std::size_t turtle_tubes(const std::uint8_t* word, std::size_t count, float degr
         }
     });
     return static_cast<std::size_t>(q - out) / 6;
+}
+
+bool shadow_limit(const std::vector<double>& positions,
+                  double cell,
+                  std::vector<float>& exposures) {
+    constexpr std::int32_t kLevels = 8;
+    constexpr double kMaxVoxels = 67'108'864.0;
+    const std::size_t count = exposures.size();
+    std::vector<std::array<std::int32_t, 3>> voxels(count);
+    std::array<std::int32_t, 3> low{};
+    std::array<std::int32_t, 3> high{};
+    for (std::size_t i = 0; i < count; ++i) {
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            const double shift = axis == 1 ? 0x1p-20 : 0.5;
+            const auto index =
+                static_cast<std::int32_t>(std::floor(positions[3 * i + axis] / cell + shift));
+            voxels[i][axis] = index;
+            low[axis] = i == 0 ? index : std::min(low[axis], index);
+            high[axis] = i == 0 ? index : std::max(high[axis], index);
+        }
+    }
+    const std::int32_t border = kLevels + 1;
+    std::array<std::size_t, 3> extents{};
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        extents[axis] = static_cast<std::size_t>(high[axis] - low[axis] + 1 + 2 * border);
+    }
+    if (static_cast<double>(extents[0]) * static_cast<double>(extents[1]) *
+            static_cast<double>(extents[2]) >
+        kMaxVoxels) {
+        return false;
+    }
+    // Rows of y; in each, lines of x.
+    std::vector<std::uint32_t> sums(extents[0] * extents[1] * extents[2], 0);
+    const auto at = [&](std::int32_t x, std::int32_t y, std::int32_t z) -> std::uint32_t& {
+        return sums[(static_cast<std::size_t>(y) * extents[0] + static_cast<std::size_t>(x)) *
+                        extents[2] +
+                    static_cast<std::size_t>(z)];
+    };
+    for (std::array<std::int32_t, 3>& voxel : voxels) {
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            voxel[axis] += border - low[axis];
+        }
+        ++at(voxel[0], voxel[1], voxel[2]);
+    }
+    for (std::size_t line = 0; line < extents[1] * extents[0]; ++line) {
+        std::uint32_t* const own = sums.data() + line * extents[2];
+        const bool is_first = line % extents[0] == 0;
+        std::uint32_t running = 0;
+        for (std::size_t z = 0; z < extents[2]; ++z) {
+            running += own[z];
+            own[z] = running + (is_first ? 0 : (own - extents[2])[z]);
+        }
+    }
+    for (std::size_t i = 0; i < count; ++i) {
+        const auto& [x, y, z] = voxels[i];
+        double shade = 0.0;
+        double weight = 0.2;
+        for (std::int32_t layer = 0; layer <= kLevels; ++layer) {
+            const std::uint32_t places = at(x + layer, y + layer, z + layer) -
+                                         at(x - layer - 1, y + layer, z + layer) -
+                                         at(x + layer, y + layer, z - layer - 1) +
+                                         at(x - layer - 1, y + layer, z - layer - 1);
+            shade += weight * static_cast<double>(places);
+            weight /= 2.0;
+        }
+        exposures[i] = static_cast<float>(std::max(0.0, 1.0 - shade + 0.2));
+    }
+    return true;
 }
 
 } // namespace lsys::bench

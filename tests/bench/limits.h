@@ -6,6 +6,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <vector>
 
 namespace lsys::bench {
 
@@ -60,6 +61,9 @@ derive_plain(const PlainSystem& system, int generations, std::uint8_t* a, std::u
 /// Derives W6 from `count` modules; returns the index of the only `b`.
 [[nodiscard]] std::size_t
 derive_w6(int generations, std::size_t count, std::uint8_t* a, std::uint8_t* b);
+/// Sweeps W8 from `count` modules with the parameter 0; returns the parameter of the first module
+/// of the down sweep of the last generation.
+[[nodiscard]] std::size_t derive_w8(int generations, std::size_t count, float* parameters);
 
 /// Turtles in a plane over a word of F + - [ ] with one angle. Each writes vertices to `out` and
 /// returns their number. Per segment, turtle_lines() writes 2 vertices of 3 floats, turtle_tubes()
@@ -68,5 +72,11 @@ derive_w6(int generations, std::size_t count, std::uint8_t* a, std::uint8_t* b);
 turtle_lines(const std::uint8_t* word, std::size_t count, float degrees, float* out);
 [[nodiscard]] std::size_t
 turtle_tubes(const std::uint8_t* word, std::size_t count, float degrees, float* out);
+
+/// Exposure of kind Shadow with 8 levels, strength 0.2 and ratio 2, without directions: a grid of all
+/// voxels of the bounding box, and one summed-area table per row. `positions`: x, y, z of each place,
+/// m. Returns false if the grid has more than 2^26 voxels.
+[[nodiscard]] bool
+shadow_limit(const std::vector<double>& positions, double cell, std::vector<float>& exposures);
 
 } // namespace lsys::bench

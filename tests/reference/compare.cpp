@@ -169,8 +169,16 @@ private:
             const Production& production = statement->production;
             contexts = contexts || production.left || production.right;
         }
-        return !contexts &&
+        return !contexts && !sweeps() &&
                setting(test_case_.grammar, "rewriting").value_or("parallel") == "parallel";
+    }
+
+    [[nodiscard]] bool sweeps() const {
+        const std::vector<const Statement*> statements = statements_in_order(test_case_.grammar);
+        return std::any_of(statements.begin(), statements.end(), [](const Statement* statement) {
+            const Stage stage = statement->production.stage;
+            return stage == Stage::Down || stage == Stage::Up;
+        });
     }
 
     // Command line that dumps the bytecode file made by compiles_alike().
@@ -238,8 +246,8 @@ private:
     bool printed_word_parses() {
         const Word& word = derivation_.words[derivation_.words.size() / 2];
         // An axiom is decomposed, so a word whose decomposition stopped at the depth limit would be
-        // decomposed further.
-        const bool settled = !setting(test_case_.grammar, "decompose_depth");
+        // decomposed further; a sweep would change its parameters again.
+        const bool settled = !setting(test_case_.grammar, "decompose_depth") && !sweeps();
         if (!settled || !can_be_an_axiom(word)) {
             return true;
         }

@@ -7,6 +7,7 @@
 
 #include <cmath>
 #include <cstdlib>
+#include <map>
 #include <set>
 
 namespace lsys::reference {
@@ -16,6 +17,8 @@ namespace {
 constexpr std::uint32_t kBeforeTheDerivation = 0xFFFFFFFF;
 constexpr std::uint64_t kDrawsOfARule = 4096;
 constexpr std::uint64_t kFirstDecomposeDraw = std::uint64_t{1} << 32;
+constexpr std::uint64_t kFirstDownDraw = kFirstDecomposeDraw + (std::uint64_t{1} << 30);
+constexpr std::uint64_t kFirstUpDraw = kFirstDownDraw + (std::uint64_t{1} << 29);
 
 // A production with its group and rule (section 5).
 struct Entry {
@@ -27,9 +30,8 @@ struct Entry {
 struct System {
     std::map<std::string, float> constants;
     Functions functions;
-    std::vector<Entry> productions;    // in file order
-    std::vector<Entry> decompositions; // productions of #decompose
-    std::vector<std::string> rules;    // in order of first appearance
+    std::map<Stage, std::vector<Entry>> productions; // in file order
+    std::vector<std::string> rules;                  // in order of first appearance, stage by stage
     std::set<std::string> ignored;
     std::set<std::string> considered;
     std::set<std::string> mentioned;      // names in all words and patterns
@@ -56,10 +58,10 @@ struct PassInput {
     const Word& word;
     std::uint32_t age = 0;
     // Sequential rewriting: 4096 times the index of the rule; #decompose: 2^32 + 4096 times the
-    // index of the pass.
+    // index of the pass; sweeps: kFirstDownDraw, kFirstUpDraw.
     std::uint64_t first_draw = 0;
     std::optional<std::size_t> only_rule; // the only rule of this pass; empty: all rules
-    bool decomposes = false;
+    Stage stage = Stage::Rewrite;
 };
 
 Environment environment_of(const PassInput& pass, const Bindings& bindings) {
@@ -119,7 +121,11 @@ Choice choose(const PassInput& pass, std::size_t position) {
     const System& system = pass.system;
     std::vector<Choice> candidates;
     Entry first;
-    for (const Entry& entry : pass.decomposes ? system.decompositions : system.productions) {
+    const auto entries = system.productions.find(pass.stage);
+    if (entries == system.productions.end()) {
+        return {};
+    }
+    for (const Entry& entry : entries->second) {
         const Production& production = *entry.production;
         if (pass.only_rule && entry.rule != *pass.only_rule) {
             continue;
@@ -191,7 +197,9 @@ void rewrite(const PassInput& pass, const Choice& choice, std::size_t position, 
         environment.formals[name] = value_of(expr); // a local value may be infinite or NaN
     }
     for (const ModuleUse& use : production.successor) {
-        Module module{use.name, {}, {&use, production.label, pass.age + (pass.decomposes ? 0 : 1)}};
+        Module module{use.name,
+                      {},
+                      {&use, production.label, pass.age + (pass.stage == Stage::Rewrite ? 1 : 0)}};
         for (const Expr& argument : use.arguments) {
             const float value = value_of(argument);
             if (!std::isfinite(value)) {
@@ -251,7 +259,8 @@ Word without_cuts(const System& system, const Word& word) {
 // reached.
 Word decomposed(const System& system, Word word, std::uint32_t age, Derivation& derivation) {
     for (std::uint32_t i = 0; i < system.decompose_depth; ++i) {
-        PassInput pass{system, word, age, kFirstDecomposeDraw + kDrawsOfARule * i, {}, true};
+        PassInput pass{system,          word, age, kFirstDecomposeDraw + kDrawsOfARule * i, {},
+                       Stage::Decompose};
         const std::map<std::string, std::uint64_t> before = derivation.applications;
         Word next = run_pass(pass, derivation);
         if (before == derivation.applications) {
@@ -260,6 +269,33 @@ Word decomposed(const System& system, Word word, std::uint32_t age, Derivation& 
         word = next;
     }
     return word;
+}
+
+// "#down visits the word from right to left, #up from left to right"; a module that a production
+// matches gets new parameters, which the modules visited later see. It keeps its origin.
+void sweep(
+    const System& system, Stage stage, Word& word, std::uint32_t age, Derivation& derivation) {
+    const bool down = stage == Stage::Down;
+    const PassInput pass{system, word, age, down ? kFirstDownDraw : kFirstUpDraw, {}, stage};
+    for (std::size_t i = 0; i < word.size(); ++i) {
+        const std::size_t position = down ? word.size() - 1 - i : i;
+        const Choice choice = choose(pass, position);
+        if (choice.production != nullptr) {
+            Word written;
+            rewrite(pass, choice, position, written);
+            word[position].values = written.front().values;
+            ++derivation.applications[choice.production->label];
+        }
+    }
+}
+
+// Makes the word of an age complete: decomposition, then the down sweep, then the up sweep. Sensing,
+// which comes before the sweeps, would have its place here.
+Word completed(const System& system, const Word& word, std::uint32_t age, Derivation& derivation) {
+    Word complete = decomposed(system, word, age, derivation);
+    sweep(system, Stage::Down, complete, age, derivation);
+    sweep(system, Stage::Up, complete, age, derivation);
+    return complete;
 }
 
 Word next_word(const System& system,
@@ -298,10 +334,15 @@ public:
         for (const Statement* statement : statements_in_order(grammar)) {
             read(*statement);
         }
-        system_.rewriting_rule_count = system_.rules.size();
-        for (const Production* production : decompositions_) {
-            system_.decompositions.push_back(
-                {production, group_of(*production), number_of(rule_of(*production))});
+        for (const Stage stage :
+             {Stage::Rewrite, Stage::Decompose, Stage::Interpret, Stage::Down, Stage::Up}) {
+            for (const Production* production : productions_[stage]) {
+                system_.productions[stage].push_back(
+                    {production, group_of(*production), number_of(rule_of(*production))});
+            }
+            if (stage == Stage::Rewrite) {
+                system_.rewriting_rule_count = system_.rules.size();
+            }
         }
         if (considers_) {
             for (const std::string& name : system_.mentioned) {
@@ -366,12 +407,7 @@ private:
             for (const ModulePattern& module : production.predecessor) {
                 system_.mentioned.insert(module.name);
             }
-            if (production.stage == Stage::Decompose) {
-                decompositions_.push_back(&production);
-            } else if (production.stage == Stage::Rewrite) {
-                system_.productions.push_back(
-                    {&production, group_of(production), number_of(rule_of(production))});
-            }
+            productions_[production.stage].push_back(&production);
         }
     }
 
@@ -444,7 +480,7 @@ private:
     Environment environment_;
     std::uint64_t range_number_ = 0;
     std::uint32_t generations_ = 0;
-    std::vector<const Production*> decompositions_;
+    std::map<Stage, std::vector<const Production*>> productions_; // in file order
     bool considers_ = false;
     std::vector<Axiom> axioms_; // in the order of the text
 };
@@ -515,10 +551,10 @@ Derivation derive(const Grammar& grammar, const Request& request) {
         system.steps = request.generations.value_or(start.generations());
         derivation.generations = system.steps;
         derivation.constants = system.constants;
-        derivation.words.push_back(decomposed(system, start.axiom(), 0, derivation));
+        derivation.words.push_back(completed(system, start.axiom(), 0, derivation));
         for (std::uint32_t age = 0; age < system.steps; ++age) {
             const Word read = without_cuts(system, derivation.words.back());
-            derivation.words.push_back(decomposed(
+            derivation.words.push_back(completed(
                 system, next_word(system, mode, read, age, derivation), age + 1, derivation));
         }
     } catch (const TooLarge&) {

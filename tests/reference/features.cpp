@@ -115,6 +115,12 @@ private:
         if (production.stage == Stage::Decompose) {
             found_.insert("decompose, " + mode);
         }
+        if (production.stage == Stage::Down || production.stage == Stage::Up) {
+            const std::string sweep = production.stage == Stage::Down ? "down" : "up";
+            found_.insert(sweep);
+            found_.insert(production.left || production.right ? sweep + " with a context" : sweep);
+            found_.insert(production.probability ? sweep + " by chance" : sweep);
+        }
         int polygons = 0;
         for (const ModuleUse& use : production.successor) {
             polygons += use.name == "{" ? 1 : use.name == "}" ? -1 : 0;
@@ -385,6 +391,12 @@ const std::vector<std::string>& feature_names() {
                                                     "decompose, sequential",
                                                     "decompose, cyclic",
                                                     "decompose, leftmost",
+                                                    "down",
+                                                    "down with a context",
+                                                    "down by chance",
+                                                    "up",
+                                                    "up with a context",
+                                                    "up by chance",
                                                     "cut, parallel",
                                                     "cut, sequential",
                                                     "cut, cyclic",

@@ -360,6 +360,7 @@ private:
     // settings and the declarations that prevent names from being split.
     void finish() {
         expand_bundles();
+        add_sweeps();
         repair_probabilities();
         decompose_some();
         interpret_some();
@@ -370,6 +371,27 @@ private:
         declare_ambiguous_names();
     }
 
+    // Adds productions of sweeps at the end of the first file, where all constants are known.
+    void add_sweeps() {
+        if (plan_.rewriting != "parallel" || !random_.percent(35)) {
+            return;
+        }
+        File& file = case_.grammar.files[0];
+        const int ways = random_.between(1, 3); // down, up or both
+        for (const Stage stage : {Stage::Down, Stage::Up}) {
+            const bool is_wanted = (stage == Stage::Down ? ways & 1 : ways & 2) != 0;
+            for (int bundles = is_wanted ? random_.between(1, 3) : 0; bundles > 0; --bundles) {
+                for (const Production& production :
+                     productions_.sweep_bundle(stage, file.letters)) {
+                    Statement& one = file.statements.emplace_back();
+                    one.kind = StatementKind::Production;
+                    one.production = production;
+                    one.production.label = new_label();
+                }
+            }
+        }
+    }
+
     // Moves some groups to `#decompose`, if they are legal there.
     void decompose_some() {
         std::set<std::string> chosen;
@@ -377,7 +399,8 @@ private:
             for (Statement& statement : file.statements) {
                 Production& production = statement.production;
                 if (statement.kind != StatementKind::Production || production.left ||
-                    production.right || production.predecessor.size() != 1) {
+                    production.right || production.predecessor.size() != 1 ||
+                    production.stage != Stage::Rewrite) {
                     continue;
                 }
                 const std::string group = group_of(production);
@@ -438,6 +461,10 @@ private:
         }
         for (File& file : case_.grammar.files) {
             for (Statement& statement : file.statements) {
+                if (statement.production.stage == Stage::Down ||
+                    statement.production.stage == Stage::Up) {
+                    continue;
+                }
                 std::vector<ModuleUse>& modules = statement.kind == StatementKind::Axiom
                                                       ? statement.modules
                                                       : statement.production.successor;

@@ -338,7 +338,46 @@ Production ProductionMaker::shape(bool letters) {
 }
 
 std::vector<Production> ProductionMaker::bundle(bool letters) {
-    const Production shape = this->shape(letters);
+    return bundle_of(shape(letters), letters);
+}
+
+// `#down` has no left contexts, `#up` no right ones, and most modules have parameters to change.
+std::vector<Production> ProductionMaker::sweep_bundle(Stage stage, bool letters) {
+    Production shape;
+    for (int tries = 0; tries < 20; ++tries) {
+        shape = this->shape(letters);
+        (stage == Stage::Down ? shape.left : shape.right).reset();
+        const bool has_context = shape.left || shape.right;
+        if (shape.predecessor.size() == 1 && !shape.predecessor[0].formals.empty() &&
+            (has_context || random_.percent(20))) {
+            break;
+        }
+    }
+    shape.predecessor.resize(1);
+    shape.stage = stage;
+    return bundle_of(shape, letters);
+}
+
+// Modules in place of the predecessor; in a sweep the same module with other parameters.
+std::vector<ModuleUse>
+ProductionMaker::successor(const Production& production, const Scope& scope, bool letters) {
+    static const std::vector<int> kLengths = {0, 1, 1, 1, 2, 2, 2, 2, 3, 3, 3, 3, 4, 4, 5, 8};
+    if (production.stage == Stage::Rewrite) {
+        return modules(random_.pick(kLengths), scope, letters);
+    }
+    const ModulePattern& swept = production.predecessor[0];
+    ModuleUse use{swept.name, {}};
+    for (const std::string& formal : swept.formals) {
+        // Most values say something about a neighbour, in a way that seldom grows without bound.
+        const std::string& other = random_.pick(scope.formals);
+        const Expr sum = random_.percent(50) ? binary("+", name(formal), name(other))
+                                             : call("max", {name(formal), name(other)});
+        use.arguments.push_back(random_.percent(50) ? sum : expressions_.argument(scope));
+    }
+    return {use};
+}
+
+std::vector<Production> ProductionMaker::bundle_of(const Production& shape, bool letters) {
     const int count = random_.percent(45) ? 1 : random_.between(2, 4);
     const bool stochastic = random_.percent(plan_.stochastic_percent);
     const bool conditional = random_.percent(plan_.condition_percent);
@@ -376,8 +415,7 @@ std::vector<Production> ProductionMaker::bundle(bool letters) {
                 scope.formals.push_back(text);
             }
         }
-        static const std::vector<int> kLengths = {0, 1, 1, 1, 2, 2, 2, 2, 3, 3, 3, 3, 4, 4, 5, 8};
-        production.successor = modules(random_.pick(kLengths), scope, letters);
+        production.successor = successor(production, scope, letters);
         bundle.push_back(production);
     }
     if (some_condition && stochastic && random_.percent(25)) {

@@ -26,6 +26,8 @@ public:
     // Makes a bundle (see the top of this file) with empty labels. `letters`: for a file with
     // `#set names letters`.
     std::vector<Production> bundle(bool letters);
+    // Makes a bundle of a sweep, Stage::Down or Stage::Up.
+    std::vector<Production> sweep_bundle(Stage stage, bool letters);
 
     std::vector<ModuleUse> modules(int length, const Scope& scope, bool letters);
     // Probabilities whose sum is nearly 1; with `weights any`, arbitrary weights.
@@ -39,6 +41,9 @@ private:
     Skeleton skeleton(int length, bool letters, bool polygon);
     const Skeleton& common_skeleton(bool letters);
     Production shape(bool letters);
+    std::vector<Production> bundle_of(const Production& shape, bool letters);
+    std::vector<ModuleUse>
+    successor(const Production& production, const Scope& scope, bool letters);
     Pattern context(int length, bool brackets, int depth, bool letters);
     // Gives the modules of `pattern` names for their parameters, each only once in `used`.
     void name_formals(Pattern& pattern, std::vector<std::string>& used);

@@ -45,7 +45,9 @@ std::optional<std::string> setting(const Grammar& grammar, const std::string& ke
 static std::string stage_of(const Production& production) {
     return production.stage == Stage::Rewrite     ? ""
            : production.stage == Stage::Decompose ? "`decompose`"
-                                                  : "`interpret`";
+           : production.stage == Stage::Interpret ? "`interpret`"
+           : production.stage == Stage::Down      ? "`down`"
+                                                  : "`up`";
 }
 
 std::string group_of(const Production& production) {

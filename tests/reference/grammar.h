@@ -41,7 +41,7 @@ struct ModulePattern {
 
 using Pattern = std::vector<ModulePattern>;
 
-enum class Stage { Rewrite, Decompose, Interpret };
+enum class Stage { Rewrite, Decompose, Interpret, Down, Up };
 
 struct Production {
     Stage stage = Stage::Rewrite;

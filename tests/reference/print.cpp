@@ -238,10 +238,14 @@ private:
     }
 
     void spell(const Production& production) {
+        static const std::map<Stage, std::string> kKeywords = {{Stage::Decompose, "#decompose"},
+                                                               {Stage::Interpret, "#interpret"},
+                                                               {Stage::Down, "#down"},
+                                                               {Stage::Up, "#up"}};
         if (production.stage == Stage::Rewrite) {
             add("#" + production.label);
         } else {
-            add(production.stage == Stage::Decompose ? "#decompose" : "#interpret");
+            add(kKeywords.at(production.stage));
             add(production.label);
         }
         add(":");

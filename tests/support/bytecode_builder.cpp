@@ -9,6 +9,7 @@
 #include <cmath>
 #include <map>
 #include <optional>
+#include <set>
 #include <utility>
 
 namespace lsys::test {
@@ -127,10 +128,11 @@ public:
     }
 
     NameTable globals;
+    std::set<SymbolId> unfolded; // symbols whose parameters change in place
 
 private:
     std::optional<Code> fold(SymbolId id, const std::vector<Instructions>& arguments) {
-        if (!fold_ || arguments.empty()) {
+        if (!fold_ || arguments.empty() || unfolded.count(id) != 0) {
             return std::nullopt;
         }
         std::vector<float> values;
@@ -185,7 +187,17 @@ BytecodeBuilder& BytecodeBuilder::axiom(std::string text) {
     return *this;
 }
 BytecodeBuilder& BytecodeBuilder::production(std::string text) {
+    return production(Stage::Rewrite, std::move(text));
+}
+BytecodeBuilder& BytecodeBuilder::production(Stage stage, std::string text) {
     productions_.push_back(std::move(text));
+    stages_.push_back(stage);
+    return *this;
+}
+BytecodeBuilder& BytecodeBuilder::sense(std::string names) {
+    for (const ModuleText& module : read_modules(names)) {
+        sensing_.push_back(module.name);
+    }
     return *this;
 }
 BytecodeBuilder& BytecodeBuilder::ignore(std::string names) {
@@ -231,6 +243,20 @@ Bytecode BytecodeBuilder::build() const {
         for (const std::string& name : ignored_) {
             symbol.ignored = symbol.ignored || symbol.name == name;
         }
+        for (const std::string& name : sensing_) {
+            symbol.sense = symbol.name == name ? Sense::Position : symbol.sense;
+        }
+    }
+    for (std::size_t i = 0; i < bytecode.symbols.size(); ++i) {
+        if (bytecode.symbols[i].senses()) {
+            assembler.unfolded.insert(static_cast<SymbolId>(i));
+        }
+    }
+    for (std::size_t i = 0; i < texts.size(); ++i) {
+        if (stages_[i] == Stage::Down || stages_[i] == Stage::Up) {
+            const ModuleText swept = read_modules(texts[i].predecessor).front();
+            assembler.unfolded.insert(assembler.symbol(swept.name, swept.arguments.size()));
+        }
     }
 
     const NameTable no_formals;
@@ -260,14 +286,17 @@ Bytecode BytecodeBuilder::build() const {
 
     NameTable rules;
     NameTable groups;
-    for (const ProductionText& text : texts) {
+    for (std::size_t i = 0; i < texts.size(); ++i) {
+        const ProductionText& text = texts[i];
+        const std::string stage = std::to_string(static_cast<int>(stages_[i])) + " ";
         BytecodeProduction production;
         NameTable formals;
         production.name = text.name;
+        production.stage = stages_[i];
         production.name_site = assembler.site();
-        production.rule = number_of(rules, shape_of(text.predecessor));
+        production.rule = number_of(rules, stage + shape_of(text.predecessor));
         production.group =
-            number_of(groups, shape_of(text.left) + "<" + shape_of(text.predecessor) + ">" +
+            number_of(groups, stage + shape_of(text.left) + "<" + shape_of(text.predecessor) + ">" +
                                   shape_of(text.right));
         production.has_left = text.left.has_value();
         production.has_right = text.right.has_value();

@@ -22,6 +22,10 @@ public:
     BytecodeBuilder& axiom(std::string text);
     /// Adds a production: "p : A(x) < B > C [ D ] : x > 0 ~ 0.5 : F(x, {1, 2}) B".
     BytecodeBuilder& production(std::string text);
+    /// A production of a later stage. Stages must be given in their order.
+    BytecodeBuilder& production(Stage stage, std::string text);
+    /// "P H": modules of these names, of any count, are sense modules that ask for the position.
+    BytecodeBuilder& sense(std::string names);
     /// Makes contexts skip modules of these names, "+ -", with any number of parameters.
     BytecodeBuilder& ignore(std::string names);
     /// A random constant, drawn at the start.
@@ -46,7 +50,9 @@ private:
     std::string declared_;
     std::string axiom_;
     std::vector<std::string> productions_;
+    std::vector<Stage> stages_; // of productions_
     std::vector<std::string> ignored_;
+    std::vector<std::string> sensing_;
     std::vector<GlobalText> globals_;
     std::uint32_t unused_ = 0;
 };

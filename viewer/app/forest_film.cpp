@@ -52,7 +52,11 @@ ForestFilmMoment make_moment(FilmState& state,
     ForestFilmMoment film_moment;
     film_moment.document = request.document;
     film_moment.moment = request.moment;
-    const Project project{make_file_host(&cancelled), request.run.limits, request.run.threads, {}};
+    const Project project{make_file_host(&cancelled),
+                          request.run.limits,
+                          request.run.threads,
+                          {},
+                          request.run.environments};
     const auto work = [&] {
         Outcome<void> outcome = state.make(request, project, film_moment.trees);
         film_moment.messages = std::move(outcome.messages());

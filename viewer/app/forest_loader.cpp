@@ -24,7 +24,8 @@ ForestOutcome make_forest(const ForestRequest& request,
     Project project{record_files(make_file_host(&cancelled), outcome.files),
                     request.options.run.limits,
                     request.options.run.threads,
-                    {}};
+                    {},
+                    request.options.run.environments};
     progress.follow(project.host);
     const Stopwatch making;
     const auto work = [&] {

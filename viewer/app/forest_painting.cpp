@@ -133,12 +133,22 @@ void ForestPainting::show_all() {
         return;
     }
     const auto placed = static_cast<std::uint32_t>(document_->grown.forest.trees.size());
+    std::vector<TreeChange> changes;
     for (std::uint32_t i = 0; i < painter_->tree_count(); ++i) {
         const bool alive = painter_->is_alive(i);
         if (alive != (i < placed)) {
             renderer_->change_tree(i, painter_->tree(i), alive);
+            changes.push_back({i, alive});
         }
         painted_ += alive && i >= placed ? 1U : 0U;
+    }
+    show_surroundings(changes);
+}
+
+/// Shows the trees around changed ones with their new surroundings.
+void ForestPainting::show_surroundings(std::span<const TreeChange> changes) {
+    for (const std::uint32_t index : painter_->sense_around(changes, document_->grown.forest)) {
+        renderer_->change_tree(index, painter_->tree(index), true);
     }
 }
 
@@ -219,6 +229,7 @@ void ForestPainting::show(std::span<const TreeChange> changes) {
             painted_ += change.alive ? 1 : ~std::uint64_t{0};
         }
     }
+    show_surroundings(changes);
 }
 
 void ForestPainting::undo() {

@@ -74,6 +74,7 @@ private:
     [[nodiscard]] Painting renamed(const Painting& painting) const;
     void apply_at(float x, float z, PaintTool tool, const Brush& brush);
     void show(std::span<const TreeChange> changes);
+    void show_surroundings(std::span<const TreeChange> changes);
     void show_all();
 
     Renderer* renderer_;

@@ -204,6 +204,8 @@ std::string draw_species(ForestView& view) {
             return ImGui::SliderFloat("##value", &value, 0.0F, 1.0F, "%.2f",
                                       ImGuiSliderFlags_AlwaysClamp);
         });
+        draw_edit("Senses its surroundings", species.senses_surroundings, edit.senses_surroundings,
+                  [](bool& value) { return ImGui::Checkbox("##value", &value); });
         if (ImGui::SmallButton("Show plant")) {
             const std::filesystem::path grammar(species.grammar.path);
             wanted = (view.path() == species.grammar.path ? grammar : folder / grammar).string();

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "viewer/app/forest_view.h"
 
+#include "runtime/forest/surroundings.h"
 #include "runtime/pipeline/forest.h"
 #include "runtime/pipeline/stopwatch.h"
 #include "runtime/program/files.h"
@@ -49,9 +50,13 @@ ForestViewSettings first_forest_settings(const ViewOptions& options) {
 std::vector<CacheStats> cache_stats(const Forest& forest) {
     std::vector<CacheStats> numbers;
     for (const ForestSpecies& species : forest.species) {
-        for (const ForestStage& stage : species.stages) {
+        for (std::size_t i = 0; i < species.stages.size(); ++i) {
+            const ForestStage& stage = species.stages[i];
             CacheStats& each = numbers.emplace_back();
             each.species = species.name;
+            if (species.senses_surroundings) {
+                each.species += fmt::format(" ({})", kSurroundingsNames[i % kSurroundings]);
+            }
             each.generations = stage.generations;
             each.heroes = stage.cache.heroes;
             each.keys = stage.cache.slots.size();

@@ -276,6 +276,7 @@ void add_all(CLI::App& app, ViewOptions& options) {
     add_scene_overrides(app, options.overrides, "--forest-size");
     add_mesh(app, options.mesh);
     add_run_limits(app, options.run);
+    add_environments(app, options.run);
     add_messages(app, options.messages);
     app.set_version_flag("--version", "lsview " LSC_VERSION, "Print the version and exit");
     app.footer(

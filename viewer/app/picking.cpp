@@ -3,6 +3,7 @@
 
 #include "grammar/base/counted_text.h"
 #include "runtime/base/out_of_memory.h"
+#include "runtime/forest/surroundings.h"
 #include "runtime/meshing/mesh_items.h"
 #include "runtime/pipeline/item_origin.h"
 #include "runtime/pipeline/step.h"
@@ -76,7 +77,11 @@ std::string tree_text(const Picked& picked, const ForestDocument& document) {
     const Tree& tree = picked.tree;
     const ForestSpecies& species = forest.species[tree.species];
     const TreeForm& form = document.model.forms[picked.form];
-    return fmt::format("tree {} of `{}`: {}, {:.3g} m high, {}", tree.number, species.name,
+    const std::string name =
+        species.senses_surroundings
+            ? fmt::format("{}` ({})", species.name, kSurroundingsNames[surroundings_of(tree)])
+            : species.name + '`';
+    return fmt::format("tree {} of `{}: {}, {:.3g} m high, {}", tree.number, name,
                        counted(species.stages[forest.stage_of(tree)].generations, "generation"),
                        tree.scale * form.height(), place_text(tree.position));
 }
@@ -136,6 +141,7 @@ Outcome<std::string> trace_picked(const PickedModule& module,
                                   const Project& project) {
     Step step(project);
     TraceOptions wanted;
+    wanted.file = options.file;
     wanted.generation = module.generation;
     wanted.generations = generations_of(options, document);
     wanted.seed = document.plant.seed;
@@ -211,7 +217,7 @@ Outcome<Description> describe(const Picked& picked,
 namespace {
 
 Project worker_project(const RunOptions& run, const std::atomic<bool>& cancelled) {
-    return {make_file_host(&cancelled), run.limits, run.threads, {}};
+    return {make_file_host(&cancelled), run.limits, run.threads, {}, run.environments};
 }
 
 std::string text_of(const Messages& messages) {

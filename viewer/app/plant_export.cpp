@@ -74,7 +74,8 @@ std::string export_plant(const ExportRequest& request, const std::atomic<bool>& 
     std::ostringstream err;
     const Console console({in, out, err, false, &cancelled, "lsview"}, request.options.messages);
     const Project project{make_file_host(&cancelled), request.options.run.limits,
-                          request.options.run.threads, console.options().levels};
+                          request.options.run.threads, console.options().levels,
+                          request.options.run.environments};
     const OutputContext context{console, project, "lsview " LSC_VERSION, nullptr, nullptr};
     ExitStatus status = ExitStatus::Limit;
     const auto work = [&] {

@@ -65,8 +65,11 @@ make_moment(FilmState& state, const FilmRequest& request, const std::atomic<bool
     FilmMoment film_moment;
     film_moment.moment = request.moment;
     film_moment.mesh_options = request.options.mesh;
-    const Project project{
-        make_file_host(&cancelled), request.options.run.limits, request.options.run.threads, {}};
+    const Project project{make_file_host(&cancelled),
+                          request.options.run.limits,
+                          request.options.run.threads,
+                          {},
+                          request.options.run.environments};
     const auto work = [&] {
         Outcome<void> outcome = state.make(request, project, film_moment);
         film_moment.messages = std::move(outcome.messages());

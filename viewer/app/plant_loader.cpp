@@ -22,7 +22,8 @@ make(const LoadRequest& request, const std::atomic<bool>& cancelled, MakingProgr
     Project project{record_files(make_file_host(&cancelled), outcome.files),
                     request.options.run.limits,
                     request.options.run.threads,
-                    {}};
+                    {},
+                    request.options.run.environments};
     progress.follow(project.host);
     const Stopwatch making;
     const auto work = [&] {

@@ -45,7 +45,8 @@ public:
         : loaded_(loaded), project_{file_host(cancelled),
                                     loaded.run.limits,
                                     loaded.run.threads,
-                                    {}},
+                                    {},
+                                    loaded.run.environments},
           made_(std::make_shared<SourceText>()) {}
 
     std::shared_ptr<const SourceText> run() {

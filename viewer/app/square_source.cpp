@@ -2,6 +2,7 @@
 #include "viewer/app/square_source.h"
 
 #include "grammar/base/contract.h"
+#include "runtime/forest/surroundings.h"
 
 #include <algorithm>
 #include <cmath>
@@ -43,20 +44,35 @@ SquareSource::make(const Scene& scene, const Project& project, const GrownForest
 
 SquareSource::SquareSource(const Scene& scene, const Project& project, const GrownForest& grown)
     : options_(placement_options(scene, project, grown)), terrain_(*grown.terrain),
-      sizer_(unit_heights(scene, grown), grown.forest), field_(options_, terrain_) {
+      kinds_(grown.forest), sizer_(unit_heights(scene, grown), grown.forest),
+      field_(options_, terrain_) {
     options_.threads = 1;
     const Result<double> places = expected_places(options_);
     LSYS_CHECK(places);
     all_places_ = places.value();
+    halo_ = halo_of(options_, kinds_, sizer_);
 }
 
 std::vector<Tree> SquareSource::trees_of(const Region& region) const {
     PlacementOptions options = options_;
-    options.region = region;
+    options.region = halo_ > 0.0 ? widened(region, halo_) : region;
     const Result<Placement> placed = place_trees(options, terrain_);
     LSYS_CHECK(placed, region.x, region.z, region.width, region.depth);
     std::vector<Tree> trees(placed.value().trees.begin(), placed.value().trees.end());
-    static_cast<void>(sizer_.size(trees));
+    if (halo_ > 0.0) {
+        const auto is_outside = [](const Region& part) {
+            return [&part](const Tree& tree) {
+                return !part.contains(tree.position.x, tree.position.z);
+            };
+        };
+        std::erase_if(trees, is_outside(options_.region));
+        const std::vector<Tree> all = trees;
+        std::erase_if(trees, is_outside(region));
+        static_cast<void>(sizer_.size(trees));
+        sense_surroundings(kinds_, all, trees, 1);
+    } else {
+        static_cast<void>(sizer_.size(trees));
+    }
     std::sort(trees.begin(), trees.end(),
               [](const Tree& a, const Tree& b) { return a.number < b.number; });
     return trees;

@@ -48,9 +48,11 @@ public:
 private:
     PlacementOptions options_;
     const Terrain& terrain_;
+    const Forest& kinds_; // the species
     TreeSizer sizer_;
     DensityField field_;
     double all_places_ = 0.0; // expected places in the whole region
+    double halo_ = 0.0;       // m, around a region: trees in it can be neighbours
 };
 
 } // namespace lsys::view

@@ -4,6 +4,7 @@
 #include <glm/common.hpp>
 
 #include <algorithm>
+#include <bit>
 
 namespace lsys::view {
 
@@ -27,7 +28,8 @@ bool AddedTrees::differs(std::uint32_t slot, const Tree& tree) const {
         return true;
     }
     const Tree& stored = added_[slot].tree;
-    return stored.position != tree.position || stored.yaw != tree.yaw ||
+    return stored.position != tree.position ||
+           std::bit_cast<std::uint32_t>(stored.yaw) != std::bit_cast<std::uint32_t>(tree.yaw) ||
            stored.scale != tree.scale || stored.number != tree.number ||
            stored.species != tree.species;
 }

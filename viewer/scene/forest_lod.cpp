@@ -7,6 +7,7 @@
 #include <glm/geometric.hpp>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <numeric>
 #include <utility>
@@ -214,6 +215,23 @@ void ForestLod::list_whole_trees(std::span<const std::uint32_t> trees,
     }
 }
 
+/// Gives a tree of the forest, in `cell`, another yaw and the form of its new surroundings.
+void ForestLod::turn_tree(std::uint32_t number, const Tree& tree, ForestCell& cell) {
+    pool_.forget(number);
+    turned_[number] = tree;
+    const bool is_removed = trees_[number].is_removed();
+    LodTree& turned = trees_[number];
+    turned = make_lod_tree(tree, turned.tree);
+    turned.impostor |= is_removed ? LodTree::kRemoved : 0;
+    for (const Sphere& sphere : {bounding_sphere(turned, tree.yaw), impostor_sphere(turned)}) {
+        cell.low = glm::min(cell.low, sphere.centre - sphere.radius);
+        cell.high = glm::max(cell.high, sphere.centre + sphere.radius);
+    }
+    cell.tallest = std::max(cell.tallest, tree.scale * model_.forms[turned.form].height());
+    bounds_.add(cell.low);
+    bounds_.add(cell.high);
+}
+
 std::uint32_t ForestLod::change_tree(std::uint32_t index, const Tree& tree, bool alive) {
     if (index >= trees_.size()) {
         const std::uint32_t slot = index - first_added();
@@ -238,6 +256,10 @@ std::uint32_t ForestLod::change_tree(std::uint32_t index, const Tree& tree, bool
     std::uint32_t number = cell.first;
     while (trees_[number].tree != index) {
         ++number;
+    }
+    if (alive && std::bit_cast<std::uint32_t>(placed_tree(number).yaw) !=
+                     std::bit_cast<std::uint32_t>(tree.yaw)) {
+        turn_tree(number, tree, cell);
     }
     if (trees_[number].is_removed() == alive) {
         trees_[number].impostor ^= LodTree::kRemoved;

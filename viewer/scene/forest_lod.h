@@ -175,7 +175,8 @@ public:
 
     /// Adds or removes a tree, in time independent of the size of the forest. `index`: index in
     /// Forest::trees; the indices of added trees follow, in order of addition. A removed added tree
-    /// may be replaced. Returns the index for lod_tree().
+    /// may be replaced, and a tree of the forest may get another yaw and, with it, surroundings.
+    /// Returns the index for lod_tree().
     std::uint32_t change_tree(std::uint32_t index, const Tree& tree, bool alive);
 
     /// For a streamed forest: sets the place of the world, in m, to which all places are relative,
@@ -205,7 +206,7 @@ public:
     }
     [[nodiscard]] Tree tree_of(std::uint32_t number) const {
         return model_.streamed != nullptr ? streamed_tree(number)
-               : number < trees_.size()   ? model_.forest->trees[trees_[number].tree]
+               : number < trees_.size()   ? placed_tree(number)
                                           : added_.tree(number - first_added());
     }
     /// Calls visit(LodTree, Tree) for each tree that was not removed.
@@ -286,6 +287,11 @@ private:
     };
 
     void sort_into_cells();
+    [[nodiscard]] const Tree& placed_tree(std::uint32_t number) const {
+        const auto turned = turned_.empty() ? turned_.end() : turned_.find(number);
+        return turned == turned_.end() ? model_.forest->trees[trees_[number].tree] : turned->second;
+    }
+    void turn_tree(std::uint32_t number, const Tree& tree, ForestCell& cell);
     [[nodiscard]] Tree streamed_tree(std::uint32_t number) const;
     /// Finds room for `count` trees in trees_. Returns the index of the first.
     [[nodiscard]] std::uint32_t allocate_trees(std::uint32_t count);
@@ -343,6 +349,7 @@ private:
 
     const ForestModel& model_;
     LargeVector<LodTree> trees_;
+    std::map<std::uint32_t, Tree> turned_; // trees of the forest whose yaw has changed
     std::vector<ForestCell> cells_;
     Bounds bounds_;
     double cell_size_ = 1.0; // m, side of a cell

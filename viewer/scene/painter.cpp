@@ -2,8 +2,10 @@
 #include "viewer/scene/painter.h"
 
 #include "runtime/base/random.h"
+#include "runtime/forest/surroundings.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <numbers>
 
@@ -39,6 +41,7 @@ Painter::Painter(std::span<const Tree> placed,
     first_.assign(cells + 1, 0);
     for (const Tree& tree : placed) {
         ++first_[cell_of(tree.position.x, tree.position.z) + 1];
+        max_scale_ = std::max(max_scale_, tree.scale);
     }
     for (std::size_t i = 0; i < cells; ++i) {
         first_[i + 1] += first_[i];
@@ -86,6 +89,7 @@ bool Painter::move_to(std::span<const Tree> placed, const Terrain& terrain) {
     if (same) {
         placed_ = placed;
         terrain_ = &terrain;
+        turned_.clear();
     }
     return same;
 }
@@ -130,6 +134,63 @@ bool Painter::any_near(float x, float z, float radius, const Visit& visit) const
     return false;
 }
 
+void Painter::turn(std::uint32_t index, const Tree& tree) {
+    if (index < placed_.size()) {
+        turned_[index] = tree;
+    } else {
+        painted_[index - placed_.size()] = tree;
+    }
+}
+
+std::span<const std::uint32_t> Painter::sense_around(std::span<const TreeChange> changes,
+                                                     const Forest& kinds) {
+    sensed_.clear();
+    if (changes.empty() || !has_sensed_surroundings(kinds)) {
+        return sensed_;
+    }
+    const std::vector<double> scales(kinds.species.size(), static_cast<double>(max_scale_));
+    // A border of a centimetre, because any_near() excludes its radius.
+    const auto reach = static_cast<float>(reach_of_surroundings(kinds, scales)) + 0.01F;
+    std::vector<std::uint32_t> affected;
+    std::vector<std::uint32_t> around; // neighbours of affected trees, and the trees themselves
+    const auto collect_near = [&](std::uint32_t index, std::vector<std::uint32_t>& found) {
+        const glm::vec3& at = tree(index).position;
+        any_near(at.x, at.z, reach, [&](std::uint32_t near) {
+            found.push_back(near);
+            return false;
+        });
+    };
+    const auto make_unique = [](std::vector<std::uint32_t>& indices) {
+        std::sort(indices.begin(), indices.end());
+        indices.erase(std::unique(indices.begin(), indices.end()), indices.end());
+    };
+    for (const TreeChange& change : changes) {
+        collect_near(change.index, affected);
+    }
+    make_unique(affected);
+    for (const std::uint32_t index : affected) {
+        collect_near(index, around);
+    }
+    make_unique(around);
+    std::vector<Tree> all;
+    for (const std::uint32_t index : around) {
+        all.push_back(tree(index));
+    }
+    std::vector<Tree> trees;
+    for (const std::uint32_t index : affected) {
+        trees.push_back(tree(index));
+    }
+    sense_surroundings(kinds, all, trees, 1);
+    for (std::size_t i = 0; i < trees.size(); ++i) {
+        if (std::bit_cast<std::uint32_t>(trees[i].yaw) !=
+            std::bit_cast<std::uint32_t>(tree(affected[i]).yaw)) {
+            turn(affected[i], trees[i]);
+            sensed_.push_back(affected[i]);
+        }
+    }
+    return sensed_;
+}
+
 void Painter::set_alive(std::uint32_t index, bool alive) {
     (index < placed_.size() ? placed_alive_[index] : painted_alive_[index - placed_.size()]) =
         alive ? 1 : 0;
@@ -146,6 +207,7 @@ void Painter::record(std::uint32_t index, bool alive) {
 void Painter::add(const PaintedTree& paint) {
     const std::uint32_t cell = cell_of(paint.x, paint.z);
     paints_.push_back(paint);
+    max_scale_ = std::max(max_scale_, paint.scale);
     painted_.push_back(painted_tree(paint, *terrain_));
     next_.push_back(head_[cell]);
     head_[cell] = static_cast<std::uint32_t>(painted_.size() - 1);

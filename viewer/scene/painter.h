@@ -4,12 +4,14 @@
 #pragma once
 
 #include "runtime/base/large_vector.h"
+#include "runtime/forest/forest.h"
 #include "runtime/forest/tree.h"
 #include "runtime/scene/painting.h"
 #include "runtime/terrain/region.h"
 #include "runtime/terrain/terrain.h"
 
 #include <cstdint>
+#include <map>
 #include <span>
 #include <vector>
 
@@ -48,7 +50,11 @@ public:
         return static_cast<std::uint32_t>(placed_.size() + painted_.size());
     }
     [[nodiscard]] const Tree& tree(std::uint32_t index) const {
-        return index < placed_.size() ? placed_[index] : painted_[index - placed_.size()];
+        if (index >= placed_.size()) {
+            return painted_[index - placed_.size()];
+        }
+        const auto turned = turned_.empty() ? turned_.end() : turned_.find(index);
+        return turned == turned_.end() ? placed_[index] : turned->second;
     }
     [[nodiscard]] bool is_alive(std::uint32_t index) const {
         return (index < placed_.size() ? placed_alive_[index]
@@ -73,6 +79,12 @@ public:
     std::span<const TreeChange> undo();
     std::span<const TreeChange> redo();
 
+    /// Senses the surroundings of the living trees around the changed ones again. Returns the
+    /// indices of the trees that have new surroundings or another yaw. `kinds`: the species of the
+    /// trees. The result is valid until the next call.
+    std::span<const std::uint32_t> sense_around(std::span<const TreeChange> changes,
+                                                const Forest& kinds);
+
     /// All changes, as a scene file stores them.
     [[nodiscard]] Painting painting() const;
     /// Whether painting() differs from its value at the last mark_saved(), or at the start.
@@ -90,6 +102,7 @@ private:
     };
 
     [[nodiscard]] std::uint32_t cell_of(float x, float z) const;
+    void turn(std::uint32_t index, const Tree& tree);
     template <typename Visit>
     bool any_near(float x, float z, float radius, const Visit& visit) const;
     void add(const PaintedTree& paint);
@@ -104,11 +117,13 @@ private:
     const Region region_;
     const Terrain* terrain_;
     std::uint64_t key_;
+    std::map<std::uint32_t, Tree> turned_; // placed trees whose surroundings have changed
     LargeVector<Tree> painted_;
     std::vector<PaintedTree> paints_; // parallel to painted_
     LargeVector<std::uint8_t> placed_alive_;
     LargeVector<std::uint8_t> painted_alive_;
     std::uint64_t alive_count_ = 0;
+    float max_scale_ = 0.0F; // of all trees, removed ones included
     // Erased trees of the painting whose numbers do not occur in `placed`.
     std::vector<std::uint32_t> erased_before_;
     std::uint64_t draws_ = 0; // count of random numbers used
@@ -127,6 +142,7 @@ private:
     std::size_t done_ = 0;  // count of strokes that are not undone
     std::size_t saved_ = 0; // done_ when last saved; kNone: that state is gone
     std::vector<TreeChange> changes_;
+    std::vector<std::uint32_t> sensed_; // result of sense_around()
 };
 
 } // namespace lsys::view

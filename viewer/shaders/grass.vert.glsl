@@ -51,7 +51,7 @@ void main() {
     vec3 root = vec3(place.x, mix(mix(h00, h10, part.x), mix(h01, h11, part.x), part.y), place.y);
     vec3 up = normalize(vec3(h00 - h10, kHeightCell, h00 - h01));
     float away = distance(root, frame.eye_time.xyz);
-    GroundLook look = ground_look(place, away, 1.0 - up.y);
+    GroundLook look = ground_look(place, away, 1.0 - up.y, widest_noise(place, 0.0));
     vec2 openness = openness_at(place);
     float chance = drawn(state);
     if (chance > (1.0 - look.bare) * openness.x * openness.x) {

@@ -10,18 +10,22 @@ struct GroundLook {
     float small;
     float coarse;
 };
-// Look of a place `away` m from the eye; `steep`: 1 - cosine of the slope.
-GroundLook ground_look(vec2 place, float away, float steep) {
-    // Noise tiles of 173, 37 and 3.1 m; the two smaller ones fade before their repetition shows. A
-    // tile of 611 m, turned by the angle of a 3-4-5 triangle, hides the repetition of the largest.
-    vec4 widest_noise =
-        texture(noise, mat2(0.8, 0.6, -0.6, 0.8) * place * (1.0 / 611.0) + widest_shift);
+// Noise of a tile of 611 m, turned by the angle of a 3-4-5 triangle: hides the repetition of the
+// other tiles. Its texels are 4.8 m wide: vertices of the ground lie close enough to read it.
+// `level`: mip level.
+float widest_noise(vec2 place, float level) {
+    vec2 at = mat2(0.8, 0.6, -0.6, 0.8) * place * (1.0 / 611.0) + widest_shift;
+    return textureLod(noise, at, level).b;
+}
+// Look of a place `away` m from the eye. `steep`: 1 - cosine of the slope; `widest`: its noise.
+GroundLook ground_look(vec2 place, float away, float steep, float widest) {
+    // Noise tiles of 173, 37 and 3.1 m; the two smaller ones fade before their repetition shows.
     vec4 large_noise = texture(noise, place * (1.0 / 173.0) + noise_shifts[0]);
     vec4 medium_noise = mix(vec4(0.5), texture(noise, place.yx * (1.0 / 37.0) + noise_shifts[1].yx),
                             clamp(2.0 - away / 150.0, 0.0, 1.0));
     vec4 small_noise = mix(vec4(0.5), texture(noise, place * (1.0 / 3.1) + noise_shifts[2]),
                            clamp(2.0 - away / 15.0, 0.0, 1.0));
-    float wide = 0.5 + 0.8 * (large_noise.r - 0.5) + 0.8 * (widest_noise.b - 0.5);
+    float wide = 0.5 + 0.8 * (large_noise.r - 0.5) + 0.8 * (widest - 0.5);
     GroundLook look;
     look.middle = 0.4 * large_noise.g + 0.4 * medium_noise.r + 0.2 * small_noise.r;
     look.fine = 0.5 * (medium_noise.g + small_noise.b);

@@ -10,13 +10,18 @@ layout(location = 18) uniform int has_normal_map;
 #else
 #include "ground_look.glsl"
 #endif
+#ifdef CANOPY
 layout(location = 24) uniform vec3 canopy;       // colour of crowns
-layout(location = 25) uniform vec2 canopy_range; // m, where the canopy begins and is complete; y 0: none
+layout(location = 25) uniform vec2 canopy_range; // m, where the canopy begins and is complete
+in float cover; // fraction hidden by crowns
+#endif
 in vec3 world_position;
 in vec3 world_normal;
 in vec3 shadow_position;
 in vec3 fog; // xy: fog_to(); z: distance, m
-in float cover;
+#ifndef PICTURE
+in float widest;
+#endif
 out vec4 colour;
 #ifdef PICTURE
 #if QUALITY > 0
@@ -67,7 +72,7 @@ void main() {
 void main() {
     vec3 up = normalize(world_normal);
     float steep = 1.0 - up.y;
-    GroundLook look = ground_look(world_position.xz, fog.z, steep);
+    GroundLook look = ground_look(world_position.xz, fog.z, steep, widest);
     vec3 earth = mix(vec3(0.060, 0.045, 0.030), vec3(0.110, 0.086, 0.058), look.small);
     vec3 albedo = mix(grass_colour(look.middle), earth, look.bare);
 #if QUALITY > 0
@@ -95,10 +100,10 @@ void main() {
 #else
     vec3 light = shade(albedo, normal, world_position, lit, 0.0);
 #endif
-    if (canopy_range.y > 0.0) {
-        // Crowns seen from afar: part of their surface is in the shade of others.
-        vec3 crowns = shade_crown(canopy, up, 0.8 * lit, 0.0, 0.9);
-        light = mix(light, crowns, cover * smoothstep(canopy_range.x, canopy_range.y, fog.z));
-    }
+#ifdef CANOPY
+    // Crowns seen from afar: part of their surface is in the shade of others.
+    vec3 crowns = shade_crown(canopy, up, 0.8 * lit, 0.0, 0.9);
+    light = mix(light, crowns, cover * smoothstep(canopy_range.x, canopy_range.y, fog.z));
+#endif
     colour = tone_mapped(apply_fog(light, fog.xy));
 }

@@ -1,5 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "light.glsl"
+#if !defined(PICTURE) && !defined(GROUND)
+#define NOISE
+#include "ground_look.glsl"
+out float widest; // widest_noise()
+#endif
 // CDLOD (Strugar 2010): vertices morph to the next level and reach it at the distance where it
 // begins.
 layout(binding = 1) uniform sampler2DArray heights; // a layer per level, vertices at texels
@@ -48,6 +53,10 @@ void main() {
     world_normal = normal;
     cover = texelFetch(covers, ivec3(at - origins[level], level), 0).r;
     shadow_position = shadow_map_position(world_position, normal);
+#ifdef NOISE
+    const float kNoiseTexel = 611.0 / 128.0; // m
+    widest = widest_noise(ground, max(log2(cell / kNoiseTexel) + morph, 0.0));
+#endif
     fog = vec3(fog_to(world_position), distance(world_position, frame.eye_time.xyz));
     // The drawn ground ends at a stepped border of whole patches, so it fades into the horizon
     // before the border.

@@ -136,6 +136,25 @@ void GrowthWalk::add_present(ClassId id) {
     }
 }
 
+SymbolId GrowthWalk::cause_of_next() const {
+    std::vector<bool> occurs(classes_->bytecode().symbols.size(), false);
+    const auto is_there = [&](ClassId id) { return !is_zero(high_[static_cast<std::size_t>(id)]); };
+    for (const ClassId id : present_) {
+        const auto symbol = static_cast<std::size_t>(classes_->symbol(id));
+        occurs[symbol] = occurs[symbol] || is_there(id);
+    }
+    for (std::size_t s = 0; s < occurs.size(); ++s) {
+        if (occurs[s]) {
+            for (const SymbolId cause : classes_->causes(static_cast<SymbolId>(s))) {
+                if (occurs[static_cast<std::size_t>(cause)]) {
+                    return cause;
+                }
+            }
+        }
+    }
+    return kNoSymbol;
+}
+
 /// Replaces all modules of these classes by their outcomes.
 void GrowthWalk::rewrite(std::span<const ClassId> ids) {
     struct Taken {

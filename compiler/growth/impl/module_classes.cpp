@@ -22,8 +22,37 @@ constexpr std::size_t kMaxVariableModules = 65'536; // per word
 
 ModuleClasses::ModuleClasses(const Bytecode& bytecode, std::uint32_t steps)
     : bytecode_(&bytecode), index_(bytecode), steps_(steps),
-      fixed_ids_(bytecode.code_count(), kNone),
-      evaluator_(bytecode.stack_depth, bytecode.local_count) {}
+      changed_parameters_(changed_parameters(bytecode)), fixed_ids_(bytecode.code_count(), kNone),
+      evaluator_(bytecode.stack_depth, bytecode.local_count) {
+    find_causes();
+}
+
+void ModuleClasses::find_causes() {
+    causes_.resize(bytecode_->symbols.size());
+    for (std::size_t s = 0; s < causes_.size(); ++s) {
+        for (std::uint32_t i = 0; i < changed_parameters_[s]; ++i) {
+            if (index_.is_relevant(static_cast<SymbolId>(s), i)) {
+                causes_[s].push_back(static_cast<SymbolId>(s));
+                break;
+            }
+        }
+        for (const std::uint32_t p : index_.productions_of(static_cast<SymbolId>(s))) {
+            const BytecodeProduction& production = bytecode_->productions[p];
+            // A context without a condition decides nothing by its parameters.
+            if (production.condition == kNone && production.weight_code == kNone) {
+                continue;
+            }
+            for (const TableRange context : {production.left, production.right}) {
+                for (std::uint32_t i = 0; i < context.count; ++i) {
+                    const PatternItem& item = bytecode_->patterns[context.first + i];
+                    if (item.kind == PatternKind::Module && may_change(item.symbol, 0)) {
+                        causes_[s].push_back(item.symbol);
+                    }
+                }
+            }
+        }
+    }
+}
 
 // --- classes
 
@@ -166,10 +195,17 @@ TableRange ModuleClasses::instantiate(const CountedWord& word, const ExpressionI
     for (const VariableModule& module : word.variable) {
         values.assign(index_.relevant_count(static_cast<SymbolId>(module.code)), KnownValue{});
         if (!exhausted()) {
-            for (std::size_t i = 0; i < values.size(); ++i) {
-                values[i] = evaluator_.run(bytecode_->instructions,
-                                           argument_starts_[module.first_argument + i], inputs,
-                                           word.locals);
+            const auto symbol = static_cast<SymbolId>(module.code);
+            std::uint32_t parameter = 0;
+            for (std::size_t i = 0; i < values.size(); ++i, ++parameter) {
+                while (!index_.is_relevant(symbol, parameter)) {
+                    ++parameter;
+                }
+                if (!may_change(symbol, parameter)) {
+                    values[i] = evaluator_.run(bytecode_->instructions,
+                                               argument_starts_[module.first_argument + i], inputs,
+                                               word.locals);
+                }
             }
         }
         terms.push_back({class_with_known_values(module.code, values), 1});
@@ -387,10 +423,11 @@ bool ModuleClasses::is_identity(Code code, std::uint32_t production) const {
     return true;
 }
 
-/// Whether every outcome yields the module itself. More than 16 outcomes count as a change.
+/// Whether every outcome yields the module itself, and nothing else changes it. More than 16 outcomes
+/// count as a change.
 bool ModuleClasses::is_unchanged(const ClassExpansion& expansion, Code code) const {
     constexpr std::uint32_t kMaxOutcomes = 16;
-    if (expansion.outcomes.count > kMaxOutcomes) {
+    if (expansion.outcomes.count > kMaxOutcomes || may_change(bytecode_->symbol_of(code), 0)) {
         return false;
     }
     const std::span<const ClassOutcome> all = outcomes(expansion.outcomes);
@@ -493,6 +530,7 @@ const ClassExpansion& ModuleClasses::expand(ClassId id, std::uint32_t age) {
     ClassExpansion expansion;
     if (index_.productions_of(symbol).empty()) {
         expansion = expand_matches(Matches{{{kNone, 1.0}}, true}, id, {});
+        expansion.unchanged = !may_change(symbol, 0);
     } else if (no_values || exhausted()) {
         // One expansion serves all codes of the symbol.
         ClassExpansion& shared = shared_[static_cast<std::uint32_t>(symbol)];

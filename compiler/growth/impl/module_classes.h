@@ -72,6 +72,11 @@ public:
     /// The outcomes of a class in a word of age `age`. May add classes. The result and its ranges
     /// are valid until the age changes.
     const ClassExpansion& expand(ClassId id, std::uint32_t age);
+    /// Per symbol: the symbols whose parameters an answer or a sweep changes and on which depends
+    /// how modules of the symbol are rewritten; itself or a context.
+    [[nodiscard]] std::span<const SymbolId> causes(SymbolId symbol) const {
+        return causes_[static_cast<std::size_t>(symbol)];
+    }
     /// Whether outcomes can depend on the age of the word.
     [[nodiscard]] bool depends_on_age() const { return index_.depends_on_age(); }
     [[nodiscard]] bool expanded(ClassId id) const {
@@ -117,6 +122,7 @@ private:
         bool probabilities_known = true;
     };
 
+    void find_causes();
     static std::size_t number(ClassId id) { return static_cast<std::size_t>(id); }
     ClassId add_class(Code code, std::uint32_t first_value);
     ClassId fixed_class(Code code);
@@ -127,6 +133,10 @@ private:
     TableRange instantiate(const CountedWord& word, const ExpressionInputs& inputs);
 
     [[nodiscard]] ExpressionInputs inputs(std::span<const KnownValue> formals) const;
+    /// Whether an answer of an environment or a sweep may change the parameter.
+    [[nodiscard]] bool may_change(SymbolId symbol, std::uint32_t parameter) const {
+        return parameter < changed_parameters_[static_cast<std::size_t>(symbol)];
+    }
     KnownValue condition(std::uint32_t production, std::span<const KnownValue> parameters);
     KnownValue weight_of(std::uint32_t production, std::span<const KnownValue> parameters);
     KnownValue value_of(std::uint32_t production,
@@ -150,6 +160,8 @@ private:
     const Bytecode* bytecode_;
     ProductionIndex index_;
     std::uint32_t steps_;
+    std::vector<std::uint32_t> changed_parameters_; // see changed_parameters()
+    std::vector<std::vector<SymbolId>> causes_;     // by symbol
     bool covers_folded_ = false;
     std::uint32_t age_ = 0; // age of the word that expansions_ are valid for
 

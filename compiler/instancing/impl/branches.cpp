@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <bit>
 #include <numeric>
+#include <optional>
 #include <string>
 #include <unordered_map>
 #include <utility>
@@ -39,6 +40,10 @@ public:
           rules_of_(program.symbols.size()), effects_(program.symbols.size()) {}
 
     std::optional<Branches> run() {
+        if (const std::optional<std::string> reason = reason_for_whole_plants()) {
+            note_whole_plants(*reason);
+            return std::move(branches_);
+        }
         report_system_obstacles();
         for (const Production& production : program_.productions) {
             if (production.stage == Stage::Rewrite) {
@@ -73,6 +78,29 @@ public:
     }
 
 private:
+    /// The reason why a branch cannot be put in another place: it depends on the whole plant.
+    [[nodiscard]] std::optional<std::string> reason_for_whole_plants() const {
+        for (const Symbol& symbol : program_.symbols) {
+            if (symbol.sense != Sense::Nothing) {
+                return fmt::format("modules `{}` sense where they are", names_.text(symbol.name));
+            }
+        }
+        for (const Production& production : program_.productions) {
+            if (production.stage == Stage::Down || production.stage == Stage::Up) {
+                return fmt::format("production `{}` of `{}` sweeps the whole plant",
+                                   names_.text(production.name), keyword_of(production.stage));
+            }
+        }
+        return std::nullopt;
+    }
+
+    void note_whole_plants(const std::string& reason) {
+        diagnostics_
+            .add(DiagnosticCode::NoVariety, program_.axiom_span(),
+                 fmt::format("{}, so heroes share no branches", reason))
+            .notes.emplace_back("each tree of a forest is a copy of a whole hero");
+    }
+
     /// Reports a system to which instancing adds no variety.
     void note_variety() {
         const bool is_random = branches_.axiom_is_random ||

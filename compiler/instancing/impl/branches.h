@@ -43,7 +43,8 @@ struct Branches {
 
 /// Returns nothing if the system cannot be instanced, after reporting the reasons. Also reports a
 /// system whose plants would all be equal, or all be copies of heroes, the plants whose branches
-/// are recorded (DiagnosticCode::NoVariety). Precondition: program.is_valid.
+/// are recorded (DiagnosticCode::NoVariety). A system that senses or sweeps has no valid branches.
+/// Precondition: program.is_valid.
 [[nodiscard]] std::optional<Branches>
 find_branches(const Program& program, const Names& names, Diagnostics& diagnostics);
 

@@ -102,7 +102,13 @@ private:
             const bool rewrites = production.stage == Stage::Rewrite;
             out_ += rewrites ? fmt::format("#{}.{}", name, form)
                              : fmt::format("{} {}", keyword_of(production.stage), name);
-            out_ += fmt::format(" : {} : ", text_of(production.predecessor.span));
+            out_ += " : ";
+            // Systems of whole plants, which have no branch to take, may have contexts.
+            out_ += production.has_left ? fmt::format("{} < ", text_of(production.left.span)) : "";
+            out_ += text_of(production.predecessor.span);
+            out_ +=
+                production.has_right ? fmt::format(" > {}", text_of(production.right.span)) : "";
+            out_ += " : ";
             out_ += production.condition == kNoValue ? "*" : text_of(production.condition_span);
             if (rewrites || production.stochastic) {
                 out_ += std::isnan(probability)

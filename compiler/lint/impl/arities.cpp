@@ -94,8 +94,10 @@ void check_arities(const CheckInput& input, ModuleUse& use, Diagnostics& diagnos
     for (std::uint32_t s = 0; s < program.symbols.size(); ++s) {
         const auto symbol = SymbolId{s};
         const Symbol& row = program.symbols[s];
-        if (!use.reachable.occurs(symbol) || use.first_production[s] != kNone || use.declared[s] ||
-            row.kind != SymbolKind::Plain || row.ignored) {
+        // Without parameters a sense module asks nothing, and is a place that others see.
+        const bool is_place = row.sense != Sense::Nothing && row.parameter_count == 0;
+        if (is_place || !use.reachable.occurs(symbol) || use.first_production[s] != kNone ||
+            use.declared[s] || row.kind != SymbolKind::Plain || row.ignored) {
             continue;
         }
         // Among the rewritten modules of this name, the one with the nearest number of parameters.

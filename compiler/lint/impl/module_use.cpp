@@ -67,8 +67,8 @@ bool is_idle(const CheckInput& input, const ModuleUse& use, SymbolId symbol) {
     const auto s = static_cast<std::size_t>(symbol);
     const Symbol& row = input.program.symbols[s];
     return use.reachable.occurs(symbol) && row.turtle == TurtleOperation::Nothing &&
-           row.kind == SymbolKind::Plain && !row.ignored && !use.declared[s] &&
-           !use.in_context[s] && use.first_production[s] == kNone;
+           row.sense == Sense::Nothing && row.kind == SymbolKind::Plain && !row.ignored &&
+           !use.declared[s] && !use.in_context[s] && use.first_production[s] == kNone;
 }
 
 void check_module_use(const CheckInput& input, Diagnostics& diagnostics) {

@@ -49,6 +49,32 @@ void check_constants(const CheckInput& input, Diagnostics& diagnostics) {
     }
 }
 
+void check_environments(const CheckInput& input, Diagnostics& diagnostics) {
+    const Program& program = input.program;
+    std::vector<bool> is_asked(program.environments.size(), false);
+    for (const Symbol& symbol : program.symbols) {
+        if (asks_environment(symbol.sense)) {
+            is_asked[static_cast<std::size_t>(symbol.sense)] = true;
+        }
+    }
+    for (std::size_t i = 0; i < is_asked.size(); ++i) {
+        const ProgramEnvironment& environment = program.environments[i];
+        // An included file may declare more than a grammar needs.
+        if (is_asked[i] || environment.name_span.file != program.axiom_span().file) {
+            continue;
+        }
+        const std::string_view name = input.name(environment.name);
+        Diagnostic& diagnostic =
+            diagnostics.add(DiagnosticCode::UnusedEnvironment, environment.name_span,
+                            fmt::format("no module asks environment {}", quoted(name)));
+        diagnostic.help.push_back(fmt::format(
+            "write a module `?{}{}` where the plant senses, or remove the statement", name,
+            environment.values.kind == EnvironmentKind::Program
+                ? std::string("(x)")
+                : zeros(answer_size(environment.values.kind))));
+    }
+}
+
 /// The formals that a production reads.
 std::vector<bool> used_formals(const Program& program, const Production& production) {
     std::vector<bool> used(production.formals.size(), false);
@@ -92,7 +118,9 @@ void check_formals(const CheckInput& input, Diagnostics& diagnostics) {
         }
     }
     for (std::uint32_t s = 0; s < program.symbols.size(); ++s) {
-        if (first[s] == kNone || program.symbols[s].turtle != TurtleOperation::Nothing) {
+        // An answer has its numbers in a fixed order, needed or not.
+        if (first[s] == kNone || program.symbols[s].turtle != TurtleOperation::Nothing ||
+            program.symbols[s].sense != Sense::Nothing) {
             continue;
         }
         const Production& production = program.productions[first[s]];
@@ -122,6 +150,7 @@ void check_formals(const CheckInput& input, Diagnostics& diagnostics) {
 
 void check_unused_names(const CheckInput& input, Diagnostics& diagnostics) {
     check_constants(input, diagnostics);
+    check_environments(input, diagnostics);
     check_formals(input, diagnostics);
 }
 

@@ -63,6 +63,26 @@ bool DeclarationResolver::check_bare(const ModuleView& module, const char* state
     return false;
 }
 
+/// Sense modules draw nothing, and `#sense` declares them.
+bool DeclarationResolver::check_not_sense(const ModuleView& module, const char* statement) {
+    const std::string_view name = resolution_.text(module.name);
+    if (!is_sense_name(name)) {
+        return true;
+    }
+    const bool is_object = std::string_view(statement) == "#object";
+    Diagnostic& error = resolution_.diagnostics.add(
+        DiagnosticCode::BadDeclaration, module.name_span,
+        is_object ? fmt::format("`{}` senses, and draws no object", name)
+                  : fmt::format("`{}` needs no `#module`", name));
+    error.help.emplace_back(
+        is_object ? fmt::format("to draw something in its place, write `#interpret p : {} : * : L;`"
+                                " with `#object L ...;`",
+                                name)
+        : is_turtle_sense(name) ? "`?P ?H ?U ?R ?L` are built in"
+                                : "`#sense` declares it");
+    return false;
+}
+
 void DeclarationResolver::object(const ObjectNode& node) {
     std::optional<ObjectBinding> binding = object_of(node);
     if (!check_one_name(node.name, node.object_span, "#object")) {
@@ -72,7 +92,7 @@ void DeclarationResolver::object(const ObjectNode& node) {
     for (; !cursor.done(); cursor.next()) {
         const ModuleView module = cursor.view();
         const std::string_view name = resolution_.text(module.name);
-        if (!check_bare(module, "#object")) {
+        if (!check_not_sense(module, "#object") || !check_bare(module, "#object")) {
             continue;
         }
         if (is_structural(resolution_.program.settings.turtle, name)) {
@@ -201,7 +221,8 @@ void DeclarationResolver::ignore_module(const ModuleView& module,
                                         bool considers,
                                         NameSplitter& splitter,
                                         SplitReport& splits) {
-    if (!check_bare(module, considers ? "#consider" : "#ignore")) {
+    if (!environments_.check_name(module.name, module.name_span) ||
+        !check_bare(module, considers ? "#consider" : "#ignore")) {
         return;
     }
     const SymbolKind kind =
@@ -247,7 +268,7 @@ void DeclarationResolver::module(const ModuleDeclarationNode& node,
     ModuleCursor cursor(resolution_.ast, resolution_.names, resolution_.sources, node.modules);
     for (; !cursor.done(); cursor.next()) {
         const ModuleView module = cursor.view();
-        if (!check_module(reading, module)) {
+        if (!check_not_sense(module, "#module") || !check_module(reading, module)) {
             continue;
         }
         for (std::uint32_t i = 0; i < module.arguments.count; ++i) {

@@ -10,8 +10,10 @@ namespace lsys {
 
 class DeclarationResolver {
 public:
-    DeclarationResolver(Resolution& resolution, SymbolTable& symbols)
-        : resolution_(resolution), symbols_(symbols) {}
+    DeclarationResolver(Resolution& resolution,
+                        SymbolTable& symbols,
+                        EnvironmentResolver& environments)
+        : resolution_(resolution), symbols_(symbols), environments_(environments) {}
 
     /// Call for all objects before the NameSplitter and any symbol are made.
     void object(const ObjectNode& node);
@@ -29,12 +31,14 @@ private:
                        bool considers,
                        NameSplitter& splitter,
                        SplitReport& splits);
+    [[nodiscard]] bool check_not_sense(const ModuleView& module, const char* statement);
     [[nodiscard]] bool check_bare(const ModuleView& module, const char* statement);
     void report_bad_declaration(SourceSpan span, std::string message);
     [[nodiscard]] bool check_one_name(ModuleList list, SourceSpan statement, const char* keyword);
 
     Resolution& resolution_;
     SymbolTable& symbols_;
+    EnvironmentResolver& environments_;
     Suggestions suggestions_;
     SourceSpan first_ignore_; // kNoFile if there is none
     SourceSpan first_consider_;

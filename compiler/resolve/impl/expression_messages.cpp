@@ -471,6 +471,9 @@ void ExpressionResolver::report_not_allowed(const Expression& expression,
     case ExpressionPlace::Material:
         where = "in a material";
         break;
+    case ExpressionPlace::Environment:
+        where = "in an environment";
+        break;
     case ExpressionPlace::Condition:
         where = "in a condition";
         break;

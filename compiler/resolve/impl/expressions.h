@@ -29,10 +29,11 @@ enum class ExpressionPlace : std::uint8_t {
     AxiomProbability,
     Condition,
     Probability,
-    Function, // the body of a #function
-    Curve,    // a coordinate of a #curve
-    Material, // a number of a #material
-    Local,    // the value of a `let`
+    Function,    // the body of a #function
+    Curve,       // a coordinate of a #curve
+    Material,    // a number of a #material
+    Environment, // a number of a #sense
+    Local,       // the value of a `let`
     Successor,
 };
 
@@ -77,6 +78,11 @@ public:
     /// Whether the name is a constant, defined before or after this point.
     [[nodiscard]] bool is_constant(NameId name) const {
         return constants_.state(name) != ConstantState::Unknown;
+    }
+    /// Whether the definition of an unknown name may have been lost: it stands in a statement with a
+    /// syntax error or in a missing file, or the text is a part of a grammar.
+    [[nodiscard]] bool may_be_missing(std::string_view name) const {
+        return files_missing_ || attempted_.defines(name) || resolution_.options.part;
     }
     /// Whether the last resolved value depends on a random number.
     [[nodiscard]] bool is_random() const { return is_random_; }

@@ -98,8 +98,12 @@ bool HeadResolver::check_shape(const ProductionNode& node) {
     return ok;
 }
 
-/// Checks that a production of #decompose or #interpret has one module and no context.
+/// Checks that a production of a later stage has one module, and no context that its stage cannot
+/// have.
 bool HeadResolver::check_stage(const ProductionNode& node) {
+    if (node.stage == Stage::Down || node.stage == Stage::Up) {
+        return check_sweep(node);
+    }
     const bool several = node.predecessor.count > 1;
     if (!several && !node.has_left && !node.has_right) {
         return true;
@@ -116,6 +120,46 @@ bool HeadResolver::check_stage(const ProductionNode& node) {
         node.stage == Stage::Interpret
             ? "how a module is drawn depends on the module alone, not on its neighbours"
             : "how a module is decomposed depends on the module alone, not on its neighbours");
+    return false;
+}
+
+/// Checks that a production of #down has no left context, one of #up no right context, and either
+/// one module.
+bool HeadResolver::check_sweep(const ProductionNode& node) {
+    const std::string_view keyword = keyword_of(node.stage);
+    const RewritingMode rewriting = resolution_.program.settings.rewriting;
+    if (rewriting != RewritingMode::Parallel) {
+        Diagnostic& error =
+            resolution_.diagnostics.add(DiagnosticCode::BadSweep, node.name_span,
+                                        fmt::format("`{}` does not work with `#set rewriting {};`",
+                                                    keyword, name_of(rewriting)));
+        error.notes.emplace_back("sweeps belong to generations in which all modules are rewritten "
+                                 "at once: `parallel`");
+        return false;
+    }
+    if (node.predecessor.count > 1) {
+        resolution_.diagnostics
+            .add(DiagnosticCode::ContextOfModule, node.predecessor.span,
+                 fmt::format("`{}` takes one module, not {}", keyword, node.predecessor.count))
+            .notes.emplace_back("a sweep visits each module by itself");
+        return false;
+    }
+    const bool goes_down = node.stage == Stage::Down;
+    if (goes_down ? !node.has_left : !node.has_right) {
+        return true;
+    }
+    Diagnostic& error = resolution_.diagnostics.add(
+        DiagnosticCode::ContextOfModule, goes_down ? node.less_span : node.greater_span,
+        fmt::format("`{}` has no {} context", keyword, goes_down ? "left" : "right"));
+    error.notes.emplace_back(
+        goes_down ? "it visits the word from right to left, children before parents, so that only "
+                    "modules to the right have been swept"
+                  : "it visits the word from left to right, parents before children, so that only "
+                    "modules to the left have been swept");
+    error.help.push_back(
+        goes_down
+            ? "write the module as right context, `A > B`; to carry values from the root use `#up`"
+            : "write the module as left context, `B < A`; to carry values to the root use `#down`");
     return false;
 }
 

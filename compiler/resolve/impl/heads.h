@@ -28,6 +28,7 @@ private:
     [[nodiscard]] std::optional<Edit> condition_edit(const std::string& test) const;
     [[nodiscard]] bool check_shape(const ProductionNode& node);
     [[nodiscard]] bool check_stage(const ProductionNode& node);
+    [[nodiscard]] bool check_sweep(const ProductionNode& node);
 
     ModuleReading& reading_;
     Resolution& resolution_;

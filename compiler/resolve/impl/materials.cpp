@@ -3,8 +3,6 @@
 
 #include "compiler/resolve/impl/definitions.h"
 #include "compiler/resolve/known_words.h"
-#include "grammar/base/counted_text.h"
-#include "grammar/base/paths.h"
 
 #include <fmt/format.h>
 
@@ -29,7 +27,7 @@ constexpr auto kMaxIndex = static_cast<float>(kMaxColourIndex);
 
 /// The keys, in the order in which messages list them. `color`, a synonym of `colour`, is last and
 /// not listed.
-constexpr std::array<MaterialKey, 7> kKeys{{
+constexpr std::array<MaterialKey, 7> kMaterialKeys{{
     {"colour", KeyKind::Colour, 3, "three numbers from 0 to 1: red, green and blue"},
     {"picture", KeyKind::Picture, 1, "a file name in quotes"},
     {"normal", KeyKind::Normal, 1, "a file name in quotes"},
@@ -46,7 +44,7 @@ constexpr std::size_t kListedKeys = 6; // without `color`
 std::vector<std::string_view> material_keys() {
     std::vector<std::string_view> names;
     for (std::size_t i = 0; i < kListedKeys; ++i) {
-        names.emplace_back(kKeys[i].name);
+        names.emplace_back(kMaterialKeys[i].name);
     }
     return names;
 }
@@ -98,75 +96,64 @@ std::optional<std::uint32_t> MaterialResolver::read_index(const SetValue& value)
 }
 
 void MaterialResolver::read_entries(const MaterialNode& node, ProgramMaterial& material) {
+    const ListRange range{node.values.first + 1, node.values.count - 1};
+    if (range.count == 0) {
+        Diagnostic& error = resolution_.diagnostics.add(DiagnosticCode::BadMaterial, material.span,
+                                                        "a material without any key");
+        error.help.emplace_back("for example `#material 3 colour 0.4 0.3 0.2;`");
+        return;
+    }
+    if (const SetValue first = resolution_.ast.set_values[range.first]; !first.is_word) {
+        resolution_.diagnostics
+            .add(DiagnosticCode::BadMaterial, first.span,
+                 "a key comes after the index, not a value")
+            .help.emplace_back("for example `#material 3 colour 0.4 0.3 0.2;`");
+        return;
+    }
     std::vector<Entry> entries;
     std::array<SourceSpan, kListedKeys>
         first_of; // place per KeyKind; kNoFile until the key is read
-    bool ok = true;
-    bool is_skipping = false; // within the values of an invalid key
-    for (std::uint32_t i = 1; i < node.values.count; ++i) {
-        const SetValue value = resolution_.ast.set_values[node.values.first + i];
-        if (!value.is_word) {
-            if (entries.empty() && !is_skipping) {
-                resolution_.diagnostics
-                    .add(DiagnosticCode::BadMaterial, value.span,
-                         "a key comes after the index, not a value")
-                    .help.emplace_back("for example `#material 3 colour 0.4 0.3 0.2;`");
-                return;
-            }
-            if (!is_skipping) {
-                ++entries.back().values.count;
-            }
-            continue;
-        }
-        const std::string_view name = resolution_.text(value.word);
+    const auto never = [](const SetValue&, const KeyedValues&) { return false; };
+    for (const KeyedValues& written : split_keyed_values(resolution_.ast, range, never)) {
+        const std::string_view name = resolution_.text(written.key);
         const MaterialKey* key = nullptr;
-        for (const MaterialKey& each : kKeys) {
+        for (const MaterialKey& each : kMaterialKeys) {
             key = each.name == name ? &each : key;
         }
-        is_skipping = key == nullptr;
         if (key == nullptr) {
-            report_unknown_key(value, entries.empty() ? Entry{} : entries.back());
-            ok = false;
-            if (!entries.empty() && entries.back().values.count < entries.back().key->count) {
+            report_unknown_key(written, entries.empty() ? Entry{} : entries.back());
+            if (!entries.empty() &&
+                entries.back().written.values.count < entries.back().key->count) {
                 entries.pop_back(); // the word takes the place of the key's value
             }
             continue;
         }
         SourceSpan& first = first_of[static_cast<std::size_t>(key->kind)];
         if (first.file != kNoFile) {
-            report_duplicate(resolution_, value.span, first,
+            report_duplicate(resolution_, written.span, first,
                              fmt::format("`{}` of one material", name));
-            is_skipping = true;
             continue;
         }
-        first = value.span;
-        entries.push_back({key, value.span, {node.values.first + i + 1, 0}});
-    }
-    if (entries.empty() && ok && node.values.count == 1) {
-        Diagnostic& error = resolution_.diagnostics.add(DiagnosticCode::BadMaterial, material.span,
-                                                        "a material without any key");
-        error.help.emplace_back("for example `#material 3 colour 0.4 0.3 0.2;`");
+        first = written.span;
+        entries.push_back({key, written});
     }
     for (const Entry& entry : entries) {
         read_entry(entry, material);
     }
 }
 
-void MaterialResolver::report_unknown_key(const SetValue& word, const Entry& before) {
-    const std::string_view name = resolution_.text(word.word);
-    const bool lacks_value = before.key != nullptr && before.values.count < before.key->count;
-    if (lacks_value && expressions_.is_constant(word.word)) {
-        Diagnostic& error = resolution_.diagnostics.add(
-            DiagnosticCode::BadMaterial, word.span,
-            fmt::format("a constant is in parentheses here: `({})`", name));
-        add_fix(error, fmt::format("write `({})`", name), word.span, fmt::format("({})", name),
-                true);
+void MaterialResolver::report_unknown_key(const KeyedValues& word, const Entry& before) {
+    const std::string_view name = resolution_.text(word.key);
+    const bool lacks_value =
+        before.key != nullptr && before.written.values.count < before.key->count;
+    if (lacks_value && expressions_.is_constant(word.key)) {
+        report_bare_constant(resolution_, DiagnosticCode::BadMaterial, {word.span, true, word.key});
         return;
     }
     Diagnostic& error = resolution_.diagnostics.add(
         DiagnosticCode::UnknownKey, word.span, fmt::format("a material has no key `{}`", name));
     std::vector<std::string_view> keys;
-    for (const MaterialKey& key : kKeys) {
+    for (const MaterialKey& key : kMaterialKeys) {
         keys.push_back(key.name);
     }
     const std::string nearest = suggestions_.nearest(name, keys);
@@ -180,21 +167,17 @@ void MaterialResolver::report_unknown_key(const SetValue& word, const Entry& bef
 
 void MaterialResolver::read_entry(const Entry& entry, ProgramMaterial& material) {
     const MaterialKey& key = *entry.key;
-    if (entry.values.count != key.count) {
-        resolution_.diagnostics.add(
-            DiagnosticCode::BadMaterial, entry.span,
-            entry.values.count == 0 ? fmt::format("`{}` takes {}", key.name, key.wanted)
-                                    : fmt::format("`{}` takes {}; found {}", key.name, key.wanted,
-                                                  counted(entry.values.count, "value")));
+    if (entry.written.values.count != key.count) {
+        report_value_count(resolution_, DiagnosticCode::BadMaterial, entry.written, key.wanted);
         return;
     }
-    const SetValue first = resolution_.ast.set_values[entry.values.first];
+    const SetValue first = resolution_.ast.set_values[entry.written.values.first];
     switch (key.kind) {
     case KeyKind::Colour: {
         std::array<float, 3> colour{};
         for (std::uint32_t i = 0; i < colour.size(); ++i) {
             const std::optional<float> part =
-                number_of(entry, resolution_.ast.set_values[entry.values.first + i]);
+                number_of(entry, resolution_.ast.set_values[entry.written.values.first + i]);
             if (!part) {
                 return; // an error has been reported
             }
@@ -242,7 +225,7 @@ std::optional<float> MaterialResolver::number_of(const Entry& entry, const SetVa
         Diagnostic& error = resolution_.diagnostics.add(
             DiagnosticCode::BadMaterial, value.span,
             fmt::format("`{}` takes {}; found {}", key.name, key.wanted, number_text(*number)));
-        error.labels.push_back({entry.span, "the key"});
+        error.labels.push_back({entry.written.span, "the key"});
         if (key.kind == KeyKind::Colour && *number >= 2.0F && *number <= 255.0F) {
             error.help.push_back(fmt::format("for components from 0 to 255, write `({} / 255)`",
                                              number_text(*number)));
@@ -253,7 +236,7 @@ std::optional<float> MaterialResolver::number_of(const Entry& entry, const SetVa
 }
 
 void MaterialResolver::read_picture(const Entry& entry, MaterialPictureName& picture) {
-    const SetValue file = resolution_.ast.set_values[entry.values.first];
+    const SetValue file = resolution_.ast.set_values[entry.written.values.first];
     if (!file.is_file || resolution_.text(file.word).empty()) {
         resolution_.diagnostics.add(
             DiagnosticCode::BadMaterial, file.span,
@@ -261,24 +244,7 @@ void MaterialResolver::read_picture(const Entry& entry, MaterialPictureName& pic
                          : fmt::format("`{}` takes {}", entry.key->name, entry.key->wanted));
         return;
     }
-    picture = {path_of(file), file.span};
-}
-
-/// The path of the file relative to the root file. A statement gives it relative to the file that
-/// contains the statement.
-std::string MaterialResolver::path_of(const SetValue& file) const {
-    const std::string name(resolution_.text(file.word));
-    const FileId root = resolution_.ast.files[0].file;
-    const auto folder_of = [&](FileId id) {
-        return std::string(folder_of_path(resolution_.sources.file(id).path()));
-    };
-    if (is_absolute_path(name) || file.span.file == root) {
-        return name;
-    }
-    const std::string folder = folder_of(file.span.file);
-    const std::string root_folder = folder_of(root);
-    return folder.starts_with(root_folder) ? folder.substr(root_folder.size()) + name
-                                           : folder + name;
+    picture = {path_from_root(resolution_, file), file.span};
 }
 
 } // namespace lsys

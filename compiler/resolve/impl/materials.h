@@ -3,6 +3,7 @@
 #pragma once
 
 #include "compiler/resolve/impl/expressions.h"
+#include "compiler/resolve/impl/keyed_values.h"
 #include "compiler/resolve/impl/resolution.h"
 
 #include <cstdint>
@@ -28,16 +29,14 @@ private:
     /// A key of the statement and its values, as written.
     struct Entry {
         const MaterialKey* key = nullptr;
-        SourceSpan span;
-        ListRange values; // in Ast::set_values
+        KeyedValues written;
     };
     [[nodiscard]] std::optional<std::uint32_t> read_index(const SetValue& value);
     void read_entries(const MaterialNode& node, ProgramMaterial& material);
-    void report_unknown_key(const SetValue& word, const Entry& before);
+    void report_unknown_key(const KeyedValues& word, const Entry& before);
     void read_entry(const Entry& entry, ProgramMaterial& material);
     [[nodiscard]] std::optional<float> number_of(const Entry& entry, const SetValue& value);
     void read_picture(const Entry& entry, MaterialPictureName& picture);
-    [[nodiscard]] std::string path_of(const SetValue& file) const;
 
     Resolution& resolution_;
     ExpressionResolver& expressions_;

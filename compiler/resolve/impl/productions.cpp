@@ -65,7 +65,9 @@ void ProductionResolver::resolve(const ProductionNode& node, SourceSpan statemen
     }
     resolve_condition(node.condition, production);
     resolve_locals(node.locals, production);
+    const std::uint64_t errors = resolution_.diagnostics.count(Severity::Error);
     production.successor = resolve_word(reading_, node.successor, ExpressionPlace::Successor);
+    const bool has_all_modules = resolution_.diagnostics.count(Severity::Error) == errors;
     for (LocalValue& local : production.locals) {
         local.is_used = reading_.expressions.is_local_used(local.name);
         if (!local.is_used) {
@@ -77,13 +79,14 @@ void ProductionResolver::resolve(const ProductionNode& node, SourceSpan statemen
         }
     }
     check_draws(production.successor);
+    ok = ok && (!has_all_modules || check_sweep(production));
     reading_.splits.finish();
     if (!ok) {
         resolution_.program.has_all_statements = false;
         return;
     }
     if (production.stage != Stage::Rewrite) {
-        later_[production.stage == Stage::Interpret ? 1 : 0].push_back(std::move(production));
+        later_[static_cast<std::size_t>(production.stage)].push_back(std::move(production));
         return;
     }
     resolution_.program.productions.push_back(std::move(production));
@@ -199,6 +202,45 @@ float checked_weight(Resolution& resolution, float weight, SourceSpan span) {
                                     : "probabilities lie above 0 and go up to 1");
     }
     return std::numeric_limits<float>::quiet_NaN();
+}
+
+/// Checks that the successor of a #down or #up is its predecessor with other parameters.
+bool ProductionResolver::check_sweep(const Production& production) {
+    if (production.stage != Stage::Down && production.stage != Stage::Up) {
+        return true;
+    }
+    const Program& program = resolution_.program;
+    const ProgramWord& successor = production.successor;
+    const SymbolId swept = production.predecessor.items[0].symbol;
+    if (successor.module_count == 1 && program.modules[successor.first_module].symbol == swept) {
+        return true;
+    }
+    const Symbol& symbol = program.symbol(swept);
+    const std::string_view name = resolution_.text(symbol.name);
+    const std::string_view keyword = keyword_of(production.stage);
+    const bool is_one = successor.module_count == 1;
+    const ProgramModule first = is_one ? program.modules[successor.first_module] : ProgramModule{};
+    const bool is_same_name = is_one && program.symbol(first.symbol).name == symbol.name;
+    Diagnostic& error = resolution_.diagnostics.add(
+        DiagnosticCode::BadSweep,
+        successor.module_count == 0 ? production.name_span : successor.span,
+        successor.module_count == 0 ? fmt::format("this `{}` erases its module", keyword)
+        : !is_one ? fmt::format("`{}` writes one module, not {}", keyword, successor.module_count)
+        : is_same_name
+            ? fmt::format("`{}` keeps the number of parameters: {} here, {} before", keyword,
+                          program.symbol(first.symbol).parameter_count, symbol.parameter_count)
+            : fmt::format("`{}` cannot replace {} by {}", keyword, quoted(name),
+                          quoted(resolution_.text(program.symbol(first.symbol).name))));
+    error.labels.push_back({production.predecessor.span, "the module that is swept"});
+    error.notes.emplace_back("a sweep changes parameters, not structure");
+    error.help.push_back(
+        symbol.parameter_count == 0
+            ? fmt::format("give {} a parameter for what the sweep carries: `{}(x)`", quoted(name),
+                          name)
+            : fmt::format("the successor is {} with {}; other modules belong into a production of "
+                          "rewriting",
+                          quoted(name), parameters_text(symbol.parameter_count)));
+    return false;
 }
 
 void ProductionResolver::check_draws(const ProgramWord& successor) {

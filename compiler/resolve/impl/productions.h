@@ -29,6 +29,7 @@ private:
     void resolve_locals(ListRange locals, Production& production);
     [[nodiscard]] bool check_new_local(const LocalNode& node, const Production& production);
     void resolve_weight(ExpressionId probability, Production& production);
+    [[nodiscard]] bool check_sweep(const Production& production);
     void check_draws(const ProgramWord& successor);
 
     ModuleReading& reading_;
@@ -36,8 +37,8 @@ private:
     ConstantTable& constants_;
     HeadResolver heads_;
     ProductionClasses classes_;
-    std::array<std::vector<Production>, 2> later_; // productions of Decompose and of Interpret
-    std::vector<SourceSpan> first_of_name_;        // by name: first production, or kNoFile
+    std::array<std::vector<Production>, kCountOf<Stage>> later_; // by stage; none of Rewrite
+    std::vector<SourceSpan> first_of_name_; // by name: first production, or kNoFile
 };
 
 } // namespace lsys

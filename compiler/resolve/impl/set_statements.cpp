@@ -15,7 +15,7 @@ namespace lsys {
 namespace {
 
 /// The keys, in the order in which messages list them.
-constexpr auto kKeys = std::to_array<std::string_view>({
+constexpr auto kSettingKeys = std::to_array<std::string_view>({
 #define LSYS_CHOICE(type, field, initial, effect, group) #field,
 #define LSYS_STATEMENT(key) #key,
 #include "compiler/bytecode/settings.def"
@@ -90,14 +90,14 @@ void SetResolver::read_mode(const SetNode& node, std::string_view key) {
             settings.print_letters = reading != NameReading::Words;
             settings.print_characters = reading == NameReading::Characters;
         }
-    } else if (std::ranges::find(kKeys, key) == kKeys.end()) {
+    } else if (std::ranges::find(kSettingKeys, key) == kSettingKeys.end()) {
         report_unknown_key(node);
     }
 }
 
 void SetResolver::report_unknown_key(const SetNode& node) {
     const std::string_view key = resolution_.text(node.key);
-    const std::vector<std::string_view> keys(kKeys.begin(), kKeys.end());
+    const std::vector<std::string_view> keys(kSettingKeys.begin(), kSettingKeys.end());
     Diagnostic& error = resolution_.diagnostics.add(DiagnosticCode::UnknownKey, node.key_span,
                                                     fmt::format("there is no setting `{}`", key));
     if (const Synonym* const synonym = find_synonym(SynonymKind::Setting, key)) {

@@ -15,6 +15,10 @@ void SymbolTable::bind(NameId name, TurtleOperation object, std::string mesh_fil
     bindings_[static_cast<std::uint32_t>(name)] = {object, std::move(mesh_file)};
 }
 
+void SymbolTable::set_sense(NameId name, Sense sense) {
+    senses_[static_cast<std::uint32_t>(name)] = sense;
+}
+
 void SymbolTable::ignore(NameId name) {
     ignored_[index_of(name)] = true;
 }
@@ -57,6 +61,9 @@ SymbolId SymbolTable::make(NameId name, std::uint32_t parameter_count) {
         symbol.mesh_file = binding->second.mesh_file;
     } else if (const TurtleCommand* command = find_turtle_command(program.settings.turtle, text)) {
         symbol.turtle = operation_of(*command, parameter_count);
+    }
+    if (const auto sense = senses_.find(static_cast<std::uint32_t>(name)); sense != senses_.end()) {
+        symbol.sense = sense->second;
     }
     program.symbols.push_back(symbol);
     return static_cast<SymbolId>(program.symbols.size() - 1);

@@ -17,6 +17,8 @@ public:
 
     /// Makes modules of this name, with any number of parameters, draw `object`.
     void bind(NameId name, TurtleOperation object, std::string mesh_file);
+    /// Makes modules of this name, with any number of parameters, ask an environment.
+    void set_sense(NameId name, Sense sense);
     /// Makes contexts skip modules of this name, with any number of parameters.
     void ignore(NameId name);
     /// Exempts modules of this name from ignore_all_but_considered().
@@ -44,6 +46,7 @@ private:
     std::vector<Latest> latest_; // by name: the last symbol looked up
     std::unordered_map<std::uint64_t, SymbolId> symbols_;
     std::unordered_map<std::uint32_t, Binding> bindings_;
+    std::unordered_map<std::uint32_t, Sense> senses_;
     std::vector<bool> ignored_; // by name: ignore() was called; considered_: consider() was
     std::vector<bool> considered_;
     bool others_ignored_ = false;

@@ -20,7 +20,7 @@ bool check_module(ModuleReading& reading, const ModuleView& module) {
         error.fixes.push_back({"remove them", {{parentheses, ""}}, false});
         return false;
     }
-    return true;
+    return reading.environments.check_name(module.name, module.name_span);
 }
 
 namespace {
@@ -98,7 +98,8 @@ ProgramWord resolve_word(ModuleReading& reading, ModuleList list, ExpressionPlac
         cursor.next();
         const std::string_view name = resolution.text(module.name);
         const std::uint32_t count = module.arguments.count;
-        if (count != 0 && name.size() == 1 && !check_module(reading, module)) {
+        const bool may_fail = (count != 0 && name.size() == 1) || name.starts_with('?');
+        if (may_fail && !check_module(reading, module)) {
             continue;
         }
         append_module(reading, module);

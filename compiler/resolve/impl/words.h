@@ -2,6 +2,7 @@
 // Resolves module lists of the axiom and of successors to words of the Program.
 #pragma once
 
+#include "compiler/resolve/impl/environments.h"
 #include "compiler/resolve/impl/expressions.h"
 #include "compiler/resolve/impl/resolution.h"
 #include "compiler/resolve/impl/split_report.h"
@@ -18,13 +19,15 @@ struct ModuleReading {
     SymbolTable& symbols;
     NameSplitter& splitter;
     ExpressionResolver& expressions;
+    EnvironmentResolver& environments;
     SplitReport splits;
     /// Cache by name: the symbol of its modules without arguments; kNoSymbol if not cached.
     /// Names that are split into several modules are never cached.
     std::vector<SymbolId> bare;
 };
 
-/// Reports parameters of a module that takes none. Returns false if the module is in error.
+/// Reports parameters of a module that takes none, and a sense module without environment. Returns
+/// false if the module is in error.
 [[nodiscard]] bool check_module(ModuleReading& reading, const ModuleView& module);
 
 /// Resolves the modules of a list and appends them to the Program. Ranges in the arguments are

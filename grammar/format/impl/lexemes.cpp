@@ -93,7 +93,8 @@ void LexemeReader::read_keyword() {
         shape_ = List;
         in_probability_ = next == '~';
         area_ = in_probability_ ? Area::Expression : Area::Modules;
-    } else if (next == ':' || name == "decompose" || name == "interpret") {
+    } else if (next == ':' || name == "decompose" || name == "interpret" || name == "down" ||
+               name == "up") {
         shape_ = Production;
         area_ = Area::Modules;
         part_ = 1;
@@ -103,8 +104,8 @@ void LexemeReader::read_keyword() {
     } else if (name == "object" || name == "include") {
         shape_ = name == "include" && next == '"' ? Other : Declaration;
         area_ = Area::Object;
-    } else if (name == "set" || name == "curve" || name == "material") {
-        shape_ = name == "material" ? Material : Setting;
+    } else if (name == "set" || name == "curve" || name == "material" || name == "sense") {
+        shape_ = name == "material" || name == "sense" ? Keyed : Setting;
         area_ = Area::Set;
     } else if (name == "function") {
         shape_ = Other;
@@ -180,6 +181,8 @@ void LexemeReader::read_module() {
     const char c = text_[at_];
     if (is_letter(c)) {
         take(LexemeKind::Module, word_length(at_));
+    } else if (c == '?' && bytes_left() > 1 && is_letter(text_[at_ + 1])) {
+        take(LexemeKind::Module, 1 + word_length(at_ + 1));
     } else if (c == '`') {
         // Adjacent quoted names are one text, or modules that must stay adjacent.
         std::size_t end = text_.find('`', at_ + 1);

@@ -47,7 +47,7 @@ enum class StatementShape : std::uint8_t {
     List,        // `#w`, `#ignore`, `#consider`: a colon, then modules
     Definition,  // `#define` and `#param`: a name, a value, bounds
     Setting,     // `#set`: a name, values
-    Material,    // `#material`: an index, keys with values
+    Keyed,       // `#material` and `#sense`: an index or a name, keys with values
     Declaration, // `#object`, `#module`, `#include NAME OBJECT`
     Other,
 };

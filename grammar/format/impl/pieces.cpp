@@ -155,7 +155,7 @@ bool PieceReader::begins_cell() const {
     case StatementShape::Definition:
         return index_ <= 2 || current_.opens_bounds;
     case StatementShape::Setting:
-    case StatementShape::Material:
+    case StatementShape::Keyed:
     case StatementShape::Declaration:
         return index_ <= 2;
     case StatementShape::List:
@@ -182,7 +182,8 @@ BreakClass PieceReader::break_class() const {
     case Module:
         return BreakClass::Fine;
     case Word: // a key
-        return shape_ == StatementShape::Material && parentheses_ == 0 && index_ > 2
+        return shape_ == StatementShape::Keyed && parentheses_ == 0 && index_ > 2 &&
+                       previous_.text != "shape" // whose value is a word
                    ? BreakClass::Fine
                    : BreakClass::Never;
     default:

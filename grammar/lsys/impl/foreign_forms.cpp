@@ -151,6 +151,8 @@ public:
         case Keyword::Label:
         case Keyword::Decompose:
         case Keyword::Interpret:
+        case Keyword::Down:
+        case Keyword::Up:
             return production();
         default:
             break;

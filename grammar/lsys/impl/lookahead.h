@@ -36,9 +36,15 @@ namespace lsys {
 [[nodiscard]] bool has_more_colons(std::string_view text, std::uint32_t at, std::uint32_t count);
 
 [[nodiscard]] std::string_view spelling(Keyword keyword); // without `#`; empty for a label
-/// Whether the name of a production follows the keyword: `#decompose`, `#interpret`.
+/// Whether the name of a production follows the keyword: `#decompose`, `#interpret`, `#down`,
+/// `#up`.
 [[nodiscard]] constexpr bool names_production(Keyword keyword) {
-    return keyword == Keyword::Decompose || keyword == Keyword::Interpret;
+    return keyword == Keyword::Decompose || keyword == Keyword::Interpret ||
+           keyword == Keyword::Down || keyword == Keyword::Up;
+}
+/// Whether file names in quotes are values of the statement: `#material`, `#sense`.
+[[nodiscard]] constexpr bool takes_file_names(Keyword keyword) {
+    return keyword == Keyword::Material || keyword == Keyword::Sense;
 }
 [[nodiscard]] Keyword find_keyword(std::string_view word);
 /// Whether `word` is the name of `keyword` in another program.

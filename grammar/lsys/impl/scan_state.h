@@ -24,6 +24,7 @@ enum class Keyword : std::uint8_t {
     Function,
     Curve,
     Material,
+    Sense,
     Module,
     Object,
     Include,
@@ -32,6 +33,8 @@ enum class Keyword : std::uint8_t {
     Consider,
     Decompose,
     Interpret,
+    Down,
+    Up,
     Axiom,
 };
 

@@ -24,12 +24,13 @@ constexpr const char* kFourParts =
     "condition";
 
 /// Tokens by Keyword.
-constexpr std::array<Token::Kind, 16> kKeywordTokens{
-    Parser::token::TOK_LABEL,    Parser::token::TOK_N,         Parser::token::TOK_DEFINE,
-    Parser::token::TOK_PARAM,    Parser::token::TOK_FUNCTION,  Parser::token::TOK_CURVE,
-    Parser::token::TOK_MATERIAL, Parser::token::TOK_MODULE,    Parser::token::TOK_OBJECT,
-    Parser::token::TOK_INCLUDE,  Parser::token::TOK_SET,       Parser::token::TOK_IGNORE,
-    Parser::token::TOK_CONSIDER, Parser::token::TOK_DECOMPOSE, Parser::token::TOK_INTERPRET,
+constexpr std::array<Token::Kind, 19> kKeywordTokens{
+    Parser::token::TOK_LABEL,     Parser::token::TOK_N,        Parser::token::TOK_DEFINE,
+    Parser::token::TOK_PARAM,     Parser::token::TOK_FUNCTION, Parser::token::TOK_CURVE,
+    Parser::token::TOK_MATERIAL,  Parser::token::TOK_SENSE,    Parser::token::TOK_MODULE,
+    Parser::token::TOK_OBJECT,    Parser::token::TOK_INCLUDE,  Parser::token::TOK_SET,
+    Parser::token::TOK_IGNORE,    Parser::token::TOK_CONSIDER, Parser::token::TOK_DECOMPOSE,
+    Parser::token::TOK_INTERPRET, Parser::token::TOK_DOWN,     Parser::token::TOK_UP,
     Parser::token::TOK_W};
 
 Token keyword_token(ParseSession& session, std::string_view word, SourceSpan span) {
@@ -221,9 +222,10 @@ std::optional<Keyword> report_unknown_statement(ParseSession& session, std::stri
         add_fix(diagnostic, "did you mean `" + name + "`?", span, name, false);
     } else {
         diagnostic.help.emplace_back("statements are `#n`, `#define`, `#param`, `#function`, "
-                                     "`#curve`, `#material`, `#module`, `#object`, `#include`, "
-                                     "`#set`, `#ignore :`, `#consider :`, `#w :`, `#decompose`, "
-                                     "`#interpret` and productions, `#name : ...`");
+                                     "`#curve`, `#material`, `#sense`, `#module`, `#object`, "
+                                     "`#include`, `#set`, `#ignore :`, `#consider :`, `#w :`, "
+                                     "`#decompose`, `#interpret`, `#down`, `#up` and productions, "
+                                     "`#name : ...`");
     }
     return meant;
 }
@@ -336,8 +338,8 @@ Token start_without_hash(ParseSession& session, std::string_view word) {
     const bool takes_words =
         keyword == Keyword::Define || keyword == Keyword::Param || keyword == Keyword::Function ||
         keyword == Keyword::Curve || keyword == Keyword::Set || keyword == Keyword::Material ||
-        keyword == Keyword::Object || keyword == Keyword::Include || keyword == Keyword::Module ||
-        keyword == Keyword::Decompose || keyword == Keyword::Interpret;
+        keyword == Keyword::Sense || keyword == Keyword::Object || keyword == Keyword::Include ||
+        keyword == Keyword::Module || names_production(keyword);
     const bool is_statement = !word.empty() && (next == ':' || takes_words ||
                                                 (keyword == Keyword::Generations && next == '='));
     const bool after_statement = // on the line of a statement, after its `;`
@@ -477,7 +479,7 @@ bool report_needless_sign(ParseSession& session) {
     const bool takes_none = scan.keyword == Keyword::Define || scan.keyword == Keyword::Param ||
                             scan.keyword == Keyword::Function || scan.keyword == Keyword::Curve ||
                             scan.keyword == Keyword::Set || scan.keyword == Keyword::Material ||
-                            scan.keyword == Keyword::Generations;
+                            scan.keyword == Keyword::Sense || scan.keyword == Keyword::Generations;
     if (!scan.part_empty || !takes_none || !scan.open.empty()) {
         return false;
     }
@@ -491,6 +493,24 @@ bool report_needless_sign(ParseSession& session) {
                                                 "`#" + std::string(spelling(scan.keyword)) +
                                                     "` takes no `" + sign + "` here");
         add_fix(diagnostic, "remove it", span, "", true);
+    }
+    return true;
+}
+
+bool report_needless_question_mark(ParseSession& session) {
+    const ScanState& scan = session.scan;
+    const std::string_view text = session.scanned.text;
+    if (scan.keyword != Keyword::Sense || text[scan.begin] != '?' || scan.end >= text.size() ||
+        !is_letter(text[scan.end])) {
+        return false;
+    }
+    if (session.wants(DiagnosticCode::SyntaxError)) {
+        const std::string name(leading_word(text.substr(scan.end)));
+        const SourceSpan span = session.match();
+        Diagnostic& diagnostic =
+            session.report(DiagnosticCode::SyntaxError, span,
+                           "`#sense` names the environment without the `?` of its modules");
+        add_fix(diagnostic, "write `" + shown(name) + "`", span, "", true);
     }
     return true;
 }

@@ -5,9 +5,18 @@
 
 namespace lsys {
 
+ContextRole context_role(const BytecodeSymbol& symbol) {
+    return symbol.kind == SymbolKind::BranchOpen    ? ContextRole::Open
+           : symbol.kind == SymbolKind::BranchClose ? ContextRole::Close
+           : symbol.ignored                         ? ContextRole::Ignored
+                                                    : ContextRole::Module;
+}
+
 ContextTables::ContextTables(const Plan& plan) : has_structure_(plan.has_structure()) {
     const Bytecode& bytecode = plan.bytecode();
-    for (const BytecodeProduction& production : bytecode.productions) {
+    const TableRange stage = plan.productions();
+    for (std::uint32_t p = stage.first; p < stage.first + stage.count; ++p) {
+        const BytecodeProduction& production = bytecode.productions[p];
         needs_left_ = needs_left_ || production.has_left;
         needs_right_ = needs_right_ || production.has_right;
         for (std::uint32_t i = 0; i < production.right.count; ++i) {
@@ -20,11 +29,7 @@ ContextTables::ContextTables(const Plan& plan) : has_structure_(plan.has_structu
     }
     roles_.reserve(bytecode.code_count());
     for (Code code = 0; code < bytecode.code_count(); ++code) {
-        const BytecodeSymbol& symbol = bytecode.symbol(bytecode.symbol_of(code));
-        roles_.push_back(symbol.kind == SymbolKind::BranchOpen    ? ContextRole::Open
-                         : symbol.kind == SymbolKind::BranchClose ? ContextRole::Close
-                         : symbol.ignored                         ? ContextRole::Ignored
-                                                                  : ContextRole::Module);
+        roles_.push_back(context_role(bytecode.symbol(bytecode.symbol_of(code))));
     }
 }
 

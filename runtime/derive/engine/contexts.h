@@ -21,6 +21,7 @@ inline constexpr std::uint64_t kNowhere = ~std::uint64_t{0};
 
 /// The role of a code in a context search.
 enum class ContextRole : std::uint8_t { Module, Ignored, Open, Close };
+[[nodiscard]] ContextRole context_role(const BytecodeSymbol& symbol);
 
 /// Indices into a word, of 4 bytes each if the word is short enough.
 class IndexTable {

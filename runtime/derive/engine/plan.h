@@ -161,6 +161,8 @@ public:
     void select_rule(std::uint32_t rule);
 
     [[nodiscard]] const Bytecode& bytecode() const { return bytecode_; }
+    /// The productions of the plan's stage.
+    [[nodiscard]] TableRange productions() const { return productions_; }
     [[nodiscard]] const PlanInputs& inputs() const { return inputs_; }
     [[nodiscard]] const Row& row(Code code) const { return rows_[code]; }
     [[nodiscard]] const std::vector<Row>& rows() const { return rows_; }

@@ -137,14 +137,14 @@ private:
             }
         }
         if (tried.has_left) {
-            attempt.left = pass_.word.left(tried, position_);
+            attempt.left = pass_.neighbours.left(tried, position_);
             if (attempt.left.end != ContextEnd::Fits) {
                 attempt.verdict = Verdict::LeftContext;
                 return false;
             }
         }
         if (tried.has_right) {
-            attempt.right = pass_.word.right(tried, position_ + tried.predecessor.count);
+            attempt.right = pass_.neighbours.right(tried, position_ + tried.predecessor.count);
             if (attempt.right.end != ContextEnd::Fits) {
                 attempt.verdict = Verdict::RightContext;
                 return false;

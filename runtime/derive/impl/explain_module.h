@@ -12,11 +12,13 @@
 
 namespace lsys {
 
-/// The input of a pass; `word` is the word that it rewrites.
+/// The input of a pass; `word` is the word that it rewrites. `neighbours` is the word whose modules
+/// are contexts: `word`, or for a sweep the word that it wrote.
 struct TracedPass {
     const Bytecode& bytecode;
     const TraceInputs& inputs;
     const TracedWord& word;
+    const TracedWord& neighbours;
     const DerivationPass& facts;
 };
 

@@ -2,6 +2,7 @@
 #include "runtime/export/impl/forest_document.h"
 
 #include "runtime/export/impl/forest_formats.h"
+#include "runtime/forest/surroundings.h"
 
 #include <fmt/format.h>
 
@@ -59,6 +60,9 @@ void ForestDocument::put_extras(JsonWriter& json) const {
         const ForestSpecies& species = scene_.forest.species[stage.species];
         json.object().member("name", species.name);
         json.member("n", species.stages[stage.stage_index].generations);
+        if (species.senses_surroundings) {
+            json.member("surroundings", kSurroundingsNames[stage.stage_index % kSurroundings]);
+        }
         json.member("heroes", stage.cache->heroes);
         json.member("instances", stage.cache->instances.size()).member("trees", stage.trees).end();
     }
@@ -145,10 +149,9 @@ std::uint64_t ForestDocument::node_count() const {
 
 std::string ForestDocument::mesh_name(const ExportedStage& stage, std::uint32_t instance) const {
     const ForestSpecies& species = scene_.forest.species[stage.species];
-    return species.stages.size() == 1
-               ? fmt::format("{} {}", species.name, instance)
-               : fmt::format("{} n{} {}", species.name,
-                             species.stages[stage.stage_index].generations, instance);
+    const std::string own = stage_name(species, stage.stage_index);
+    return own.empty() ? fmt::format("{} {}", species.name, instance)
+                       : fmt::format("{} {} {}", species.name, own, instance);
 }
 
 void ForestDocument::put_expanded_nodes(JsonWriter& json) const {

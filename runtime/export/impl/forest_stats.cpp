@@ -2,6 +2,7 @@
 #include "runtime/export/impl/forest_plan.h"
 #include "runtime/export/impl/json_writer.h"
 #include "runtime/forest/different_trees.h"
+#include "runtime/forest/surroundings.h"
 
 #include <fmt/format.h>
 
@@ -70,6 +71,9 @@ void put_species(JsonWriter& json,
     json.object().member("name", species.name).member("trees", trees).array("stages");
     for (const ExportedStage& stage : stages) {
         json.object().member("generations", species.stages[stage.stage_index].generations);
+        if (species.senses_surroundings) {
+            json.member("surroundings", kSurroundingsNames[stage.stage_index % kSurroundings]);
+        }
         json.member("trees", stage.trees).member("heroes", stage.cache->heroes);
         json.member("segments", stage.cache->skeleton.segments.size());
         json.member("vertices", stage.meshes->mesh.positions.size());

@@ -202,7 +202,7 @@ private:
                 at = put_text(at, count == 0                       ? ""
                                   : count % kUsdaItemsPerLine == 0 ? ",\n            "
                                                                    : ", ");
-                out_->used(put(branch, at));
+                out_->advance_to(put(branch, at));
                 ++count;
             });
         }

@@ -28,7 +28,7 @@ void PieceWriter::put_bytes(std::span<const std::byte> bytes) {
     if (bytes.size() < kPieceBytes / 4) {
         char* const to = room(bytes.size());
         std::copy_n(reinterpret_cast<const char*>(bytes.data()), bytes.size(), to);
-        used(to + bytes.size());
+        advance_to(to + bytes.size());
         return;
     }
     flush();

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Hover, completion and signatures. The statement at the cursor is usually unfinished and not in
 // the syntax tree, so its text determines what completion offers.
+#include "compiler/bytecode/environment_keys.h"
 #include "compiler/bytecode/turtle_operation.h"
 #include "compiler/resolve/profiles.h"
 #include "grammar/ast/include_chain.h"
@@ -14,6 +15,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <set>
 #include <string>
@@ -29,6 +31,8 @@ enum class Slot {
     Statement, // `#` and a keyword
     SettingKey,
     SettingValue,
+    SenseKind,
+    SenseKey,
     Object,
     Modules,
     Expression,
@@ -36,7 +40,7 @@ enum class Slot {
 
 struct CursorContext {
     Slot slot = Slot::Nothing;
-    std::string key;                  // key of the `#set`
+    std::string key;                  // key of the `#set`, kind of the `#sense`
     std::set<std::string> locals;     // formals and local values of the statement
     std::string prefix;               // the part of a word before the cursor
     std::string callee;               // name before the innermost open `(`
@@ -130,7 +134,9 @@ void find_call(std::string_view field, bool is_modules, CursorContext& context) 
     context.is_module_call = is_modules && open.size() == 1;
     std::size_t end = open.back().first;
     end = end == 0 ? 0 : field.find_last_not_of(kWhitespace, end - 1) + 1;
-    const std::size_t begin = word_begin(field, end);
+    std::size_t begin = word_begin(field, end);
+    begin -=
+        begin > 0 && begin < end && field[begin - 1] == '?' ? std::size_t{1} : 0; // a sense module
     context.callee = field.substr(begin, end - begin);
     if (context.callee.empty() && end > 0 && context.is_module_call) {
         context.callee = field[end - 1]; // a turtle command of one character, such as `+`
@@ -168,6 +174,9 @@ CursorContext context_at(std::string_view before) {
     const std::string_view field = fields.back();
     const auto modules = [&] {
         context.slot = Slot::Modules;
+        if (last > 0 && text[last - 1] == '?') { // the name of a sense module
+            context.prefix.insert(0, 1, '?');
+        }
         find_call(field, true, context);
     };
     const auto expression = [&] {
@@ -187,6 +196,9 @@ CursorContext context_at(std::string_view before) {
         } else if (word == "#set") {
             context.key = words[0];
             context.slot = Slot::SettingValue;
+        } else if (word == "#sense" && !words.empty()) {
+            context.slot = words.size() == 1 ? Slot::SenseKind : Slot::SenseKey;
+            context.key = words.size() == 1 ? std::string_view() : words[1];
         } else if (word == "#object" && !words.empty()) {
             context.slot = Slot::Object;
         } else if (word == "#function") {
@@ -215,8 +227,7 @@ CursorContext context_at(std::string_view before) {
         add_local_values(fields[3], context.locals);
     }
     if (fields.size() == 2) {
-        context.slot = Slot::Modules;
-        find_call(field, true, context);
+        modules();
         if (context.slot == Slot::Expression) {
             context.slot = Slot::Nothing; // the author chooses a name for a new formal
         }
@@ -248,6 +259,24 @@ std::string file_note(const StatementOutline& statement, const std::string& path
                : fmt::format("\n\nin `{}`", name_of_path(statement.place.path));
 }
 
+/// "`?light(q, x, y, z)`: ..." for the environment of a #sense.
+std::string sense_text(std::string_view name, std::string_view kind_word) {
+    const auto kind = find_environment_kind(kind_word);
+    return kind ? fmt::format("`?{}{}`: {} (`{}`)", name, answer_text(*kind), meaning_of(*kind),
+                              kind_word)
+                : std::string();
+}
+
+/// The same for `?P` and the like; empty for other names.
+std::string turtle_sense_text(std::string_view name) {
+    constexpr std::array<std::string_view, kTurtleSenses.size()> kMeanings{
+        "place of the turtle, in metres", "heading of the turtle", "up of the turtle",
+        "right of the turtle", "left of the turtle"};
+    return is_turtle_sense(name)
+               ? fmt::format("`{}(x, y, z)`: {}", name, kMeanings[kTurtleSenses.find(name[1])])
+               : std::string();
+}
+
 /// The meaning of a name as Markdown.
 std::string name_text(const NameUse& use, const NameIndex& index, const std::string& path) {
     std::string text;
@@ -257,6 +286,18 @@ std::string name_text(const NameUse& use, const NameIndex& index, const std::str
     if (use.kind == NameKind::Function) {
         if (const FunctionHelp* const row = find_function_help(use.name)) {
             text = fmt::format("`{}({})`: {}", row->name, row->parameters, row->meaning);
+        }
+    }
+    if (use.kind == NameKind::Environment) {
+        for (const StatementOutline& statement : index.statements) {
+            if (statement.kind == StatementKind::Sense && statement.name == use.name) {
+                text = sense_text(use.name, statement.environment_kind);
+            }
+        }
+    }
+    if (use.kind == NameKind::Module) {
+        if (const std::string sense = turtle_sense_text(use.name); !sense.empty()) {
+            return sense;
         }
     }
     std::set<TextPlace> defining;
@@ -417,6 +458,16 @@ void add_modules(const NameIndex& index, Completion& items) {
             }
         }
     }
+    for (const StatementOutline& statement : index.statements) {
+        if (statement.kind == StatementKind::Sense) {
+            items.add_documented('?' + statement.name, ItemKind::Class, statement.detail,
+                                 sense_text(statement.name, statement.environment_kind));
+        }
+    }
+    for (std::size_t i = 0; i < kTurtleSenses.size(); ++i) {
+        const std::string name{'?', kTurtleSenses[i]};
+        items.add_documented(name, ItemKind::Class, name + "(x, y, z)", turtle_sense_text(name));
+    }
     for (const NameUse& use : index.uses) { // adds the other names of each `#module`
         if (use.kind == NameKind::Module && use.is_definition) {
             items.add(use.name, ItemKind::Class, "");
@@ -447,6 +498,25 @@ void add_values(const NameIndex& index, const CursorContext& context, Completion
     for (const FunctionHelp& row : function_helps()) {
         items.add_documented(row.name, ItemKind::Function,
                              fmt::format("{}({})", row.name, row.parameters), row.meaning);
+    }
+}
+
+/// The keys of a kind of environment, and the shapes if it has one.
+void add_sense_keys(std::string_view kind_word, Completion& items) {
+    const auto kind = find_environment_kind(kind_word);
+    for (const EnvironmentKey& key : environment_keys()) {
+        if (!kind || !key.belongs_to(*kind)) {
+            continue;
+        }
+        const std::string initial = default_text(key);
+        items.add_documented(
+            key.word, ItemKind::Property, wanted_text(key, *kind),
+            fmt::format("{}{}{}", key.meaning, initial.empty() ? "" : "; default ", initial));
+        if (key.form == EnvironmentKeyForm::Shape) {
+            for (const std::string_view shape : space_shape_names()) {
+                items.add(shape, ItemKind::Value, "shape");
+            }
+        }
     }
 }
 
@@ -501,6 +571,24 @@ Json named_signature(const std::string& name,
                      std::uint32_t active) {
     const std::string list = fmt::format("{}", fmt::join(formals, ", "));
     return signature(fmt::format("{}({})", name, list), list, active);
+}
+
+/// The answer of a sense module as its parameters.
+Json sense_signature(const NameIndex& index, const CursorContext& context) {
+    if (is_turtle_sense(context.callee)) {
+        return signature(context.callee + "(x, y, z)", "x, y, z", context.argument_index);
+    }
+    for (const StatementOutline& statement : index.statements) {
+        const auto kind = find_environment_kind(statement.environment_kind);
+        if (statement.kind == StatementKind::Sense && kind &&
+            sense_name(statement.name) == context.callee) {
+            std::string_view answer = answer_text(*kind);
+            answer = answer.substr(1, answer.size() - 2); // without parentheses
+            return signature(context.callee + std::string(answer_text(*kind)), answer,
+                             context.argument_index);
+        }
+    }
+    return nullptr;
 }
 
 } // namespace
@@ -625,6 +713,13 @@ Json complete(Workspace& workspace, const Json& params) {
             items.add_documented(setting.name, ItemKind::Property, setting.meaning,
                                  setting.meaning);
         }
+    } else if (context.slot == Slot::SenseKind) {
+        for (const std::string_view word : environment_kind_names()) {
+            const EnvironmentKind kind = *find_environment_kind(word);
+            items.add_documented(word, ItemKind::Value, answer_text(kind), meaning_of(kind));
+        }
+    } else if (context.slot == Slot::SenseKey) {
+        add_sense_keys(context.key, items);
     } else if (context.slot == Slot::Object) {
         for (const TurtleObject& object : turtle_objects()) {
             items.add_documented(object.name, ItemKind::Value, "object",
@@ -661,6 +756,9 @@ Json signature_help(Workspace& workspace, const Json& params) {
             statement.name == context.callee) {
             return signature(statement.name + "(x)", "x", context.argument_index);
         }
+    }
+    if (context.is_module_call && context.callee.starts_with('?')) {
+        return sense_signature(index, context);
     }
     if (context.is_module_call) {
         const TurtleCommand* const command = find_turtle_command(index.profile, context.callee);

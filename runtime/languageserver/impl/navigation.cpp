@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Symbols, definitions, references and renaming.
+#include "compiler/bytecode/environment_keys.h"
 #include "compiler/resolve/profiles.h"
 #include "grammar/ast/include_chain.h"
 #include "grammar/base/names.h"
@@ -41,6 +42,7 @@ SymbolKindNumber symbol_kind(StatementKind kind) {
     case StatementKind::Module:
         return SymbolKindNumber::Class;
     case StatementKind::Object:
+    case StatementKind::Sense:
         return SymbolKindNumber::Object;
     case StatementKind::Include:
         return SymbolKindNumber::File;
@@ -108,6 +110,9 @@ std::string reason_against(const NameAt& at) {
             at.index->statements.begin(), at.index->statements.end(), [&](const auto& statement) {
                 return statement.kind == StatementKind::Object && statement.name == use.name;
             });
+        if (is_turtle_sense(use.name)) {
+            return quoted(use.name) + " asks the turtle";
+        }
         if (!is_bound && find_turtle_command(at.index->profile, use.name) != nullptr) {
             return quoted(use.name) + " is a command of the turtle";
         }
@@ -298,6 +303,9 @@ Json rename_name(Workspace& workspace, const Json& params) {
     if (use.kind == NameKind::Module &&
         find_turtle_command(found.index->profile, new_name) != nullptr) {
         refuse(quoted(new_name) + " is a command of the turtle");
+    }
+    if (use.kind == NameKind::Environment && is_turtle_sense('?' + new_name)) {
+        refuse(quoted('?' + new_name) + " asks the turtle");
     }
     for (const NameUse& each : found.index->uses) {
         if (each.kind == use.kind && each.name == new_name && each.scope == use.scope) {

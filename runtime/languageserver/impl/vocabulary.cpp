@@ -23,6 +23,7 @@ constexpr auto kStatementHelps = std::to_array<StatementHelp>({
     {"#curve", "#curve NAME x y, x y, ...;",
      "function of one number, a smooth line through points"},
     {"#material", "#material INDEX key value ...;", "appearance of a colour index"},
+    {"#sense", "#sense NAME KIND key value ...;", "environment that modules `?NAME` ask"},
     {"#module", "#module NAME(formals);",
      "declares a module, so that it is not reported as unknown"},
     {"#object", "#object NAME OBJECT;", "modules of this name draw an object or a mesh"},
@@ -34,6 +35,10 @@ constexpr auto kStatementHelps = std::to_array<StatementHelp>({
      "production that is applied again and again after each generation"},
     {"#interpret", "#interpret NAME : module : condition : successor;",
      "production that is applied only for the drawing"},
+    {"#down", "#down NAME : module > right : condition : module;",
+     "sweep of parameters through each word, from the tips to the root"},
+    {"#up", "#up NAME : left < module : condition : module;",
+     "sweep of parameters through each word, from the root to the tips"},
 });
 
 constexpr auto kFunctionHelps = std::to_array<FunctionHelp>({

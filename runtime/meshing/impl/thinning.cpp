@@ -302,7 +302,7 @@ std::vector<FoliageShape> foliage_shapes(const ThinningOrder& order,
     for (std::size_t i = 0; i < shapes.size(); ++i) {
         const FoliageGroup& group = order.groups[i];
         const bool is_file = group.kind == TurtleOperation::MeshFile;
-        if (group.polygons || (is_file && group.mesh_file >= user_meshes.size())) {
+        if (group.is_polygons || (is_file && group.mesh_file >= user_meshes.size())) {
             continue;
         }
         const Shape shape =

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "runtime/platform/process.h"
 
+#include "runtime/platform/shell_program.h"
+
 #include <cerrno>
 #include <csignal>
 #include <cstdlib>
@@ -38,6 +40,7 @@ extern "C" void on_end_signal(int signal) {
         }
     } else if (again) { // a second Ctrl-C ends the process at once
         clean_up_before_exit.load()();
+        end_shell_programs();
         std::signal(signal, SIG_DFL);
         std::raise(signal);
     }
@@ -45,6 +48,7 @@ extern "C" void on_end_signal(int signal) {
 
 extern "C" void on_alarm(int /*signal*/) {
     clean_up_before_exit.load()();
+    end_shell_programs();
     ::_exit(kSignalStatus + first_signal);
 }
 

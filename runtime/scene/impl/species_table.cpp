@@ -26,6 +26,7 @@ constexpr std::size_t kMaxStages = 256;
 constexpr double kMaxSeedsPerYear = 254.0;
 // In the order of StageStart.
 constexpr std::array<std::string_view, 2> kStarts{"first", "random"};
+constexpr std::array<std::string_view, 2> kSurroundingsChoices{"ignored", "sensed"};
 
 /// The stem of a path: `pine` of `trees/pine.lsys`.
 std::string stem_of(std::string_view path) {
@@ -215,6 +216,10 @@ void read_cache(SpeciesReader& from) {
     from.species.rho = from.number("rho", {0.0, 1.0, false, {}}, from.species.rho);
     from.species.explicit_instancing = {from.reader.has("heroes"), from.reader.has("rho"),
                                         from.reader.has("cache_cap")};
+    if (const auto surroundings = from.reader.choice("surroundings", kSurroundingsChoices)) {
+        from.species.senses_surroundings = *surroundings == 1;
+        from.species.surroundings_span = from.reader.span_of("surroundings");
+    }
 }
 
 void read_placement(SpeciesReader& from) {

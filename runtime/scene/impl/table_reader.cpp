@@ -54,6 +54,7 @@ constexpr KeyPlace kPlaces[] = {
     {"heroes", "[[species]]"},
     {"rho", "[[species]]"},
     {"cache_cap", "[[species]]"},
+    {"surroundings", "[[species]]"},
     {"share", "[[species]]"},
     {"scale", "[[species]]"},
     {"altitude", "[[species]]"},

@@ -2,6 +2,8 @@
 #include "runtime/tiles/impl/tree_source.h"
 
 #include "grammar/base/contract.h"
+#include "runtime/forest/surroundings.h"
+#include "runtime/pipeline/forest.h"
 
 #include <algorithm>
 #include <cstdint>
@@ -29,15 +31,6 @@ std::uint64_t morton_code(const TileId& tile) {
 /// The position on the Z-order curve of the tile of level kMaxTileLevel in which a tree stands.
 std::uint64_t morton_code(const TileGrid& grid, const Tree& tree) {
     return morton_code(grid.tile_at(kMaxTileLevel, tree.position.x, tree.position.z));
-}
-
-/// The region with a margin, within the allowed coordinates.
-Region widened(const Region& region) {
-    const auto inside = [](double at) { return std::clamp(at, -kMaxCoordinate, kMaxCoordinate); };
-    const double x = inside(region.x - kMargin);
-    const double z = inside(region.z - kMargin);
-    return {x, z, inside(region.x + region.width + kMargin) - x,
-            inside(region.z + region.depth + kMargin) - z};
 }
 
 void sort_by_number(std::vector<Tree>& trees) {
@@ -87,24 +80,36 @@ std::vector<Tree> PlacedTrees::trees_of(const TileId& tile) const {
 CellTrees::CellTrees(const PlacementOptions& options,
                      const Terrain& terrain,
                      const TreeSizer& sizer,
+                     const Forest& kinds,
                      const TileGrid& grid)
-    : options_(options), terrain_(terrain), sizer_(sizer), grid_(grid) {
+    : options_(options), terrain_(terrain), sizer_(sizer), kinds_(kinds), grid_(grid) {
     options_.threads = 1;
+    halo_ = halo_of(options, kinds, sizer);
 }
 
 std::vector<Tree> CellTrees::trees_of(const TileId& tile) const {
     PlacementOptions options = options_;
-    options.region = widened(grid_.region_of(tile));
+    options.region = widened(grid_.region_of(tile), kMargin + halo_);
     const Result<Placement> placed = place_trees(options, terrain_);
     LSYS_CHECK(placed, tile.level, tile.column, tile.row);
     std::vector<Tree> trees;
+    std::vector<Tree> all; // with the trees of the halo; empty if no species senses
     for (const Tree& tree : placed.value().trees) {
         const glm::vec3& at = tree.position;
-        if (options_.region.contains(at.x, at.z) && grid_.tile_at(tile.level, at.x, at.z) == tile) {
+        if (!options_.region.contains(at.x, at.z)) {
+            continue;
+        }
+        if (halo_ > 0.0) {
+            all.push_back(tree);
+        }
+        if (grid_.tile_at(tile.level, at.x, at.z) == tile) {
             trees.push_back(tree);
         }
     }
     static_cast<void>(sizer_.size(trees));
+    if (halo_ > 0.0) {
+        sense_surroundings(kinds_, all, trees, 1);
+    }
     sort_by_number(trees);
     return trees;
 }
@@ -118,7 +123,8 @@ Result<void> CellTrees::check(const PlacementOptions& options, const Terrain& te
         PlacementOptions piece = options;
         const Region& all = options.region;
         piece.region = widened({corner % 2 == 0 ? all.x : all.x + all.width,
-                                corner / 2 == 0 ? all.z : all.z + all.depth, 0.0, 0.0});
+                                corner / 2 == 0 ? all.z : all.z + all.depth, 0.0, 0.0},
+                               kMargin);
         piece.threads = 1;
         if (const Result<Placement> placed = place_trees(piece, terrain); !placed) {
             return placed.error();

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "runtime/base/large_vector.h"
+#include "runtime/forest/forest.h"
 #include "runtime/forest/tree.h"
 #include "runtime/forest/tree_heights.h"
 #include "runtime/placement/placement.h"
@@ -45,11 +46,13 @@ private:
 /// Trees of a placement on an unbounded grid.
 class CellTrees : public TreeSource {
 public:
-    /// Preconditions: is_tileable(options.method), and check() has no error. `terrain`, `sizer`,
-    /// `grid` and the objects that `options` refers to must outlive the source.
+    /// Preconditions: is_tileable(options.method), and check() has no error. `kinds`: the species
+    /// of the trees; its trees are not used. `terrain`, `sizer`, `kinds`, `grid` and the objects
+    /// that `options` refers to must outlive the source.
     CellTrees(const PlacementOptions& options,
               const Terrain& terrain,
               const TreeSizer& sizer,
+              const Forest& kinds,
               const TileGrid& grid);
     [[nodiscard]] std::vector<Tree> trees_of(const TileId& tile) const override;
 
@@ -61,7 +64,9 @@ private:
     PlacementOptions options_;
     const Terrain& terrain_;
     const TreeSizer& sizer_;
+    const Forest& kinds_;
     const TileGrid& grid_;
+    double halo_ = 0.0; // m, around a tile: trees in it can be neighbours of trees of the tile
 };
 
 } // namespace lsys

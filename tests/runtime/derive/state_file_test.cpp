@@ -37,7 +37,7 @@ std::string saved_after(const Bytecode& bytecode, std::uint32_t age, std::uint32
     REQUIRE(derivation.start() == std::nullopt);
     REQUIRE(derivation.run_to(age) == std::nullopt);
     std::string bytes;
-    REQUIRE(write_state({digest(bytecode), 1234, generations, age}, derivation.word(),
+    REQUIRE(write_state({digest(bytecode), 1234, generations, age}, derivation.word(), {},
                         [&bytes](std::string_view piece) {
                             bytes += piece;
                             return true;
@@ -93,9 +93,9 @@ TEST_CASE("every mistake in a saved state is reported") {
         return changed;
     };
     CHECK(message(with_byte(8, 1)) == "the saved state was made by an older lsc (its format is "
-                                      "version 1, this one reads 2): derive it again");
+                                      "version 1, this one reads 3): derive it again");
     CHECK(message(with_byte(8, kStateFileVersion + 1)) ==
-          "the saved state was made by a newer lsc (its format is version 3, this one reads 2)");
+          "the saved state was made by a newer lsc (its format is version 4, this one reads 3)");
     CHECK(message(with_byte(12, 4)) == "the saved state was made by an older lsc (its bytecode is "
                                        "version 4, this one reads 13): derive it again");
     CHECK(
@@ -137,7 +137,7 @@ TEST_CASE("writing ends if the sink fails") {
     const Bytecode bytecode = plant_builder().build();
     const Word word(1);
     int calls = 0;
-    CHECK_FALSE(write_state({}, word, [&calls](std::string_view) {
+    CHECK_FALSE(write_state({}, word, {}, [&calls](std::string_view) {
         ++calls;
         return false;
     }));

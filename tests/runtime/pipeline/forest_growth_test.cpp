@@ -17,7 +17,10 @@ namespace {
 
 Project wood_project(const std::string& scene) {
     const std::map<std::string, std::string> files = {
-        {"wood.toml", scene}, {"bush.lsys", "#n = 3; #w : A; #p : A : * : F [ + A ] F A;"}};
+        {"wood.toml", scene},
+        {"bush.lsys", "#n = 3; #w : A; #p : A : * : F [ + A ] F A;"},
+        {"shy.lsys", "#n = 3; #sense light shadow; #w : ?light(1,0,0,0);"
+                     "#p : ?light(q,x,y,z) : q > 0.5 : F [ +(60) F ] ?light(0,0,0,0);"}};
     Project project;
     project.threads = 2;
     project.host.read_file = [files](const std::string& path,
@@ -35,6 +38,13 @@ const char* const kWood =
     "key = 3\n[terrain]\nsize = 40\n[placement]\nmethod = \"domination\"\ncount = 300\n"
     "years = 30\n[[species]]\nname = \"bush\"\ngrammar = \"bush.lsys\"\nstages = [1, 2, 3]\n"
     "years_of_stage = 10\n[species.growth]\nmaturity = 5\nseeds = 0.5\nseed_distance = 9\n";
+
+/// Plants that sense their surroundings, with one painted and one erased.
+const char* const kShyWood =
+    "key = 3\n[terrain]\nsize = 40\n[placement]\nmethod = \"domination\"\ncount = 300\n"
+    "years = 30\n[[species]]\nname = \"shy\"\ngrammar = \"shy.lsys\"\nstages = [1, 2, 3]\n"
+    "surroundings = \"sensed\"\nyears_of_stage = 10\n[species.growth]\nmaturity = 5\nseeds = 0.5\n"
+    "seed_distance = 9\n[painted]\ntrees = [[\"shy\", 20, 20, 0, 1]]\nerased = [7]\n";
 
 struct GrowingWood {
     Project project;
@@ -75,7 +85,7 @@ bool is_same_wood(const LargeVector<Tree>& a, const LargeVector<Tree>& b) {
 } // namespace
 
 TEST_CASE("at a whole year, a growing forest equals the forest placed with that number of years") {
-    GrowingWood wood(kWood);
+    GrowingWood wood(GENERATE(kWood, kShyWood));
     ForestGrowth growth = wood.begin();
     CHECK(growth.last_year() == 30);
     LargeVector<Tree> trees;

@@ -126,6 +126,17 @@ TEST_CASE("a species may select a dialect and a system of its file") {
     CHECK(parsed("[[species]]\ngrammar = \"a.l\"\nsystem = 3\n").messages.starts_with("3:10-"));
 }
 
+TEST_CASE("a species may sense its surroundings") {
+    const Scene scene = scene_of("[[species]]\ngrammar = \"a.lsys\"\nsurroundings = \"sensed\"\n"
+                                 "[[species]]\ngrammar = \"b.lsys\"\nsurroundings = \"ignored\"\n"
+                                 "[[species]]\ngrammar = \"c.lsys\"\n");
+    CHECK(scene.species[0].senses_surroundings);
+    CHECK_FALSE(scene.species[1].senses_surroundings);
+    CHECK_FALSE(scene.species[2].senses_surroundings);
+    CHECK(parsed("[[species]]\ngrammar = \"a.lsys\"\nsurroundings = true\n")
+              .messages.starts_with("3:16-"));
+}
+
 TEST_CASE("a scene of one grammar has all defaults") {
     const Scene scene = scene_of("[[species]]\ngrammar = \"trees/pine.lsys\"\n");
     CHECK(scene.terrain.kind == lsys::TerrainKind::Flat);

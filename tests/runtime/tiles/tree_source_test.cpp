@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: MIT
 // Compares trees of tiles and expected numbers of trees with placements of a whole region.
+#include "runtime/forest/surroundings.h"
 #include "runtime/placement/density_field.h"
 #include "runtime/tiles/impl/canopy_field.h"
 #include "runtime/tiles/impl/tree_source.h"
 
 #include <catch2/catch.hpp>
 
+#include <algorithm>
 #include <array>
 #include <cstring>
 #include <map>
@@ -76,7 +78,7 @@ TEST_CASE("the tiles of a level together hold each tree of the region once") {
         Forest kinds;
         kinds.species.resize(2);
         const TreeSizer keeps_scales(none, kinds);
-        const CellTrees cells(options, terrain, keeps_scales, grid);
+        const CellTrees cells(options, terrain, keeps_scales, kinds, grid);
         sort_by_tile(grid, all);
         const PlacedTrees placed(all, grid);
         for (const std::uint32_t level : {0U, 2U, 5U}) {
@@ -96,6 +98,52 @@ TEST_CASE("the tiles of a level together hold each tree of the region once") {
                 count += trees.size();
             }
             CHECK(count == all.size());
+        }
+    }
+}
+
+TEST_CASE("the tiles of a forest that senses its surroundings are those of the whole forest") {
+    const Region region{-70.3, 12.7, 333.3, 201.9};
+    const GreyMap map = slope_map();
+    const Terrain terrain = hills(region);
+    const TileGrid grid(region);
+    Forest kinds;
+    kinds.key = 5;
+    kinds.species.resize(2);
+    kinds.species[0].senses_surroundings = true;
+    kinds.species[0].stages.resize(kSurroundings);
+    for (ForestStage& stage : kinds.species[0].stages) {
+        stage.crown_radius = 2.0;
+    }
+    kinds.species[1].stages.resize(1);
+    const TreeSizer keeps_scales(std::vector<double>(2, 0.0), kinds);
+    for (const PlacementMethod method : kMethods) {
+        CAPTURE(static_cast<int>(method));
+        PlacementOptions options = options_of(method, region, map);
+        options.species[0].max_scale = 1.5F;
+        LargeVector<Tree> all = place_trees(options, terrain).value().trees;
+        sense_surroundings(kinds, all, all, 2);
+        std::array<int, kSurroundings> cases{};
+        for (const Tree& tree : all) {
+            cases[tree.species == 0 ? surroundings_of(tree) : 0] += 1;
+        }
+        CHECK(*std::min_element(cases.begin(), cases.end()) > 0);
+        sort_by_tile(grid, all);
+        const PlacedTrees placed(all, grid);
+        const CellTrees cells(options, terrain, keeps_scales, kinds, grid);
+        for (const std::uint32_t level : {0U, 3U, 6U}) {
+            for (std::uint32_t i = 0; i < 1U << (2 * level); ++i) {
+                const TileId tile{level, i % (1U << level), i >> level};
+                if (!grid.has_ground(tile)) {
+                    continue;
+                }
+                const std::vector<Tree> trees = cells.trees_of(tile);
+                const std::vector<Tree> again = placed.trees_of(tile);
+                REQUIRE(trees.size() == again.size());
+                for (std::size_t k = 0; k < trees.size(); ++k) {
+                    REQUIRE(same(trees[k], again[k]));
+                }
+            }
         }
     }
 }

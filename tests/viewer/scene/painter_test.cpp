@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: MIT
+#include "runtime/forest/surroundings.h"
 #include "runtime/placement/placement.h"
 #include "viewer/scene/painter.h"
 
 #include <catch2/catch.hpp>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <cstdlib>
 #include <new>
@@ -236,4 +238,63 @@ TEST_CASE("painting examines as many trees in a large forest as in a small one")
         return changes;
     };
     CHECK(strokes(1000) == strokes(200'000));
+}
+
+TEST_CASE("trees around painted and erased trees sense their surroundings again") {
+    const Terrain terrain = Terrain::flat(kRegion).value();
+    Forest kinds;
+    kinds.species.resize(1);
+    kinds.species[0].senses_surroundings = true;
+    kinds.species[0].stages.resize(kSurroundings);
+    for (ForestStage& stage : kinds.species[0].stages) {
+        stage.crown_radius = 5.0;
+    }
+    LargeVector<Tree> placed = forest(2000, terrain);
+    sense_surroundings(kinds, placed, placed, 1);
+    Painter painter(placed, {}, kRegion, terrain, 1);
+    std::vector<std::uint32_t> yaws; // bits, by index
+    const auto remember = [&] {
+        yaws.resize(painter.tree_count());
+        for (std::uint32_t i = 0; i < painter.tree_count(); ++i) {
+            yaws[i] = std::bit_cast<std::uint32_t>(painter.tree(i).yaw);
+        }
+    };
+    const auto check = [&](std::span<const TreeChange> changes) {
+        remember();
+        const std::span<const std::uint32_t> sensed = painter.sense_around(changes, kinds);
+        std::vector<Tree> living;
+        std::vector<std::uint32_t> indices;
+        for (std::uint32_t i = 0; i < painter.tree_count(); ++i) {
+            if (painter.is_alive(i)) {
+                living.push_back(painter.tree(i));
+                indices.push_back(i);
+            }
+        }
+        sense_surroundings(kinds, living, living, 1); // all of them
+        bool is_equal = true;
+        for (std::size_t i = 0; i < living.size(); ++i) {
+            const auto yaw = std::bit_cast<std::uint32_t>(painter.tree(indices[i]).yaw);
+            const bool is_changed =
+                std::find(sensed.begin(), sensed.end(), indices[i]) != sensed.end();
+            is_equal = is_equal && yaw == std::bit_cast<std::uint32_t>(living[i].yaw) &&
+                       is_changed == (yaw != yaws[indices[i]]);
+        }
+        CHECK(is_equal);
+        return sensed.size();
+    };
+    Brush brush;
+    brush.radius = 20.0F;
+    painter.begin_stroke();
+    CHECK(check(painter.paint(200.0F, 200.0F, brush)) > 5);
+    CHECK(check(painter.erase(215.0F, 200.0F, 12.0F)) > 5);
+    painter.begin_stroke();
+    CHECK(check(painter.plant(100.0F, 300.0F, brush)) > 0);
+    check(painter.undo());
+    check(painter.undo());
+    CHECK(check(painter.redo()) > 5);
+    for (std::uint32_t i = 0; i < placed.size(); ++i) { // and back to the placed trees
+        if (painter.can_undo()) {
+            check(painter.undo());
+        }
+    }
 }

@@ -197,7 +197,7 @@ bool ForestPass::bake_impostors(double seconds, MaterialTextures& textures) {
 void ForestPass::change_tree(std::uint32_t index, const Tree& tree, bool alive) {
     forget_near_trees();
     const std::uint32_t number = lod_->change_tree(index, tree, alive);
-    if (alive && number >= lod_->trees().size()) {
+    if (alive) {
         buffers_.upload_tree(*lod_, number);
     }
     if (is_culled_on_device_) {

@@ -31,7 +31,7 @@ constexpr GLint kWidestShift = 20;
 constexpr GLint kNoiseShifts = 21; // 3 locations
 constexpr GLint kCanopy = 24;
 constexpr GLint kCanopyRange = 25;
-constexpr std::array<double, 3> kNoiseTiles = {173.0, 37.0, 3.1}; // m, in terrain.frag.glsl
+constexpr std::array<double, 3> kNoiseTiles = {173.0, 37.0, 3.1}; // m, in ground_look.glsl
 constexpr double kWidestTile = 611.0;                             // m, of the turned tile
 constexpr std::uint32_t kNoiseTexels = 128;
 constexpr GLsizei kPatchIndices = 6 * kPatchCells * kPatchCells;
@@ -93,16 +93,18 @@ TerrainPass::TerrainPass(Device& device)
       corners_(device), indices_(device), patches_(device) {}
 
 Result<void> TerrainPass::reload(const ShaderSource& shaders) {
-    Result<ProgramObject> made = make_program(*device_, shaders, "terrain.vert.glsl",
-                                              "terrain.frag.glsl", "#define TWO_TAPS\n");
-    if (!made) {
-        return made.error();
-    }
-    Result<ProgramObject> with_picture =
-        make_program(*device_, shaders, "terrain.vert.glsl", "terrain.frag.glsl",
-                     "#define TWO_TAPS\n#define PICTURE\n");
-    if (!with_picture) {
-        return with_picture.error();
+    constexpr std::array<const char*, 4> kDefines = {
+        "#define TWO_TAPS\n", "#define TWO_TAPS\n#define PICTURE\n",
+        "#define TWO_TAPS\n#define CANOPY\n",
+        "#define TWO_TAPS\n#define PICTURE\n#define CANOPY\n"};
+    std::array<ProgramObject, 4> programs;
+    for (std::size_t i = 0; i < programs.size(); ++i) {
+        Result<ProgramObject> made =
+            make_program(*device_, shaders, "terrain.vert.glsl", "terrain.frag.glsl", kDefines[i]);
+        if (!made) {
+            return made.error();
+        }
+        programs[i] = std::move(made.value());
     }
     ProgramObject grass;
     if (device_->quality() > 0) {
@@ -114,8 +116,7 @@ Result<void> TerrainPass::reload(const ShaderSource& shaders) {
         grass = std::move(with_grass.value());
     }
     grass_program_ = std::move(grass);
-    program_ = std::move(made.value());
-    picture_program_ = std::move(with_picture.value());
+    programs_ = std::move(programs);
     return {};
 }
 
@@ -258,7 +259,8 @@ void TerrainPass::draw_grass(FrameStats& stats) const {
 }
 
 FrameStats TerrainPass::draw() {
-    const ProgramObject& program = colour_ ? picture_program_ : program_;
+    const bool has_canopy = covers_ && tree_range_ > 0.0F && std::isfinite(tree_range_);
+    const ProgramObject& program = programs_[(colour_ ? 1U : 0U) + (has_canopy ? 2U : 0U)];
     glUseProgram(program.name());
     if (colour_) {
         // A corner of a tile near the origin: binary32 is too coarse for far coordinates.
@@ -275,13 +277,13 @@ FrameStats TerrainPass::draw() {
     } else {
         set_noise();
     }
-    // The colour of the canopy begins before the trees end, so that no border is visible.
-    constexpr float kBegin = 0.45F;
-    constexpr float kEnd = 0.95F;
-    const bool has_canopy = covers_ && std::isfinite(tree_range_);
-    glUniform3f(kCanopy, canopy_.r, canopy_.g, canopy_.b);
-    glUniform2f(kCanopyRange, has_canopy ? kBegin * tree_range_ : 0.0F,
-                has_canopy ? kEnd * tree_range_ : 0.0F);
+    if (has_canopy) {
+        // The colour of the canopy begins before the trees end, so that no border is visible.
+        constexpr float kBegin = 0.45F;
+        constexpr float kEnd = 0.95F;
+        glUniform3f(kCanopy, canopy_.r, canopy_.g, canopy_.b);
+        glUniform2f(kCanopyRange, kBegin * tree_range_, kEnd * tree_range_);
+    }
     FrameStats stats = draw_with(program);
     if (!colour_) {
         draw_grass(stats);

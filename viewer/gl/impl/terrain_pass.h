@@ -9,6 +9,7 @@
 #include "viewer/gl/renderer.h"
 #include "viewer/scene/terrain_lod.h"
 
+#include <array>
 #include <cstdint>
 #include <memory>
 
@@ -52,10 +53,10 @@ private:
 
     Device* device_;
     std::unique_ptr<TerrainLod> lod_;
-    ProgramObject program_;
-    ProgramObject picture_program_; // with pictures of the ground
-    ProgramObject grass_program_;   // from QUALITY 1 on
-    glm::vec3 eye_{0.0F};           // eye for which patches were selected
+    /// The ground: with pictures at odd indices, with a canopy from index 2 on.
+    std::array<ProgramObject, 4> programs_;
+    ProgramObject grass_program_; // from QUALITY 1 on
+    glm::vec3 eye_{0.0F};         // eye for which patches were selected
     GroundPictures pictures_;
     TextureObject colour_;
     TextureObject normals_;

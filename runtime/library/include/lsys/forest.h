@@ -20,8 +20,9 @@
 
 namespace lsys::LSYS_INTERFACE {
 
-/// A tree. Its shape depends only on the key of the forest and on its species, age and number.
-/// 28 bytes.
+/// A tree. Its shape depends only on the key of the forest and on its species, age and number; if
+/// its species senses its surroundings, also on the lowest three bits of its yaw, which number the
+/// case of its surroundings. 28 bytes.
 struct Tree {
     Vector3 position; // of the start of the turtle
     float yaw = 0.0F; // radians about +Y
@@ -33,9 +34,11 @@ struct Tree {
 
 struct Species {
     std::string name;
-    std::vector<std::uint32_t> generations; // of each stage, ascending
-    std::uint32_t heroes = 0;               // plants derived in full, per stage
-    float height = 0.0F;                    // m, of `#set height`; 0: not set
+    /// Of each stage, ascending; six stages in a row have equal generations if the species senses
+    /// its surroundings.
+    std::vector<std::uint32_t> generations;
+    std::uint32_t heroes = 0; // plants derived in full, per stage
+    float height = 0.0F;      // m, of `#set height`; 0: not set
 };
 
 struct ForestOptions {

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: MIT
+// Functions whose results are the real value rounded to the nearest binary64, ties to even, on
+// every machine (docs/language.md section 13). First double-double arithmetic with tables (Gal &
+// Bachelis 1991), which is kept if its error cannot change the rounding (Ziv 1991); otherwise, in
+// one of some hundred to two thousand cases, fixed-point arithmetic of 320 bits.
+//
+// Every binary64 is allowed. An infinite angle has no sine or cosine: NaN. NaN gives NaN.
+#pragma once
+
+namespace lsys {
+
+struct ExactSineCosine {
+    double sine = 0.0;
+    double cosine = 1.0;
+};
+
+/// Angles in radians.
+[[nodiscard]] ExactSineCosine exact_sine_cosine(double angle);
+[[nodiscard]] double exact_sine(double angle);
+[[nodiscard]] double exact_cosine(double angle);
+
+/// Of an angle in degrees, without rounding it to radians first: multiples of 30 and 90 degrees
+/// with a rational sine or cosine have it exactly.
+[[nodiscard]] ExactSineCosine exact_sine_cosine_of_degrees(double degrees);
+[[nodiscard]] double exact_sine_of_degrees(double degrees);
+[[nodiscard]] double exact_cosine_of_degrees(double degrees);
+
+[[nodiscard]] double exact_exp(double exponent);
+
+/// The angle of the point (x, y), in radians from -pi to pi. Signs of zeros and infinities count as
+/// in IEEE 754-2019, section 9.2.1.
+[[nodiscard]] double exact_atan2(double y, double x);
+
+} // namespace lsys

@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: MIT
+#include "runtime/environment/closed_mesh.h"
+
+#include "runtime/base/large_vector.h"
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <numeric>
+
+namespace lsys {
+
+namespace {
+
+/// For each vertex the first one at the same place, -0 being 0.
+LargeVector<std::uint32_t> merged_vertices(const std::vector<Vector3>& vertices) {
+    LargeVector<std::uint32_t> order(vertices.size());
+    std::iota(order.begin(), order.end(), 0U);
+    std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
+        return vertices[a] != vertices[b] ? vertices[a] < vertices[b] : a < b;
+    });
+    LargeVector<std::uint32_t> merged(vertices.size());
+    for (std::size_t i = 0; i < order.size(); ++i) {
+        const bool same = i > 0 && vertices[order[i]] == vertices[order[i - 1]];
+        merged[order[i]] = same ? merged[order[i - 1]] : order[i];
+    }
+    return merged;
+}
+
+/// A side of a triangle.
+struct EdgeUse {
+    std::uint32_t low = 0; // vertexes of the edge, in ascending order
+    std::uint32_t high = 0;
+    std::uint32_t triangle = 0;
+    bool upwards = false; // runs from low to high
+};
+
+LargeVector<EdgeUse> sorted_edges(const EnvironmentMesh& mesh) {
+    const LargeVector<std::uint32_t> merged = merged_vertices(mesh.vertices);
+    LargeVector<EdgeUse> edges;
+    edges.reserve(mesh.triangles.size() * 3);
+    for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+        const std::array<std::uint32_t, 3>& corners = mesh.triangles[i];
+        const std::array<std::uint32_t, 3> at{merged[corners[0]], merged[corners[1]],
+                                              merged[corners[2]]};
+        if (at[0] == at[1] || at[1] == at[2] || at[2] == at[0]) {
+            continue;
+        }
+        for (std::size_t side = 0; side < 3; ++side) {
+            const std::uint32_t from = at[side];
+            const std::uint32_t to = at[(side + 1) % 3];
+            edges.push_back(
+                {std::min(from, to), std::max(from, to), static_cast<std::uint32_t>(i), from < to});
+        }
+    }
+    std::sort(edges.begin(), edges.end(), [](const EdgeUse& a, const EdgeUse& b) {
+        return a.low != b.low     ? a.low < b.low
+               : a.high != b.high ? a.high < b.high
+                                  : a.triangle < b.triangle;
+    });
+    return edges;
+}
+
+bool is_same_edge(const EdgeUse& a, const EdgeUse& b) {
+    return a.low == b.low && a.high == b.high;
+}
+
+/// Whether each edge has exactly two uses.
+bool are_pairs(const LargeVector<EdgeUse>& edges) {
+    for (std::size_t i = 0; i < edges.size(); i += 2) {
+        if (i + 1 >= edges.size() || !is_same_edge(edges[i], edges[i + 1]) ||
+            (i + 2 < edges.size() && is_same_edge(edges[i], edges[i + 2]))) {
+            return false;
+        }
+    }
+    return !edges.empty();
+}
+
+/// Connected triangles as a union-find forest with parities: whether a triangle faces the side of
+/// its root. The root of a set is its first triangle.
+class ConnectedTriangles {
+public:
+    explicit ConnectedTriangles(std::size_t count) : parent_(count), turned_(count, 0) {
+        std::iota(parent_.begin(), parent_.end(), 0U);
+    }
+
+    /// Connects two neighbours; `turned`: they face opposite sides. Returns false if they are
+    /// connected already and the other way.
+    [[nodiscard]] bool connect(std::uint32_t a, std::uint32_t b, bool turned) {
+        const std::uint32_t root_a = find(a);
+        const std::uint32_t root_b = find(b);
+        const std::uint8_t apart =
+            static_cast<std::uint8_t>(turned_[a] ^ turned_[b] ^ (turned ? 1 : 0));
+        if (root_a == root_b) {
+            return apart == 0;
+        }
+        parent_[std::max(root_a, root_b)] = std::min(root_a, root_b);
+        turned_[std::max(root_a, root_b)] = apart;
+        return true;
+    }
+
+    /// For each triangle whether it is turned to face the side of its root.
+    [[nodiscard]] std::vector<std::uint8_t> turned() {
+        for (std::size_t i = 0; i < parent_.size(); ++i) {
+            static_cast<void>(find(static_cast<std::uint32_t>(i)));
+        }
+        return turned_;
+    }
+
+private:
+    /// The root of `triangle`, which becomes its parent.
+    std::uint32_t find(std::uint32_t triangle) {
+        path_.clear();
+        while (parent_[triangle] != triangle) {
+            path_.push_back(triangle);
+            triangle = parent_[triangle];
+        }
+        std::uint8_t turned = 0;
+        for (std::size_t i = path_.size(); i-- > 0;) {
+            turned ^= turned_[path_[i]];
+            turned_[path_[i]] = turned;
+            parent_[path_[i]] = triangle;
+        }
+        return triangle;
+    }
+
+    std::vector<std::uint32_t> parent_;
+    std::vector<std::uint8_t> turned_; // against the parent; 0 for roots
+    std::vector<std::uint32_t> path_;
+};
+
+} // namespace
+
+MeshClosure mesh_closure(const EnvironmentMesh& mesh) {
+    MeshClosure closure;
+    const LargeVector<EdgeUse> edges = sorted_edges(mesh);
+    closure.closed = are_pairs(edges);
+    if (!closure.closed) {
+        return closure;
+    }
+    const auto same_direction = [&](std::size_t i) {
+        return edges[i].upwards == edges[i + 1].upwards;
+    };
+    bool consistent = true;
+    for (std::size_t i = 0; i < edges.size() && consistent; i += 2) {
+        consistent = !same_direction(i);
+    }
+    if (!consistent) {
+        ConnectedTriangles triangles(mesh.triangles.size());
+        for (std::size_t i = 0; i < edges.size(); i += 2) {
+            closure.orientable =
+                triangles.connect(edges[i].triangle, edges[i + 1].triangle, same_direction(i)) &&
+                closure.orientable;
+        }
+        closure.turned = triangles.turned();
+    }
+    return closure;
+}
+
+} // namespace lsys

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: MIT
+// PointTree: the places of a word in a tree of boxes, for the kinds Space and Crowd. Boxes hold the
+// places exactly, and differences, squares and sums are monotone when rounded, so the bounds below
+// hold for squared distances as binary64 computes them: pruning by them loses no place.
+#pragma once
+
+#include "runtime/environment/environment.h"
+#include "runtime/environment/impl/split_tree.h"
+#include "runtime/environment/impl/vectors.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace lsys {
+
+struct PointTree {
+    struct Node {
+        Vector3 low{}; // of the box around its places
+        Vector3 high{};
+        SplitNode items;
+    };
+    LargeVector<Node> nodes;              // in preorder; none without places
+    LargeVector<Vector3> points;          // by leaves
+    LargeVector<std::uint32_t> positions; // of each point: its index in the word
+};
+
+/// Empty when cancelled, or without places.
+[[nodiscard]] PointTree make_point_tree(std::span<const SensePlace> places,
+                                        const EnvironmentContext& context);
+
+/// Bytes per place of a PointTree while it is built.
+inline constexpr std::size_t kPointTreeBytes = 64;
+
+/// Not above the squared distance from `point` to any place of the node.
+[[nodiscard]] inline double least_squared(const PointTree::Node& node, const Vector3& point) {
+    Vector3 apart;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        apart[axis] =
+            std::max(std::max(node.low[axis] - point[axis], point[axis] - node.high[axis]), 0.0);
+    }
+    return squared_length(apart);
+}
+
+/// Not below the squared distance from `point` to any place of the node.
+[[nodiscard]] inline double most_squared(const PointTree::Node& node, const Vector3& point) {
+    Vector3 apart;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        apart[axis] = std::max(point[axis] - node.low[axis], node.high[axis] - point[axis]);
+    }
+    return squared_length(apart);
+}
+
+} // namespace lsys

@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: MIT
+// The pyramid of shadow below a place (Palubicki et al. 2009, section 4), and the sums over its
+// layers at one voxel. All counts are integers, so that a sum does not depend on their order.
+#pragma once
+
+#include "runtime/environment/environment.h"
+
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace lsys {
+
+/// Number of places whose layer covers a voxel, and the differences among its 26 neighbours.
+struct LayerCounts {
+    std::int64_t own = 0;
+    /// [axis][squared distance - 1]: neighbours at +1 along the axis minus those at -1.
+    std::array<std::array<std::int64_t, 3>, 3> differences{};
+};
+
+/// Sums over the layers from 0 on.
+struct ShadowSum {
+    double shade = 0.0;    // s: shadow at the voxel
+    Vector3 differences{}; // along x, y, z; without the strength
+};
+
+class ShadowLayers {
+public:
+    explicit ShadowLayers(const BytecodeEnvironment& declared)
+        : strength_(static_cast<double>(declared.strength)) {
+        double power = 1.0; // ratio^-layer
+        for (std::uint32_t layer = 0; layer <= declared.levels; ++layer) {
+            powers_.push_back(power);
+            // An infinite power times zero would be NaN.
+            weights_.push_back(strength_ == 0.0 ? 0.0 : strength_ * power);
+            power /= static_cast<double>(declared.ratio);
+        }
+    }
+
+    /// Layer below a place that it shades last; layer 0 is its own voxel.
+    [[nodiscard]] std::int64_t last() const {
+        return static_cast<std::int64_t>(powers_.size()) - 1;
+    }
+
+    /// Layers must be added in ascending order.
+    void add(ShadowSum& sum, std::int64_t layer, const LayerCounts& counts) const {
+        const auto index = static_cast<std::size_t>(layer);
+        if (counts.own != 0) {
+            sum.shade += weights_[index] * static_cast<double>(counts.own);
+        }
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            const auto& [first, second, third] = counts.differences[axis];
+            if ((first | second | third) != 0) {
+                sum.differences[axis] +=
+                    powers_[index] *
+                    (static_cast<double>(first) + static_cast<double>(second) / root_of_2_ +
+                     static_cast<double>(third) / root_of_3_);
+            }
+        }
+    }
+
+    /// Exposure, and the unit vector towards more light or 0 0 0.
+    [[nodiscard]] std::array<double, 4> answer(const ShadowSum& sum) const {
+        const double exposure = 1.0 - sum.shade + strength_;
+        Vector3 away{};
+        double largest = 0.0;
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            away[axis] = -strength_ * sum.differences[axis];
+            largest = std::fmax(largest, std::abs(away[axis]));
+        }
+        if (largest == 0.0) {
+            return {std::fmax(0.0, exposure), 0.0, 0.0, 0.0};
+        }
+        // A power of two changes no bits, and keeps the squares away from underflow and overflow.
+        const int exponent = -std::ilogb(largest);
+        for (double& component : away) {
+            component = std::ldexp(component, exponent);
+        }
+        const double length = std::sqrt(away[0] * away[0] + away[1] * away[1] + away[2] * away[2]);
+        return {std::fmax(0.0, exposure), away[0] / length, away[1] / length, away[2] / length};
+    }
+
+private:
+    double strength_;
+    double root_of_2_ = std::sqrt(2.0);
+    double root_of_3_ = std::sqrt(3.0);
+    std::vector<double> powers_;  // ratio^-layer
+    std::vector<double> weights_; // strength ratio^-layer
+};
+
+} // namespace lsys

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: MIT
+// ShadowRun: the shadow at some voxels of one tile. Where places are dense, squares are counted by
+// summed-area tables; where they are sparse, each pair of places is counted. Both counts are exact.
+#pragma once
+
+#include "runtime/environment/impl/shadow_boxes.h"
+#include "runtime/environment/impl/voxel_tiles.h"
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace lsys {
+
+/// Tiles are at least as wide as a pyramid reaches beyond its voxel and the neighbours of that, so
+/// that the nine tiles around a voxel hold all places that shade it.
+[[nodiscard]] std::uint32_t shadow_tile_bits(std::uint32_t levels);
+/// Memory of a run for tables, bytes.
+[[nodiscard]] std::uint64_t shadow_table_bytes(std::uint32_t levels);
+
+/// Evaluates run after run with the same memory.
+class ShadowRun {
+public:
+    ShadowRun(const VoxelTiles& tiles, std::uint32_t tile_bits, const ShadowLayers& layers)
+        : tiles_(tiles), layers_(layers), edge_(std::int32_t{1} << tile_bits),
+          reach_(static_cast<std::int32_t>(layers.last()) + 1) {}
+
+    /// Voxels `begin` ... `end` - 1 belong to `tile`. Runs of one object are in ascending order. The
+    /// result is valid until the next run.
+    [[nodiscard]] std::span<const ShadowSum>
+    evaluate(std::size_t tile, std::size_t begin, std::size_t end);
+
+private:
+    /// A row of sources with the same y.
+    struct Row {
+        std::int64_t y = 0;
+        std::size_t first = 0; // in sources_
+    };
+    /// Voxels of a neighbouring tile that are not read yet.
+    struct Neighbour {
+        std::size_t next = 0;
+        std::size_t end = 0;
+        std::int64_t y = 0; // of `next`
+        std::int32_t x = 0; // offset to coordinates of the tables
+        std::int32_t z = 0;
+    };
+
+    void find_targets(std::size_t begin, std::size_t end);
+    void find_neighbours(std::size_t tile);
+    void add_neighbour(std::size_t tile, std::int32_t x, std::int32_t z);
+    void read_sources();
+    [[nodiscard]] std::span<const ShadowSource> sources_of(std::size_t row) const {
+        return std::span(sources_).subspan(rows_[row].first,
+                                           rows_[row + 1].first - rows_[row].first);
+    }
+    [[nodiscard]] bool prefers_tables() const;
+    void count_with_tables();
+    void count_pairs();
+    void count_pairs_of(std::size_t target, std::size_t first_row, std::size_t end_row);
+
+    const VoxelTiles& tiles_;
+    const ShadowLayers& layers_;
+    std::int32_t edge_;
+    std::int32_t reach_; // from a voxel to the farthest one that shades it or a neighbour
+
+    std::vector<TileVoxel> targets_; // sorted by y; x and z count from the corner of the tables
+    std::int32_t corner_x_ = 0;      // corner of the tables in coordinates of the tile
+    std::int32_t corner_z_ = 0;
+    std::int32_t width_ = 0; // along x
+    std::int32_t depth_ = 0; // along z
+    std::int64_t place_count_ = 0;
+    std::vector<ShadowSource> sources_; // in rows of ascending y
+    std::vector<Row> rows_;             // and the end
+    std::vector<Neighbour> neighbours_;
+    std::array<std::size_t, 3> tile_cursors_{}; // tiles at x - 1, x, x + 1
+    bool has_cursors_ = false;
+    std::array<SummedAreaTable, 3> tables_;
+    SummedAreaTable empty_table_;
+    std::vector<LayerCounts> pair_counts_; // of each layer
+    std::vector<ShadowSum> sums_;
+};
+
+} // namespace lsys

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: MIT
+// Environments of kind Program: a program that the user names answers (docs/language.md section
+// 13). Each sensed word is one line of JSON to its standard input,
+//
+//   {"generation": g, "queries": [{"position": [x, y, z], "heading": [..], "up": [..],
+//     "parameters": [..]}, ...]}
+//
+// with a query for each module, in word order, and one line back from its standard output:
+// {"answers": [[..], ...]}, with an array of numbers for each query.
+#pragma once
+
+#include "grammar/base/result.h"
+#include "runtime/environment/environment.h"
+
+#include <atomic>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace lsys {
+
+/// Why a program has sent no line.
+struct ProgramFailure {
+    Stop stop = Stop::Diagnosed; // or Cancelled, OutOfMemory
+    std::string text;            // "its program has ended with exit status 1"
+    std::string messages;        // the last lines of its standard error
+};
+
+/// A program that runs, to which lines are sent. Its destructor ends it and all that it started.
+class LineProgram {
+public:
+    LineProgram() = default;
+    virtual ~LineProgram() = default;
+    LineProgram(const LineProgram&) = delete;
+    LineProgram& operator=(const LineProgram&) = delete;
+
+    /// Sends `line`, which has no line break, and waits for a line of at most `max_bytes`.
+    [[nodiscard]] virtual std::optional<ProgramFailure>
+    ask(const std::string& line, std::uint64_t max_bytes, std::string& answer) = 0;
+};
+
+/// Starts the command line `command` of a shell. `seconds`: max time of an answer.
+using StartProgram = std::function<Result<std::unique_ptr<LineProgram>>(
+    const std::string& command, double seconds, const std::atomic<bool>* cancelled)>;
+
+/// How an environment of kind Program gets its answers.
+struct ProgramCommand {
+    StartProgram start;  // empty: this system starts no programs
+    std::string command; // empty: not given
+    double seconds = 60.0;
+};
+
+/// `declared` outlives the result.
+[[nodiscard]] std::unique_ptr<Environment> make_program(const BytecodeEnvironment& declared,
+                                                        ProgramCommand command,
+                                                        const EnvironmentContext& context);
+
+/// The line of the queries.
+[[nodiscard]] std::string query_line(const SensedWord& word);
+/// Reads the line of the answers of `count` queries. Returns the reason why it cannot, or nothing.
+[[nodiscard]] std::optional<std::string> read_answers(std::string_view line,
+                                                      std::size_t count,
+                                                      std::vector<float>& answers,
+                                                      std::vector<std::uint32_t>& sizes);
+
+/// The help for an environment without a command.
+[[nodiscard]] std::string program_help(std::string_view name);
+
+} // namespace lsys

@@ -1,0 +1,179 @@
+// SPDX-License-Identifier: MIT
+// Environments of kind Solid: the signed distance to the nearest of several surfaces, and the
+// direction to it (Prusinkiewicz, James & Mech 1994, "Synthetic topiary").
+//
+// The arithmetic, in binary64: the distance to a plane a x + b y + c z + d is |s| / m with
+// s = ((a x + b y) + c z) + d and m the square root of (a^2 + b^2) + c^2; the unit vector to it is
+// -(a, b, c) / m where s > 0, (a, b, c) / m where s < 0. The distance to a mesh is the square root
+// of the least squared distance to a triangle with an area (impl/triangle_distance.h); the unit
+// vector is the way to that point, each component divided by the distance. Of surfaces with equal
+// distances the first counts, planes before meshes; squared distances are compared between
+// triangles, of one mesh or of several.
+#include "grammar/base/contract.h"
+#include "runtime/base/out_of_memory.h"
+#include "runtime/environment/environment.h"
+#include "runtime/environment/impl/input_checks.h"
+#include "runtime/environment/impl/triangle_tree.h"
+#include "runtime/environment/impl/vectors.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace lsys {
+
+namespace {
+
+struct SolidPlane {
+    Vector3 normal{};    // a, b, c
+    double offset = 0.0; // d
+    double length = 1.0; // of `normal`
+};
+
+class SolidEnvironment : public Environment {
+public:
+    SolidEnvironment(const BytecodeEnvironment& declared,
+                     const EnvironmentFiles& files,
+                     const EnvironmentContext& context)
+        : files_(files), context_(context) {
+        for (const EnvironmentSurface& surface : declared.surfaces) {
+            if (surface.path.empty()) {
+                SolidPlane plane;
+                for (std::size_t axis = 0; axis < 3; ++axis) {
+                    plane.normal[axis] = static_cast<double>(surface.plane[axis]);
+                }
+                plane.offset = static_cast<double>(surface.plane[3]);
+                plane.length = std::sqrt(squared_length(plane.normal));
+                LSYS_CHECK(plane.length > 0.0);
+                planes_.push_back(plane);
+            }
+        }
+        LSYS_CHECK(declared.surfaces.size() == planes_.size() + files.meshes.size());
+        LSYS_CHECK(!declared.surfaces.empty());
+    }
+
+    std::optional<EnvironmentFailure> begin(std::uint64_t /*seed*/) override {
+        using Failure = std::optional<EnvironmentFailure>;
+        return catch_out_of_memory([&]() -> Failure { return build_trees(); },
+                                   [&]() -> Failure {
+                                       trees_.clear();
+                                       return stopped(Stop::OutOfMemory);
+                                   });
+    }
+
+    std::optional<EnvironmentFailure> answer(const SensedWord& word,
+                                             std::vector<float>& answers,
+                                             std::vector<std::uint32_t>& /*sizes*/) override {
+        if (auto failure = check_places(word.places)) {
+            return failure;
+        }
+        if (word.places.empty()) {
+            return std::nullopt;
+        }
+        using Failure = std::optional<EnvironmentFailure>;
+        return catch_out_of_memory([&]() -> Failure { return answer_all(word.places, answers); },
+                                   []() -> Failure { return stopped(Stop::OutOfMemory); });
+    }
+
+private:
+    std::optional<EnvironmentFailure> answer_all(std::span<const SensePlace> places,
+                                                 std::vector<float>& answers) const {
+        // Places next to each other are answered one after the other, because they meet the same
+        // nodes of the trees.
+        constexpr std::size_t kPlaces = 1U << 8; // of one piece of work, and of a leaf
+        LargeVector<SplitItem> order = split_items(places);
+        static_cast<void>(build_split_tree(order, kPlaces, *context_.workers, context_.cancelled));
+        const std::size_t count = places.size();
+        context_.workers->for_each((count + kPlaces - 1) / kPlaces, [&](std::uint64_t piece) {
+            if (is_cancelled(context_.cancelled)) {
+                return;
+            }
+            std::vector<std::uint32_t> hints(trees_.size(), 0);
+            const std::size_t end = std::min(count, (piece + 1) * kPlaces);
+            for (std::size_t i = piece * kPlaces; i < end; ++i) {
+                const std::size_t place = order[i].index;
+                answer_one(places[place].position, hints, answers.data() + place * 4);
+            }
+        });
+        if (is_cancelled(context_.cancelled)) {
+            return stopped(Stop::Cancelled);
+        }
+        return std::nullopt;
+    }
+
+    /// Builds the trees of the meshes, once for all derivations.
+    std::optional<EnvironmentFailure> build_trees() {
+        if (trees_.size() == files_.meshes.size()) {
+            return std::nullopt;
+        }
+        trees_.clear();
+        std::uint64_t bytes = 0;
+        for (const EnvironmentMesh& mesh : files_.meshes) {
+            if (auto failure = check_mesh(mesh)) {
+                return failure;
+            }
+            bytes += TriangleTree::bytes(mesh);
+        }
+        if (bytes > context_.max_bytes) {
+            return beyond_memory(bytes);
+        }
+        std::vector<std::unique_ptr<TriangleTree>> trees;
+        for (const EnvironmentMesh& mesh : files_.meshes) {
+            trees.push_back(std::make_unique<TriangleTree>(mesh, context_));
+            if (is_cancelled(context_.cancelled)) {
+                return stopped(Stop::Cancelled);
+            }
+            if (trees.back()->empty()) {
+                return refused("its mesh has no triangle with an area",
+                               "give the triangles three different corners");
+            }
+        }
+        trees_ = std::move(trees);
+        return std::nullopt;
+    }
+
+    void answer_one(const Vector3& place, std::vector<std::uint32_t>& hints, float* answer) const {
+        double distance = std::numeric_limits<double>::infinity();
+        Vector3 direction{};
+        bool inside = false;
+        for (const SolidPlane& plane : planes_) {
+            const double side = dot(plane.normal, place) + plane.offset;
+            const double from_plane = std::abs(side) / plane.length;
+            inside = inside || side < 0.0;
+            if (from_plane < distance) {
+                distance = from_plane;
+                const double sign = side > 0.0 ? -1.0 : 1.0;
+                for (std::size_t axis = 0; axis < 3; ++axis) {
+                    direction[axis] = sign * plane.normal[axis] / plane.length;
+                }
+            }
+        }
+        NearestPoint nearest;
+        for (std::size_t i = 0; i < trees_.size(); ++i) {
+            trees_[i]->find_nearest(place, nearest, hints[i]);
+            inside = inside || trees_[i]->is_inside(place);
+        }
+        if (const double from_mesh = std::sqrt(nearest.squared); from_mesh < distance) {
+            distance = from_mesh;
+            direction = normalised(nearest.away);
+        }
+        if (distance == 0.0) {
+            direction = {};
+        }
+        write_answer(inside ? -distance : distance, direction, answer);
+    }
+
+    const EnvironmentFiles& files_;
+    EnvironmentContext context_;
+    std::vector<SolidPlane> planes_;
+    std::vector<std::unique_ptr<TriangleTree>> trees_; // one for each mesh, after begin()
+};
+
+} // namespace
+
+std::unique_ptr<Environment> make_solid(const BytecodeEnvironment& declared,
+                                        const EnvironmentFiles& files,
+                                        const EnvironmentContext& context) {
+    return std::make_unique<SolidEnvironment>(declared, files, context);
+}
+
+} // namespace lsys

@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: MIT
+#include "runtime/pipeline/sensed_plant.h"
+
+#include "runtime/pipeline/senses.h"
+#include "runtime/pipeline/step.h"
+
+#include <array>
+#include <cmath>
+#include <map>
+#include <memory>
+#include <utility>
+
+namespace lsys {
+
+namespace {
+
+using Voxel = std::array<double, 3>; // whole numbers
+
+/// Voxels of the places of an environment of kind Shadow, whose columns are around the axes.
+void add_exposures(const SensedEnvironment& sensed, SensedPart& part) {
+    std::map<Voxel, double> exposures;
+    for (std::size_t i = 0; i < sensed.places.size(); ++i) {
+        const Vector3& place = sensed.places[i].position;
+        exposures[{
+            std::floor(place[0] / part.cell + 0.5), std::floor(place[1] / part.cell + 0x1p-20),
+            std::floor(place[2] / part.cell + 0.5)}] = static_cast<double>(sensed.answers[4 * i]);
+    }
+    for (const auto& [voxel, exposure] : exposures) {
+        part.voxels.push_back(
+            {{voxel[0] * part.cell, (voxel[1] + 0.5) * part.cell, voxel[2] * part.cell}, exposure});
+    }
+}
+
+/// Voxels of an environment of kind Sky with the areas of their organs.
+void add_areas(const std::vector<SensedOrgan>& organs, SensedPart& part) {
+    std::map<Voxel, double> areas;
+    for (const SensedOrgan& organ : organs) {
+        const auto index = [&](std::size_t axis) {
+            return std::floor(organ.middle[axis] / part.cell);
+        };
+        areas[{index(0), index(1), index(2)}] += organ.area;
+    }
+    for (const auto& [voxel, area] : areas) {
+        part.voxels.push_back({{(voxel[0] + 0.5) * part.cell, (voxel[1] + 0.5) * part.cell,
+                                (voxel[2] + 0.5) * part.cell},
+                               area});
+    }
+}
+
+SensedPart sensed_part(const BytecodeEnvironment& declared,
+                       const SensedEnvironment& sensed,
+                       const EnvironmentSense& senses,
+                       std::size_t index) {
+    SensedPart part;
+    part.name = declared.name;
+    part.kind = declared.kind;
+    part.answers = sensed.answers;
+    const std::uint32_t fixed = answer_size(declared.kind);
+    std::size_t first = 0;
+    for (std::size_t i = 0; i < sensed.modules.size(); ++i) {
+        const std::uint32_t size = fixed == kUnknownAnswer ? sensed.sizes[i] : fixed;
+        part.modules.push_back({sensed.modules[i].position, sensed.places[i],
+                                std::span<const float>(part.answers).subspan(first, size)});
+        first += size;
+    }
+    if (declared.kind == EnvironmentKind::Shadow) {
+        part.cell = static_cast<double>(declared.cell);
+        add_exposures(sensed, part);
+    } else if (declared.kind == EnvironmentKind::Sky) {
+        part.cell = static_cast<double>(declared.cell);
+        add_areas(senses.organs(), part);
+    }
+    senses.environment(index).append_markers(part.markers);
+    return part;
+}
+
+} // namespace
+
+Outcome<SensedPlant>
+sense_plant(const PlantOptions& options, const Grammar& grammar, const Project& project) {
+    Step step(project);
+    const Bytecode& bytecode = grammar.bytecode;
+    PlantSenses senses;
+    if (!step.take(read_senses(options.file, grammar, project), senses)) {
+        return step.end();
+    }
+    const std::unique_ptr<EnvironmentSense> own = senses.make(bytecode);
+    DeriveOptions derive = derive_options(options, bytecode, project);
+    derive.senses = own.get();
+    project.begin(LongStep::Derive);
+    Derivation derivation(bytecode, derive);
+    if (const std::optional<Stop> stop = derivation.derive()) {
+        if (stop != Stop::Cancelled) {
+            step.diagnose(derivation_diagnostic(derivation.end(), derive.limits, grammar),
+                          grammar.sources);
+        }
+        return step.end(*stop);
+    }
+    SensedPlant plant;
+    if (own == nullptr || own->sensed().empty()) {
+        return step.done(std::move(plant));
+    }
+    plant.has_sensed = true;
+    plant.generation = own->age();
+    for (std::size_t i = 0; i < bytecode.environments.size(); ++i) {
+        plant.parts.push_back(sensed_part(bytecode.environments[i], own->sensed()[i], *own, i));
+    }
+    return step.done(std::move(plant));
+}
+
+} // namespace lsys

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: MIT
+// SensedPlant: what a plant sensed last: the places that asked, the answers, and what the
+// environments held. For dumps and viewers.
+#pragma once
+
+#include "grammar/base/outcome.h"
+#include "runtime/environment/environment.h"
+#include "runtime/pipeline/grammar.h"
+#include "runtime/pipeline/plant.h"
+#include "runtime/pipeline/project.h"
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace lsys {
+
+/// A voxel of an environment of kind Shadow (value: exposure) or Sky (value: area in m^2).
+struct SensedVoxel {
+    Vector3 middle{}; // m
+    double value = 0.0;
+};
+
+/// A module that asked an environment.
+struct SensedModule {
+    std::uint64_t position = 0; // index in the word
+    SensePlace place;
+    std::span<const float> answer; // of SensedPart::answers
+};
+
+struct SensedPart {
+    std::string name;
+    EnvironmentKind kind = EnvironmentKind::Shadow;
+    double cell = 0.0; // edge of a voxel, m; 0: no voxels
+    std::vector<SensedModule> modules;
+    std::vector<float> answers;
+    std::vector<SensedVoxel> voxels; // that hold a place or an area; by x, y, z
+    std::vector<Vector3> markers;    // that are left; of kind Space
+};
+
+struct SensedPlant {
+    std::uint32_t generation = 0;  // of the last word that was sensed
+    bool has_sensed = false;       // whether any word was
+    std::vector<SensedPart> parts; // by index in Bytecode::environments
+};
+
+/// Derives the grammar. Uses `file`, `generations` and `seed` of the options.
+[[nodiscard]] Outcome<SensedPlant>
+sense_plant(const PlantOptions& options, const Grammar& grammar, const Project& project);
+
+} // namespace lsys

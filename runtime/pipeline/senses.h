@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: MIT
+// PlantSenses: what the sense modules of a grammar need (docs/language.md section 13): the meshes
+// and pictures that its environments name, the sizes of its objects, and the programs that answer.
+// Read once per grammar; each derivation then has senses of its own.
+#pragma once
+
+#include "grammar/base/outcome.h"
+#include "runtime/environment/word_sense.h"
+#include "runtime/pipeline/grammar.h"
+#include "runtime/pipeline/project.h"
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace lsys {
+
+struct PlantSenses {
+    std::vector<EnvironmentFiles> files; // by index in Bytecode::environments
+    SenseOptions options;                // without `files`
+
+    /// The senses of a derivation with `bytecode`; null if it has no sense modules. The result uses
+    /// this object and the bytecode.
+    [[nodiscard]] std::unique_ptr<EnvironmentSense> make(const Bytecode& bytecode) const;
+};
+
+/// Reads the files of the environments, whose paths are absolute or relative to `grammar_file`.
+/// Stop::Diagnosed: a file is missing or unusable, or no program is given for an environment of
+/// kind Program.
+[[nodiscard]] Outcome<PlantSenses>
+read_senses(const std::string& grammar_file, const Grammar& grammar, const Project& project);
+
+} // namespace lsys

@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: MIT
+// The state of a SensingTurtle. The walk over a word is in sensing_turtle.cpp, the operations are in
+// sensing_operations.cpp.
+#pragma once
+
+#include "runtime/base/exact_functions.h"
+#include "runtime/derive/interpretation.h"
+#include "runtime/turtle/impl/actions.h"
+#include "runtime/turtle/impl/sensing_polygons.h"
+#include "runtime/turtle/impl/sensing_pose.h"
+#include "runtime/turtle/sensing_turtle.h"
+
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace lsys {
+
+enum class SensingStep : std::uint8_t {
+    NoEffect,
+    Yaw, // by a constant angle
+    Pitch,
+    Roll,
+    Forward, // without tropism
+    Save,
+    Restore,
+    Sense,
+    Other, // State::execute()
+};
+
+/// A code of a word with its constants.
+struct SensingAction {
+    SensingStep step = SensingStep::Other;
+    std::uint8_t given = 0;           // number of arguments
+    std::uint32_t stored = 0;         // number of parameters in the word
+    const float* constants = nullptr; // arguments, if the word stores none
+    ExactSineCosine turn;             // of a constant angle; signed
+};
+
+/// What `[` saves.
+struct SensingBrush {
+    SensingPose pose;
+    float step = 0.0F;           // m
+    float angle = 0.0F;          // degrees
+    float width = 0.0F;          // m, or radius / length (TurtleTraits::width_is_relative)
+    ExactSineCosine turn;        // of `angle`
+    double second_heading = 0.0; // degrees from the first heading to the left
+};
+
+/// The last command read from a word of L3D, executed when the text of its parameter is complete.
+struct PendingSensing {
+    bool is_set = false;
+    bool in_parameter = false;
+    Code code = 0;
+    std::uint8_t given = 0;
+    std::array<float, kTurtleArguments> arguments{};
+    std::string text;
+};
+
+struct SensingTurtle::State {
+    State(const Bytecode& program, SensingOptions wanted);
+
+    /// Returns to the start.
+    void begin();
+    std::optional<Stop> walk(const Word& word, std::uint32_t age);
+    template <typename C>
+    std::optional<Stop> walk_plain(std::span<const C> codes, const float* parameters);
+    template <typename C>
+    std::optional<Stop> walk_interpreted(std::span<const C> codes, const Word& word);
+    /// Walks over modules. `origins`: of interpreted modules, Origin::place is an index of the
+    /// piece of the word that is interpreted; else null. Returns false after a Stop.
+    template <typename C>
+    bool run(std::span<const C> codes, const float* parameters, const Origin* origins);
+    template <typename C>
+    bool run_text(std::span<const C> codes, const float* parameters, const Origin* origins);
+    /// Executes an action that is not quick. Returns false after a Stop.
+    bool execute(const Action& action, std::uint8_t given, const float* arguments);
+    bool take_character(Code code, const float* arguments);
+    bool execute_pending();
+
+    /// Reports the sense modules of the piece up to index `index`.
+    void report_up_to(std::uint64_t index);
+    void forward(float length, bool adds_corners);
+    void move(float length, bool adds_corners);
+    void secondary(const Action& action, std::uint8_t given, const float* arguments);
+    void turn_by(std::uint8_t given, const float* arguments);
+    void turn_left(double degrees);
+    void half_turn_snapped();
+    void set_angle(float angle);
+    void place(const Action& action, std::uint8_t given, const float* arguments);
+    bool save();
+    bool restore();
+    bool close_polygon();
+    bool unbalanced();
+    bool stop(Stop why) {
+        stopped = why;
+        return false;
+    }
+
+    const Bytecode& bytecode;
+    SensingOptions options;
+    ActionTable table;
+    std::vector<SensingAction> actions; // by code
+    std::vector<double> areas;          // by code, of an object of size 1
+    SensingBrush now;
+    std::vector<SensingBrush> stack;
+    SensingPolygons polygons;
+    std::vector<SenseModule> waiting; // sense modules of the piece that is interpreted
+    std::size_t reported = 0;         // number of them that have been reported
+    PendingSensing pending;
+    SenseSink* sink = nullptr;
+    std::uint32_t age = 0;
+    std::uint64_t position = 0; // index of the current module; in the word that is interpreted
+    Code code = 0;              // of the current module
+    std::uint64_t walked_parameters = 0; // parameters of the modules before the current piece
+    std::uint64_t first_of_piece = 0;    // index in the word of the piece that is interpreted
+    std::optional<Stop> stopped;
+    RuntimeError error;
+    bool interprets = false;
+    bool has_second_heading = false;
+};
+
+} // namespace lsys

@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: MIT
+// Measures environments of kinds Shadow and Sky, and compares Shadow with a hand-written program for
+// the same cloud (tests/bench/limits.h), in one run on one machine. Values are medians in
+// milliseconds. Asserts nothing about time.
+#include "runtime/base/workers.h"
+#include "runtime/environment/environment.h"
+#include "tests/bench/limits.h"
+#include "tests/bench/measure.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <cstdint>
+#include <cstdlib>
+#include <functional>
+#include <memory>
+#include <random>
+#include <string>
+#include <vector>
+
+namespace {
+
+using namespace lsys;
+using bench::fail;
+using bench::median;
+using bench::seconds;
+
+constexpr int kRuns = 7;
+
+double milliseconds(const std::function<void()>& work) {
+    std::vector<double> times;
+    for (int i = 0; i < kRuns; ++i) {
+        times.push_back(1000.0 * seconds(work));
+    }
+    return median(times);
+}
+
+/// Points that are spread evenly over a ball.
+std::vector<SensePlace> ball(std::size_t count, double radius) {
+    std::mt19937_64 engine(1);
+    const auto coordinate = [&] {
+        return radius * (static_cast<double>(engine() >> 11) * 0x1p-52 - 1.0);
+    };
+    std::vector<SensePlace> places;
+    while (places.size() < count) {
+        const Vector3 at{coordinate(), coordinate(), coordinate()};
+        if (at[0] * at[0] + at[1] * at[1] + at[2] * at[2] < radius * radius) {
+            places.push_back({at, {0.0, 1.0, 0.0}, {0.0, 0.0, 1.0}});
+        }
+    }
+    return places;
+}
+
+double ask(const std::function<std::unique_ptr<Environment>(const EnvironmentContext&)>& make,
+           const SensedWord& word,
+           std::vector<float>& answers,
+           std::uint32_t threads) {
+    Workers workers(threads);
+    workers.start();
+    EnvironmentContext context;
+    context.workers = &workers;
+    const std::unique_ptr<Environment> environment = make(context);
+    std::vector<std::uint32_t> sizes;
+    return milliseconds([&] {
+        if (environment->answer(word, answers, sizes)) {
+            fail("an environment does not answer");
+        }
+    });
+}
+
+void measure_shadow(const char* name, const std::vector<SensePlace>& places, float cell) {
+    BytecodeEnvironment declared;
+    declared.cell = cell;
+    SensedWord word;
+    word.places = places;
+    std::vector<float> answers(4 * places.size());
+    const auto make = [&](const EnvironmentContext& context) {
+        return make_shadow(declared, context);
+    };
+    std::vector<double> positions;
+    for (const SensePlace& place : places) {
+        positions.insert(positions.end(), place.position.begin(), place.position.end());
+    }
+    std::vector<float> limit_answers(places.size());
+    double limit = 0.0;
+    if (bench::shadow_limit(positions, static_cast<double>(cell), limit_answers)) {
+        limit = milliseconds([&] {
+            static_cast<void>(
+                bench::shadow_limit(positions, static_cast<double>(cell), limit_answers));
+        });
+    }
+    const double one = ask(make, word, answers, 1);
+    const double two = ask(make, word, answers, 2);
+    for (std::size_t i = 0; limit > 0.0 && i < places.size(); ++i) {
+        if (std::abs(answers[4 * i] - limit_answers[i]) > 1e-5F) {
+            fail("the limit program answers otherwise");
+        }
+    }
+    fmt::print("{:<26}{:>10}{:>12.1f}{:>12.1f}{:>12.1f}\n", name, places.size(), limit, one, two);
+}
+
+void measure_sky(const char* name, std::size_t count, float cell) {
+    BytecodeEnvironment declared;
+    declared.kind = EnvironmentKind::Sky;
+    declared.cell = cell;
+    const std::vector<SensePlace> places = ball(count, 10.0);
+    std::vector<SensedOrgan> organs;
+    for (const SensePlace& place : places) {
+        organs.push_back({place.position, 0.002});
+    }
+    SensedWord word;
+    word.places = places;
+    word.organs = organs;
+    std::vector<float> answers(count);
+    const auto make = [&](const EnvironmentContext& context) {
+        return make_sky(declared, context);
+    };
+    const double one = ask(make, word, answers, 1);
+    const double two = ask(make, word, answers, 2);
+    fmt::print("{:<26}{:>10}{:>12}{:>12.1f}{:>12.1f}\n", name, count, "", one, two);
+}
+
+} // namespace
+
+int main() {
+    fmt::print("Environments, ms. The limit program gives the exposure of shadow alone, by one "
+               "thread, if all voxels fit into memory.\n\n{:<26}{:>10}{:>12}{:>12}{:>12}\n",
+               "", "places", "limit", "one thread", "two threads");
+    measure_shadow("shadow, 20 m, cell 0.5", ball(1'000'000, 10.0), 0.5F);
+    measure_shadow("shadow, 20 m, cell 0.1", ball(1'000'000, 10.0), 0.1F);
+    measure_shadow("shadow, 20 m, cell 0.03", ball(1'000'000, 10.0), 0.03F);
+    measure_shadow("shadow, 1 km, cell 0.001", ball(1'000'000, 500.0), 0.001F);
+    measure_sky("sky, 20 m, cell 0.5", 100'000, 0.5F);
+    measure_sky("sky, 20 m, cell 0.05", 10'000, 0.05F);
+    return 0;
+}

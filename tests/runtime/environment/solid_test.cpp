@@ -1,0 +1,465 @@
+// SPDX-License-Identifier: MIT
+// Environments of kind Solid: closed forms, and all triangles one after the other.
+#include "runtime/environment/closed_mesh.h"
+#include "runtime/environment/environment.h"
+#include "tests/runtime/environment/clouds.h"
+#include "tests/runtime/environment/solids.h"
+
+#include <catch2/catch.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace lsys {
+
+namespace {
+
+using environments::cube_mesh;
+using environments::random_places;
+using environments::same_bits;
+using environments::sphere_mesh;
+using environments::TestRandom;
+
+struct Solid {
+    explicit Solid(std::uint32_t threads) : workers(threads), context{&workers, nullptr, ~0ULL} {
+        declared.kind = EnvironmentKind::Solid;
+    }
+
+    void add_plane(float a, float b, float c, float d) {
+        EnvironmentSurface surface;
+        surface.plane = {a, b, c, d};
+        declared.surfaces.push_back(surface);
+    }
+
+    void add_mesh(EnvironmentMesh mesh) {
+        EnvironmentSurface surface;
+        surface.path = "mesh.obj";
+        declared.surfaces.push_back(surface);
+        files.meshes.push_back(std::move(mesh));
+    }
+
+    [[nodiscard]] std::optional<EnvironmentFailure> begin() {
+        environment = make_solid(declared, files, context);
+        return environment->begin(0);
+    }
+
+    [[nodiscard]] std::vector<float> answers(const std::vector<SensePlace>& places) {
+        REQUIRE_FALSE(begin().has_value());
+        return environments::answers_of(*environment, places);
+    }
+
+    [[nodiscard]] std::vector<float> answer(const Vector3& place) {
+        std::vector<SensePlace> places(1);
+        places[0].position = place;
+        return answers(places);
+    }
+
+    BytecodeEnvironment declared;
+    EnvironmentFiles files;
+    Workers workers;
+    EnvironmentContext context;
+    std::unique_ptr<Environment> environment;
+};
+
+Vector3 difference(const Vector3& a, const Vector3& b) {
+    return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
+}
+
+double product(const Vector3& a, const Vector3& b) {
+    return (a[0] * b[0] + a[1] * b[1]) + a[2] * b[2];
+}
+
+Vector3 vector_product(const Vector3& a, const Vector3& b) {
+    return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+
+struct Way {
+    Vector3 to{};
+    double squared = std::numeric_limits<double>::infinity();
+};
+
+/// The way from `p` to the nearest of the foot on the triangle and the three sides, in the order
+/// that runtime/environment/impl/triangle_distance.h defines.
+Way way_to(const std::array<Vector3, 3>& corners, const Vector3& p) {
+    std::vector<Vector3> candidates;
+    const Vector3 u = difference(corners[1], corners[0]);
+    const Vector3 v = difference(corners[2], corners[0]);
+    const Vector3 w = difference(p, corners[0]);
+    const Vector3 n = vector_product(u, v);
+    if (const double s = product(n, n); s > 0.0) {
+        const double beta = product(vector_product(w, v), n) / s;
+        const double gamma = product(vector_product(u, w), n) / s;
+        if (beta >= 0.0 && gamma >= 0.0 && beta + gamma <= 1.0) {
+            Vector3 foot;
+            for (std::size_t axis = 0; axis < 3; ++axis) {
+                foot[axis] = (corners[0][axis] + u[axis] * beta) + v[axis] * gamma;
+            }
+            candidates.push_back(foot);
+        }
+    }
+    for (std::size_t i = 0; i < 3; ++i) {
+        const Vector3& from = corners[i];
+        const Vector3 side = difference(corners[(i + 1) % 3], from);
+        const double length = product(side, side);
+        const double along = length > 0.0 ? product(difference(p, from), side) / length : 0.0;
+        const double t = std::clamp(along, 0.0, 1.0);
+        candidates.push_back({from[0] + side[0] * t, from[1] + side[1] * t, from[2] + side[2] * t});
+    }
+    Way nearest;
+    for (Vector3 point : candidates) {
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            const auto [low, high] =
+                std::minmax({corners[0][axis], corners[1][axis], corners[2][axis]});
+            point[axis] = std::clamp(point[axis], low, high);
+        }
+        const Vector3 to = difference(point, p);
+        if (product(to, to) < nearest.squared) {
+            nearest = {to, product(to, to)};
+        }
+    }
+    return nearest;
+}
+
+/// The answer at a place without its sign.
+std::vector<float> direct_answer(const std::vector<EnvironmentMesh>& meshes, const Vector3& place) {
+    Way nearest;
+    for (const EnvironmentMesh& mesh : meshes) {
+        for (const std::array<std::uint32_t, 3>& corners : mesh.triangles) {
+            const std::array<Vector3, 3> triangle{
+                mesh.vertices[corners[0]], mesh.vertices[corners[1]], mesh.vertices[corners[2]]};
+            if (vector_product(difference(triangle[1], triangle[0]),
+                               difference(triangle[2], triangle[0])) == Vector3{}) {
+                continue;
+            }
+            const Way way = way_to(triangle, place);
+            if (way.squared < nearest.squared) {
+                nearest = way;
+            }
+        }
+    }
+    const double distance = std::sqrt(nearest.squared);
+    std::vector<float> answer{static_cast<float>(distance)};
+    for (const double component : nearest.to) {
+        answer.push_back(distance > 0.0 ? static_cast<float>(component / distance) + 0.0F : 0.0F);
+    }
+    return answer;
+}
+
+/// Triangles at random: large, small, slivers, without area, twice the same.
+EnvironmentMesh random_mesh(TestRandom& random, std::uint32_t count) {
+    EnvironmentMesh mesh;
+    for (std::uint32_t i = 0; i < count; ++i) {
+        const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
+        const Vector3 middle = random.in_cube(2.0);
+        const double size = std::ldexp(1.0, -static_cast<int>(random.below(8)));
+        for (std::uint32_t corner = 0; corner < 3; ++corner) {
+            const Vector3 offset = random.in_cube(size);
+            mesh.vertices.push_back(
+                {middle[0] + offset[0], middle[1] + offset[1], middle[2] + offset[2]});
+        }
+        const std::uint32_t kind = random.below(6);
+        Vector3& last = mesh.vertices.back();
+        if (kind == 0) { // a sliver, or without area
+            for (std::size_t axis = 0; axis < 3; ++axis) {
+                last[axis] = 0.5 * (mesh.vertices[first][axis] + mesh.vertices[first + 1][axis]);
+            }
+        } else if (kind == 1) {
+            last = mesh.vertices[first];
+        } else if (kind == 2) { // on a grid, in a plane along an axis
+            for (std::uint32_t corner = 0; corner < 3; ++corner) {
+                for (double& coordinate : mesh.vertices[first + corner]) {
+                    coordinate = std::round(2.0 * coordinate) / 2.0;
+                }
+                mesh.vertices[first + corner][1] = 0.5;
+            }
+        }
+        mesh.triangles.push_back({first, first + 1, first + 2});
+        if (random.below(8) == 0) {
+            mesh.triangles.push_back({first + 2, first, first + 1});
+        }
+    }
+    // One triangle that is none of the above, so that the mesh has an area.
+    const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
+    mesh.vertices.insert(mesh.vertices.end(), {{0, 0, 0}, {1, 0, 0}, {0, 1, 0.25}});
+    mesh.triangles.push_back({first, first + 1, first + 2});
+    return mesh;
+}
+
+} // namespace
+
+TEST_CASE("distances to meshes are those of all triangles one after the other, bit by bit") {
+    for (std::uint32_t seed = 0; seed < 1000; ++seed) {
+        TestRandom random(seed);
+        const std::vector<SensePlace> places = random_places(random, 30, 2.5);
+        std::vector<EnvironmentMesh> meshes;
+        const std::uint32_t mesh_count = 1 + random.below(2);
+        for (std::uint32_t i = 0; i < mesh_count; ++i) {
+            meshes.push_back(random_mesh(random, 1 + random.below(40)));
+        }
+        std::vector<float> expected;
+        for (const SensePlace& place : places) {
+            const std::vector<float> answer = direct_answer(meshes, place.position);
+            expected.insert(expected.end(), answer.begin(), answer.end());
+        }
+        INFO("seed " << seed);
+        for (const std::uint32_t threads : {1U, 2U, 5U}) {
+            Solid solid(threads);
+            for (const EnvironmentMesh& mesh : meshes) {
+                solid.add_mesh(mesh);
+            }
+            REQUIRE(same_bits(solid.answers(places), expected));
+        }
+    }
+}
+
+TEST_CASE("a plane is solid on its negative side") {
+    Solid solid(1);
+    solid.add_plane(0.0F, 2.0F, 0.0F, -2.0F); // y = 1
+    CHECK(solid.answer({5.0, 4.0, 3.0}) == std::vector<float>{3, 0, -1, 0});
+    CHECK(solid.answer({5.0, -1.0, 3.0}) == std::vector<float>{-2, 0, 1, 0});
+    CHECK(solid.answer({5.0, 1.0, 3.0}) == std::vector<float>{0, 0, 0, 0});
+}
+
+TEST_CASE("ties go to the first plane, then to meshes in the order of the statement") {
+    Solid solid(1);
+    SECTION("planes") {
+        solid.add_plane(1.0F, 0.0F, 0.0F, 1.0F);
+        solid.add_plane(0.0F, 1.0F, 0.0F, 1.0F);
+        CHECK(solid.answer({1.0, 1.0, 0.0}) == std::vector<float>{2, -1, 0, 0});
+    }
+    SECTION("plane and mesh") {
+        solid.add_plane(1.0F, 0.0F, 0.0F, 2.0F);
+        solid.add_mesh(cube_mesh({2.0, -1.0, -1.0}, 2.0));
+        CHECK(solid.answer({0.0, 0.0, 0.0}) == std::vector<float>{2, -1, 0, 0});
+    }
+    SECTION("meshes") {
+        solid.add_mesh(cube_mesh({-3.0, -1.0, -1.0}, 2.0));
+        solid.add_mesh(cube_mesh({1.0, -1.0, -1.0}, 2.0));
+        CHECK(solid.answer({0.0, 0.0, 0.0}) == std::vector<float>{1, -1, 0, 0});
+    }
+    SECTION("triangles") {
+        solid.add_mesh(cube_mesh({-1.0, -1.0, -1.0}, 2.0));
+        CHECK(solid.answer({0.0, 0.0, 0.0}) == std::vector<float>{-1, -1, 0, 0});
+    }
+}
+
+TEST_CASE("a place is negative inside any solid, though another surface is nearer") {
+    Solid solid(1);
+    solid.add_mesh(cube_mesh({-5.0, -5.0, -5.0}, 10.0));
+    solid.add_mesh(cube_mesh({1.0, -1.0, -1.0}, 2.0));
+    CHECK(solid.answer({0.0, 0.0, 0.0}) == std::vector<float>{-1, 1, 0, 0});
+}
+
+TEST_CASE("the distance to a cube has its closed form, its sign everywhere") {
+    TestRandom random(3);
+    Solid solid(2);
+    solid.add_mesh(cube_mesh({-1.0, -1.0, -1.0}, 2.0));
+    std::vector<SensePlace> places(20'000);
+    for (SensePlace& place : places) {
+        place.position = random.in_cube(1.5);
+        for (double& coordinate : place.position) {
+            if (random.below(3) == 0) { // in planes of edges and of diagonals of faces
+                coordinate = std::round(4.0 * coordinate) / 4.0;
+            }
+        }
+    }
+    const std::vector<float> answers = solid.answers(places);
+    for (std::size_t i = 0; i < places.size(); ++i) {
+        double outside_squared = 0.0;
+        double largest = -1.0;
+        for (const double coordinate : places[i].position) {
+            const double apart = std::abs(coordinate) - 1.0;
+            outside_squared += std::max(apart, 0.0) * std::max(apart, 0.0);
+            largest = std::max(largest, apart);
+        }
+        const double expected = largest < 0.0 ? largest : std::sqrt(outside_squared);
+        REQUIRE(static_cast<double>(answers[4 * i]) == Approx(expected).margin(1e-6));
+        REQUIRE((answers[4 * i] < 0.0F) == (largest < 0.0));
+    }
+}
+
+TEST_CASE("the distance to a sphere of triangles is near that to the sphere") {
+    TestRandom random(4);
+    for (const bool is_turned : {false, true}) {
+        Solid solid(2);
+        EnvironmentMesh mesh = sphere_mesh({1.0, 2.0, 3.0}, 2.0, 64);
+        for (std::array<std::uint32_t, 3>& corners : mesh.triangles) {
+            if (is_turned) {
+                std::swap(corners[1], corners[2]);
+            }
+        }
+        solid.add_mesh(mesh);
+        std::vector<SensePlace> places(3000);
+        for (SensePlace& place : places) {
+            const Vector3 offset = random.in_cube(3.0);
+            place.position = {1.0 + offset[0], 2.0 + offset[1], 3.0 + offset[2]};
+        }
+        const std::vector<float> answers = solid.answers(places);
+        for (std::size_t i = 0; i < places.size(); ++i) {
+            const Vector3 offset = difference(places[i].position, {1.0, 2.0, 3.0});
+            const double expected = std::sqrt(product(offset, offset)) - 2.0;
+            // The middle of a quad is 2 (1 - cos(pi / 128)^2) = 0.0012 inside the sphere.
+            REQUIRE(static_cast<double>(answers[4 * i]) == Approx(expected).margin(0.003));
+            double cosine = 0.0; // of the direction and the way to the sphere
+            for (std::size_t axis = 0; axis < 3; ++axis) {
+                cosine += static_cast<double>(answers[4 * i + 1 + axis]) * offset[axis];
+            }
+            if (std::abs(expected) > 0.1 && std::abs(expected + 2.0) > 0.2) {
+                REQUIRE(cosine * expected < 0.0);
+            }
+        }
+    }
+}
+
+TEST_CASE("the sign is right in line with vertices and edges, and next to the surface") {
+    // The ray of every place meets vertices or edges.
+    Solid solid(1);
+    const EnvironmentMesh mesh = sphere_mesh({0.0, 0.0, 0.0}, 1.0, 16);
+    solid.add_mesh(mesh);
+    std::vector<SensePlace> places;
+    std::vector<bool> is_inside;
+    for (const Vector3& vertex : mesh.vertices) {
+        for (const double along : {0.0, 0.5, 1.0 - 1e-12, 1.0 + 1e-12, 2.0}) {
+            SensePlace place;
+            place.position = {vertex[0] * along, vertex[1] * along, vertex[2] * along};
+            places.push_back(place);
+            is_inside.push_back(along < 1.0);
+            // In the height and depth of the vertex, out of the sphere to the left.
+            place.position = {vertex[0] - 2.5, vertex[1], vertex[2]};
+            places.push_back(place);
+            is_inside.push_back(false);
+        }
+    }
+    const std::vector<float> answers = solid.answers(places);
+    for (std::size_t i = 0; i < places.size(); ++i) {
+        INFO(i << " " << answers[4 * i]);
+        REQUIRE((answers[4 * i] < 0.0F) == is_inside[i]);
+    }
+}
+
+TEST_CASE("corners at one place are one vertex") {
+    EnvironmentMesh mesh;
+    const EnvironmentMesh cube = cube_mesh({0.0, 0.0, 0.0}, 1.0);
+    for (const std::array<std::uint32_t, 3>& corners : cube.triangles) {
+        const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
+        for (const std::uint32_t corner : corners) {
+            Vector3 vertex = cube.vertices[corner];
+            vertex[0] = vertex[0] == 0.0 && first % 2 == 1 ? -0.0 : vertex[0];
+            mesh.vertices.push_back(vertex);
+        }
+        mesh.triangles.push_back({first, first + 1, first + 2});
+    }
+    CHECK(mesh_closure(mesh).closed);
+    Solid solid(1);
+    solid.add_mesh(mesh);
+    CHECK(solid.answer({0.5, 0.5, 0.25})[0] == -0.25F);
+}
+
+TEST_CASE("an open mesh is positive on both sides") {
+    Solid solid(1);
+    SECTION("hole") {
+        EnvironmentMesh mesh = cube_mesh({-1.0, -1.0, -1.0}, 2.0);
+        mesh.triangles.pop_back();
+        solid.add_mesh(mesh);
+    }
+    SECTION("a face twice") {
+        EnvironmentMesh mesh = cube_mesh({-1.0, -1.0, -1.0}, 2.0);
+        mesh.triangles.push_back(mesh.triangles.front());
+        solid.add_mesh(mesh);
+    }
+    CHECK(solid.answer({-0.25, 0.0, 0.0}) == std::vector<float>{0.75, -1, 0, 0});
+    CHECK(solid.answer({-1.5, 0.0, 0.0}) == std::vector<float>{0.5, 1, 0, 0});
+}
+
+TEST_CASE("winding numbers: a cavity is outside, overlaps are inside") {
+    Solid solid(1);
+    EnvironmentMesh mesh = cube_mesh({-2.0, -2.0, -2.0}, 4.0);
+    const auto add = [&](const EnvironmentMesh& other, bool turned) {
+        const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
+        mesh.vertices.insert(mesh.vertices.end(), other.vertices.begin(), other.vertices.end());
+        for (const std::array<std::uint32_t, 3>& c : other.triangles) {
+            mesh.triangles.push_back(
+                {first + c[0], first + c[turned ? 2 : 1], first + c[turned ? 1 : 2]});
+        }
+    };
+    SECTION("cavity") {
+        add(cube_mesh({-1.0, -1.0, -1.0}, 2.0), true);
+        solid.add_mesh(mesh);
+        CHECK(solid.answer({0.0, 0.0, 0.0})[0] == 1.0F);
+        CHECK(solid.answer({1.25, 0.0, 0.0})[0] == -0.25F);
+    }
+    SECTION("overlap") {
+        add(cube_mesh({-1.0, -1.0, -1.0}, 4.0), false);
+        solid.add_mesh(mesh);
+        CHECK(solid.answer({0.0, 0.0, 0.0})[0] == -1.0F);
+        CHECK(solid.answer({2.5, 0.0, 0.0})[0] == -0.5F);
+    }
+}
+
+TEST_CASE("faces of a closed mesh may face either side, one by one") {
+    EnvironmentMesh mesh = sphere_mesh({0.0, 0.0, 0.0}, 1.0, 8);
+    TestRandom random(9);
+    for (std::array<std::uint32_t, 3>& corners : mesh.triangles) {
+        if (random.below(2) == 0) {
+            std::swap(corners[1], corners[2]);
+        }
+    }
+    const MeshClosure closure = mesh_closure(mesh);
+    CHECK(closure.closed);
+    CHECK(closure.orientable);
+    Solid solid(1);
+    solid.add_mesh(mesh);
+    CHECK(solid.answer({0.01, 0.02, 0.03})[0] < 0.0F);
+    CHECK(solid.answer({0.3, -0.4, 0.5})[0] < 0.0F);
+    CHECK(solid.answer({0.8, 0.8, 0.8})[0] > 0.0F);
+}
+
+TEST_CASE("triangles without area are no surface, and triangles with two equal corners no edge") {
+    EnvironmentMesh mesh = cube_mesh({-1.0, -1.0, -1.0}, 2.0);
+    mesh.vertices.push_back({0.0, 0.5, 0.0});
+    mesh.triangles.push_back({8, 8, 8});
+    mesh.triangles.push_back({0, 8, 8});
+    CHECK(mesh_closure(mesh).closed);
+    Solid solid(1);
+    solid.add_mesh(mesh);
+    CHECK(solid.answer({0.0, 0.5, 0.0}) == std::vector<float>{-0.5, 0, 1, 0});
+}
+
+TEST_CASE("a mesh without area or with a vertex that is not finite is refused") {
+    Solid solid(1);
+    EnvironmentMesh mesh;
+    mesh.vertices = {{0.0, 0.0, 0.0}, {1.0, 1.0, 1.0}, {2.0, 2.0, 2.0}};
+    mesh.triangles = {{0, 1, 2}};
+    SECTION("no area") {
+        CHECK_FALSE(mesh_closure(mesh).closed);
+    }
+    SECTION("not finite") {
+        mesh.vertices[1][2] = std::numeric_limits<double>::quiet_NaN();
+    }
+    solid.add_mesh(mesh);
+    const auto failure = solid.begin();
+    REQUIRE(failure.has_value());
+    CHECK(failure->stop == Stop::Diagnosed);
+}
+
+TEST_CASE("a mesh beyond the memory is refused, and building its tree can be cancelled") {
+    Solid solid(2);
+    solid.add_mesh(sphere_mesh({0.0, 0.0, 0.0}, 1.0, 100));
+    const std::atomic<bool> cancelled{true};
+    SECTION("limit") {
+        solid.context.max_bytes = 1000;
+        const auto failure = solid.begin();
+        REQUIRE(failure.has_value());
+        CHECK(failure->stop == Stop::Limit);
+        CHECK(failure->bytes > 1000);
+    }
+    SECTION("cancelled") {
+        solid.context.cancelled = &cancelled;
+        const auto failure = solid.begin();
+        REQUIRE(failure.has_value());
+        CHECK(failure->stop == Stop::Cancelled);
+    }
+}
+
+} // namespace lsys
