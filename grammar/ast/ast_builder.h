@@ -190,7 +190,7 @@ private:
 
     std::array<NameId, 128> one_character_names_; // kUnset until interned; index: the character
     struct CachedWord {
-        std::uint64_t key = 0;
+        std::uint64_t key = 0; // its characters
         NameId name = kNoName;
     };
     std::vector<CachedWord> word_cache_; // recent names of up to eight characters

@@ -67,19 +67,19 @@ struct DumpCommand {
     MeshOptions mesh;
     std::optional<float> height; // m, of the plant
     std::optional<EnvironmentFormat> environment_format;
-    bool all = false;
-    bool count = false;
-    bool stream = false;
+    bool all = false;                   // --all: every generation
+    bool count = false;                 // --count: the number of modules in place of the word
+    bool stream = false;                // --stream: derive without storing words
     std::optional<float> rho;           // --rho, for --stage instanced, heroes and cache
     std::optional<std::uint64_t> first; // for --stage instanced: first form listed
     std::optional<std::uint64_t> rows;  // for --stage instanced: number of forms per production
     std::optional<std::uint32_t> heroes;
     std::optional<std::uint32_t> cache_cap;
-    std::optional<float> tolerance;
-    bool origins = false;
+    std::optional<float> tolerance; // CacheOptions::tolerance
+    bool origins = false;           // --origins: the place in the grammar that wrote each module
     std::optional<std::uint32_t> steps; // number of generations to derive in this run
-    std::string save_state;
-    std::string from;
+    std::string save_state;             // file of the saved derivation; empty: none
+    std::string from; // --from: file of a saved derivation to continue; empty: none
 };
 
 struct ExportCommand : PlantFileOptions {
@@ -165,8 +165,8 @@ struct TraceCommand {
     std::string module;
     std::string name; // module name of --all
     std::uint64_t rows = 10;
-    bool written = false;
-    bool back = false;
+    bool written = false;              // --written: trace the step that wrote the module
+    bool back = false;                 // --back: follow a module back to the axiom
     std::optional<TraceFormat> format; // default: text; JSON with --message-format json
 };
 

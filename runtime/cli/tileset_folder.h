@@ -77,7 +77,7 @@ private:
     /// Files of one kind with consecutive numbers.
     struct Section {
         Kind kind = Kind::Shared;
-        std::uint32_t level = 0;
+        std::uint32_t level = 0;   // of the quadtree; 0 for Shared
         std::uint32_t columns = 0; // tiles of a row
         std::uint64_t end = 0;     // one more than the number of its last file
     };

@@ -79,8 +79,8 @@ void join_buffers(std::span<MeshDocument* const> documents, std::string& file);
 
 /// The properties of a tree of a tile.
 struct TileTree {
-    float height = 0.0F; // m
-    std::uint32_t number = 0;
+    float height = 0.0F;      // m
+    std::uint32_t number = 0; // Tree::number
     std::uint16_t species = 0;
     std::uint16_t age = 0; // years; 0: full-grown
 };
@@ -133,7 +133,7 @@ public:
 private:
     friend class TileWriter;
     struct Group {
-        std::size_t part = 0;
+        std::size_t part = 0; // index of the part in parts_
         std::vector<TileInstance> instances;
     };
 

@@ -26,8 +26,8 @@ namespace lsys {
 /// Place where another instance continues, relative to the entry of the instance with the exit.
 struct InstanceExit {
     glm::quat rotation{1.0F, 0.0F, 0.0F, 0.0F};
-    glm::vec3 position{}; // m
-    std::uint32_t slot = 0;
+    glm::vec3 position{};    // m
+    std::uint32_t slot = 0;  // of the instances that can continue here
     std::uint32_t order = 0; // brackets between entry and exit
 };
 
@@ -45,8 +45,8 @@ struct InstanceFork {
 };
 
 struct Instance {
-    std::uint32_t slot = 0;
-    std::uint32_t hero = 0;
+    std::uint32_t slot = 0;       // index in InstanceCache::slots
+    std::uint32_t hero = 0;       // number of the hero that it is a part of
     std::uint32_t first_exit = 0; // index in InstanceCache::exits
     std::uint32_t exit_count = 0;
     std::uint32_t first_range = 0; // index in InstanceCache::ranges

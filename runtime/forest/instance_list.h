@@ -32,8 +32,8 @@ struct InstanceGroup {
     std::uint32_t species = 0;
     std::uint32_t stage = 0;
     std::uint32_t instance = 0; // index in InstanceCache::instances
-    std::uint64_t first = 0;
-    std::uint64_t count = 0; // above 0
+    std::uint64_t first = 0;    // index in InstanceList::instances
+    std::uint64_t count = 0;    // above 0
 };
 
 struct InstanceList {

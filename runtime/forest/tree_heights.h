@@ -41,9 +41,9 @@ public:
 private:
     struct Part {
         std::uint32_t instance = 0;
-        glm::dvec3 up{}; // the height of a point is its product with `up`, plus `offset`
-        double offset = 0.0;
-        double low = 0.0; // lowest and highest height of the box
+        glm::dvec3 up{};     // the height of a point is its product with `up`, plus `offset`
+        double offset = 0.0; // m
+        double low = 0.0;    // m, lowest and highest height of the box
         double high = 0.0;
     };
 

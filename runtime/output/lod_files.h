@@ -34,8 +34,8 @@ struct PlantExtent {
 struct LodFile {
     std::string name;
     std::uint64_t triangles = 0;
-    float pixels = 0.0F; // DetailLevel::pixels
-    double coverage = 0.0;
+    float pixels = 0.0F;   // DetailLevel::pixels
+    double coverage = 0.0; // CoarserMesh::coverage
 };
 /// The path of level `number`: `tree.LOD2.glb` for `tree.glb` and 2.
 [[nodiscard]] std::string lod_path(const std::string& path, std::size_t number);

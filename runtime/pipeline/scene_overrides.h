@@ -37,7 +37,7 @@ struct HeightRange {
 
 /// Values of one species.
 struct SpeciesOverrides {
-    std::optional<double> share;
+    std::optional<double> share; // PlacementSpecies::share
     std::optional<float> min_scale;
     std::optional<float> max_scale;  // raised to min_scale if it is less
     std::optional<float> min_height; // m; ignored for a species without a range of heights
@@ -56,7 +56,7 @@ struct SceneOverrides {
     std::optional<std::uint32_t> heroes;
     std::optional<float> rho;
     std::optional<std::uint32_t> cache_cap;
-    std::optional<float> tolerance;
+    std::optional<float> tolerance;      // CacheOptions::tolerance
     std::optional<float> season;         // SceneSpecies::season
     std::optional<HeightRange> height;   // for the trees of every species
     std::optional<double> variety;       // InstancingGoal::variety

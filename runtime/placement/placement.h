@@ -83,7 +83,7 @@ struct PlacementSpecies {
 };
 
 struct PlacementOptions {
-    std::uint64_t key = 0;
+    std::uint64_t key = 0; // of the forest: the seed of all random choices
     PlacementMethod method = PlacementMethod::Uniform;
     Region region;
     std::vector<PlacementSpecies> species; // indexed by Tree::species

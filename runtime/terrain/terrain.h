@@ -103,9 +103,9 @@ private:
     [[nodiscard]] std::array<double, 2> gradient(float x, float z) const;
 
     Region region_;
-    double base_ = 0.0;
-    double map_scale_ = 0.0; // m per grey value
-    double slope_step_ = 1.0;
+    double base_ = 0.0;       // m
+    double map_scale_ = 0.0;  // m per grey value
+    double slope_step_ = 1.0; // m
     std::vector<Octave> octaves_;
     std::optional<GreyMap> map_;
     HeightFilter filter_ = HeightFilter::Bilinear;

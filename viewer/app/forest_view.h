@@ -61,7 +61,7 @@ struct CacheStats {
     std::uint32_t heroes = 0;
     std::uint64_t keys = 0;     // pairs of a branch id and an age
     std::uint64_t branches = 0; // recorded branches, whole plants included
-    std::uint64_t hits = 0;     // hits, misses and dropped: sums over all InstanceSlots
+    std::uint64_t hits = 0;     // hits, misses and dropped: sums over the InstanceSlot of all keys
     std::uint64_t misses = 0;
     std::uint64_t dropped = 0;
     std::uint64_t bytes = 0; // InstanceCache::byte_count()

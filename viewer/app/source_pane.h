@@ -45,7 +45,7 @@ struct SourceRow {
     Kind kind = Kind::Line;
     std::uint32_t line = 1;
     std::uint32_t message = 0; // index in ShownSource::messages
-    std::uint32_t index = 0;
+    std::uint32_t index = 0;   // see Kind
 };
 
 class SourcePane {

@@ -51,8 +51,8 @@ private:
     const Forest& kinds_; // the species
     TreeSizer sizer_;
     DensityField field_;
-    double all_places_ = 0.0;
-    double halo_ = 0.0; // m, around a region: trees in it can be neighbours
+    double all_places_ = 0.0; // expected places in the whole region
+    double halo_ = 0.0;       // m, around a region: trees in it can be neighbours
 };
 
 } // namespace lsys::view

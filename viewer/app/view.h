@@ -154,7 +154,8 @@ public:
     [[nodiscard]] const Renderer& renderer() const { return *renderer_; }
 
 protected:
-    /// The request that describes `picked`; `describe` is empty if there is nothing to describe.
+    /// The request that describes `picked`; PickRequest::describe is empty if there is
+    /// nothing to describe.
     /// Precondition: `picked` is not PickedKind::Nothing.
     [[nodiscard]] virtual PickRequest request_for(const Picked& picked) const = 0;
     /// Takes the outcomes of picker_ and tracer_. Returns whether picked() or traced() changed.

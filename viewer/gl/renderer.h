@@ -39,7 +39,7 @@ struct Light {
     glm::vec3 horizon{0.78F, 0.86F, 0.95F};
     glm::vec3 ground{0.22F, 0.20F, 0.16F}; // ambient light from below
     float extinction = 0.0F;               // 1/m, of the air
-    float exposure = 0.8F;
+    float exposure = 0.8F;                 // factor of colours before tone mapping
 
     friend bool operator==(const Light&, const Light&) = default;
 };

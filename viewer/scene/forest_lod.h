@@ -279,9 +279,9 @@ private:
     /// A cell in view. `order` and `cell` sort cells at one distance in the same way wherever they
     /// are stored.
     struct VisibleCell {
-        float distance = 0.0F;
+        float distance = 0.0F; // m, from the eye
         std::uint64_t order = 0;
-        std::uint32_t cell = 0;
+        std::uint32_t cell = 0; // index in cells_
 
         friend auto operator<=>(const VisibleCell&, const VisibleCell&) = default;
     };
@@ -352,8 +352,8 @@ private:
     std::map<std::uint32_t, Tree> turned_; // trees of the forest whose yaw has changed
     std::vector<ForestCell> cells_;
     Bounds bounds_;
-    double cell_size_ = 1.0;
-    glm::vec2 cells_low_{}; // corner of the first cell
+    double cell_size_ = 1.0; // m, side of a cell
+    glm::vec2 cells_low_{};  // corner of the first cell
     std::uint64_t columns_ = 0;
     std::uint64_t rows_ = 0;
     AddedTrees added_;

@@ -45,7 +45,7 @@ public:
 
 private:
     SquareLayout layout_;
-    float tallest_;
+    float tallest_; // m, height of the tallest tree of the forest
     std::function<double(const Region& region)> expected_trees_;
     std::uint64_t max_bytes_;
 };

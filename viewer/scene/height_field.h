@@ -58,7 +58,7 @@ private:
     Region region_;
     std::uint32_t columns_;
     std::uint32_t rows_;
-    double step_x_;
+    double step_x_; // m between samples
     double step_z_;
     std::vector<float> heights_;
     std::vector<Level> levels_; // from a square per cell to one square

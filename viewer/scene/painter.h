@@ -96,7 +96,7 @@ public:
 
 private:
     static constexpr std::uint32_t kNone = 0xFFFFFFFFu;
-    /// Changes from `first` up to the first of the next stroke.
+    /// Changes from index `first` up to the first one of the next stroke.
     struct Stroke {
         std::size_t first = 0;
     };

@@ -36,9 +36,9 @@ struct TerrainPatch {
 struct HeightGrid {
     glm::ivec2 origin{}; // first texel, in cells of the level
     bool is_valid = false;
-    float lowest = 0.0F;
+    float lowest = 0.0F; // m
     float highest = 0.0F;
-    std::vector<float> heights; // in rows along X
+    std::vector<float> heights; // m, in rows along X
     /// Fraction of the ground that crowns hide, as heights; empty without GroundCover.
     std::vector<float> covers;
 

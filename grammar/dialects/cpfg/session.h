@@ -21,10 +21,10 @@ enum class CpfgStatementKind : std::uint8_t { Assign, Call, If, Loop, Array };
 
 struct CpfgStatement {
     CpfgStatementKind kind = CpfgStatementKind::Call;
-    ForeignId target = kNoForeign; // Assign: a Name or Index. Array: an Index
-    ForeignId value = kNoForeign;  // Assign, Call; the condition of If
-    std::vector<int> block{};      // statements of If
-    std::vector<int> otherwise{};
+    ForeignId target = kNoForeign;   // Assign: a Name or Index. Array: an Index
+    ForeignId value = kNoForeign;    // Assign, Call; the condition of If
+    std::vector<int> block{};        // indices of the statements of If
+    std::vector<int> otherwise{};    // ... of its else
     std::vector<ForeignId> values{}; // Array
     SourceSpan span{};
     int depth = 1;

@@ -35,7 +35,7 @@ private:
         std::size_t begin = 0;
         std::uint32_t end_column = 0;
         std::uint32_t begin_column = 0;
-        std::uint32_t rank = 0;
+        std::uint32_t rank = 0; // Piece::rank
         std::uint32_t depth = 0;
         BreakClass break_class = BreakClass::Fine;
     };

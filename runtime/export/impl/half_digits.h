@@ -26,7 +26,7 @@ public:
 private:
     struct Text {
         std::array<char, 10> digits{};
-        std::uint8_t count = 0;
+        std::uint8_t count = 0; // of characters
     };
     std::vector<Text> texts_; // by the bits of 0 to 1
 };

@@ -23,9 +23,10 @@ enum class JsonGapKind : std::uint8_t {
     Fallback, // of a buffer
 };
 
+/// The item that a gap refers to.
 struct JsonReference {
     JsonGapKind kind = JsonGapKind::Item;
-    std::size_t number = 0;
+    std::size_t number = 0; // counted as the comment of its JsonGapKind says
 };
 
 class JsonTemplate {

@@ -42,9 +42,9 @@ public:
 
 private:
     struct Place {
-        float pivot_height = 0.0F;
-        float distance = 0.0F; // m along the branches from the pivot to the base
-        float phase = 0.0F;
+        float pivot_height = 0.0F;   // m
+        float distance = 0.0F;       // m along the branches from the pivot to the base
+        float phase = 0.0F;          // WindVertex::phase
         std::array<float, 2> bend{}; // at base and tip, relative to the max of the plant
     };
 

@@ -164,9 +164,9 @@ public:
 
 private:
     struct File {
-        std::string text; // with the byte order mark of an open document
-        std::size_t mark = 0;
-        std::string unmarked;
+        std::string text;     // with the byte order mark of an open document
+        std::size_t mark = 0; // bytes of the byte order mark
+        std::string unmarked; // `text` without the mark
         std::optional<TextPositions> positions;
     };
     [[nodiscard]] File& file(const std::string& path);

@@ -13,7 +13,7 @@ namespace lsys {
 inline constexpr std::uint64_t kNoGroup = ~std::uint64_t{0}; // key of items to leave out
 
 struct Group {
-    std::uint64_t key = 0;
+    std::uint64_t key = 0;   // of all its items
     std::uint64_t first = 0; // index in Groups::items
     std::uint64_t count = 0;
 };

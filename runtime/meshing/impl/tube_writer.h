@@ -34,9 +34,9 @@ public:
 
     /// Progress within a run: a place between two joints, and the frame there.
     struct Place {
-        std::size_t joint = 0; // index of the next joint
-        std::uint64_t vertex = 0;
-        double arc = 0.0;
+        std::size_t joint = 0;      // index of the next joint
+        std::uint64_t vertex = 0;   // index of the next vertex to write
+        double arc = 0.0;           // arc length from the begin of the run
         double circumference = 0.0; // at the mean radius; 0 if not needed
         glm::vec3 normal{};         // across the edge to the joint: direction of the first corner
         std::uint32_t steps = 0;    // edges since the begin of the run

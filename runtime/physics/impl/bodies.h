@@ -37,10 +37,10 @@ struct Body {
     /// Sum of mass times position over the body and its children, with the whole load of a child at
     /// the child's base: kg m.
     glm::dvec3 moment{0.0};
-    // Area that faces the wind: side * sin(a) + end * cos(a) + sail, where a is the angle between
-    // wind and heading.
+    // Area that faces the wind, m^2: side * sin(a) + end * cos(a) + sail, where a is the angle
+    // between wind and heading.
     glm::vec3 heading{0.0F, 1.0F, 0.0F};
-    float side = 0.0F; // m^2
+    float side = 0.0F;
     float end = 0.0F;
     float sail = 0.0F;
     Contact contact;

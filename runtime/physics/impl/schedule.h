@@ -40,7 +40,7 @@ public:
 private:
     /// One wide depth, whose bodies are independent of each other, or several narrow depths.
     struct Run {
-        std::uint32_t begin = 0;
+        std::uint32_t begin = 0; // bodies [begin, end)
         std::uint32_t end = 0;
         std::uint32_t first_piece = 0;
         std::uint32_t piece_count = 1;

@@ -27,8 +27,8 @@ struct TileBox {
 /// Distances in m that trees reach at most from their places.
 struct TreeReach {
     double around = 0.0; // in horizontal directions
-    double below = 0.0;
-    double above = 0.0;
+    double below = 0.0;  // below the place
+    double above = 0.0;  // above the place
 };
 
 class TileBoxes {

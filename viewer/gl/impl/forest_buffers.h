@@ -33,8 +33,8 @@ inline constexpr std::size_t kBranchClasses = 4;
 /// forest. Shadow: branches that cast shadows near the eye; trees are taken from Forest.
 enum class BufferSet : std::uint8_t { Forest, Impostor, Shadow };
 
-struct DrawCommand { // layout of glMultiDrawElementsIndirect
-    std::uint32_t count = 0;
+struct DrawCommand {         // layout of glMultiDrawElementsIndirect
+    std::uint32_t count = 0; // of indices
     std::uint32_t instance_count = 0;
     std::uint32_t first_index = 0;
     std::int32_t base_vertex = 0;
