@@ -16,13 +16,13 @@ TEST_CASE("explanations are parsed into codes and texts") {
     CHECK(all[0].text == "One.\nTwo.\n\nThree.");
     REQUIRE(all[0].examples.size() == 2);
     const Example& wrong = all[0].examples[0];
-    CHECK(!wrong.right);
+    CHECK(!wrong.is_correct);
     CHECK(!wrong.is_sketch);
     CHECK(wrong.arguments == "dump -n 3");
     REQUIRE(wrong.files.size() == 2);
     CHECK(wrong.files[0] == std::pair<std::string, std::string>("example.lsys", "#w : A;\n"));
     CHECK(wrong.files[1] == std::pair<std::string, std::string>("b.lsys", "#w : B;\n"));
-    CHECK(all[0].examples[1].right);
+    CHECK(all[0].examples[1].is_correct);
     CHECK(all[0].examples[1].arguments.empty());
     REQUIRE(all[1].examples.size() == 1);
     CHECK(all[1].examples[0].is_sketch);
