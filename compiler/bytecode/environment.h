@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What `#sense` declares: an environment, which modules `?NAME` ask (docs/language.md section 13).
+// The environments that `#sense` declares and modules `?NAME` ask (docs/language.md section 13).
 // All lengths are in metres, in the plant's own axes, +Y up.
 #pragma once
 
@@ -14,8 +14,8 @@
 
 namespace lsys {
 
-/// The kind of an environment: what it answers, in a comment. (x, y, z) is a unit vector, or 0 0 0
-/// for a direction that does not exist.
+/// The kind of an environment; its comment describes the answer. (x, y, z) is a unit vector, or
+/// 0 0 0 for a direction that does not exist.
 LSYS_COUNTED_ENUM(EnvironmentKind,
                   Shadow, // (q, x, y, z): exposure and the direction of more light (Palubicki 2009)
                   Sky,    // (q): part of the sky's light that arrives, 0 to 1
@@ -23,7 +23,7 @@ LSYS_COUNTED_ENUM(EnvironmentKind,
                   Crowd,  // (n, x, y, z): other places within a radius, direction away from them
                   Solid,  // (d, x, y, z): signed distance to a surface and the direction to it
                   Map,    // (v): value of a picture
-                  Program // what an external program answers (Mech & Prusinkiewicz 1996)
+                  Program // the answer of an external program (Mech & Prusinkiewicz 1996)
 );
 /// The word of a kind in `#sense`.
 [[nodiscard]] constexpr std::string_view name_of(EnvironmentKind kind) {
@@ -85,7 +85,8 @@ inline constexpr std::uint32_t kMaxShadowLevels = 255;
 inline constexpr std::uint32_t kMaxSkyDirections = 4096;
 inline constexpr std::uint32_t kMaxMarkers = 1U << 26;
 
-/// What a sense module asks. Values below kMaxEnvironments are indexes of Bytecode::environments.
+/// The quantity that a sense module reads. Values below kMaxEnvironments are indexes in
+/// Bytecode::environments.
 enum class Sense : std::uint32_t {
     Position = 256,       // `?P`: place of the turtle
     Heading,              // `?H`

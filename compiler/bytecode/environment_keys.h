@@ -13,7 +13,7 @@
 
 namespace lsys {
 
-/// What stands after a key.
+/// The kind of value after a key.
 enum class EnvironmentKeyForm : std::uint8_t {
     Number,
     WholeNumber,
@@ -58,7 +58,7 @@ struct EnvironmentKey {
 [[nodiscard]] const EnvironmentKey* find_environment_key(std::string_view word);
 /// The keys of a kind.
 [[nodiscard]] std::vector<std::string_view> environment_keys_of(EnvironmentKind kind);
-/// What the kind answers and what it is, for hovers and documents.
+/// A description of the kind and its answer, for hovers and documents.
 [[nodiscard]] std::string_view meaning_of(EnvironmentKind kind);
 /// "(q, x, y, z)".
 [[nodiscard]] std::string_view answer_text(EnvironmentKind kind);

@@ -19,8 +19,8 @@ struct ExactSineCosine {
 [[nodiscard]] double exact_sine(double angle);
 [[nodiscard]] double exact_cosine(double angle);
 
-/// Of an angle in degrees, without rounding it to radians first: multiples of 30 and 90 degrees
-/// with a rational sine or cosine have it exactly.
+/// Functions of an angle in degrees, which is not rounded to radians first: they are exact for the
+/// multiples of 30 and 90 degrees whose sine or cosine is rational.
 [[nodiscard]] ExactSineCosine exact_sine_cosine_of_degrees(double degrees);
 [[nodiscard]] double exact_sine_of_degrees(double degrees);
 [[nodiscard]] double exact_cosine_of_degrees(double degrees);

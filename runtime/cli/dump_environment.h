@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What a plant sensed last: `lsc dump --stage environment`.
+// `lsc dump --stage environment`: the places, answers and markers of the last word that a plant
+// has sensed.
 #pragma once
 
 #include "runtime/cli/options.h"

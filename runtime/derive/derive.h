@@ -78,7 +78,7 @@ public:
     /// are then unspecified.
     [[nodiscard]] virtual std::optional<Stop>
     sense(Word& word, std::uint32_t age, DerivationEnd& end) = 0;
-    /// What the environments keep from one word to the next, such as the markers that are left, as
+    /// The data that environments keep from one word to the next, such as markers that are left, as
     /// bytes for a saved state. Empty if they keep nothing.
     [[nodiscard]] virtual std::string state() const = 0;
     /// Continues from bytes of state(), after begin(). False: the bytes are not of this program.
@@ -145,7 +145,7 @@ public:
     /// WordSense::state() that was saved with the word.
     [[nodiscard]] std::optional<Stop>
     resume(Word word, std::uint32_t age, std::string_view sense_state = {});
-    /// What the environments hold after the last generation, to be saved with the word.
+    /// WordSense::state() after the last generation, to be saved with the word.
     [[nodiscard]] std::string sense_state() const;
     /// Rewrites the word once. After a Stop the word still has the age age().
     [[nodiscard]] std::optional<Stop> step();

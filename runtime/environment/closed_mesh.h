@@ -10,7 +10,7 @@
 
 namespace lsys {
 
-/// How the triangles of a mesh meet. Corners at one place are one vertex; triangles with two equal
+/// Properties of the edges of a mesh. Corners at one place are one vertex; triangles with two equal
 /// corners do not count.
 struct MeshClosure {
     bool closed = false; // each edge belongs to two triangles, and there is a triangle

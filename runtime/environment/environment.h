@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Environment: what the modules `?NAME` of one `#sense` statement ask (docs/language.md section
-// 13). Batch in, batch out: it gets all places of a word at once and answers all of them. Places
+// Environment: answers the modules `?NAME` of one `#sense` statement (docs/language.md section 13).
+// It gets all places of a word at once and answers all of them. Places
 // and directions are in metres and in the plant's own axes, +Y up. Answers depend on the places
 // alone, not on their order where the language says so, and never on the number of threads.
 //
@@ -26,7 +26,7 @@ namespace lsys {
 
 using Vector3 = std::array<double, 3>;
 
-/// Where the turtle stands at a sense module.
+/// The pose of the turtle at a sense module.
 struct SensePlace {
     Vector3 position{}; // m
     Vector3 heading{};  // unit vector
@@ -39,7 +39,7 @@ struct SensedOrgan {
     double area = 0.0; // m^2
 };
 
-/// What an environment learns of one word.
+/// The input of an environment for one word.
 struct SensedWord {
     std::uint32_t generation = 0;        // age of the word
     std::span<const SensePlace> places;  // of the environment's own modules, in word order
@@ -69,11 +69,11 @@ struct EnvironmentFiles {
     EnvironmentPicture picture;          // Map
 };
 
-/// Why an environment has no answers.
+/// The reason why an environment has no answers.
 struct EnvironmentFailure {
     Stop stop = Stop::Diagnosed; // or OutOfMemory, Limit, Cancelled
     std::string text;            // Diagnosed: the reason, "its program has ended"
-    std::string help;            // what to do about it, or empty
+    std::string help;            // advice for the author, or empty
     std::uint64_t bytes = 0;     // Limit: memory that the answers would take
     std::size_t place = 0;       // Diagnosed: index of the place that has no answer
 };
@@ -100,7 +100,7 @@ public:
     /// kUnknownAnswer resizes it and sets `sizes` to the number of numbers for each place.
     [[nodiscard]] virtual std::optional<EnvironmentFailure> answer(
         const SensedWord& word, std::vector<float>& answers, std::vector<std::uint32_t>& sizes) = 0;
-    /// What the environment keeps from one word to the next, as bytes for a saved state.
+    /// The data that the environment keeps from one word to the next, as bytes for a saved state.
     [[nodiscard]] virtual std::string state() const { return {}; }
     /// Appends the places of the markers that are left, for dumps and viewers.
     virtual void append_markers(std::vector<Vector3>& /*markers*/) const {}

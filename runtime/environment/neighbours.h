@@ -13,7 +13,7 @@
 
 namespace lsys {
 
-/// What casts shade of one word: the places of its sense modules and its organs.
+/// The parts of one word that cast shade: the places of its sense modules and its organs.
 struct ShadingWord {
     std::vector<std::vector<Vector3>> places; // by environment; empty for kinds other than Shadow
     std::vector<SensedOrgan> organs;

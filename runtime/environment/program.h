@@ -23,7 +23,7 @@
 
 namespace lsys {
 
-/// Why a program has sent no line.
+/// The reason why a program has sent no line.
 struct ProgramFailure {
     Stop stop = Stop::Diagnosed; // or Cancelled, OutOfMemory
     std::string text;            // "its program has ended with exit status 1"
@@ -47,11 +47,11 @@ public:
 using StartProgram = std::function<Result<std::unique_ptr<LineProgram>>(
     const std::string& command, double seconds, const std::atomic<bool>* cancelled)>;
 
-/// How an environment of kind Program gets its answers.
+/// The program of an environment of kind Program, and its time limit.
 struct ProgramCommand {
-    StartProgram start;  // empty: this system starts no programs
-    std::string command; // empty: not given
-    double seconds = 60.0;
+    StartProgram start;    // empty: this system starts no programs
+    std::string command;   // empty: not given
+    double seconds = 60.0; // max time of an answer
 };
 
 /// `declared` outlives the result.

@@ -25,9 +25,9 @@ namespace lsys {
 struct Neighbours;
 
 struct SenseOptions {
-    /// What files contain, by index in Bytecode::environments. Outlives the object.
+    /// Contents of files, by index in Bytecode::environments. Outlives the object.
     const std::vector<EnvironmentFiles>* files = nullptr;
-    /// Of environments of kind Program, by index in Bytecode::environments.
+    /// Programs of environments of kind Program, by index in Bytecode::environments.
     std::vector<ProgramCommand> programs;
     /// Lengths and areas of objects; EnvironmentSense sets the other members.
     SensingOptions objects;
@@ -61,8 +61,8 @@ public:
     [[nodiscard]] std::string state() const override;
     [[nodiscard]] bool restore(std::string_view state) override;
 
-    /// What the last word was asked and answered, by index in Bytecode::environments. Empty before
-    /// the first word that senses.
+    /// Places and answers of the last word that sensed, by index in Bytecode::environments. Empty
+    /// before the first such word.
     [[nodiscard]] const std::vector<SensedEnvironment>& sensed() const { return sensed_; }
     [[nodiscard]] const std::vector<SensedOrgan>& organs() const { return organs_; }
     /// The environment number `index`, after begin().

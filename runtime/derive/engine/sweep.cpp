@@ -162,7 +162,7 @@ public:
     }
 
 private:
-    /// What a sweep knew before it entered a branch.
+    /// The state of a sweep before it entered a branch.
     struct Level {
         SweepNeighbour axis;
         std::size_t first_branch = 0;

@@ -11,8 +11,8 @@ namespace {
 constexpr std::int64_t kMaxTablePlaces = std::int64_t{1} << 29; // as count_by_tables() demands
 constexpr std::int64_t kNoRow = std::numeric_limits<std::int64_t>::max();
 
-/// How many of the squares of one layer around three neighbours along an axis contain a place at
-/// `distance` voxels from the middle one: combinations over the neighbours.
+/// Counts of the squares of one layer, around three neighbours along an axis, that contain a place
+/// at `distance` voxels from the middle one: combinations over the neighbours.
 struct Covered {
     std::int64_t middle = 0;
     std::int64_t sides = 0;      // both outer neighbours

@@ -252,8 +252,8 @@ void TriangleTree::find_nearest(const Vector3& place,
     }
 }
 
-/// How the triangle crosses the ray from `place` along +x, or along -x unless `upwards`: 1 or -1 by
-/// the side that it faces, 0 if it does not.
+/// The crossing of the triangle by the ray from `place` along +x, or along -x unless `upwards`:
+/// 1 or -1 by the side that the triangle faces; 0 without a crossing.
 int TriangleTree::crossing(std::size_t at, const Vector3& place, bool upwards) const {
     const Triangle t = triangle(at);
     const auto is_beside = [&](std::size_t axis) {

@@ -14,7 +14,7 @@ namespace {
 constexpr std::size_t kPiece = 1U << 14; // places in one piece of work
 constexpr std::size_t kNone = std::numeric_limits<std::size_t>::max();
 
-/// What one piece of work has found.
+/// The range of voxels that one piece of work has found.
 struct PieceRange {
     VoxelIndex low{};
     VoxelIndex high{};

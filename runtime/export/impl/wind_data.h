@@ -44,7 +44,7 @@ private:
     struct Place {
         float pivot_height = 0.0F;   // m
         float distance = 0.0F;       // m along the branches from the pivot to the base
-        float phase = 0.0F;          // WindVertex::phase
+        float phase = 0.0F;          // 0 to 1, of the sway of the bough
         std::array<float, 2> bend{}; // at base and tip, relative to the max of the plant
     };
 

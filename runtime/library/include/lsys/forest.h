@@ -34,8 +34,8 @@ struct Tree {
 
 struct Species {
     std::string name;
-    /// Of each stage, ascending; six stages in a row have equal generations if the species senses
-    /// its surroundings.
+    /// Generations of each stage, ascending; six stages in a row have equal generations if the
+    /// species senses its surroundings.
     std::vector<std::uint32_t> generations;
     std::uint32_t heroes = 0; // plants derived in full, per stage
     float height = 0.0F;      // m, of `#set height`; 0: not set
