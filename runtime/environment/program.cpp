@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "runtime/environment/program.h"
 
+#include "grammar/base/counted_text.h"
+
 #include "grammar/base/number_chars.h"
 
 #include <fmt/format.h>
@@ -227,7 +229,8 @@ std::optional<std::string> read_answers(std::string_view line,
         return malformed();
     }
     if (sizes.size() != count) {
-        return fmt::format("its program sent {} answers to {} queries", sizes.size(), count);
+        return fmt::format("its program sent {} to {}", counted(sizes.size(), "answer"),
+                           counted(count, "question"));
     }
     return std::nullopt;
 }

@@ -303,6 +303,7 @@ std::optional<Stop> EnvironmentSense::write(std::size_t index,
                     error_at(RuntimeErrorKind::SenseNotFinite, bytecode_, module, word, age);
                 end.error.value = answer[k];
                 end.error.environment = static_cast<std::uint32_t>(index);
+                end.error.site = bytecode_.environments[index].site;
                 return Stop::Diagnosed;
             }
         }
