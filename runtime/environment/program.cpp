@@ -2,7 +2,6 @@
 #include "runtime/environment/program.h"
 
 #include "grammar/base/counted_text.h"
-
 #include "grammar/base/number_chars.h"
 
 #include <fmt/format.h>
