@@ -35,7 +35,7 @@ expect lsc --vers -- --version
 expect lsc dump --st -- --stage --stdin-name --steps --stream
 expect lsc dump --stage s -- skeleton
 expect lsc dump --stage = s -- skeleton
-expect lsc dump --stage = -- tokens ast program instanced bytecode word skeleton mesh heroes cache
+expect lsc dump --stage = -- tokens ast program instanced bytecode word skeleton mesh heroes cache environment
 expect lsc export tree.lsys --preset un -- unity unreal
 expect lsc export --format us -- usda usdz
 expect lsc check --dialect l -- l3d lparser lplus lpy lsys

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // RepairAttempt::ambiguous_statements(): comparison of repairs with their alternatives.
 #include "compiler/program/program_dump.h"
+#include "grammar/base/characters.h"
 #include "runtime/repair/impl/alternative_repairs.h"
 #include "runtime/repair/impl/mistyped_signs.h"
 #include "runtime/repair/impl/repair_attempt.h"
@@ -110,7 +111,21 @@ bool RepairAttempt::may_be_mistyped(const AppliedFix& fix) const {
     if (end == text.size() || text[end] != fix.added) {
         return true; // another fix has removed the sign
     }
-    const std::vector<std::string> others = mistyped_texts(text, {begin, end + 1});
+    // Without blanks that another fix has put before the character: `FF` may be `F;`.
+    std::string joined(text);
+    const std::size_t last = text.find_last_not_of(kWhitespace, begin == 0 ? 0 : begin - 1);
+    const std::size_t previous = last == 0 || last == std::string_view::npos
+                                     ? std::string_view::npos
+                                     : text.find_last_not_of(kWhitespace, last - 1);
+    if (previous != std::string_view::npos && last < begin && previous + 1 < last &&
+        file.original_place(static_cast<std::uint32_t>(last)) ==
+            file.original_place(static_cast<std::uint32_t>(previous)) + 1) {
+        const auto added = static_cast<std::uint32_t>(last - previous - 1);
+        joined.erase(previous + 1, added);
+        begin -= added;
+        end -= added;
+    }
+    const std::vector<std::string> others = mistyped_texts(joined, {begin, end + 1});
     return std::any_of(others.begin(), others.end(), [&](const std::string& other) {
         return compile_other(fix.path, other).has_value();
     });
