@@ -154,7 +154,7 @@ std::optional<EnvironmentFailure> SpaceEnvironment::compete(std::span<const Sens
         return std::nullopt;
     }
     const std::uint64_t bytes = markers_.size() * (sizeof(Marker) + 2 * sizeof(std::uint32_t)) +
-                                places.size() * kPointTreeBytes;
+                                MarkerSearch::bytes(places.size());
     if (bytes > context_.max_bytes) {
         return beyond_memory(bytes);
     }
@@ -167,7 +167,6 @@ std::optional<EnvironmentFailure> SpaceEnvironment::compete(std::span<const Sens
 }
 
 LargeVector<std::uint32_t> SpaceEnvironment::take_markers(const MarkerSearch& search) {
-    constexpr std::uint32_t kKilled = kNoPlace - 1;
     LargeVector<std::uint32_t> owners(markers_.size());
     const std::uint64_t pieces = (markers_.size() + kMarkersPerPiece - 1) / kMarkersPerPiece;
     context_.workers->for_each(pieces, [&](std::uint64_t piece) {
@@ -180,7 +179,7 @@ LargeVector<std::uint32_t> SpaceEnvironment::take_markers(const MarkerSearch& se
         }
         for (std::size_t i = begin; i < end; ++i) {
             const Vector3 marker = shape_->position(markers_[i].units);
-            owners[i] = search.kills(marker) ? kKilled : search.find(marker);
+            owners[i] = search.find(marker);
         }
     });
     std::size_t left = 0;
