@@ -54,6 +54,11 @@ using LaneMask = std::int32_t __attribute__((vector_size(4 * kLanes))); // -1 or
 #endif
 }
 
+/// Precondition: `bits` is not 0.
+[[nodiscard]] inline std::size_t lowest_lane(std::uint32_t bits) {
+    return static_cast<std::size_t>(std::countr_zero(bits));
+}
+
 /// `value` in binary32 or a little more. Infinity beyond the range, and for NaN.
 [[nodiscard]] inline float upper_float(double value) {
     constexpr double kLargest = 0x1p126;

@@ -4,19 +4,10 @@
 #include "runtime/base/exact_functions.h"
 
 #include <array>
-#include <bit>
 #include <cmath>
 #include <limits>
 
 namespace lsys {
-
-namespace {
-
-std::size_t lowest(std::uint32_t bits) {
-    return static_cast<std::size_t>(std::countr_zero(bits));
-}
-
-} // namespace
 
 MarkerReach marker_reach(const BytecodeEnvironment& declared) {
     const auto radius = static_cast<double>(declared.radius);
@@ -104,7 +95,10 @@ public:
         }
     }
 
-    std::uint32_t find() {
+    std::uint32_t find(std::uint32_t hint) {
+        if (hint < kKilled && consider(hint)) {
+            return kKilled;
+        }
         std::array<WideOpen, kMaxWideOpen> open;
         std::size_t count = 0;
         open[count++] = {0, 0.0F};
@@ -118,7 +112,7 @@ public:
             const std::uint32_t used = (1U << node.count) - 1;
             if (node.is_leaf) {
                 for (std::uint32_t bits = candidates(node) & used; bits != 0; bits &= bits - 1) {
-                    if (consider(node.children[lowest(bits)])) {
+                    if (consider(node.children[lowest_lane(bits)])) {
                         return kKilled;
                     }
                 }
@@ -128,7 +122,7 @@ public:
             const std::size_t bottom = count;
             for (std::uint32_t bits = ~lane_bits(least > limit) & used; bits != 0;
                  bits &= bits - 1) {
-                const std::size_t lane = lowest(bits);
+                const std::size_t lane = lowest_lane(bits);
                 open_sorted(open, bottom, count, {node.children[lane], least[lane]});
             }
         }
@@ -193,8 +187,8 @@ private:
     float angle_margin_ = -std::numeric_limits<float>::infinity();
 };
 
-std::uint32_t MarkerSearch::find(const Vector3& marker) const {
-    return Query(*this, marker).find();
+std::uint32_t MarkerSearch::find(const Vector3& marker, std::uint32_t hint) const {
+    return Query(*this, marker).find(hint);
 }
 
 bool MarkerSearch::sees(std::uint32_t position, const Vector3& way, double squared) const {

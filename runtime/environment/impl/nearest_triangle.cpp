@@ -53,8 +53,8 @@ Vector3 NearestTriangle::axis_of(const WideChild& child) const {
 
 /// A point from which the triangles reach about equally far, beside the axis and along it.
 Vector3 NearestTriangle::middle_of(const WideChild& child, const Vector3& axis) const {
-    constexpr std::uint32_t kFew = 64; // triangles that are looked at several times
-    constexpr int kRounds = 8;
+    constexpr std::uint32_t kFew = 16; // triangles that are looked at several times
+    constexpr int kRounds = 6;
     Vector3 low = framed(triangles_[child.begin].vertices[0]);
     Vector3 high = low;
     const auto for_each_corner = [&](const auto& work) {
@@ -126,11 +126,6 @@ void NearestTriangle::fill_cylinder(const WideChild& child) {
     node.radius[lane] = upper_float(std::sqrt(radius_squared) + more_);
 }
 
-Triangle NearestTriangle::triangle(std::size_t at) const {
-    const std::array<std::uint32_t, 3>& corners = triangles_[at].vertices;
-    return {vertices_[corners[0]], vertices_[corners[1]], vertices_[corners[2]]};
-}
-
 Lanes NearestTriangle::least_squared(const Node& node, const std::array<float, 3>& at) {
     const Lanes x = at[0] - node.middle[0];
     const Lanes y = at[1] - node.middle[1];
@@ -181,10 +176,10 @@ void NearestTriangle::find(const Vector3& place, NearestPoint& nearest, std::uin
         const Node& node = nodes_[next.node];
         const Lanes least = least_squared(node, framed.at);
         const std::size_t bottom = open_count;
-        for (std::size_t lane = 0; lane < node.count; ++lane) {
-            if (!(least[lane] > limit)) { // nearest child last
-                open_sorted(open, bottom, open_count, {node.children[lane], least[lane]});
-            }
+        for (std::uint32_t bits = ~lane_bits(least > limit) & ((1U << node.count) - 1); bits != 0;
+             bits &= bits - 1) {
+            const std::size_t lane = lowest_lane(bits); // the nearest child is the last one
+            open_sorted(open, bottom, open_count, {node.children[lane], least[lane]});
         }
         while (node.is_leaf && open_count > bottom) {
             const WideOpen child = open[--open_count];
