@@ -45,7 +45,8 @@ int perturbed_orientation(const Vector2& a, const Vector2& b, const Vector2& p) 
 } // namespace
 
 TriangleTree::TriangleTree(const EnvironmentMesh& mesh, const EnvironmentContext& context)
-    : mesh_(mesh), closure_(mesh_closure(mesh)), nearest_triangle_(mesh.vertices) {
+    : mesh_(mesh), closure_(mesh_closure(mesh, context.cancelled)),
+      nearest_triangle_(mesh.vertices) {
     order_triangles(context);
     if (!nodes_.empty()) {
         fill_boxes();
@@ -189,7 +190,7 @@ bool TriangleTree::is_inside(const Vector3& place) const {
 
 std::uint64_t TriangleTree::bytes(const EnvironmentMesh& mesh) {
     // First the edges and the order of vertices, then items, nodes and corners.
-    constexpr std::uint64_t kEdgeBytes = 3 * 16;
+    constexpr std::uint64_t kEdgeBytes = 3 * 16 * 3 / 2; // with the space of a merge
     constexpr std::uint64_t kTurnedBytes = 9;
     constexpr std::uint64_t kTreeBytes =
         sizeof(SplitItem) + sizeof(LeafTriangle) + (sizeof(SplitNode) + sizeof(Node)) / 2;
