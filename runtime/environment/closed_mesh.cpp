@@ -12,13 +12,43 @@ namespace lsys {
 
 namespace {
 
-/// For each vertex the first one at the same place, -0 being 0.
-LargeVector<std::uint32_t> merged_vertices(const std::vector<Vector3>& vertices) {
+/// Sorts blocks, then merges pairs of them. Returns false if it was cancelled between two steps.
+template <typename T, typename Before>
+[[nodiscard]] bool
+sort_unless(const std::atomic<bool>* cancelled, LargeVector<T>& items, const Before& before) {
+    constexpr std::size_t kBlock = std::size_t{1} << 16;
+    const auto at = [&](std::size_t i) {
+        return items.begin() + static_cast<std::ptrdiff_t>(std::min(i, items.size()));
+    };
+    const auto is_cancelled = [&] { return cancelled != nullptr && *cancelled; };
+    for (std::size_t i = 0; i < items.size(); i += kBlock) {
+        if (is_cancelled()) {
+            return false;
+        }
+        std::sort(at(i), at(i + kBlock), before);
+    }
+    for (std::size_t block = kBlock; block < items.size(); block *= 2) {
+        for (std::size_t i = 0; i + block < items.size(); i += 2 * block) {
+            if (is_cancelled()) {
+                return false;
+            }
+            std::inplace_merge(at(i), at(i + block), at(i + 2 * block), before);
+        }
+    }
+    return !is_cancelled();
+}
+
+/// For each vertex the first one at the same place, -0 being 0. Empty when cancelled.
+LargeVector<std::uint32_t> merged_vertices(const std::vector<Vector3>& vertices,
+                                           const std::atomic<bool>* cancelled) {
     LargeVector<std::uint32_t> order(vertices.size());
     std::iota(order.begin(), order.end(), 0U);
-    std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
+    const auto before = [&](std::uint32_t a, std::uint32_t b) {
         return vertices[a] != vertices[b] ? vertices[a] < vertices[b] : a < b;
-    });
+    };
+    if (!sort_unless(cancelled, order, before)) {
+        return {};
+    }
     LargeVector<std::uint32_t> merged(vertices.size());
     for (std::size_t i = 0; i < order.size(); ++i) {
         const bool same = i > 0 && vertices[order[i]] == vertices[order[i - 1]];
@@ -35,9 +65,13 @@ struct EdgeUse {
     bool upwards = false; // runs from low to high
 };
 
-LargeVector<EdgeUse> sorted_edges(const EnvironmentMesh& mesh) {
-    const LargeVector<std::uint32_t> merged = merged_vertices(mesh.vertices);
+/// By edges, then by triangles. Empty when cancelled.
+LargeVector<EdgeUse> sorted_edges(const EnvironmentMesh& mesh, const std::atomic<bool>* cancelled) {
+    const LargeVector<std::uint32_t> merged = merged_vertices(mesh.vertices, cancelled);
     LargeVector<EdgeUse> edges;
+    if (merged.empty()) {
+        return edges;
+    }
     edges.reserve(mesh.triangles.size() * 3);
     for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
         const std::array<std::uint32_t, 3>& corners = mesh.triangles[i];
@@ -53,11 +87,14 @@ LargeVector<EdgeUse> sorted_edges(const EnvironmentMesh& mesh) {
                 {std::min(from, to), std::max(from, to), static_cast<std::uint32_t>(i), from < to});
         }
     }
-    std::sort(edges.begin(), edges.end(), [](const EdgeUse& a, const EdgeUse& b) {
+    const auto before = [](const EdgeUse& a, const EdgeUse& b) {
         return a.low != b.low     ? a.low < b.low
                : a.high != b.high ? a.high < b.high
                                   : a.triangle < b.triangle;
-    });
+    };
+    if (!sort_unless(cancelled, edges, before)) {
+        return {};
+    }
     return edges;
 }
 
@@ -131,9 +168,9 @@ private:
 
 } // namespace
 
-MeshClosure mesh_closure(const EnvironmentMesh& mesh) {
+MeshClosure mesh_closure(const EnvironmentMesh& mesh, const std::atomic<bool>* cancelled) {
     MeshClosure closure;
-    const LargeVector<EdgeUse> edges = sorted_edges(mesh);
+    const LargeVector<EdgeUse> edges = sorted_edges(mesh, cancelled);
     closure.closed = are_pairs(edges);
     if (!closure.closed) {
         return closure;

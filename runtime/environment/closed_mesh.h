@@ -5,6 +5,7 @@
 
 #include "runtime/environment/environment.h"
 
+#include <atomic>
 #include <cstdint>
 #include <vector>
 
@@ -21,6 +22,8 @@ struct MeshClosure {
     std::vector<std::uint8_t> turned;
 };
 
-[[nodiscard]] MeshClosure mesh_closure(const EnvironmentMesh& mesh);
+/// When `cancelled` became true, the result is that of an open mesh.
+[[nodiscard]] MeshClosure mesh_closure(const EnvironmentMesh& mesh,
+                                       const std::atomic<bool>* cancelled = nullptr);
 
 } // namespace lsys

@@ -79,10 +79,17 @@ private:
                                                  std::vector<float>& answers) const {
         // Places next to each other are answered one after the other, because they meet the same
         // nodes of the trees.
-        constexpr std::size_t kPlaces = 1U << 8; // of one piece of work, and of a leaf
-        LargeVector<SplitItem> order = split_items(places);
-        static_cast<void>(build_split_tree(order, kPlaces, *context_.workers, context_.cancelled));
+        constexpr std::size_t kPlaces = 1U << 8;        // of one piece of work
+        constexpr std::size_t kPlacesPerLeaf = 1U << 4; // of the tree that orders places
         const std::size_t count = places.size();
+        const std::uint64_t bytes = tree_bytes_ + count * sizeof(SplitItem) +
+                                    split_node_count(count, kPlacesPerLeaf) * sizeof(SplitNode);
+        if (bytes > context_.max_bytes) {
+            return beyond_memory(bytes);
+        }
+        LargeVector<SplitItem> order = split_items(places);
+        static_cast<void>(
+            build_split_tree(order, kPlacesPerLeaf, *context_.workers, context_.cancelled));
         context_.workers->for_each((count + kPlaces - 1) / kPlaces, [&](std::uint64_t piece) {
             if (is_cancelled(context_.cancelled)) {
                 return;
@@ -128,6 +135,7 @@ private:
             }
         }
         trees_ = std::move(trees);
+        tree_bytes_ = bytes;
         return std::nullopt;
     }
 
@@ -166,6 +174,7 @@ private:
     EnvironmentContext context_;
     std::vector<SolidPlane> planes_;
     std::vector<std::unique_ptr<TriangleTree>> trees_; // one for each mesh, after begin()
+    std::uint64_t tree_bytes_ = 0;                     // of `trees_`
 };
 
 } // namespace

@@ -132,9 +132,10 @@ std::optional<EnvironmentFailure> SpaceEnvironment::draw(std::uint64_t seed) {
     if (auto failure = prepare_crown()) {
         return failure;
     }
-    // A marker, and while a word is sensed its place twice: by markers, and sorted by places.
+    // A marker, and while a word is sensed the order of markers in space, and their places twice:
+    // by markers, and sorted by places.
     const std::uint64_t bytes =
-        std::uint64_t{declared_.count} * (sizeof(Marker) + 2 * sizeof(std::uint32_t));
+        std::uint64_t{declared_.count} * (sizeof(Marker) + 3 * sizeof(std::uint32_t));
     if (bytes > context_.max_bytes) {
         return beyond_memory(bytes);
     }
@@ -153,8 +154,8 @@ std::optional<EnvironmentFailure> SpaceEnvironment::compete(std::span<const Sens
     if (places.empty()) {
         return std::nullopt;
     }
-    const std::uint64_t bytes = markers_.size() * (sizeof(Marker) + 2 * sizeof(std::uint32_t)) +
-                                places.size() * kPointTreeBytes;
+    const std::uint64_t bytes = markers_.size() * (sizeof(Marker) + 3 * sizeof(std::uint32_t)) +
+                                MarkerSearch::bytes(places.size());
     if (bytes > context_.max_bytes) {
         return beyond_memory(bytes);
     }
@@ -167,20 +168,19 @@ std::optional<EnvironmentFailure> SpaceEnvironment::compete(std::span<const Sens
 }
 
 LargeVector<std::uint32_t> SpaceEnvironment::take_markers(const MarkerSearch& search) {
-    constexpr std::uint32_t kKilled = kNoPlace - 1;
-    LargeVector<std::uint32_t> owners(markers_.size());
+    LargeVector<std::uint32_t> owners(markers_.size(), kNoPlace);
+    const LargeVector<std::uint32_t> order = order_in_space(markers_);
     const std::uint64_t pieces = (markers_.size() + kMarkersPerPiece - 1) / kMarkersPerPiece;
     context_.workers->for_each(pieces, [&](std::uint64_t piece) {
-        const std::size_t begin = piece * kMarkersPerPiece;
-        const std::size_t end = std::min(markers_.size(), begin + kMarkersPerPiece);
         if (is_cancelled(context_.cancelled)) {
-            std::fill(owners.begin() + static_cast<std::ptrdiff_t>(begin),
-                      owners.begin() + static_cast<std::ptrdiff_t>(end), kNoPlace);
             return;
         }
-        for (std::size_t i = begin; i < end; ++i) {
-            const Vector3 marker = shape_->position(markers_[i].units);
-            owners[i] = search.kills(marker) ? kKilled : search.find(marker);
+        const std::size_t end = std::min(markers_.size(), (piece + 1) * kMarkersPerPiece);
+        std::uint32_t hint = kNoPlace;
+        for (std::size_t at = piece * kMarkersPerPiece; at < end; ++at) {
+            const std::uint32_t i = order[at];
+            owners[i] = search.find(shape_->position(markers_[i].units), hint);
+            hint = owners[i] < kKilled ? owners[i] : hint;
         }
     });
     std::size_t left = 0;

@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: MIT
 // MarkerSearch: the place of a word that a marker belongs to. Made by SpaceEnvironment for each
-// word; its header comment (space.cpp) defines the arithmetic.
+// word; its header comment (space.cpp) defines the arithmetic. A tree with four children a node:
+// bounds are computed four at once in binary32, and leave out only places that are too far away or
+// look elsewhere by more than all rounding errors.
 #pragma once
 
 #include "runtime/environment/environment.h"
-#include "runtime/environment/impl/point_tree.h"
+#include "runtime/environment/impl/frame.h"
+#include "runtime/environment/impl/wide_tree.h"
 
 #include <cstdint>
 #include <span>
@@ -12,6 +15,7 @@
 namespace lsys {
 
 inline constexpr std::uint32_t kNoPlace = ~std::uint32_t{0};
+inline constexpr std::uint32_t kKilled = kNoPlace - 1;
 
 /// Which markers a place sees and kills.
 struct MarkerReach {
@@ -30,19 +34,32 @@ public:
                  const EnvironmentContext& context);
 
     /// Without places, or cancelled: nothing can be found.
-    [[nodiscard]] bool empty() const { return tree_.nodes.empty(); }
-    /// Whether a place is strictly nearer to `marker` than the kill distance.
-    [[nodiscard]] bool kills(const Vector3& marker) const;
-    /// Index of the nearest place that sees the marker, the lowest of several; kNoPlace if there is
-    /// none.
-    [[nodiscard]] std::uint32_t find(const Vector3& marker) const;
+    [[nodiscard]] bool empty() const { return nodes_.empty(); }
+    /// kKilled if a place is strictly nearer to `marker` than the kill distance. Otherwise the index
+    /// of the nearest place that sees it, the lowest of several; kNoPlace if there is none. `hint` is
+    /// the result for a marker nearby, or kNoPlace: it changes only how fast the result is found.
+    [[nodiscard]] std::uint32_t find(const Vector3& marker, std::uint32_t hint) const;
+
+    /// Bytes over so many places while it is made.
+    [[nodiscard]] static std::uint64_t bytes(std::size_t places);
 
 private:
+    /// Children in coordinates of the frame.
+    struct Node : WideNode {
+        std::array<Lanes, 3> low{};  // of the box of each child; of a leaf: the place
+        std::array<Lanes, 3> high{}; // of a leaf: the heading
+    };
+    class Query;
+
+    void fill_node(Node& node, std::span<const SplitItem> items) const;
+    void fill_boxes(std::span<const WideChild> children, std::span<const SplitItem> items);
     [[nodiscard]] bool sees(std::uint32_t position, const Vector3& way, double squared) const;
 
     std::span<const SensePlace> places_;
     MarkerReach reach_;
-    PointTree tree_;
+    Frame frame_;
+    bool compares_headings_ = false; // whether the angle is tested in binary32
+    LargeVector<Node> nodes_;        // the root first
 };
 
 } // namespace lsys

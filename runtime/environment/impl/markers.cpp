@@ -12,6 +12,20 @@ namespace lsys {
 namespace {
 
 constexpr std::uint32_t kMarkerGeneration = 0xFFFFFFFDu; // of draws of markers
+constexpr std::uint32_t kCellBits = 5;                   // a grid has 32 cells along each axis
+
+/// Number of the cell of a marker: the bits of the three indexes in turn.
+std::uint32_t cell_of(const Marker& marker) {
+    std::uint32_t cell = 0;
+    for (std::uint32_t axis = 0; axis < 3; ++axis) {
+        const auto index = static_cast<std::uint32_t>(
+            marker.units[axis] * static_cast<float>(std::uint32_t{1} << kCellBits));
+        for (std::uint32_t bit = 0; bit < kCellBits; ++bit) {
+            cell |= (index >> bit & 1) << (3 * bit + axis);
+        }
+    }
+    return cell;
+}
 
 } // namespace
 
@@ -103,6 +117,21 @@ std::optional<LargeVector<Marker>> draw_markers(const MarkerShape& shape,
                                  [](const Marker& marker) { return marker.index == kMissing; }),
                   markers.end());
     return markers;
+}
+
+LargeVector<std::uint32_t> order_in_space(const LargeVector<Marker>& markers) {
+    std::vector<std::uint32_t> next((std::size_t{1} << (3 * kCellBits)) + 1, 0);
+    for (const Marker& marker : markers) {
+        ++next[cell_of(marker) + 1];
+    }
+    for (std::size_t cell = 1; cell < next.size(); ++cell) {
+        next[cell] += next[cell - 1];
+    }
+    LargeVector<std::uint32_t> order(markers.size());
+    for (std::size_t i = 0; i < markers.size(); ++i) {
+        order[next[cell_of(markers[i])]++] = static_cast<std::uint32_t>(i);
+    }
+    return order;
 }
 
 } // namespace lsys

@@ -58,4 +58,8 @@ inline constexpr std::uint64_t kMarkerTries = 64;
                                                               const MarkerKey& key,
                                                               const EnvironmentContext& context);
 
+/// Indexes of the markers by cells of a grid in Morton order (Morton 1966), so that markers near
+/// each other are next to each other.
+[[nodiscard]] LargeVector<std::uint32_t> order_in_space(const LargeVector<Marker>& markers);
+
 } // namespace lsys

@@ -11,8 +11,6 @@ namespace lsys {
 
 namespace {
 
-constexpr std::size_t kTrianglesPerLeaf = 4;
-
 float rounded_down(double value) {
     constexpr double kMax = std::numeric_limits<float>::max();
     if (value > kMax) {
@@ -31,14 +29,6 @@ float rounded_up(double value) {
     return -rounded_down(-value);
 }
 
-Vector3 middle_of(const std::array<float, 3>& low, const std::array<float, 3>& high) {
-    Vector3 middle;
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-        middle[axis] = 0.5 * (static_cast<double>(low[axis]) + static_cast<double>(high[axis]));
-    }
-    return middle;
-}
-
 /// orientation() seen from p + (e, e^2) for a positive number e that is smaller than all others:
 /// never on a line through two different points.
 int perturbed_orientation(const Vector2& a, const Vector2& b, const Vector2& p) {
@@ -55,11 +45,11 @@ int perturbed_orientation(const Vector2& a, const Vector2& b, const Vector2& p) 
 } // namespace
 
 TriangleTree::TriangleTree(const EnvironmentMesh& mesh, const EnvironmentContext& context)
-    : mesh_(mesh), closure_(mesh_closure(mesh)) {
+    : mesh_(mesh), closure_(mesh_closure(mesh, context.cancelled)),
+      nearest_triangle_(mesh.vertices) {
     order_triangles(context);
     if (!nodes_.empty()) {
         fill_boxes();
-        fill_cylinders(*context.workers);
     }
 }
 
@@ -86,9 +76,12 @@ void TriangleTree::order_triangles(const EnvironmentContext& context) {
     }
     const LargeVector<SplitNode> split =
         build_split_tree(items, kTrianglesPerLeaf, *context.workers, context.cancelled);
-    corners_.resize(items.size());
+    if (split.empty()) { // cancelled
+        return;
+    }
+    triangles_.resize(items.size());
     for (std::size_t at = 0; at < items.size(); ++at) {
-        corners_[at] = {mesh_.triangles[items[at].index], items[at].index};
+        triangles_[at] = {mesh_.triangles[items[at].index], items[at].index};
     }
     nodes_.resize(split.size());
     for (std::size_t i = 0; i < split.size(); ++i) {
@@ -96,6 +89,7 @@ void TriangleTree::order_triangles(const EnvironmentContext& context) {
         nodes_[i].begin = node.second == 0 ? node.begin : node.second;
         nodes_[i].count = node.second == 0 ? node.end - node.begin : 0;
     }
+    nearest_triangle_.build(triangles_, split, *context.workers);
 }
 
 void TriangleTree::fill_boxes() {
@@ -113,7 +107,7 @@ void TriangleTree::fill_boxes() {
         node.low.fill(std::numeric_limits<float>::infinity());
         node.high.fill(-std::numeric_limits<float>::infinity());
         for (std::size_t at = node.begin; at < node.begin + node.count; ++at) {
-            for (const std::uint32_t vertex : corners_[at].vertices) {
+            for (const std::uint32_t vertex : triangles_[at].vertices) {
                 for (std::size_t axis = 0; axis < 3; ++axis) {
                     const double coordinate = mesh_.vertices[vertex][axis];
                     node.low[axis] = std::min(node.low[axis], rounded_down(coordinate));
@@ -124,132 +118,9 @@ void TriangleTree::fill_boxes() {
     }
 }
 
-void TriangleTree::fill_cylinders(Workers& workers) {
-    constexpr std::size_t kMaxTriangles = 128; // of a node with a cylinder
-    constexpr std::size_t kNodes = 1U << 10;   // of one piece of work
-    // The triangles of each node are those of its leaves, which are in order.
-    LargeVector<std::uint32_t> ends(nodes_.size());
-    for (std::size_t i = nodes_.size(); i-- > 0;) {
-        const Node& node = nodes_[i];
-        ends[i] = node.count > 0 ? node.begin + node.count : ends[node.begin];
-    }
-    LargeVector<std::uint32_t> begins(nodes_.size());
-    for (std::size_t i = nodes_.size(); i-- > 0;) {
-        begins[i] = nodes_[i].count > 0 ? nodes_[i].begin : begins[i + 1];
-    }
-    workers.for_each((nodes_.size() + kNodes - 1) / kNodes, [&](std::uint64_t piece) {
-        const std::size_t end = std::min(nodes_.size(), (piece + 1) * kNodes);
-        for (std::size_t i = piece * kNodes; i < end; ++i) {
-            if (ends[i] - begins[i] <= kMaxTriangles) {
-                fill_cylinder(nodes_[i], begins[i], ends[i]);
-            }
-        }
-    });
-}
-
-void TriangleTree::fill_cylinder(Node& node, std::size_t begin, std::size_t end) const {
-    Vector3 sum{};
-    for (std::size_t at = begin; at < end; ++at) {
-        const Vector3 area = area_vector(triangle(at));
-        sum = dot(sum, area) < 0.0 ? minus(sum, area) : plus(sum, area);
-    }
-    node.axis = normalised(sum);
-    if (!is_finite(node.axis) || node.axis == Vector3{}) {
-        return;
-    }
-    const Vector3 middle = middle_of(node.low, node.high);
-    double half_length = 0.0;
-    double radius_squared = 0.0;
-    double magnitude = 0.0;
-    for (std::size_t at = begin; at < end; ++at) {
-        for (const std::uint32_t index : corners_[at].vertices) {
-            const Vector3& vertex = mesh_.vertices[index];
-            const Vector3 offset = minus(vertex, middle);
-            const double along = dot(node.axis, offset);
-            half_length = std::max(half_length, std::abs(along));
-            radius_squared = std::max(radius_squared, squared_length(offset) - along * along);
-            magnitude = std::max(magnitude, squared_length(vertex));
-        }
-    }
-    // Nearest points as computed are beside the triangle by some units in the last place of the
-    // largest coordinate; the cylinder is larger by far more.
-    const double more = 1e-12 * std::sqrt(magnitude);
-    const auto enlarged = [&](double length) { return rounded_up(length * (1.0 + 1e-6) + more); };
-    node.half_length = enlarged(half_length);
-    node.radius = enlarged(std::sqrt(radius_squared) + 1e-7 * half_length);
-}
-
 Triangle TriangleTree::triangle(std::size_t at) const {
-    const std::array<std::uint32_t, 3>& corners = corners_[at].vertices;
+    const std::array<std::uint32_t, 3>& corners = triangles_[at].vertices;
     return {mesh_.vertices[corners[0]], mesh_.vertices[corners[1]], mesh_.vertices[corners[2]]};
-}
-
-double TriangleTree::least_squared(const Node& node, const Vector3& place) {
-    Vector3 apart;
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-        apart[axis] = std::max(std::max(static_cast<double>(node.low[axis]) - place[axis],
-                                        place[axis] - static_cast<double>(node.high[axis])),
-                               0.0);
-    }
-    return squared_length(apart);
-}
-
-/// Whether all triangles of the node are farther from `place` than the root of `squared`, by their
-/// cylinder. A relative margin of 1e-6 is far above the rounding errors, so the answer is never
-/// wrong for distances as computed; false if it is close.
-bool TriangleTree::is_farther(const Node& node, const Vector3& place, double squared) {
-    if (node.half_length < 0.0F) {
-        return false;
-    }
-    const Vector3 offset = minus(place, middle_of(node.low, node.high));
-    const double offset_squared = squared_length(offset);
-    const double along = dot(node.axis, offset);
-    const double beside = std::sqrt(std::max(offset_squared - along * along, 0.0));
-    const double above = std::max(std::abs(along) - static_cast<double>(node.half_length), 0.0);
-    const double outside = std::max(beside - static_cast<double>(node.radius), 0.0);
-    return above * above + outside * outside > squared + 1e-6 * offset_squared;
-}
-
-void TriangleTree::find_nearest(const Vector3& place,
-                                NearestPoint& nearest,
-                                std::uint32_t& hint) const {
-    struct Open {
-        std::uint32_t node = 0;
-        double least = 0.0;
-    };
-    std::uint32_t next_index = 0; // 1 + index of the nearest triangle; 0: of another mesh
-    const auto consider = [&](std::size_t at) {
-        const NearestPoint point = nearest_point(triangle(at), place);
-        const std::uint32_t index = corners_[at].index + 1;
-        if (point.squared < nearest.squared ||
-            (point.squared == nearest.squared && index < next_index)) {
-            nearest = point;
-            next_index = index;
-            hint = static_cast<std::uint32_t>(at);
-        }
-    };
-    consider(hint);
-    std::array<Open, kMaxSplitDepth> open;
-    std::size_t open_count = 0;
-    open[open_count++] = {0, least_squared(nodes_[0], place)};
-    while (open_count > 0) {
-        const Open next = open[--open_count];
-        const Node& node = nodes_[next.node];
-        if (!(next.least <= nearest.squared) || is_farther(node, place, nearest.squared)) {
-            continue;
-        }
-        if (node.count == 0) {
-            const Open first{next.node + 1, least_squared(nodes_[next.node + 1], place)};
-            const Open second{node.begin, least_squared(nodes_[node.begin], place)};
-            const bool first_is_nearer = first.least <= second.least;
-            open[open_count++] = first_is_nearer ? second : first;
-            open[open_count++] = first_is_nearer ? first : second;
-            continue;
-        }
-        for (std::size_t at = node.begin; at < node.begin + node.count; ++at) {
-            consider(at);
-        }
-    }
 }
 
 /// The crossing of the triangle by the ray from `place` along +x, or along -x unless `upwards`:
@@ -274,7 +145,7 @@ int TriangleTree::crossing(std::size_t at, const Vector3& place, bool upwards) c
     if (orientation(t.a, t.b, t.c, place) != side * towards) {
         return 0;
     }
-    const bool turned = !closure_.turned.empty() && closure_.turned[corners_[at].index] != 0;
+    const bool turned = !closure_.turned.empty() && closure_.turned[triangles_[at].index] != 0;
     return turned ? -side * towards : side * towards;
 }
 
@@ -319,11 +190,13 @@ bool TriangleTree::is_inside(const Vector3& place) const {
 
 std::uint64_t TriangleTree::bytes(const EnvironmentMesh& mesh) {
     // First the edges and the order of vertices, then items, nodes and corners.
-    constexpr std::uint64_t kEdgeBytes = 3 * 16;
+    constexpr std::uint64_t kEdgeBytes = 3 * 16 * 3 / 2; // with the space of a merge
     constexpr std::uint64_t kTurnedBytes = 9;
     constexpr std::uint64_t kTreeBytes =
-        sizeof(SplitItem) + sizeof(Corners) + (sizeof(SplitNode) + sizeof(Node)) / 2;
-    return mesh.triangles.size() * std::max(kEdgeBytes + kTurnedBytes, kTreeBytes) +
+        sizeof(SplitItem) + sizeof(LeafTriangle) + (sizeof(SplitNode) + sizeof(Node)) / 2;
+    const std::size_t count = mesh.triangles.size();
+    return std::max(count * (kEdgeBytes + kTurnedBytes),
+                    count * kTreeBytes + NearestTriangle::bytes(count)) +
            mesh.vertices.size() * 2 * sizeof(std::uint32_t);
 }
 

@@ -213,6 +213,37 @@ TEST_CASE("distances to meshes are those of all triangles one after the other, b
     }
 }
 
+TEST_CASE("distances to meshes of any size, far from the origin and from places, are the same") {
+    for (std::uint32_t seed = 0; seed < 200; ++seed) {
+        TestRandom random(seed);
+        EnvironmentMesh mesh = random_mesh(random, 1 + random.below(200));
+        std::vector<SensePlace> places = random_places(random, 30, 2.5);
+        constexpr std::array<int, 6> kExponents{-120, -40, -10, 0, 60, 120};
+        const double size = std::ldexp(1.0, kExponents[random.below(6)]);
+        const double offset = random.below(2) == 0 ? 0.0 : size * 1e6;
+        const auto move = [&](Vector3& point) {
+            for (double& coordinate : point) {
+                coordinate = coordinate * size + offset;
+            }
+        };
+        std::for_each(mesh.vertices.begin(), mesh.vertices.end(), move);
+        for (SensePlace& place : places) {
+            move(place.position);
+        }
+        places.push_back(places.front());
+        places.back().position[0] += 1e20 * size; // where binary32 is of no use
+        std::vector<float> expected;
+        for (const SensePlace& place : places) {
+            const std::vector<float> answer = direct_answer({mesh}, place.position);
+            expected.insert(expected.end(), answer.begin(), answer.end());
+        }
+        INFO("seed " << seed);
+        Solid solid(2);
+        solid.add_mesh(mesh);
+        REQUIRE(same_bits(solid.answers(places), expected));
+    }
+}
+
 TEST_CASE("a plane is solid on its negative side") {
     Solid solid(1);
     solid.add_plane(0.0F, 2.0F, 0.0F, -2.0F); // y = 1
@@ -443,6 +474,13 @@ TEST_CASE("a mesh without area or with a vertex that is not finite is refused") 
     CHECK(failure->stop == Stop::Diagnosed);
 }
 
+TEST_CASE("a mesh with more edges than one block of the sort is closed") {
+    EnvironmentMesh mesh = sphere_mesh({0.0, 0.0, 0.0}, 1.0, 120);
+    CHECK(mesh_closure(mesh).closed);
+    mesh.triangles.pop_back();
+    CHECK_FALSE(mesh_closure(mesh).closed);
+}
+
 TEST_CASE("a mesh beyond the memory is refused, and building its tree can be cancelled") {
     Solid solid(2);
     solid.add_mesh(sphere_mesh({0.0, 0.0, 0.0}, 1.0, 100));
@@ -454,11 +492,27 @@ TEST_CASE("a mesh beyond the memory is refused, and building its tree can be can
         CHECK(failure->stop == Stop::Limit);
         CHECK(failure->bytes > 1000);
     }
+    SECTION("limit of the order of places") {
+        solid.context.max_bytes = 1000;
+        const std::uint64_t tree_bytes = solid.begin()->bytes;
+        solid.context.max_bytes = tree_bytes;
+        REQUIRE_FALSE(solid.begin().has_value());
+        const std::vector<SensePlace> places(1);
+        SensedWord word;
+        word.places = places;
+        std::vector<float> answers(4);
+        std::vector<std::uint32_t> sizes;
+        const auto failure = solid.environment->answer(word, answers, sizes);
+        REQUIRE(failure.has_value());
+        CHECK(failure->stop == Stop::Limit);
+        CHECK(failure->bytes > tree_bytes);
+    }
     SECTION("cancelled") {
         solid.context.cancelled = &cancelled;
         const auto failure = solid.begin();
         REQUIRE(failure.has_value());
         CHECK(failure->stop == Stop::Cancelled);
+        CHECK_FALSE(mesh_closure(solid.files.meshes[0], &cancelled).closed);
     }
 }
 

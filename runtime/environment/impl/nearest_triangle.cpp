@@ -1,0 +1,198 @@
+// SPDX-License-Identifier: MIT
+#include "runtime/environment/impl/nearest_triangle.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace lsys {
+
+void NearestTriangle::build(std::span<const LeafTriangle> triangles,
+                            std::span<const SplitNode> split,
+                            Workers& workers) {
+    constexpr std::size_t kPieces = 1U << 10; // cylinders of one piece of work
+    triangles_ = triangles;
+    find_frame();
+    const LargeVector<WideChild> children = make_wide_nodes(split, nodes_);
+    workers.for_each((children.size() + kPieces - 1) / kPieces, [&](std::uint64_t number) {
+        const std::size_t end = std::min(children.size(), (number + 1) * kPieces);
+        for (std::size_t i = number * kPieces; i < end; ++i) {
+            fill_cylinder(children[i]);
+        }
+    });
+}
+
+void NearestTriangle::find_frame() {
+    PointBox box;
+    for (const LeafTriangle& triangle : triangles_) {
+        for (const std::uint32_t vertex : triangle.vertices) {
+            box.add(vertices_[vertex]);
+        }
+    }
+    double magnitude = 0.0;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        magnitude = std::max({magnitude, std::abs(box.low[axis]), std::abs(box.high[axis])});
+    }
+    frame_ = Frame(box);
+    // Nearest points as computed are beside their triangle by some units in the last place of the
+    // largest coordinate; cylinders are larger by far more.
+    more_ = 1e-12 * magnitude * frame_.scale();
+}
+
+Vector3 NearestTriangle::axis_of(const WideChild& child) const {
+    Vector3 sum{};
+    for (std::size_t at = child.begin; at < child.end; ++at) {
+        const std::array<std::uint32_t, 3>& corners = triangles_[at].vertices;
+        const Vector3 area =
+            area_vector({framed(corners[0]), framed(corners[1]), framed(corners[2])});
+        sum = dot(sum, area) < 0.0 ? minus(sum, area) : plus(sum, area);
+    }
+    const Vector3 axis = normalised(sum);
+    return is_finite(axis) && axis != Vector3{} ? axis : Vector3{0.0, 1.0, 0.0};
+}
+
+/// A point from which the triangles reach about equally far, beside the axis and along it.
+Vector3 NearestTriangle::middle_of(const WideChild& child, const Vector3& axis) const {
+    constexpr std::uint32_t kFew = 16; // triangles that are looked at several times
+    constexpr int kRounds = 6;
+    Vector3 low = framed(triangles_[child.begin].vertices[0]);
+    Vector3 high = low;
+    const auto for_each_corner = [&](const auto& work) {
+        for (std::size_t at = child.begin; at < child.end; ++at) {
+            for (const std::uint32_t vertex : triangles_[at].vertices) {
+                work(framed(vertex));
+            }
+        }
+    };
+    for_each_corner([&](const Vector3& corner) {
+        for (std::size_t i = 0; i < 3; ++i) {
+            low[i] = std::min(low[i], corner[i]);
+            high[i] = std::max(high[i], corner[i]);
+        }
+    });
+    Vector3 middle = times(plus(low, high), 0.5);
+    // Towards the middle of the least circle around all corners (Badoiu & Clarkson 2003, "Smaller
+    // core-sets for balls").
+    for (int round = 0; round < kRounds && child.end - child.begin <= kFew; ++round) {
+        double farthest = -1.0;
+        Vector3 way{};
+        for_each_corner([&](const Vector3& corner) {
+            const Vector3 offset = minus(corner, middle);
+            const Vector3 beside = minus(offset, times(axis, dot(axis, offset)));
+            if (squared_length(beside) > farthest) {
+                farthest = squared_length(beside);
+                way = beside;
+            }
+        });
+        middle = plus(middle, times(way, 1.0 / (round + 3)));
+    }
+    double least = std::numeric_limits<double>::infinity();
+    double most = -least;
+    for_each_corner([&](const Vector3& corner) {
+        const double along = dot(axis, minus(corner, middle));
+        least = std::min(least, along);
+        most = std::max(most, along);
+    });
+    return plus(middle, times(axis, 0.5 * (least + most)));
+}
+
+void NearestTriangle::fill_cylinder(const WideChild& child) {
+    Node& node = nodes_[child.node];
+    const std::size_t lane = child.lane;
+    if (!(frame_.scale() > 0.0 && more_ < 1.0)) { // no place is bounded
+        return;
+    }
+    Vector3 axis = axis_of(child);
+    Vector3 middle = middle_of(child, axis);
+    for (std::size_t i = 0; i < 3; ++i) {
+        node.axis[i][lane] = static_cast<float>(axis[i]);
+        node.middle[i][lane] = static_cast<float>(middle[i]);
+        // The cylinder is that of the rounded numbers.
+        axis[i] = static_cast<double>(node.axis[i][lane]);
+        middle[i] = static_cast<double>(node.middle[i][lane]);
+    }
+    double half_length = 0.0;
+    double radius_squared = 0.0;
+    for (std::size_t at = child.begin; at < child.end; ++at) {
+        for (const std::uint32_t vertex : triangles_[at].vertices) {
+            const Vector3 offset = minus(framed(vertex), middle);
+            const double along = dot(axis, offset);
+            const Vector3 beside = minus(offset, times(axis, along));
+            half_length = std::max(half_length, std::abs(along));
+            radius_squared = std::max(radius_squared, squared_length(beside));
+        }
+    }
+    node.half_length[lane] = upper_float(half_length + more_);
+    node.radius[lane] = upper_float(std::sqrt(radius_squared) + more_);
+}
+
+Lanes NearestTriangle::least_squared(const Node& node, const std::array<float, 3>& at) {
+    const Lanes x = at[0] - node.middle[0];
+    const Lanes y = at[1] - node.middle[1];
+    const Lanes z = at[2] - node.middle[2];
+    const Lanes along = x * node.axis[0] + y * node.axis[1] + z * node.axis[2];
+    const Lanes beside_x = x - along * node.axis[0];
+    const Lanes beside_y = y - along * node.axis[1];
+    const Lanes beside_z = z - along * node.axis[2];
+    const Lanes beside =
+        square_roots(beside_x * beside_x + beside_y * beside_y + beside_z * beside_z);
+    const Lanes above = not_negative((along < 0.0F ? -along : along) - node.half_length);
+    const Lanes outside = not_negative(beside - node.radius);
+    return above * above + outside * outside;
+}
+
+void NearestTriangle::find(const Vector3& place, NearestPoint& nearest, std::uint32_t& hint) const {
+    const FramedPlace framed = frame_.framed_place(place);
+    const bool is_bounded = framed.is_bounded && more_ < 1.0;
+    float limit = 0.0F;           // what is farther, squared in the frame, is left out
+    std::uint32_t next_index = 0; // 1 + index of the nearest triangle; 0: of another mesh
+    const auto set_limit = [&] {
+        const double distance = std::sqrt(nearest.squared) * frame_.scale() + framed.margin;
+        limit =
+            is_bounded ? upper_float(distance * distance) : std::numeric_limits<float>::infinity();
+    };
+    const auto consider = [&](std::uint32_t at) {
+        const NearestPoint point = nearest_point(triangle(at), place);
+        const std::uint32_t index = triangles_[at].index + 1;
+        if (point.squared < nearest.squared ||
+            (point.squared == nearest.squared && index < next_index)) {
+            nearest = point;
+            next_index = index;
+            hint = at;
+            set_limit();
+        }
+    };
+    set_limit();
+    const std::uint32_t first = hint;
+    consider(first);
+    std::array<WideOpen, kMaxWideOpen> open;
+    std::size_t open_count = 0;
+    open[open_count++] = {0, 0.0F};
+    while (open_count > 0) {
+        const WideOpen next = open[--open_count];
+        if (next.least > limit) {
+            continue;
+        }
+        const Node& node = nodes_[next.node];
+        const Lanes least = least_squared(node, framed.at);
+        const std::size_t bottom = open_count;
+        for (std::uint32_t bits = ~lane_bits(least > limit) & ((1U << node.count) - 1); bits != 0;
+             bits &= bits - 1) {
+            const std::size_t lane = lowest_lane(bits); // the nearest child is the last one
+            open_sorted(open, bottom, open_count, {node.children[lane], least[lane]});
+        }
+        while (node.is_leaf && open_count > bottom) {
+            const WideOpen child = open[--open_count];
+            if (!(child.least > limit) && child.node != first) {
+                consider(child.node);
+            }
+        }
+    }
+}
+
+std::uint64_t NearestTriangle::bytes(std::size_t triangles) {
+    const std::uint64_t nodes = wide_node_count(triangles);
+    return nodes * sizeof(Node) + (triangles + nodes) * sizeof(WideChild);
+}
+
+} // namespace lsys

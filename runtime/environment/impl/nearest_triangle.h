@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: MIT
+// NearestTriangle: the nearest triangle of a mesh, by a tree with four children a node. Each child
+// is inside a cylinder: a flat one around a piece of a smooth surface tells apart what boxes at
+// nearly the same distance do not. The bounds of four cylinders are computed at once in binary32.
+//
+// Answers are those of a loop over all triangles, bit by bit (triangle_distance.h): a triangle is
+// left out only if it is farther than the nearest one by more than all rounding errors.
+#pragma once
+
+#include "runtime/base/large_vector.h"
+#include "runtime/base/workers.h"
+#include "runtime/environment/impl/frame.h"
+#include "runtime/environment/impl/lanes.h"
+#include "runtime/environment/impl/split_tree.h"
+#include "runtime/environment/impl/triangle_distance.h"
+#include "runtime/environment/impl/wide_tree.h"
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace lsys {
+
+/// A triangle of a mesh, in the order of the leaves of a tree.
+struct LeafTriangle {
+    std::array<std::uint32_t, 3> vertices{};
+    std::uint32_t index = 0; // in the file
+};
+
+inline constexpr std::size_t kTrianglesPerLeaf = kLanes;
+
+class NearestTriangle {
+public:
+    explicit NearestTriangle(const std::vector<Vector3>& vertices) : vertices_(vertices) {}
+
+    /// Builds the tree over the leaves of `split`, each of at most kTrianglesPerLeaf triangles.
+    /// `triangles` outlive the object.
+    void build(std::span<const LeafTriangle> triangles,
+               std::span<const SplitNode> split,
+               Workers& workers);
+
+    /// As TriangleTree::find_nearest(). Precondition: build() was called.
+    void find(const Vector3& place, NearestPoint& nearest, std::uint32_t& hint) const;
+
+    /// Bytes of the tree over so many triangles, at most.
+    [[nodiscard]] static std::uint64_t bytes(std::size_t triangles);
+
+private:
+    /// Children in coordinates of the frame.
+    struct Node : WideNode {
+        std::array<Lanes, 3> middle{}; // of the cylinder of each child
+        std::array<Lanes, 3> axis{};   // unit vector
+        Lanes half_length{};
+        Lanes radius{};
+    };
+
+    void find_frame();
+    [[nodiscard]] Vector3 framed(std::uint32_t vertex) const {
+        return frame_.framed(vertices_[vertex]);
+    }
+    void fill_cylinder(const WideChild& child);
+    [[nodiscard]] Vector3 axis_of(const WideChild& child) const;
+    [[nodiscard]] Vector3 middle_of(const WideChild& child, const Vector3& axis) const;
+    [[nodiscard]] Triangle triangle(std::size_t at) const {
+        const std::array<std::uint32_t, 3>& corners = triangles_[at].vertices;
+        return {vertices_[corners[0]], vertices_[corners[1]], vertices_[corners[2]]};
+    }
+    /// Not above the squared distance to each child, apart from the margin.
+    [[nodiscard]] static Lanes least_squared(const Node& node, const std::array<float, 3>& at);
+
+    const std::vector<Vector3>& vertices_;
+    std::span<const LeafTriangle> triangles_;
+    Frame frame_;
+    double more_ = 0.0;       // by which cylinders are larger than their triangles, in the frame
+    LargeVector<Node> nodes_; // the root first
+};
+
+} // namespace lsys
