@@ -53,6 +53,25 @@ std::string text_of(const lsys::Messages& messages) {
     return text;
 }
 
+/// The argument `environment`: a dictionary from names to callables, or None.
+py::dict environments_of(const py::handle& given) {
+    if (given.is_none()) {
+        return {};
+    }
+    if (!py::isinstance<py::dict>(given)) {
+        throw py::type_error("environment is a dictionary from names to functions");
+    }
+    // A copy, whose functions live until the end of the call.
+    const auto copy =
+        py::reinterpret_steal<py::dict>(PyDict_Copy(given.ptr()));
+    for (const auto& [key, function] : copy) {
+        if (!py::isinstance<py::str>(key) || PyCallable_Check(function.ptr()) == 0) {
+            throw py::type_error("environment is a dictionary from names to functions");
+        }
+    }
+    return copy;
+}
+
 lsys::MeshMethod method_of(const std::string& name) {
     const std::map<std::string, lsys::MeshMethod> methods{
         {"default", lsys::MeshMethod::Default},
@@ -175,6 +194,8 @@ CallOptions options_of(const py::kwargs& arguments) {
             options.progress = py::reinterpret_borrow<py::object>(value);
         } else if (name == "read_file") {
             options.read_file = py::reinterpret_borrow<py::object>(value);
+        } else if (name == "environment") {
+            options.environment = environments_of(value);
         } else {
             throw py::type_error("unexpected keyword argument '" + name + "'");
         }

@@ -37,6 +37,7 @@ struct CallOptions {
     std::uint64_t max_bytes = 0;
     py::object progress = py::none();  // callable(generation, generations, modules)
     py::object read_file = py::none(); // callable(path) -> bytes, str or None
+    py::dict environment; // name to callable(generation, positions, headings, ups, parameters)
 };
 
 /// The options among the keyword arguments. Raises TypeError for other arguments.
@@ -57,6 +58,12 @@ struct CallOptions {
 
 /// Whether this is Python's main thread (`threading.main_thread()`), which handles Ctrl-C.
 [[nodiscard]] bool is_main_thread();
+/// Calls answer(generation, positions, headings, ups, parameters), which returns an array of
+/// (modules, numbers). Raises TypeError or ValueError, with the name of the environment, for other
+/// results.
+[[nodiscard]] lsys::EnvironmentAnswers answers_by(const py::function& answer,
+                                                  const std::string& name,
+                                                  const lsys::EnvironmentQuery& query);
 /// Calls read(path), which returns the contents of the file as bytes or text, or None for a missing
 /// file. An OSError becomes the reason of a failure.
 [[nodiscard]] lsys::FileContents read_by(const py::function& read, const std::string& path);
@@ -157,6 +164,15 @@ auto run(const CallOptions& options, const Work& work) {
         project.host.read_file = [read = read.ptr()](const std::string& path) {
             return with_lock(
                 [&] { return read_by(py::reinterpret_borrow<py::function>(read), path); });
+        };
+    }
+    for (const auto& [key, function] : options.environment) {
+        const auto name = key.cast<std::string>();
+        project.host.environments[name] = [name, answer = function.ptr()](
+                                              const lsys::EnvironmentQuery& query) {
+            return with_lock([&] {
+                return answers_by(py::reinterpret_borrow<py::function>(answer), name, query);
+            });
         };
     }
     if (!options.progress.is_none()) {
