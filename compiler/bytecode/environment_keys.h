@@ -70,6 +70,12 @@ struct EnvironmentKey {
 [[nodiscard]] constexpr std::uint32_t axes_of(EnvironmentKind kind) {
     return kind == EnvironmentKind::Map ? 2 : 3;
 }
+/// Number of values behind a key.
+[[nodiscard]] constexpr std::uint32_t value_count(const EnvironmentKey& key, EnvironmentKind kind) {
+    return key.form == EnvironmentKeyForm::Vector  ? axes_of(kind)
+           : key.form == EnvironmentKeyForm::Plane ? 4
+                                                   : 1;
+}
 /// Completes "`size` takes ..." for a kind.
 [[nodiscard]] std::string wanted_text(const EnvironmentKey& key, EnvironmentKind kind);
 

@@ -24,7 +24,7 @@ constexpr ListedCheck kChecks[] = {
     {check_turtle_arguments, false},
     {check_foreign_habits, true},
     {check_unused_names, true},
-    {check_interpreted_senses, true},
+    {check_idle_senses, true},
     {check_module_use, true},
     {check_reachable_productions, true},
     {check_conditions, true},

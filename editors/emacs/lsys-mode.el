@@ -39,6 +39,10 @@
   "Words that are values of settings.")
 (defconst lsys-material-keys '("colour" "normal" "picture" "roughness" "translucency" "two_sided")
   "Keys of `#material'.")
+(defconst lsys-sense-keys '("angle" "at" "cell" "count" "directions" "extinction" "file" "high" "kill" "levels" "low" "mesh" "plane" "radius" "ratio" "shape" "size" "strength")
+  "Keys of `#sense'.")
+(defconst lsys-sense-kinds '("ball" "box" "cone" "crowd" "dome" "map" "program" "shadow" "sky" "solid" "space")
+  "Kinds and shapes of `#sense'.")
 (defconst lsys-commands '("F" "f")
   "Turtle commands of the default profile that are letters.")
 
@@ -101,8 +105,15 @@ turtle commands."
       (save-excursion (search-forward ";" nil 'move) (point))
       nil
       (0 font-lock-type-face)))
+    ("\\(#sense\\)\\s-+\\(\\w+\\)"
+     (1 font-lock-keyword-face)
+     (2 font-lock-variable-name-face)
+     (,(concat "\\_<" (regexp-opt (append lsys-sense-keys lsys-sense-kinds)) "\\_>")
+      (save-excursion (search-forward ";" nil 'move) (point))
+      nil
+      (0 font-lock-type-face)))
     ("\\(#\\(?:w\\|ignore\\|consider\\)\\)\\s-*[:~]" 1 font-lock-keyword-face)
-    ("\\(#\\(?:decompose\\|interpret\\)\\)\\s-+\\(\\w+\\)\\s-*:"
+    ("\\(#\\(?:decompose\\|interpret\\|down\\|up\\)\\)\\s-+\\(\\w+\\)\\s-*:"
      (1 font-lock-keyword-face)
      (2 font-lock-function-name-face))
     ("\\(#\\w+\\)\\s-*:" 1 font-lock-function-name-face)
@@ -148,7 +159,7 @@ turtle commands."
   (setq-local font-lock-defaults '(lsys-font-lock-keywords))
   (setq-local indent-line-function #'lsys-indent-line)
   (setq-local imenu-generic-expression
-              '(("Productions" "^\\s-*#\\(?:\\(?:decompose\\|interpret\\)\\s-+\\)?\\(\\w+\\)\\s-*:" 1)
+              '(("Productions" "^\\s-*#\\(?:\\(?:decompose\\|interpret\\|down\\|up\\)\\s-+\\)?\\(\\w+\\)\\s-*:" 1)
                 ("Constants" "^\\s-*#\\(?:define\\|param\\)\\s-+\\(\\w+\\)" 1)
                 ("Functions" "^\\s-*#\\(?:function\\|curve\\)\\s-+\\(\\w+\\)" 1))))
 

@@ -104,11 +104,13 @@ std::map<std::string, Words> word_lists() {
     Words values = words.statements;
     std::erase_if(values, [](const std::string& word) {
         return word == "w" || word == "ignore" || word == "consider" || word == "decompose" ||
-               word == "interpret" || word == "set" || word == "material";
+               word == "interpret" || word == "down" || word == "up" || word == "set" ||
+               word == "material" || word == "sense";
     });
     return {{"statements", words.statements}, {"value_statements", values},
             {"functions", words.functions},   {"settings", words.settings},
             {"values", words.values},         {"material_keys", words.material_keys},
+            {"sense_keys", words.sense_keys}, {"sense_kinds", words.sense_kinds},
             {"objects", words.objects},       {"commands", words.commands}};
 }
 

@@ -250,7 +250,9 @@ CONTROL [\x01-\x08\x0B\x0C\x0E-\x1F\x7F]
                               SHORTEN(0);
                               return *missing;
                           }
-                          return Token(Parser::token::TOK_OTHER, session.token());
+                          if (!report_needless_question_mark(session)) {
+                              return Token(Parser::token::TOK_OTHER, session.token());
+                          }
                         }
 }
 

@@ -17,7 +17,7 @@ void check_turtle_arguments(const CheckInput& input, Diagnostics& diagnostics);
 // Checks of whole programs.
 void check_foreign_habits(const CheckInput& input, Diagnostics& diagnostics);
 void check_unused_names(const CheckInput& input, Diagnostics& diagnostics);
-void check_interpreted_senses(const CheckInput& input, Diagnostics& diagnostics);
+void check_idle_senses(const CheckInput& input, Diagnostics& diagnostics);
 void check_module_use(const CheckInput& input, Diagnostics& diagnostics);
 void check_conditions(const CheckInput& input, Diagnostics& diagnostics);
 void check_reachable_productions(const CheckInput& input, Diagnostics& diagnostics);

@@ -12,15 +12,6 @@ namespace lsys {
 
 namespace {
 
-/// "(0, 0, 0, 0)": first values for an answer of `count` numbers.
-std::string zeros(std::uint32_t count) {
-    std::string text = "(0";
-    for (std::uint32_t i = 1; i < count; ++i) {
-        text += ", 0";
-    }
-    return text + ')';
-}
-
 /// Whether `name` is a setting that a constant of this name may be meant to set.
 bool is_setting_name(std::string_view name) {
     constexpr std::array<std::string_view, 6> kNames{"angle", "step",  "width",

@@ -12,15 +12,10 @@ namespace lsys {
 void EnvironmentResolver::read_entry(const Entry& entry, ProgramEnvironment& environment) {
     const EnvironmentKey& key = *entry.key;
     BytecodeEnvironment& values = environment.values;
-    if (entry.written.values.count == 0 || lacks_value(entry, values.kind) ||
-        (entry.written.values.count > 1 && key.form != EnvironmentKeyForm::Vector &&
-         key.form != EnvironmentKeyForm::Plane) ||
-        (key.form == EnvironmentKeyForm::Vector &&
-         entry.written.values.count != axes_of(values.kind)) ||
-        (key.form == EnvironmentKeyForm::Plane && entry.written.values.count != 4)) {
+    if (entry.written.values.count != value_count(key, values.kind)) {
         Diagnostic& error = report_value_count(resolution_, DiagnosticCode::BadEnvironment,
                                                entry.written, wanted_text(key, values.kind));
-        if (key.may_repeat() && entry.written.values.count > 1) {
+        if (key.may_repeat() && !lacks_value(entry, values.kind)) {
             error.help.push_back(fmt::format("write `{}` before each of them", key.word));
         }
         return;

@@ -31,17 +31,6 @@ std::string kinds_with(const EnvironmentKey& key) {
     return fmt::format("{}", fmt::join(kinds, " and "));
 }
 
-std::uint32_t values_of(const EnvironmentKey& key, EnvironmentKind kind) {
-    switch (key.form) {
-    case EnvironmentKeyForm::Vector:
-        return axes_of(kind);
-    case EnvironmentKeyForm::Plane:
-        return 4;
-    default:
-        return 1;
-    }
-}
-
 } // namespace
 
 std::vector<std::string_view> sense_keys() {
@@ -161,6 +150,7 @@ void EnvironmentResolver::environment(std::uint32_t index) {
     const SenseNode& node = resolution_.ast.senses[index];
     const auto number = numbers_.find(index);
     ProgramEnvironment unused; // of a statement whose name is in error
+    unused.name = node.name;
     ProgramEnvironment& environment =
         number == numbers_.end() ? unused : resolution_.program.environments[number->second];
     expressions_.begin_statement();
@@ -283,7 +273,7 @@ EnvironmentResolver::Reading EnvironmentResolver::read_entries(const SenseNode& 
 }
 
 bool EnvironmentResolver::lacks_value(const Entry& entry, EnvironmentKind kind) const {
-    return entry.written.values.count < values_of(*entry.key, kind);
+    return entry.written.values.count < value_count(*entry.key, kind);
 }
 
 void EnvironmentResolver::report_unknown_key(const KeyedValues& word, EnvironmentKind kind) {
@@ -333,10 +323,12 @@ void EnvironmentResolver::check_missing_keys(const Reading& reading,
         return;
     }
     std::vector<std::string> missing;
+    const EnvironmentKey* only_missing = nullptr;
     for (const EnvironmentKey& key : environment_keys()) {
         if (key.is_required_by(reading.kind) && !has(key.word) &&
             !(key.word == "size" && is_mesh)) {
             missing.push_back(fmt::format("`{}`", key.word));
+            only_missing = &key;
         }
     }
     if (reading.kind == EnvironmentKind::Solid && !has("mesh") && !has("plane")) {
@@ -352,11 +344,9 @@ void EnvironmentResolver::check_missing_keys(const Reading& reading,
     Diagnostic& error = resolution_.diagnostics.add(
         DiagnosticCode::BadEnvironment, reading.kind_span,
         fmt::format("an environment of kind `{}` needs {}", name_of(reading.kind), list));
-    for (const EnvironmentKey& key : environment_keys()) {
-        if (key.is_required_by(reading.kind) && !has(key.word) && missing.size() == 1) {
-            error.help.push_back(
-                fmt::format("`{}` takes {}", key.word, wanted_text(key, reading.kind)));
-        }
+    if (missing.size() == 1 && only_missing != nullptr) {
+        error.help.push_back(fmt::format("`{}` takes {}", only_missing->word,
+                                         wanted_text(*only_missing, reading.kind)));
     }
     constexpr std::array<std::string_view, kCountOf<EnvironmentKind>> kExamples{
         "",
@@ -367,7 +357,8 @@ void EnvironmentResolver::check_missing_keys(const Reading& reading,
         "map file \"soil.png\" size 10 10",
         ""};
     const std::string_view example = kExamples[static_cast<std::size_t>(reading.kind)];
-    error.help.push_back(fmt::format("for example `#sense NAME {};`", example));
+    error.help.push_back(
+        fmt::format("for example `#sense {} {};`", resolution_.text(environment.name), example));
 }
 
 } // namespace lsys

@@ -27,7 +27,7 @@ constexpr auto kMaxIndex = static_cast<float>(kMaxColourIndex);
 
 /// The keys, in the order in which messages list them. `color`, a synonym of `colour`, is last and
 /// not listed.
-constexpr std::array<MaterialKey, 7> kKeys{{
+constexpr std::array<MaterialKey, 7> kMaterialKeys{{
     {"colour", KeyKind::Colour, 3, "three numbers from 0 to 1: red, green and blue"},
     {"picture", KeyKind::Picture, 1, "a file name in quotes"},
     {"normal", KeyKind::Normal, 1, "a file name in quotes"},
@@ -44,7 +44,7 @@ constexpr std::size_t kListedKeys = 6; // without `color`
 std::vector<std::string_view> material_keys() {
     std::vector<std::string_view> names;
     for (std::size_t i = 0; i < kListedKeys; ++i) {
-        names.emplace_back(kKeys[i].name);
+        names.emplace_back(kMaterialKeys[i].name);
     }
     return names;
 }
@@ -117,7 +117,7 @@ void MaterialResolver::read_entries(const MaterialNode& node, ProgramMaterial& m
     for (const KeyedValues& written : split_keyed_values(resolution_.ast, range, never)) {
         const std::string_view name = resolution_.text(written.key);
         const MaterialKey* key = nullptr;
-        for (const MaterialKey& each : kKeys) {
+        for (const MaterialKey& each : kMaterialKeys) {
             key = each.name == name ? &each : key;
         }
         if (key == nullptr) {
@@ -153,7 +153,7 @@ void MaterialResolver::report_unknown_key(const KeyedValues& word, const Entry& 
     Diagnostic& error = resolution_.diagnostics.add(
         DiagnosticCode::UnknownKey, word.span, fmt::format("a material has no key `{}`", name));
     std::vector<std::string_view> keys;
-    for (const MaterialKey& key : kKeys) {
+    for (const MaterialKey& key : kMaterialKeys) {
         keys.push_back(key.name);
     }
     const std::string nearest = suggestions_.nearest(name, keys);

@@ -36,7 +36,7 @@ syn match lsysString contained "\"[^\"]*\""
 
 " Productions: #label : head : condition : successor;
 syn region lsysProduction matchgroup=lsysLabel start="#\h\w*\_s*:" matchgroup=lsysDelimiter end=";" contains=@lsysModules,lsysContext,lsysCondition
-syn region lsysProduction matchgroup=lsysStage start="#\%(decompose\|interpret\)\>\%(\_s*:\)\@!" matchgroup=lsysDelimiter end=";" contains=lsysComment,lsysStageHead
+syn region lsysProduction matchgroup=lsysStage start="#\%(decompose\|interpret\|down\|up\)\>\%(\_s*:\)\@!" matchgroup=lsysDelimiter end=";" contains=lsysComment,lsysStageHead
 syn region lsysStageHead contained matchgroup=lsysLabel start="\h\w*\_s*:" end=";\@=" contains=@lsysModules,lsysContext,lsysCondition
 syn match lsysContext contained "[<>]"
 syn region lsysCondition contained matchgroup=lsysDelimiter start=":" end=";\@=" contains=@lsysExpression,lsysSuccessor
@@ -51,6 +51,9 @@ syn match lsysSetting contained "\%(#set\_s\+\)\@<=\%(angle\|angle_scale\|at_dep
 syn keyword lsysValue contained abop any auto broken carey carried characters cpfg cyclic error flat fractint generation glibc houdini l3d l3d_program leftmost letters lplus lplus_program lsys module one own parallel philox round sequential sidefx stop sys thesis words
 syn region lsysMaterial matchgroup=lsysStatement start="#material\>\%(\_s*:\)\@!" matchgroup=lsysDelimiter end=";" contains=@lsysExpression,lsysMaterialKey,lsysString
 syn keyword lsysMaterialKey contained colour normal picture roughness translucency two_sided
+syn region lsysSense matchgroup=lsysStatement start="#sense\>\%(\_s*:\)\@!" matchgroup=lsysDelimiter end=";" contains=@lsysExpression,lsysSenseKey,lsysSenseKind,lsysString
+syn keyword lsysSenseKey contained angle at cell count directions extinction file high kill levels low mesh plane radius ratio shape size strength
+syn keyword lsysSenseKind contained ball box cone crowd dome map program shadow sky solid space
 syn region lsysNames matchgroup=lsysStatement start="#\%(ignore\|consider\)\>\_s*:" matchgroup=lsysDelimiter end=";" contains=@lsysModules
 syn region lsysAxiom matchgroup=lsysStatement start="#w\_s*\%([:~]\)\@=" matchgroup=lsysDelimiter end=";" contains=@lsysExpression,lsysSuccessor
 
@@ -79,6 +82,8 @@ hi def link lsysStatement Statement
 hi def link lsysSetting Type
 hi def link lsysValue Constant
 hi def link lsysMaterialKey Type
+hi def link lsysSenseKey Type
+hi def link lsysSenseKind Constant
 hi def link lsysObject Constant
 hi def link lsysContext Operator
 hi def link lsysDelimiter Delimiter

@@ -497,6 +497,24 @@ bool report_needless_sign(ParseSession& session) {
     return true;
 }
 
+bool report_needless_question_mark(ParseSession& session) {
+    const ScanState& scan = session.scan;
+    const std::string_view text = session.scanned.text;
+    if (scan.keyword != Keyword::Sense || text[scan.begin] != '?' || scan.end >= text.size() ||
+        !is_letter(text[scan.end])) {
+        return false;
+    }
+    if (session.wants(DiagnosticCode::SyntaxError)) {
+        const std::string name(leading_word(text.substr(scan.end)));
+        const SourceSpan span = session.match();
+        Diagnostic& diagnostic =
+            session.report(DiagnosticCode::SyntaxError, span,
+                           "`#sense` names the environment without the `?` of its modules");
+        add_fix(diagnostic, "write `" + shown(name) + "`", span, "", true);
+    }
+    return true;
+}
+
 bool report_doubled_colon(ParseSession& session) {
     ScanState& scan = session.scan;
     const std::string_view text = session.scanned.text;

@@ -32,6 +32,8 @@ std::optional<Token> missing_opening(ParseSession& session);
 /// Reports a superfluous `=` or `:`, as in `#define NAME = 3;`. Returns whether the current
 /// character is one.
 bool report_needless_sign(ParseSession& session);
+/// Reports the `?` before the name in `#sense ?NAME`; returns whether the current character is one.
+[[nodiscard]] bool report_needless_question_mark(ParseSession& session);
 
 /// Reports a `:` that repeats the `:` before it in a statement with too many colons. Returns
 /// whether the current `:` does.

@@ -205,27 +205,30 @@ void report_expected(ParseSession& session, const Unexpected& error) {
         const std::string_view text = session.scanned.text;
         const char next = scan.end < text.size() ? text[scan.end] : '\0';
         diagnostic.help.emplace_back(
-            scan.keyword == Keyword::Material
-                ? "values are written side by side, without commas: `#material 3 colour 0.4 0.3 "
-                  "0.2;`"
-                : "values are written side by side, without commas: `#set tropism 0 -1 0 0.2;`");
+            "values are written side by side, without commas: `" +
+            std::string(scan.keyword == Keyword::Material ? "#material 3 colour 0.4 0.3 0.2;"
+                        : scan.keyword == Keyword::Sense  ? "#sense ground solid plane 0 1 0 0;"
+                                                          : "#set tropism 0 -1 0 0.2;") +
+            "`");
         if (is_digit(text[scan.begin - 1]) && is_digit(next)) {
             add_fix(diagnostic, "a decimal point is written `.`", error.place, ".", false);
         }
-    } else if (scan.keyword == Keyword::Material && error.part == Part::Setting &&
+    } else if (takes_file_names(scan.keyword) && error.part == Part::Setting &&
                (error.text == "=" || error.text == ":")) {
         diagnostic.help.emplace_back(
-            "a value comes right after its key: `#material 3 roughness 0.9;`");
-    } else if (scan.keyword == Keyword::Material && error.part == Part::Setting &&
-               error.text == ".") {
+            scan.keyword == Keyword::Material
+                ? "a value comes right after its key: `#material 3 roughness 0.9;`"
+                : "a value comes right after its key: `#sense light shadow cell 0.5;`");
+    } else if (takes_file_names(scan.keyword) && error.part == Part::Setting && error.text == ".") {
         offer_quotes(session, diagnostic);
     } else if (error.part == Part::Setting && !error.text.empty() && error.text != ";") {
-        diagnostic.help.emplace_back(error.text == "\"" ? "the words of a setting have no quotes"
-                                     : scan.keyword == Keyword::Material
-                                         ? "an expression is in parentheses here: "
-                                           "`#material (base + 1) roughness (1 / 3);`"
-                                         : "an expression is in parentheses here: "
-                                           "`#set angle (360 / 7);`");
+        diagnostic.help.emplace_back(
+            error.text == "\"" ? "the words of a setting have no quotes"
+            : scan.keyword == Keyword::Material
+                ? "an expression is in parentheses here: `#material (base + 1) roughness (1 / 3);`"
+            : scan.keyword == Keyword::Sense
+                ? "an expression is in parentheses here: `#sense light shadow cell (size / 3);`"
+                : "an expression is in parentheses here: `#set angle (360 / 7);`");
     } else if (error.text == "." && error.part != Part::ObjectValue && is_attribute(session)) {
         explain_attribute(session, diagnostic);
     } else if (error.expects(Kind::S_NUMBER) && error.token == Kind::S_RPAREN &&

@@ -11,7 +11,7 @@ interface State {
 }
 
 const kStatements =
-  /^#(?:n|w|include|define|param|set|let|function|curve|object|material|ignore|consider|mode|decompose|interpret|choice|cut)\b/;
+  /^#(?:n|w|include|define|param|set|let|function|curve|object|material|sense|ignore|consider|mode|decompose|interpret|down|up|choice|cut)\b/;
 
 const parser: StreamParser<State> = {
   name: 'lsys',
@@ -44,8 +44,8 @@ const parser: StreamParser<State> = {
     if (stream.match(/^(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?/)) return 'number';
     if (stream.match(/^[A-Za-z_]\w*(?=\s*\()/)) return 'typeName';
     if (stream.match(/^[A-Za-z_]\w*/)) {
-      if (state.statement === 'set' || state.statement === 'material') return 'attributeName';
-      return 'variableName';
+      const hasKeys = ['set', 'material', 'sense'].includes(state.statement);
+      return hasKeys ? 'attributeName' : 'variableName';
     }
     const character = stream.next();
     if (character === ';') state.statement = '';
@@ -65,6 +65,7 @@ const parser: StreamParser<State> = {
       { label: '#set seed', apply: '#set seed 1;', type: 'keyword', detail: 'chance' },
       { label: '#object', apply: '#object leaf LEAF;', type: 'keyword', detail: 'a shape to draw' },
       { label: '#material', apply: '#material ', type: 'keyword', detail: 'look of a colour index' },
+      { label: '#sense', apply: '#sense ', type: 'keyword', detail: 'environment that modules ask' },
       { label: '#function', apply: '#function f(x) x;', type: 'keyword', detail: 'a formula' },
       { label: '#curve', apply: '#curve c 0 0, 1 1;', type: 'keyword', detail: 'a curve of points' },
     ]),
