@@ -35,8 +35,8 @@ py::object error_class(lsys::Status status) {
     return errors.attr("LsysError");
 }
 
-/// The text of an exception: with source lines if a message has a place, else only the messages and
-/// their help.
+/// The text of an exception: with source lines if a message has a place, else only the messages,
+/// their notes and help.
 std::string text_of(const lsys::Messages& messages) {
     std::string text;
     for (const lsys::Diagnostic& diagnostic : messages.all()) {
@@ -45,31 +45,15 @@ std::string text_of(const lsys::Messages& messages) {
             break;
         }
         text += diagnostic.message + '\n';
+        for (const std::string& note : diagnostic.notes) {
+            text += "note: " + note + '\n';
+        }
         for (const std::string& help : diagnostic.help) {
             text += "help: " + help + '\n';
         }
     }
     text.resize(text.find_last_not_of('\n') + 1);
     return text;
-}
-
-/// The argument `environment`: a dictionary from names to callables, or None.
-py::dict environments_of(const py::handle& given) {
-    if (given.is_none()) {
-        return {};
-    }
-    if (!py::isinstance<py::dict>(given)) {
-        throw py::type_error("environment is a dictionary from names to functions");
-    }
-    // A copy, whose functions live until the end of the call.
-    const auto copy =
-        py::reinterpret_steal<py::dict>(PyDict_Copy(given.ptr()));
-    for (const auto& [key, function] : copy) {
-        if (!py::isinstance<py::str>(key) || PyCallable_Check(function.ptr()) == 0) {
-            throw py::type_error("environment is a dictionary from names to functions");
-        }
-    }
-    return copy;
 }
 
 lsys::MeshMethod method_of(const std::string& name) {

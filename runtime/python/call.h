@@ -58,12 +58,11 @@ struct CallOptions {
 
 /// Whether this is Python's main thread (`threading.main_thread()`), which handles Ctrl-C.
 [[nodiscard]] bool is_main_thread();
-/// Calls answer(generation, positions, headings, ups, parameters), which returns an array of
-/// (modules, numbers). Raises TypeError or ValueError, with the name of the environment, for other
-/// results.
-[[nodiscard]] lsys::EnvironmentAnswers answers_by(const py::function& answer,
-                                                  const std::string& name,
-                                                  const lsys::EnvironmentQuery& query);
+/// The argument `environment`: a dictionary from names to callables, or None. Raises TypeError for
+/// other values. Returns a copy.
+[[nodiscard]] py::dict environments_of(const py::handle& given);
+/// Adds the functions of environments_of() to the host. `functions` outlives the call.
+void add_environments(const py::dict& functions, lsys::Host& host);
 /// Calls read(path), which returns the contents of the file as bytes or text, or None for a missing
 /// file. An OSError becomes the reason of a failure.
 [[nodiscard]] lsys::FileContents read_by(const py::function& read, const std::string& path);
@@ -166,15 +165,7 @@ auto run(const CallOptions& options, const Work& work) {
                 [&] { return read_by(py::reinterpret_borrow<py::function>(read), path); });
         };
     }
-    for (const auto& [key, function] : options.environment) {
-        const auto name = key.cast<std::string>();
-        project.host.environments[name] = [name, answer = function.ptr()](
-                                              const lsys::EnvironmentQuery& query) {
-            return with_lock([&] {
-                return answers_by(py::reinterpret_borrow<py::function>(answer), name, query);
-            });
-        };
-    }
+    add_environments(options.environment, project.host);
     if (!options.progress.is_none()) {
         project.host.progress = [report = options.progress.ptr()](const lsys::Progress& progress) {
             return with_lock([&] {

@@ -45,8 +45,9 @@ py::array_t<float> parameters_of(const lsys::EnvironmentQuery& query) {
     return parameters;
 }
 
-} // namespace
-
+/// Calls answer(generation, positions, headings, ups, parameters), which returns an array of
+/// (modules, numbers). Raises TypeError or ValueError, with the name of the environment, for other
+/// results.
 lsys::EnvironmentAnswers answers_by(const py::function& answer,
                                     const std::string& name,
                                     const lsys::EnvironmentQuery& query) {
@@ -69,6 +70,37 @@ lsys::EnvironmentAnswers answers_by(const py::function& answer,
     return {static_cast<std::size_t>(numbers.shape(1)),
             {numbers.data(), numbers.data() + numbers.size()},
             {}};
+}
+
+} // namespace
+
+py::dict environments_of(const py::handle& given) {
+    if (given.is_none()) {
+        return {};
+    }
+    if (!py::isinstance<py::dict>(given)) {
+        throw py::type_error("environment is a dictionary from names to functions");
+    }
+    // A copy, whose functions live until the end of the call.
+    auto copy = py::reinterpret_steal<py::dict>(PyDict_Copy(given.ptr()));
+    for (const auto& [key, function] : copy) {
+        if (!py::isinstance<py::str>(key) || PyCallable_Check(function.ptr()) == 0) {
+            throw py::type_error("environment is a dictionary from names to functions");
+        }
+    }
+    return copy;
+}
+
+void add_environments(const py::dict& functions, lsys::Host& host) {
+    for (const auto& [key, function] : functions) {
+        const auto name = key.cast<std::string>();
+        host.environments[name] = [name,
+                                   answer = function.ptr()](const lsys::EnvironmentQuery& query) {
+            return with_lock([&] {
+                return answers_by(py::reinterpret_borrow<py::function>(answer), name, query);
+            });
+        };
+    }
 }
 
 } // namespace lsys_python
