@@ -126,6 +126,9 @@ void add_facts(Diagnostic& diagnostic, const RuntimeError& error, const Bytecode
         return;
     }
     diagnostic.facts.push_back({"generation", std::uint64_t{error.generation}});
+    if (error.symbol == kNoSymbol) {
+        return; // an environment that no module asks
+    }
     diagnostic.facts.push_back({"position", error.position});
     diagnostic.facts.push_back({"module", module_text(error, bytecode)});
 }
