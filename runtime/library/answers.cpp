@@ -34,8 +34,8 @@ std::optional<EnvironmentFailure> take_answers(const EnvironmentAnswers& given,
         return failure;
     }
     const std::size_t numbers = given.numbers.size();
-    const bool fits = given.size == 0 ? numbers == 0
-                                      : numbers / given.size == count && numbers % given.size == 0;
+    const bool fits =
+        given.size == 0 ? numbers == 0 : numbers / given.size == count && numbers % given.size == 0;
     if (!fits || given.size > std::numeric_limits<std::uint32_t>::max()) {
         failure.text = fmt::format("its function answered {} numbers to {} queries, {} for each",
                                    numbers, count, given.size);

@@ -68,8 +68,7 @@ TEST_CASE("a function answers an environment") {
     });
     const auto word = lsys::derive(grammar_of(kLight), {}, project);
     REQUIRE(word);
-    CHECK(word->text() ==
-          "F ?light(1.25,7)?P(0,1,0)F+(90)f ?light(2.25,5)F+(90)f ?light(1.25,5)A");
+    CHECK(word->text() == "F ?light(1.25,7)?P(0,1,0)F+(90)f ?light(2.25,5)F+(90)f ?light(1.25,5)A");
     CHECK(generations == std::vector<std::uint32_t>{0, 1, 2});
 }
 

@@ -156,7 +156,8 @@ void add_sensing_cases(std::map<std::string, Case>& all) {
         };
     };
     all["sense-mesh-10m-triangles"] = {
-        with_grid("#sense s solid mesh ", ";\n#w : f(10) ?s(0, 0, 0, 0) f(3) ?s(0);"), count, 0, ""};
+        with_grid("#sense s solid mesh ", ";\n#w : f(10) ?s(0, 0, 0, 0) f(3) ?s(0);"), count, 0,
+        ""};
     all["sense-shape-10m-triangles"] = {
         with_grid("#sense s space shape ", " count 1000 radius 1 kill 0.1;\n#w : ?s(0);"), count, 1,
         "not closed"};
@@ -165,12 +166,12 @@ void add_sensing_cases(std::map<std::string, Case>& all) {
     all["sense-sky-cell-1e-9"] = {
         text("#object L LEAF;\n#sense s sky cell 1e-9;\n#w : L ?s(0) f(10) L ?s(0);"), count, 1,
         "sense-failed"};
-    all["sense-shadow-many-voxels"] = {
-        [](const std::string& path) {
-            write_repeated(path, "#n = 0;\n#sense s shadow cell 0.001;\n#w : ",
-                           "f(1)+(77)&(3)?s(0,0,0,0)", 300'000, ";");
-        },
-        count, 0, ""};
+    all["sense-shadow-many-voxels"] = {[](const std::string& path) {
+                                           write_repeated(
+                                               path, "#n = 0;\n#sense s shadow cell 0.001;\n#w : ",
+                                               "f(1)+(77)&(3)?s(0,0,0,0)", 300'000, ";");
+                                       },
+                                       count, 0, ""};
     all["sense-sky-billion-voxels"] = {
         text("#object L LEAF;\n#sense s sky cell 1;\n"
              "#w : [f(1000) L][+(90) f(1000) L][&(90) f(1000) L ?s(0)] L ?s(0);"),

@@ -311,7 +311,8 @@ void CpfgWriter::write_names(const char* begin, const std::vector<CpfgModule>& l
     }
     std::set<std::string> spelled_names;
     for (const auto& [name, has_arguments] : forms_) {
-        if (wanted.count(is_query(name) ? name : name.substr(0, 1)) != 0 && name != "[" && name != "]") {
+        if (wanted.count(is_query(name) ? name : name.substr(0, 1)) != 0 && name != "[" &&
+            name != "]") {
             spelled_names.insert(spelled(name, has_arguments));
         }
     }

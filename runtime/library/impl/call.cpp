@@ -105,10 +105,10 @@ void Call::check_environments(const Bytecode& bytecode) {
                 return each.name == name && each.kind == EnvironmentKind::Program;
             });
         if (!is_declared) {
-            refusal_ = fmt::format(
-                "a function is given for the environment `{0}`, but the grammar has no "
-                "`#sense {0} program;`",
-                name);
+            refusal_ =
+                fmt::format("a function is given for the environment `{0}`, but the grammar has no "
+                            "`#sense {0} program;`",
+                            name);
         }
     }
 }
