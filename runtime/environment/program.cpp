@@ -104,6 +104,24 @@ private:
     std::size_t at_ = 0;
 };
 
+/// Asks a function of the host.
+class FunctionEnvironment final : public Environment {
+public:
+    explicit FunctionEnvironment(AnswerPlaces answer) : answer_(std::move(answer)) {}
+
+    std::optional<EnvironmentFailure> begin(std::uint64_t /*seed*/) override {
+        return std::nullopt;
+    }
+    std::optional<EnvironmentFailure> answer(const SensedWord& word,
+                                             std::vector<float>& answers,
+                                             std::vector<std::uint32_t>& sizes) override {
+        return word.places.empty() ? std::nullopt : answer_(word, answers, sizes);
+    }
+
+private:
+    AnswerPlaces answer_;
+};
+
 class ProgramEnvironment : public Environment {
 public:
     ProgramEnvironment(const BytecodeEnvironment& declared,
@@ -241,6 +259,9 @@ std::string program_help(std::string_view name) {
 std::unique_ptr<Environment> make_program(const BytecodeEnvironment& declared,
                                           ProgramCommand command,
                                           const EnvironmentContext& context) {
+    if (command.answer) {
+        return std::make_unique<FunctionEnvironment>(std::move(command.answer));
+    }
     return std::make_unique<ProgramEnvironment>(declared, std::move(command), context);
 }
 

@@ -47,11 +47,17 @@ public:
 using StartProgram = std::function<Result<std::unique_ptr<LineProgram>>(
     const std::string& command, double seconds, const std::atomic<bool>* cancelled)>;
 
-/// The program of an environment of kind Program, and its time limit.
+/// A function of the host that answers in place of a program. It gets at least one place, and sets
+/// `answers` and `sizes` as Environment::answer() does.
+using AnswerPlaces = std::function<std::optional<EnvironmentFailure>(
+    const SensedWord& word, std::vector<float>& answers, std::vector<std::uint32_t>& sizes)>;
+
+/// The program or function that answers for an environment of kind Program.
 struct ProgramCommand {
-    StartProgram start;    // empty: this system starts no programs
-    std::string command;   // empty: not given
-    double seconds = 60.0; // max time of an answer
+    StartProgram start;  // empty: this system starts no programs
+    std::string command; // empty: not given
+    double seconds = 60.0; // maximum time of an answer
+    AnswerPlaces answer{}; // if set, it answers and no program is started
 };
 
 /// `declared` outlives the result.

@@ -142,7 +142,16 @@ Host shared_host(Host host) {
 }
 
 LanguageServerHost with_shared_files(LanguageServerHost host) {
-    host.project.host = shared_host(std::move(host.project.host));
+    Host& files = host.project.host;
+    files = shared_host(std::move(files));
+    // A grammar that is opened, perhaps a stranger's, starts no program.
+    host.project.environments.clear();
+    files.environments.clear();
+    files.start_program = nullptr;
+    files.environment_help = [](const std::string& name) {
+        return "previews start no programs: derive with `lsc dump --environment " + name +
+               "=COMMAND`";
+    };
     return host;
 }
 

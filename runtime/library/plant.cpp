@@ -166,6 +166,7 @@ PlantSize Plant::measure() const {
 
 Outcome<Plant> grow(const Grammar& grammar, const GrowOptions& options, const Project& project) {
     Call call(project);
+    call.check_environments(grammar.data().grammar.bytecode);
     ::lsys::Grammar copy = copy_of(grammar.data().grammar);
     PlantOptions inner;
     inner.file = grammar.name();

@@ -97,6 +97,7 @@ std::string Word::text() const {
 
 Outcome<Word> derive(const Grammar& grammar, const DeriveOptions& options, const Project& project) {
     Call call(project);
+    call.check_environments(grammar.data().grammar.bytecode);
     PlantOptions inner;
     inner.file = grammar.name();
     inner.generations = options.generations;

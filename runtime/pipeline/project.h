@@ -12,6 +12,7 @@
 #include <atomic>
 #include <cstdint>
 #include <functional>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -59,6 +60,11 @@ struct Host {
     std::function<void(const DerivationProgress& progress)> progress;
     /// Starts the programs of `--environment`. Empty: none can be started.
     StartProgram start_program;
+    /// Functions that answer environments of kind Program, by name, in place of programs.
+    std::map<std::string, AnswerPlaces, std::less<>> environments{};
+    /// The help for an environment of kind Program that nothing answers. Empty: the option
+    /// `--environment`.
+    std::function<std::string(const std::string& name)> environment_help{};
     /// Reports that a step begins. May be empty.
     std::function<void(LongStep step)> step_begins;
 };

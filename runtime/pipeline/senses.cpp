@@ -16,24 +16,32 @@ namespace lsys {
 
 namespace {
 
-/// The command of an environment of kind Program, or none.
+/// The function or command that answers an environment of kind Program, or none.
 ProgramCommand command_of(const BytecodeEnvironment& environment, const Project& project) {
     const auto given =
         std::find_if(project.environments.begin(), project.environments.end(),
                      [&](const EnvironmentCommand& each) { return each.name == environment.name; });
+    const auto function = project.host.environments.find(environment.name);
     return {project.host.start_program,
             given == project.environments.end() ? std::string() : given->command,
-            project.answer_seconds};
+            project.answer_seconds,
+            function == project.host.environments.end() ? AnswerPlaces() : function->second};
 }
 
-/// The error of an environment of kind Program without a command.
-Diagnostic no_program(std::uint32_t index, const Grammar& grammar) {
+/// The error of an environment of kind Program that nothing answers.
+Diagnostic no_program(std::uint32_t index, const Grammar& grammar, const Host& host) {
     RuntimeError error;
     error.kind = RuntimeErrorKind::SenseFailed;
     error.environment = index;
     error.site = grammar.bytecode.environments[index].site;
-    error.text = "no program is given that answers it";
-    error.help = program_help(grammar.bytecode.environments[index].name);
+    const std::string& name = grammar.bytecode.environments[index].name;
+    if (host.environment_help) {
+        error.text = "nothing is given that answers it";
+        error.help = host.environment_help(name);
+    } else {
+        error.text = "no program is given that answers it";
+        error.help = program_help(name);
+    }
     return runtime_diagnostic(error, grammar.bytecode, !grammar.is_module_file);
 }
 
@@ -62,8 +70,9 @@ read_senses(const std::string& grammar_file, const Grammar& grammar, const Proje
     bool ok = true;
     for (std::uint32_t i = 0; i < bytecode.environments.size(); ++i) {
         ProgramCommand command = command_of(bytecode.environments[i], project);
-        if (bytecode.environments[i].kind == EnvironmentKind::Program && command.command.empty()) {
-            ok = step.diagnose(no_program(i, grammar), grammar.sources) && ok;
+        if (bytecode.environments[i].kind == EnvironmentKind::Program && command.command.empty() &&
+            !command.answer) {
+            ok = step.diagnose(no_program(i, grammar, project.host), grammar.sources) && ok;
         }
         senses.options.programs.push_back(std::move(command));
     }

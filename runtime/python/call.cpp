@@ -35,8 +35,8 @@ py::object error_class(lsys::Status status) {
     return errors.attr("LsysError");
 }
 
-/// The text of an exception: with source lines if a message has a place, else only the messages and
-/// their help.
+/// The text of an exception: with source lines if a message has a place, else only the messages,
+/// their notes and help.
 std::string text_of(const lsys::Messages& messages) {
     std::string text;
     for (const lsys::Diagnostic& diagnostic : messages.all()) {
@@ -45,6 +45,9 @@ std::string text_of(const lsys::Messages& messages) {
             break;
         }
         text += diagnostic.message + '\n';
+        for (const std::string& note : diagnostic.notes) {
+            text += "note: " + note + '\n';
+        }
         for (const std::string& help : diagnostic.help) {
             text += "help: " + help + '\n';
         }
@@ -175,6 +178,8 @@ CallOptions options_of(const py::kwargs& arguments) {
             options.progress = py::reinterpret_borrow<py::object>(value);
         } else if (name == "read_file") {
             options.read_file = py::reinterpret_borrow<py::object>(value);
+        } else if (name == "environment") {
+            options.environment = environments_of(value);
         } else {
             throw py::type_error("unexpected keyword argument '" + name + "'");
         }

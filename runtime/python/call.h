@@ -37,6 +37,7 @@ struct CallOptions {
     std::uint64_t max_bytes = 0;
     py::object progress = py::none();  // callable(generation, generations, modules)
     py::object read_file = py::none(); // callable(path) -> bytes, str or None
+    py::dict environment; // name to callable(generation, positions, headings, ups, parameters)
 };
 
 /// The options among the keyword arguments. Raises TypeError for other arguments.
@@ -57,6 +58,11 @@ struct CallOptions {
 
 /// Whether this is Python's main thread (`threading.main_thread()`), which handles Ctrl-C.
 [[nodiscard]] bool is_main_thread();
+/// The argument `environment`: a dictionary from names to callables, or None. Raises TypeError for
+/// other values. Returns a copy.
+[[nodiscard]] py::dict environments_of(const py::handle& given);
+/// Adds the functions of environments_of() to the host. `functions` outlives the call.
+void add_environments(const py::dict& functions, lsys::Host& host);
 /// Calls read(path), which returns the contents of the file as bytes or text, or None for a missing
 /// file. An OSError becomes the reason of a failure.
 [[nodiscard]] lsys::FileContents read_by(const py::function& read, const std::string& path);
@@ -159,6 +165,7 @@ auto run(const CallOptions& options, const Work& work) {
                 [&] { return read_by(py::reinterpret_borrow<py::function>(read), path); });
         };
     }
+    add_environments(options.environment, project.host);
     if (!options.progress.is_none()) {
         project.host.progress = [report = options.progress.ptr()](const lsys::Progress& progress) {
             return with_lock([&] {

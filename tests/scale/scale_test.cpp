@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
+#include <dirent.h>
 #include <fcntl.h>
 #include <fstream>
 #include <functional>
@@ -114,7 +115,110 @@ struct Case {
     int status = 0;
     std::string message; // must occur in standard error; may be empty
     const char* out = "/dev/null";
+    std::string stray{}; // must occur in the command line of no process afterwards; empty: no check
 };
+
+/// Writes a flat grid of `side` * `side` squares, 1 m wide, around the origin.
+void write_grid(const std::string& path, std::uint64_t side) {
+    const std::uint64_t corners = side + 1;
+    const auto place = [side](std::uint64_t i) {
+        return std::to_string(static_cast<std::int64_t>(i) - static_cast<std::int64_t>(side / 2));
+    };
+    write_lines(path, "", corners * corners, [&](std::uint64_t i) {
+        return "v " + place(i % corners) + " 0 " + place(i / corners) + "\n";
+    });
+    std::ofstream file(path, std::ios::app | std::ios::binary);
+    for (std::uint64_t row = 0; row < side; ++row) {
+        std::string faces;
+        for (std::uint64_t column = 0; column < side; ++column) {
+            const std::uint64_t corner = row * corners + column + 1;
+            faces += "f " + std::to_string(corner) + ' ' + std::to_string(corner + corners) + ' ' +
+                     std::to_string(corner + corners + 1) + ' ' + std::to_string(corner + 1) + '\n';
+        }
+        file << faces;
+    }
+}
+
+/// Plants that sense: enormous meshes, tiny cells, many markers, programs that misbehave.
+void add_sensing_cases(std::map<std::string, Case>& all) {
+    constexpr std::uint64_t kSide = 2237; // 10,008,338 triangles
+    const std::vector<std::string> count{"dump", "--count", "%"};
+    const auto text = [](std::string grammar) {
+        return [=](const std::string& path) {
+            write_repeated(path, "#n = 0;\n" + grammar, " ", 1, "");
+        };
+    };
+    const auto with_grid = [](std::string before, std::string after) {
+        return [=](const std::string& path) {
+            write_grid(path + ".obj", kSide);
+            const std::string name = path.substr(path.rfind('/') + 1) + ".obj";
+            write_repeated(path, "#n = 0;\n" + before + '"' + name + '"' + after, " ", 1, "");
+        };
+    };
+    all["sense-mesh-10m-triangles"] = {
+        with_grid("#sense s solid mesh ", ";\n#w : f(10) ?s(0, 0, 0, 0) f(3) ?s(0);"), count, 0,
+        ""};
+    all["sense-shape-10m-triangles"] = {
+        with_grid("#sense s space shape ", " count 1000 radius 1 kill 0.1;\n#w : ?s(0);"), count, 1,
+        "not closed"};
+    all["sense-cell-1e-9"] = {text("#sense s shadow cell 1e-9;\n#w : ?s(0) f(10) ?s(0);"), count, 1,
+                              "sense-failed"};
+    all["sense-sky-cell-1e-9"] = {
+        text("#object L LEAF;\n#sense s sky cell 1e-9;\n#w : L ?s(0) f(10) L ?s(0);"), count, 1,
+        "sense-failed"};
+    all["sense-shadow-many-voxels"] = {[](const std::string& path) {
+                                           write_repeated(
+                                               path, "#n = 0;\n#sense s shadow cell 0.001;\n#w : ",
+                                               "f(1)+(77)&(3)?s(0,0,0,0)", 300'000, ";");
+                                       },
+                                       count, 0, ""};
+    all["sense-sky-billion-voxels"] = {
+        text("#object L LEAF;\n#sense s sky cell 1;\n"
+             "#w : [f(1000) L][+(90) f(1000) L][&(90) f(1000) L ?s(0)] L ?s(0);"),
+        count, 0, ""};
+    all["sense-many-markers"] = {
+        text("#sense s space shape box size 10 10 10 count 67108864 radius 1 kill 0.1;\n"
+             "#w : ?s(0);"),
+        {"dump", "--count", "--max-memory", "500M", "%"},
+        3,
+        "memory"};
+    const auto program = [&](const std::string& commands, const std::string& message) {
+        Case made{text("#sense s program;\n#w : ?s(0) ?s(0);"),
+                  {"dump", "%", "--environment", "s=" + commands},
+                  1,
+                  message};
+        return made;
+    };
+    all["sense-program-hangs"] = program("read q; sleep 7654321", "not answered in 60 seconds");
+    all["sense-program-hangs"].stray = "7654321";
+    all["sense-program-dies"] = program("read q; kill -9 $$", "signal 9");
+    all["sense-program-1gb"] =
+        program("read q; head -c 1000000000 /dev/zero; sleep 8765432", "sent a line of more than");
+    all["sense-program-1gb"].stray = "8765432";
+    all["sense-program-1gb-of-messages"] =
+        program("read q; head -c 1000000000 /dev/zero >&2; exit 3", "exit status 3");
+    all["sense-program-too-few"] =
+        program("read q; echo '{\"answers\": [[1]]}'", "1 answers to 2 queries");
+    all["sense-program-nan"] =
+        program("read q; echo '{\"answers\": [[1], [NaN]]}'", "sense-failed");
+}
+
+/// Whether a process has `text` in its command line. Linux; elsewhere there is no /proc.
+bool is_running(const std::string& text) {
+    DIR* const processes = opendir("/proc");
+    bool is_found = false;
+    for (const dirent* each = processes == nullptr ? nullptr : readdir(processes); each != nullptr;
+         each = readdir(processes)) {
+        std::ifstream file(std::string("/proc/") + each->d_name + "/cmdline", std::ios::binary);
+        const std::string command{std::istreambuf_iterator<char>(file),
+                                  std::istreambuf_iterator<char>()};
+        is_found = is_found || command.find(text) != std::string::npos;
+    }
+    if (processes != nullptr) {
+        closedir(processes);
+    }
+    return is_found;
+}
 
 std::map<std::string, Case> cases() {
     const auto repeated = [](std::string before, std::string unit, std::uint64_t count,
@@ -264,6 +368,7 @@ std::map<std::string, Case> cases() {
         {"dump", "--count", "%"},
         0,
         ""};
+    add_sensing_cases(all);
     return all;
 }
 
@@ -287,6 +392,7 @@ int main(int argc, char** argv) {
     if (rmdir(path.c_str()) != 0) {
         unlink(path.c_str());
     }
+    unlink((path + ".obj").c_str());
     std::printf("%s: status %d, %.2f s, peak %ld MiB\n%.600s\n", argv[2], result.status,
                 result.seconds, result.peak_kib / 1024, result.errors.c_str());
     bool fine = true;
@@ -299,6 +405,7 @@ int main(int argc, char** argv) {
     expect(result.status == wanted.status, "exit status");
     expect(result.errors.find(wanted.message) != std::string::npos, wanted.message.c_str());
     expect(kInstrumented || result.peak_kib <= kMaxKib, "peak memory");
+    expect(wanted.stray.empty() || !is_running(wanted.stray), "a process is left");
     expect(result.seconds <= kMaxSeconds * (kInstrumented ? kInstrumentedFactor : 1.0), "time");
     return fine ? 0 : 1;
 }

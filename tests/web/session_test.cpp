@@ -115,6 +115,39 @@ TEST_CASE("included files are those of the request; others are not there") {
     CHECK(ask({{"op", "derive"}}, grammar).head.at("status") != "ok");
 }
 
+TEST_CASE("a plant that senses asks environments, whose files are those of the request") {
+    const std::string_view grammar = "#n = 1;\n#sense light shadow cell 1;\n"
+                                     "#sense wall solid mesh \"wall.obj\";\n"
+                                     "#w : F(0.25) ?light(0) ?wall(0, 0, 0, 0) A;\n"
+                                     "#p : A : * : F(4) ?light(0);\n";
+    const std::string_view mesh = "v -9 0 1\nv 9 0 1\nv 0 9 1\nf 1 2 3\n";
+    const Json files = {{{"path", "plant.lsys"}, {"size", grammar.size()}},
+                        {{"path", "wall.obj"}, {"size", mesh.size()}}};
+    Session session({});
+    const auto send = [&](Json request) {
+        request["name"] = "plant.lsys";
+        request["files"] = files;
+        return session.answer(request.dump(), std::string(grammar) + std::string(mesh));
+    };
+    const Answer word = send({{"op", "derive"}});
+    // The second place is four voxels above the first: the shadow is 0.2 / 2^4.
+    CHECK(text_of(word, "text") == "F(0.25)?light(0.9875)?wall(1,0,0,1)F(4)?light(1)");
+    CHECK(send({{"op", "mesh"}}).head.at("plant").at("segments") == 2);
+    CHECK(send({{"op", "begin-growth"}}).head.at("generations") == 1);
+    CHECK(ask({{"op", "derive"}}, grammar).head.at("status") == "failed"); // without the mesh
+}
+
+TEST_CASE("an environment of the kind program is refused, because a page starts none") {
+    const Answer answer = ask({{"op", "derive"}}, "#n = 0;\n#sense sun program;\n#w : ?sun(0);\n");
+    CHECK(answer.head.at("status") == "diagnosed");
+    const Json& message = answer.head.at("messages").at(0);
+    CHECK(message.at("code") == "sense-failed");
+    CHECK(message.at("place").at("line") == 2);
+    CHECK(message.dump().find("a web page starts no programs") != std::string::npos);
+    CHECK(ask({{"op", "compile"}}, "#n = 0;\n#sense sun program;\n#w : ?sun(0);\n")
+              .head.at("status") == "ok");
+}
+
 TEST_CASE("a wrong request is a failure with a message") {
     Session session({});
     for (const std::string_view request :

@@ -44,6 +44,11 @@ Session::Session(std::function<void(const DerivationProgress&)> progress) {
         return files_.contains(normal_path(path));
     };
     project_.host.progress = std::move(progress);
+    project_.host.environment_help = [](const std::string& name) {
+        return fmt::format("a web page starts no programs: derive this grammar with "
+                           "`lsc --environment {}=COMMAND`",
+                           name);
+    };
     project_.limits.max_bytes = half_of_memory();
     project_.threads = 1;
 }

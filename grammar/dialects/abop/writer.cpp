@@ -38,6 +38,11 @@ bool is_value(AbopKey key) {
     return key != AbopKey::Axiom && key != AbopKey::Ignore && key != AbopKey::Consider;
 }
 
+/// Whether a symbol asks for the state of the turtle: L-Py's `?P`.
+bool is_query(std::string_view symbol) {
+    return symbol.size() == 2 && symbol[0] == '?';
+}
+
 /// Whether a text denotes the empty word: no character, `*`, epsilon, lambda or capital lambda.
 bool is_empty_word(std::string_view text) {
     return text.empty() || text == "*" || text == "\u03B5" || text == "\u03BB" || text == "\u039B";
@@ -281,6 +286,9 @@ bool AbopWriter::read_symbol(SourceSpan list, std::size_t& at, Symbol& symbol) {
         const bool has_letter = ahead.size() > 1 && is_letter_or_digit(ahead[1]);
         length = has_second ? 3 : has_letter ? 2 : 1;
     }
+    if (file_.is_lpy && ahead.size() > 1 && ahead[0] == '?' && is_one_of(ahead[1], "PHULR")) {
+        length = 2;
+    }
     const bool is_known = is_letter_or_digit(ahead[0]) || is_one_of(ahead[0], kSymbols) ||
                           is_one_of(ahead[0], file_.is_lpy ? "@~;,?_" : "@~;,#?");
     symbol.span = {list.file, static_cast<std::uint32_t>(at),
@@ -316,6 +324,8 @@ void AbopWriter::name_symbol(Symbol& symbol, std::string_view written) {
         symbol.name = "!";
     } else if (!symbol.has_arguments && written == "@v") { // a command of cpfg
         symbol.name = "$";
+    } else if (is_query(written)) {
+        return;
     } else if (written.size() > 1 || is_digit(written[0]) ||
                !(is_letter(written[0]) || is_one_of(written[0], kSymbols))) {
         symbol.name = "`" + std::string(written) + "`";
@@ -379,40 +389,63 @@ void AbopWriter::write_arguments(const Symbol& symbol, Place place) {
         }
         return;
     }
+    std::vector<SourceSpan> arguments = arguments_of(symbol);
+    if (is_query(symbol.name)) {
+        if (arguments.size() != 3) {
+            context_.diagnostics.add(DiagnosticCode::ForeignFeature, symbol.span,
+                                     "`" + symbol.name + "` with other than three parameters");
+            return;
+        }
+        // L-Py's plants grow along +Z, from up = +X: its x y z are z x y here.
+        std::rotate(arguments.begin(), arguments.begin() + 1, arguments.end());
+    }
     out_.put("(", symbol.span);
+    for (std::size_t i = 0; i < arguments.size(); ++i) {
+        if (i != 0) {
+            out_.put(", ");
+        }
+        if (place == Place::Word) {
+            write_expression(arguments[i], false);
+        } else if (!write_formal(arguments[i], symbol.span)) {
+            return;
+        }
+    }
+    out_.put(")", symbol.span);
+}
+
+/// The arguments of a symbol that has some, without the commas.
+std::vector<SourceSpan> AbopWriter::arguments_of(const Symbol& symbol) const {
+    std::vector<SourceSpan> arguments;
     std::size_t begin = symbol.inner.begin;
     std::size_t depth = 0;
     for (std::size_t at = begin; at <= symbol.inner.end; ++at) {
         const char c = at < symbol.inner.end ? file_.text[at] : ',';
         depth += is_one_of(c, "({") ? 1U : 0U;
         depth -= is_one_of(c, ")}") && depth != 0 ? 1U : 0U;
-        if (c != ',' || (depth != 0 && at < symbol.inner.end)) {
-            continue;
-        }
-        const SourceSpan argument = part(begin, at);
-        if (begin != symbol.inner.begin) {
-            out_.put(", ");
-        }
-        begin = at + 1;
-        if (place == Place::Word) {
-            write_expression(argument, false);
-            continue;
-        }
-        const std::string_view name = text(argument);
-        const std::string_view greek = greek_letter(name);
-        if (!greek.empty()) {
-            out_.put(greek, argument);
-            formals_.emplace(greek);
-        } else if (!name.empty() && is_letter(name[0]) && word_length(name) == name.size()) {
-            out_.copy(argument, context_.sources);
-            formals_.emplace(name);
-        } else {
-            report(argument.begin == argument.end ? symbol.span : argument,
-                   "a parameter on a left side is a name; a condition follows the `:`");
-            return;
+        if (c == ',' && (depth == 0 || at == symbol.inner.end)) {
+            arguments.push_back(part(begin, at));
+            begin = at + 1;
         }
     }
-    out_.put(")", symbol.span);
+    return arguments;
+}
+
+/// Writes a parameter of a pattern, which is a name. Returns false after a report.
+bool AbopWriter::write_formal(SourceSpan formal, SourceSpan symbol) {
+    const std::string_view name = text(formal);
+    const std::string_view greek = greek_letter(name);
+    if (!greek.empty()) {
+        out_.put(greek, formal);
+        formals_.emplace(greek);
+    } else if (!name.empty() && is_letter(name[0]) && word_length(name) == name.size()) {
+        out_.copy(formal, context_.sources);
+        formals_.emplace(name);
+    } else {
+        report(formal.begin == formal.end ? symbol : formal,
+               "a parameter on a left side is a name; a condition follows the `:`");
+        return false;
+    }
+    return true;
 }
 
 void AbopWriter::write_expression(SourceSpan expression, bool is_condition) {

@@ -54,6 +54,8 @@ private:
     [[nodiscard]] std::size_t long_name_length(std::string_view ahead) const;
     void name_symbol(Symbol& symbol, std::string_view written);
     void write_arguments(const Symbol& symbol, Place place);
+    [[nodiscard]] std::vector<SourceSpan> arguments_of(const Symbol& symbol) const;
+    [[nodiscard]] bool write_formal(SourceSpan formal, SourceSpan symbol);
 
     [[nodiscard]] bool find_parentheses(SourceSpan expression);
     /// `is_condition`: a single `=` compares.

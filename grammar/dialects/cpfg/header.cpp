@@ -2,7 +2,6 @@
 // The part of CpfgWriter for names of modules and for the statements before the axiom.
 #include "grammar/ast/number.h"
 #include "grammar/ast/reports.h"
-#include "grammar/base/counted_text.h"
 #include "grammar/base/paths.h"
 #include "grammar/dialects/cpfg/writer.h"
 #include "grammar/dialects/impl/letter_modules.h"
@@ -25,12 +24,15 @@ bool is_drawn(std::string_view name) {
     return name == "@v" || name == "@O" || name == "@o" || name == "@c";
 }
 
+/// Whether the module asks for the turtle's state or, `?E`, an environment process.
+bool is_query(std::string_view name) {
+    return name.size() == 2 && name[0] == '?';
+}
+
 } // namespace
 
 /// Collects the names of all modules, and of the modules in predecessors and contexts.
 void CpfgWriter::find_names() {
-    std::vector<SourceSpan> queries;   // `?` of `?P`, `?H`, `?U`, `?L`
-    std::vector<SourceSpan> processes; // `?` of `?E`
     const auto note = [&](std::vector<CpfgModule>& list, bool matched) {
         for (CpfgModule& module : list) {
             used_.insert(module.name);
@@ -39,10 +41,8 @@ void CpfgWriter::find_names() {
             }
             check_module(module);
             forms_.emplace(module.name, module.has_arguments);
-            if (module.name == "?") {
-                const bool is_last = &module == &list.back();
-                (!is_last && (&module + 1)->name == "E" ? processes : queries)
-                    .push_back(module.span);
+            if (module.name == "?E" && !environment_) {
+                environment_ = module.span;
             }
             if (!matched && &module != &list.front() && (&module - 1)->name == "~") {
                 add_surface(module);
@@ -59,20 +59,6 @@ void CpfgWriter::find_names() {
         if (production.stage == Stage::Rewrite && !production.predecessor.empty()) {
             ++alternatives_[key_of(production)];
         }
-    }
-    report_queries(queries, "`?` asks for the place or direction of the turtle");
-    report_queries(processes, "`?E` asks an environment process for values");
-}
-
-/// Reports the first of the modules, and how many more there are.
-void CpfgWriter::report_queries(const std::vector<SourceSpan>& places, const char* message) const {
-    if (places.empty()) {
-        return;
-    }
-    Diagnostic& error =
-        context_.diagnostics.add(DiagnosticCode::ForeignFeature, places.front(), message);
-    if (places.size() > 1) {
-        error.notes.push_back("so it does at " + counted(places.size() - 1, "more place"));
     }
 }
 
@@ -107,6 +93,8 @@ void CpfgWriter::check_module(CpfgModule& module) {
     const std::string& name = module.name;
     if (name == "$") {
         session_.report_unsupported(module.span, "`$` ends a sub-L-system");
+    } else if (name == "?") {
+        session_.report_unsupported(module.span, "a `?` before other characters than P H U L R E");
     } else if (name == "%" && module.has_arguments) {
         session_.report_unsupported(module.span,
                                     "`%` with a parameter keeps what it cuts off for an "
@@ -145,6 +133,9 @@ std::string CpfgWriter::spelled(const std::string& name, bool has_arguments) con
     if (name == "," && has_arguments && matched_.count(",") == 0 && matched_.count(";") == 0 &&
         used_.count("'") == 0) {
         return "'";
+    }
+    if (is_query(name)) {
+        return name;
     }
     return name.size() == 1 ? spelled_letter(static_cast<unsigned char>(name[0]))
                             : "`" + name + "`";
@@ -247,6 +238,9 @@ void CpfgWriter::write_settings(std::string_view turtle) {
         }
     }
     write_declarations();
+    if (environment_) {
+        out_.put("#sense E program;\n", *environment_);
+    }
     if (session_.considers) {
         write_names("#consider : ", session_.considered);
     } else if (session_.ignores) {
@@ -273,7 +267,7 @@ void CpfgWriter::write_declarations() {
         for (const CpfgModule& module : list) {
             const std::string name = spelled(module.name, module.has_arguments);
             const bool draws =
-                is_drawn(module.name) ||
+                is_drawn(module.name) || is_query(module.name) ||
                 (name.size() == 1 && std::string_view("FfGg+-&^\\/|$!\"'[]{}.%").find(name[0]) !=
                                          std::string_view::npos);
             if (!draws && rewritten.count(module.name) == 0 && surfaces_.count(module.name) == 0 &&
@@ -300,6 +294,10 @@ bool CpfgWriter::has(Stage stage) const {
 void CpfgWriter::write_names(const char* begin, const std::vector<CpfgModule>& list) {
     std::set<std::string> wanted;
     for (const CpfgModule& module : list) {
+        if (is_query(module.name)) {
+            wanted.insert(module.name);
+            continue;
+        }
         for (const char c : module.name) {
             wanted.insert(std::string(1, c));
         }
@@ -313,7 +311,8 @@ void CpfgWriter::write_names(const char* begin, const std::vector<CpfgModule>& l
     }
     std::set<std::string> spelled_names;
     for (const auto& [name, has_arguments] : forms_) {
-        if (wanted.count(name.substr(0, 1)) != 0 && name != "[" && name != "]") {
+        if (wanted.count(is_query(name) ? name : name.substr(0, 1)) != 0 && name != "[" &&
+            name != "]") {
             spelled_names.insert(spelled(name, has_arguments));
         }
     }

@@ -110,6 +110,7 @@ NUMBER  ([0-9]+("."[0-9]*)?|"."[0-9]+)([eE][+-]?[0-9]+)?
   ")"                   { return Token::TOK_CLOSE; }
   "@"[GTCDPBS][a-z]     { OPERATOR(SYMBOL); }
   "@"[^ \t\r\n]         { OPERATOR(SYMBOL); }
+  "?"[PHULRE]           { OPERATOR(SYMBOL); }
   [\x21-\x7E]           { OPERATOR(SYMBOL); }
   .                     { return Token::TOK_OTHER; }
 }

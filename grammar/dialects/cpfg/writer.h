@@ -13,6 +13,7 @@
 
 #include <cstddef>
 #include <map>
+#include <optional>
 #include <set>
 #include <string>
 #include <vector>
@@ -42,7 +43,6 @@ private:
 
     // --- names
     void find_names();
-    void report_queries(const std::vector<SourceSpan>& places, const char* message) const;
     void keep_tilde(CpfgProduction& production) const;
     void check_module(CpfgModule& module);
     void add_surface(const CpfgModule& module);
@@ -119,6 +119,7 @@ private:
     std::set<std::pair<std::string, bool>> forms_; // names of modules; true: with arguments
     std::set<std::string> matched_;                // names in predecessors and contexts
     std::set<std::string> surfaces_;
+    std::optional<SourceSpan> environment_;   // the first `?E`
     std::map<std::string, int> alternatives_; // count of rewriting productions, by key_of()
 };
 

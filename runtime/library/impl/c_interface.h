@@ -13,6 +13,7 @@
 #include <string>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 namespace api = lsys::v0;
 
@@ -50,6 +51,24 @@ inline std::string text_or(const char* text, const char* otherwise) {
     return text != nullptr ? text : otherwise;
 }
 
+/// A C++ function that calls a function of C.
+inline api::EnvironmentFunction environment_of(const lsys_environment& given) {
+    return [given](const api::EnvironmentQuery& query) -> api::EnvironmentAnswers {
+        static_assert(sizeof(lsys_sense_place) == sizeof(api::SensePlace));
+        static_assert(offsetof(lsys_sense_place, up) == offsetof(api::SensePlace, up));
+        const lsys_environment_query asked{
+            query.generation, query.places.size(),
+            reinterpret_cast<const lsys_sense_place*>(query.places.data()), query.parameters.data(),
+            query.offsets.data()};
+        const double* numbers = nullptr;
+        std::size_t size = 0;
+        if (const int status = given.answer(given.user, &asked, &numbers, &size); status != 0) {
+            return {0, {}, "it returned " + std::to_string(status)};
+        }
+        return {size, std::vector<double>(numbers, numbers + size * asked.place_count), {}};
+    };
+}
+
 inline api::Project project_of(const lsys_project* given) {
     api::Project project;
     if (given == nullptr) {
@@ -70,6 +89,9 @@ inline api::Project project_of(const lsys_project* given) {
             }
             return {true, std::string(bytes, size), {}};
         };
+    }
+    for (std::size_t i = 0; i < host.environment_count; ++i) {
+        project.host.environments[host.environments[i].name] = environment_of(host.environments[i]);
     }
     if (host.progress != nullptr) {
         project.host.progress = [host](const api::Progress& progress) {

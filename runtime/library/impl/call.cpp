@@ -2,12 +2,14 @@
 #include "runtime/library/impl/call.h"
 
 #include "grammar/base/message_levels.h"
+#include "runtime/library/impl/answers.h"
 #include "runtime/library/impl/message_data.h"
 #include "runtime/program/host.h"
 #include "runtime/program/memory_size.h"
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <memory>
 
 namespace lsys::v0 {
@@ -56,6 +58,14 @@ Call::Call(const Project& project) {
                 }
             };
     }
+    for (const auto& [name, function] : project.host.environments) {
+        add_environment(name, function);
+    }
+    inner_.host.environment_help = [](const std::string& name) {
+        return fmt::format("give a function that answers it, of Host::environments; in Python "
+                           "`environment={{\"{}\": function}}`",
+                           name);
+    };
     inner_.limits.max_modules = project.limits.max_modules;
     inner_.limits.max_bytes =
         project.limits.max_bytes != 0 ? project.limits.max_bytes : half_of_memory();
@@ -69,6 +79,38 @@ Call::Call(const Project& project) {
     };
     set_levels(project.allow, MessageLevel::Allow);
     set_levels(project.deny, MessageLevel::Deny);
+}
+
+void Call::add_environment(const std::string& name, EnvironmentFunction function) {
+    inner_.host.environments[name] =
+        [this, function = std::move(function)](
+            const SensedWord& word, std::vector<float>& answers,
+            std::vector<std::uint32_t>& sizes) -> std::optional<EnvironmentFailure> {
+        const std::lock_guard<std::mutex> lock(answer_mutex_);
+        using Given = std::optional<EnvironmentAnswers>;
+        const Given given = guarded<Given>([&] { return function(query_of(word)); }, std::nullopt);
+        if (!given) {
+            EnvironmentFailure failure;
+            failure.stop = Stop::Cancelled;
+            return failure;
+        }
+        return take_answers(*given, word.places.size(), answers, sizes);
+    };
+}
+
+void Call::check_environments(const Bytecode& bytecode) {
+    for (const auto& [name, function] : inner_.host.environments) {
+        const bool is_declared = std::any_of(
+            bytecode.environments.begin(), bytecode.environments.end(), [&](const auto& each) {
+                return each.name == name && each.kind == EnvironmentKind::Program;
+            });
+        if (!is_declared) {
+            refusal_ =
+                fmt::format("a function is given for the environment `{0}`, but the grammar has no "
+                            "`#sense {0} program;`",
+                            name);
+        }
+    }
 }
 
 Messages Call::error(std::string text) {

@@ -3,6 +3,7 @@
 // the outcome of the pipeline to a public outcome.
 #pragma once
 
+#include "compiler/bytecode/bytecode.h"
 #include "grammar/base/outcome.h"
 #include "runtime/base/out_of_memory.h"
 #include "runtime/pipeline/project.h"
@@ -11,6 +12,7 @@
 #include <exception>
 #include <lsys/outcome.h>
 #include <lsys/project.h>
+#include <mutex>
 #include <optional>
 #include <string>
 #include <utility>
@@ -58,7 +60,12 @@ public:
         };
     }
 
+    /// Makes run() fail if a function of the host answers an environment that `bytecode` does not
+    /// declare with the kind `program`.
+    void check_environments(const Bytecode& bytecode);
+
 private:
+    void add_environment(const std::string& name, EnvironmentFunction function);
     [[nodiscard]] static Messages error(std::string text);
     [[nodiscard]] static Messages public_messages(::lsys::Messages messages);
     [[nodiscard]] static Status public_status(Stop stop);
@@ -82,7 +89,8 @@ private:
     }
 
     ::lsys::Project inner_;
-    std::optional<std::string> refusal_; // error for an unknown code in Project::allow or deny
+    std::optional<std::string> refusal_; // error for an unknown code or environment of Project
+    std::mutex answer_mutex_;            // functions of the host are called one at a time
     std::atomic<bool> own_cancel_flag_{false};
     std::atomic<bool>* cancel_flag_ = &own_cancel_flag_; // or Host::cancelled
     std::exception_ptr caught_;

@@ -49,6 +49,35 @@ typedef struct lsys_forest lsys_forest;
 typedef struct lsys_instances lsys_instances;
 typedef struct lsys_messages lsys_messages;
 
+/* Where the turtle stands at a module `?NAME`: metres and unit vectors, in the plant's own axes. */
+typedef struct lsys_sense_place {
+    double position[3];
+    double heading[3];
+    double up[3];
+} lsys_sense_place;
+
+/* All modules `?NAME` of one word, in word order. Arrays are valid during the call. */
+typedef struct lsys_environment_query {
+    uint32_t generation; /* age of the word */
+    size_t place_count;  /* at least 1 */
+    const lsys_sense_place* places;
+    const float* parameters; /* of the modules, one after the other */
+    const uint32_t* offsets; /* place_count + 1 indexes: first parameter of each module, the end */
+} lsys_environment_query;
+
+/* Answers an environment that `#sense NAME program;` declares, in place of a program. */
+typedef struct lsys_environment {
+    const char* name; /* NAME, without the `?` */
+    /* Returns 0 and sets `size`, the count of numbers for each place, and `numbers`, place_count *
+     * size numbers, which must stay valid until the next call of the function or the end of the
+     * library call. Returns another number, which the message shows, if there is no answer. */
+    int (*answer)(void* user,
+                  const lsys_environment_query* query,
+                  const double** numbers,
+                  size_t* size);
+    void* user;
+} lsys_environment;
+
 /* Input that all calls share. Initialise with LSYS_PROJECT_DEFAULTS. The functions get `user` as
  * their first argument; they are called from any thread, but never from two at once. */
 typedef struct lsys_project {
@@ -62,9 +91,11 @@ typedef struct lsys_project {
     /* Returns 0 to continue, another number to end the call with LSYS_CANCELLED; may be null. */
     int (*progress)(void* user, uint32_t generation, uint32_t generations, uint64_t modules);
     void* user;
+    const lsys_environment* environments; /* may be null */
+    size_t environment_count;
 } lsys_project;
 #define LSYS_PROJECT_DEFAULTS                                                                      \
-    { 0, 0, 0, NULL, NULL, NULL }
+    { 0, 0, 0, NULL, NULL, NULL, NULL, 0 }
 
 /* The version of the linked library: "0.1.0". */
 LSYS_C_API const char* lsys_version(void);

@@ -3,10 +3,11 @@
 
 import os
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from typing import Any, Literal, Optional, Union
+from typing import Any, Literal, Optional, TypedDict, Union
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
+from typing_extensions import Unpack
 
 from .errors import (
     Cancelled as Cancelled,
@@ -19,6 +20,22 @@ from .errors import (
 _Path = Union[str, "os.PathLike[str]"]
 _Receive = Callable[[str, bytes, bool], Optional[bool]]
 _Setting = Union[str, float, Sequence[Union[str, float]]]
+_Environment = Callable[
+    [int, NDArray[np.float64], NDArray[np.float64], NDArray[np.float64], NDArray[np.float32]],
+    ArrayLike,
+]
+_CallOptions = TypedDict(
+    "_CallOptions",
+    {
+        "threads": int,
+        "max_modules": int,
+        "max_bytes": int,
+        "progress": Optional[Callable[[int, int, int], Optional[bool]]],
+        "read_file": Optional[Callable[[str], Union[str, bytes, None]]],
+        "environment": Optional[Mapping[str, _Environment]],
+    },
+    total=False,
+)
 
 __version__: str
 FORMATS: list[str]
@@ -233,7 +250,7 @@ class Grammar:
     def bytecode(self) -> bytes: ...
     def predict(self, generations: int) -> list[PredictedSize]: ...
     def derive(
-        self, generations: Optional[int] = None, seed: Optional[int] = None, **kwargs: Any
+        self, generations: Optional[int] = None, seed: Optional[int] = None, **kwargs: Unpack[_CallOptions]
     ) -> Word: ...
     def grow(
         self,
@@ -241,7 +258,7 @@ class Grammar:
         seed: Optional[int] = None,
         height: Optional[float] = None,
         stream: bool = False,
-        **kwargs: Any,
+        **kwargs: Unpack[_CallOptions],
     ) -> Plant: ...
 
 class Species:

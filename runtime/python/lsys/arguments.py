@@ -3,7 +3,7 @@
 
 import os
 
-CALL_OPTIONS = ("threads", "max_modules", "max_bytes", "progress", "read_file")
+CALL_OPTIONS = ("threads", "max_modules", "max_bytes", "progress", "read_file", "environment")
 
 
 def split(arguments):

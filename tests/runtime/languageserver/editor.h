@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <atomic>
 #include <cstddef>
 #include <map>
 #include <memory>
@@ -36,6 +37,12 @@ public:
         host.project.host.read_file = host.project.host.read_referenced_file;
         host.project.host.file_exists = [texts = files_](const std::string& path) {
             return texts->contains(path);
+        };
+        host.project.environments = {{"started", "echo"}};
+        host.project.host.start_program =
+            [](const std::string& /*command*/, double /*seconds*/,
+               const std::atomic<bool>* /*cancelled*/) -> Result<std::unique_ptr<LineProgram>> {
+            throw std::logic_error("the language server has started a program");
         };
         host.grammars_below = [texts = files_](const std::string& folder) {
             std::vector<std::string> paths;

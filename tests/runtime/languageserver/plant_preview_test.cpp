@@ -185,6 +185,28 @@ TEST_CASE("lsys/plant says why there is no plant") {
     CHECK(plant_of(editor).at("plant").at("glb") == "");
 }
 
+TEST_CASE("lsys/plant grows plants that sense, in the environments of their files") {
+    Editor editor(Json::object(), {{"/p/wall.obj", "v 0 0 1\nv 1 0 1\nv 0 1 1\nf 1 2 3\n"}});
+    editor.open("/p/a.lsys", "#n = 2;\n#sense light shadow;\n#sense wall solid mesh \"wall.obj\";\n"
+                             "#w : F(2) ?light(0) ?wall(0, 0, 0, 0) A(0);\n"
+                             "#p : ?wall(d, x, y, z) < A(a) : d > 0.5 : F(d) A(d);\n"
+                             "#down d : ?light(q) > A(a) : * : ?light(a);\n");
+    const Json result = plant_of(editor);
+    CAPTURE(result.dump().substr(0, 300));
+    CHECK(result.at("plant").at("modules") == 5);
+}
+
+TEST_CASE("lsys/plant starts no program") {
+    Editor editor(Json::object());
+    editor.open("/p/a.lsys", "#n = 0;\n#sense started program;\n#w : F ?started(0);\n");
+    const Json result = plant_of(editor);
+    CHECK(result.at("plant").is_null());
+    CHECK(result.at("reason") == "grammar");
+    const std::string message = result.at("message").get<std::string>();
+    CHECK_THAT(message, Catch::StartsWith("line 2: "));
+    CHECK_THAT(message, Catch::Contains("nothing is given that answers it"));
+}
+
 TEST_CASE("lsys/plant refuses wrong parameters") {
     Editor editor(Json::object());
     editor.open("/p/a.lsys", kTree);

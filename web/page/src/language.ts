@@ -42,6 +42,7 @@ const parser: StreamParser<State> = {
       return 'propertyName';
     }
     if (stream.match(/^(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?/)) return 'number';
+    if (stream.match(/^\?[A-Za-z_]\w*/)) return 'typeName'; // a sense module
     if (stream.match(/^[A-Za-z_]\w*(?=\s*\()/)) return 'typeName';
     if (stream.match(/^[A-Za-z_]\w*/)) {
       const hasKeys = ['set', 'material', 'sense'].includes(state.statement);
@@ -65,7 +66,11 @@ const parser: StreamParser<State> = {
       { label: '#set seed', apply: '#set seed 1;', type: 'keyword', detail: 'chance' },
       { label: '#object', apply: '#object leaf LEAF;', type: 'keyword', detail: 'a shape to draw' },
       { label: '#material', apply: '#material ', type: 'keyword', detail: 'look of a colour index' },
-      { label: '#sense', apply: '#sense ', type: 'keyword', detail: 'environment that modules ask' },
+      { label: '#sense', apply: '#sense light shadow;', type: 'keyword', detail: 'what modules ?light ask' },
+      { label: '#down', apply: '#down d : ', type: 'keyword', detail: 'a sweep from the tips to the base' },
+      { label: '#up', apply: '#up u : ', type: 'keyword', detail: 'a sweep from the base to the tips' },
+      { label: '?P', apply: '?P(0, 0, 0)', type: 'type', detail: 'asks for the position' },
+      { label: '?H', apply: '?H(0, 0, 0)', type: 'type', detail: 'asks for the heading' },
       { label: '#function', apply: '#function f(x) x;', type: 'keyword', detail: 'a formula' },
       { label: '#curve', apply: '#curve c 0 0, 1 1;', type: 'keyword', detail: 'a curve of points' },
     ]),

@@ -3,10 +3,14 @@
 // and cancel long calls.
 #pragma once
 
+#include <array>
 #include <atomic>
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <lsys/api.h>
+#include <map>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -26,6 +30,31 @@ struct Progress {
     std::uint64_t modules = 0; // modules of this generation written so far
 };
 
+/// Where the turtle stands at a module `?NAME`, in the plant's own axes, +Y up.
+struct SensePlace {
+    std::array<double, 3> position{}; // m
+    std::array<double, 3> heading{};  // unit vector
+    std::array<double, 3> up{};       // unit vector
+};
+
+/// All modules `?NAME` of one word, in word order. The spans are valid during the call.
+struct EnvironmentQuery {
+    std::uint32_t generation = 0;           // age of the word
+    std::span<const SensePlace> places;     // of the modules; at least one
+    std::span<const float> parameters;      // of the modules, one after the other
+    std::span<const std::uint32_t> offsets; // of each module: index of its first parameter; the end
+};
+
+/// The answers to a query: `size` numbers for each place, in the order of the places. They
+/// overwrite the first parameters of the module.
+struct EnvironmentAnswers {
+    std::size_t size = 0;
+    std::vector<double> numbers; // size * places
+    std::string failure;         // not empty: the reason why there are no answers
+};
+
+using EnvironmentFunction = std::function<EnvironmentAnswers(const EnvironmentQuery& query)>;
+
 /// Functions of the caller. They are called from any thread, but never from two at once. An
 /// exception thrown by one of them ends the library call, which rethrows it.
 struct Host {
@@ -38,6 +67,9 @@ struct Host {
     /// Set to true by another thread to end the call with Status::Cancelled. The library sets it to
     /// true if `progress` or an exception of a callback ends the call. May be null.
     std::atomic<bool>* cancelled = nullptr;
+    /// Answer the environments that `#sense NAME program;` declares, by NAME, in place of the
+    /// programs of `lsc --environment`.
+    std::map<std::string, EnvironmentFunction> environments;
 };
 
 struct Limits {
