@@ -132,7 +132,7 @@ void PieceReader::describe(Piece& piece) {
     piece.begins_cell = !first && begins_cell();
     piece.in_list = in_list_;
     const bool keeps_line = current_.kind != LexemeKind::Semicolon;
-    piece.own_line = in_list_ && keeps_line && current_.newlines_before > 0;
+    piece.own_line = (in_list_ || begins_local()) && keeps_line && current_.newlines_before > 0;
     piece.break_class = first ? BreakClass::Never : break_class();
     piece.depth = brackets_ - (closes_bracket(current_) && brackets_ > 0 ? 1U : 0U);
     piece.rank = 0;
@@ -140,6 +140,8 @@ void PieceReader::describe(Piece& piece) {
         // Prefer breaks at outer levels, then at blanks, then before branches.
         piece.rank =
             brackets_ * 4 + (piece.blank_before ? 0 : 2) + (is_module(current_, '[') ? 0 : 1);
+    } else if (current_.kind == LexemeKind::Operator) {
+        piece.rank = 1; // rather between local values than within one
     }
     piece.ends_statement = false;
     piece.semicolon_only = current_.kind == LexemeKind::Semicolon;
@@ -165,8 +167,17 @@ bool PieceReader::begins_cell() const {
     return false;
 }
 
+/// Whether the current token is the name of a local value after the first.
+bool PieceReader::begins_local() const {
+    return shape_ == StatementShape::Production && !in_list_ && parentheses_ == 0 &&
+           previous_.kind == LexemeKind::Comma;
+}
+
 BreakClass PieceReader::break_class() const {
     using enum LexemeKind;
+    if (begins_local()) {
+        return current_.kind == BlockComment ? BreakClass::Never : BreakClass::Fine;
+    }
     if (in_list_) {
         if (opens_bracket(previous_) || current_.kind == BlockComment ||
             current_.kind == Semicolon) {
@@ -187,7 +198,7 @@ BreakClass PieceReader::break_class() const {
                    ? BreakClass::Fine
                    : BreakClass::Never;
     default:
-        // A cell begins after a `:` and after the `,` between local values.
+        // A cell begins after a `:`, a pair of numbers of a #curve after a `,`.
         return (previous_.kind == Colon || (previous_.kind == Comma && parentheses_ == 0)) &&
                        current_.kind != Semicolon
                    ? BreakClass::Fine

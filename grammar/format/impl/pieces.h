@@ -50,6 +50,7 @@ private:
     [[nodiscard]] bool ends_before(const Lexeme& after) const;
     [[nodiscard]] bool continues_repeat(const Lexeme& after) const;
     [[nodiscard]] bool begins_cell() const;
+    [[nodiscard]] bool begins_local() const;
     [[nodiscard]] BreakClass break_class() const;
     void describe(Piece& piece);
     void take(Piece& piece);
