@@ -84,6 +84,10 @@ Skeleton skeleton_of(const std::string& name, const std::vector<Definition>& def
     return std::move(plant.value().skeleton);
 }
 
+double base_width(const Segment& segment) {
+    return 2.0 * static_cast<double>(segment.base_radius);
+}
+
 } // namespace
 
 TEST_CASE("the light at the base of a tree is the sum over its buds, which share its resource") {
@@ -167,13 +171,13 @@ TEST_CASE("sections are kept at every fork of a pine") {
     std::vector<int> children(skeleton.segments.size(), 0);
     for (const Segment& segment : skeleton.segments) {
         if (segment.parent != kNoSegment) {
-            of_children.at(segment.parent) += std::pow(2.0 * segment.base_radius, exponent);
+            of_children.at(segment.parent) += std::pow(base_width(segment), exponent);
             ++children.at(segment.parent);
         }
     }
     std::size_t forks = 0;
     for (std::size_t i = 0; i < children.size(); ++i) {
-        const double own = std::pow(2.0 * skeleton.segments[i].base_radius, exponent);
+        const double own = std::pow(base_width(skeleton.segments[i]), exponent);
         if (children[i] == 0) {
             CHECK(own == Approx(std::pow(0.007, exponent)).epsilon(1e-5));
             continue;
@@ -182,7 +186,7 @@ TEST_CASE("sections are kept at every fork of a pine") {
         CHECK(own == Approx(of_children[i]).epsilon(1e-5));
     }
     CHECK(forks > 500);
-    CHECK(skeleton.segments[0].base_radius > 0.05); // m: the trunk has thickened
+    CHECK(base_width(skeleton.segments[0]) > 0.1); // m: the trunk has thickened
 }
 
 TEST_CASE("a pine drops its low boughs") {
