@@ -132,15 +132,28 @@ TEST_CASE("a tree in a dome of space stays in it and stops when the space is tak
     CHECK(stats.crown_width > 3.6);
 }
 
-TEST_CASE("control by the apex makes a tree slender") {
-    double before = 0.0;
+TEST_CASE("control by the apex makes a leader, and boughs of low order") {
+    double mean_order_before = 100.0;
     for (const float lambda : {0.46F, 0.5F, 0.54F}) {
         INFO(lambda);
-        const SkeletonStats stats =
-            measure(skeleton_of("self-organising-tree", {{"lambda", lambda}}));
-        const double slenderness = stats.height / stats.crown_width;
-        CHECK(slenderness > before);
-        before = slenderness;
+        const Skeleton skeleton =
+            skeleton_of("self-organising-tree", {{.name = "lambda", .value = lambda}});
+        double orders = 0.0;
+        float top = 0.0F;
+        float leader = 0.0F;
+        for (const Segment& segment : skeleton.segments) {
+            orders += segment.order;
+            top = std::fmax(top, tip(segment).y);
+            leader = segment.order == 0 ? std::fmax(leader, tip(segment).y) : leader;
+        }
+        const double mean_order = orders / static_cast<double>(skeleton.segments.size());
+        CHECK(mean_order < 0.7 * mean_order_before);
+        mean_order_before = mean_order;
+        if (lambda > 0.5F) {
+            CHECK(leader > 0.95F * top);
+        } else if (lambda < 0.5F) {
+            CHECK(leader < 0.5F * top);
+        }
     }
 }
 
@@ -199,6 +212,6 @@ TEST_CASE("a pine drops its low boughs") {
         }
     }
     CHECK(lowest > 0.25 * height);
-    const Skeleton kept = skeleton_of("pipe-model-pine", {{"shed", 0.0F}});
+    const Skeleton kept = skeleton_of("pipe-model-pine", {{.name = "shed", .value = 0.0F}});
     CHECK(kept.segments.size() > skeleton.segments.size());
 }
