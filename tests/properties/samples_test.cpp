@@ -65,6 +65,12 @@ with_axiom(const std::filesystem::path& path, const std::string& text, const std
     return changed.insert(*first, "#w : " + word + ";");
 }
 
+/// Whether the grammar declares an environment of kind space.
+bool has_markers(const std::string& text) {
+    const std::size_t sense = text.find("#sense ");
+    return sense != std::string::npos && text.find(" space ", sense) < text.find(';', sense);
+}
+
 std::string dump(std::vector<std::string> arguments) {
     arguments.insert(arguments.begin(), {"dump", "--quiet"});
     const LscRun run = run_lsc(arguments, "");
@@ -81,15 +87,22 @@ TEST_CASE("a dumped word parses as the axiom of the same file and is dumped unch
         INFO(sample.file);
         const std::string n = few_generations(sample);
         const std::string word = dump({"-n", n, "--seed", "3", sample.file.string()});
+        const std::string source = tests::read_text(sample.file);
         const std::optional<std::string> text =
-            with_axiom(sample.file, tests::read_text(sample.file), word.substr(0, word.size() - 1));
+            with_axiom(sample.file, source, word.substr(0, word.size() - 1));
         if (!text) {
             continue;
         }
         ++tried;
-        const std::string folder = sample.file.parent_path().string(); // of files that it names
+        const std::string folder = sample.file.parent_path().string();
         const LscRun again =
             run_lsc({"dump", "--quiet", "-n", "0", "--base", folder, "-"}, *text);
+        if (has_markers(source)) {
+            // An axiom senses; it meets the markers that the generations before have used up.
+            INFO(again.err);
+            CHECK(again.status == 0);
+            continue;
+        }
         INFO(again.err);
         CHECK(again.out == word);
     }
