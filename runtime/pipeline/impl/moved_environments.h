@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: MIT
+// Environments that the user moves, for example an obstacle that is dragged in a window.
+#pragma once
+
+#include "runtime/pipeline/grammar.h"
+
+#include <vector>
+
+namespace lsys {
+
+/// Moves environments of the kinds Solid, Space and Map; the other kinds have no place.
+void move_environments(const std::vector<EnvironmentMove>& moves, Bytecode& bytecode);
+
+} // namespace lsys
