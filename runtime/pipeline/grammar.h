@@ -43,7 +43,7 @@ struct GrammarOptions {
     std::vector<SettingText> settings;
     std::optional<std::uint32_t> generations; // replaces #n
     bool part = false; // the file is for `#include`: it is checked but not compiled to bytecode
-    /// Moves of environments; names that the grammar lacks are ignored. load_grammar() applies them.
+    /// Moves that load_grammar() applies; names that the grammar lacks are ignored.
     std::vector<EnvironmentMove> moves{};
 
     friend bool operator==(const GrammarOptions&, const GrammarOptions&) = default;

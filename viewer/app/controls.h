@@ -174,7 +174,8 @@ public:
                const PixelArea& area,
                ForestView& view,
                PanelState& panels);
-    /// Moves the obstacle under a press of the left button with Shift. Returns whether one was held.
+    /// Moves the obstacle that a press of the left button with Shift grabs. Returns whether one was
+    /// held.
     [[nodiscard]] static bool
     move_obstacle(const WindowInput& input, const PixelArea& area, PlantView& view);
     /// Whether held keys may move the camera.
