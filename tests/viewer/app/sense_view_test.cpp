@@ -23,7 +23,7 @@ namespace {
 /// Grows along -X in steps of 0.5 m, until it is at most 0.5 m from the wall at x = -2.
 const char* const kToTheWall = "#n = 12;\n"
                                "#sense wall solid plane 1 0 0 2;\n"
-                               "#w : F(1) +(90) A ?wall(9, 0, 0, 0);\n"
+                               "#w : F(1) -(90) A ?wall(9, 0, 0, 0);\n"
                                "#grow : A > ?wall(d, x, y, z) : d > 0.6 : F(0.5) A;\n";
 
 class SensingView {
