@@ -7,6 +7,7 @@
 #include "grammar/base/paths.h"
 #include "grammar/dialects/other_language.h"
 #include "grammar/lsys/parse_with_names.h"
+#include "runtime/pipeline/impl/moved_environments.h"
 #include "runtime/pipeline/setting_options.h"
 #include "runtime/pipeline/step.h"
 
@@ -133,6 +134,7 @@ Outcome<Grammar> load_module(std::string_view bytes,
             return step.end(Stop::Diagnosed);
         }
     }
+    move_environments(options.moves, grammar.bytecode);
     return step.done(std::move(grammar));
 }
 
@@ -304,6 +306,7 @@ load_grammar(const std::string& path, const GrammarOptions& options, const Proje
     if (text.definition_error) {
         return step.fail(*text.definition_error);
     }
+    move_environments(options.moves, text.grammar.bytecode);
     return ok ? step.done(std::move(text.grammar)) : step.end_diagnosed();
 }
 

@@ -13,6 +13,7 @@
 #include "grammar/dialects/dialect.h"
 #include "runtime/pipeline/project.h"
 
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -21,6 +22,14 @@
 #include <vector>
 
 namespace lsys {
+
+/// Displacement of an environment of `#sense`: of its obstacles, its markers or its map.
+struct EnvironmentMove {
+    std::string name;          // without the `?`
+    std::array<float, 3> by{}; // m, in the plant's own axes; finite
+
+    friend bool operator==(const EnvironmentMove&, const EnvironmentMove&) = default;
+};
 
 /// Options of reading and compiling a grammar.
 struct GrammarOptions {
@@ -34,6 +43,8 @@ struct GrammarOptions {
     std::vector<SettingText> settings;
     std::optional<std::uint32_t> generations; // replaces #n
     bool part = false; // the file is for `#include`: it is checked but not compiled to bytecode
+    /// Moves that load_grammar() applies; names that the grammar lacks are ignored.
+    std::vector<EnvironmentMove> moves{};
 
     friend bool operator==(const GrammarOptions&, const GrammarOptions&) = default;
 };

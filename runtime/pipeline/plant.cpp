@@ -7,6 +7,7 @@
 #include "runtime/pipeline/growth_forecast.h"
 #include "runtime/pipeline/impl/drawing_end.h"
 #include "runtime/pipeline/impl/mesh_files.h"
+#include "runtime/pipeline/sensed_plant.h"
 #include "runtime/pipeline/senses.h"
 #include "runtime/pipeline/step.h"
 #include "runtime/pipeline/stopwatch.h"
@@ -246,9 +247,19 @@ Outcome<Plant> grow_plant(const PlantOptions& options, Grammar& grammar, const P
         return step.end(*stop);
     }
     plant.skeleton = turtle.take_skeleton();
+    std::shared_ptr<SensedPlant> sensed;
+    if (options.senses && own_senses != nullptr) {
+        sensed =
+            std::make_shared<SensedPlant>(sensed_plant_of(bytecode, senses.files, *own_senses));
+    }
+    const double own_height = sensed == nullptr ? 0.0 : height_of(plant.skeleton);
     if (const std::optional<Stop> stop = size_plant(options, grammar, step, plant.skeleton)) {
         return step.end(*stop);
     }
+    if (own_height > 0.0) {
+        sensed->scale = height_of(plant.skeleton) / own_height;
+    }
+    plant.sensed = std::move(sensed);
     return step.done(std::move(plant));
 }
 

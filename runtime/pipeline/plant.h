@@ -12,11 +12,14 @@
 #include "runtime/turtle/skeleton.h"
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 namespace lsys {
+
+struct SensedPlant;
 
 struct PlantOptions {
     std::string file;                         // path of the grammar, base of files of `#object`
@@ -25,6 +28,7 @@ struct PlantOptions {
     std::optional<float> height;              // m; unset: the value of #set height
     bool stream = false;                      // draw while deriving, store no word
     bool origins = false;                     // keep the origins of segments and objects
+    bool senses = false;                      // keep what the plant senses last: Plant::sensed
 };
 
 /// A plant, and the durations of its steps.
@@ -36,6 +40,7 @@ struct Plant {
     std::uint64_t seed = 0;
     double derive_seconds = 0.0; // with PlantOptions::stream includes drawing
     double draw_seconds = 0.0;
+    std::shared_ptr<const SensedPlant> sensed{}; // null: not asked for, or it has no senses
 };
 
 /// Options for a derivation of the grammar: generations, seed, limits, threads, cancellation. The

@@ -7,6 +7,7 @@
 #include "runtime/pipeline/growth_forecast.h"
 #include "runtime/pipeline/impl/drawing_end.h"
 #include "runtime/pipeline/impl/mesh_files.h"
+#include "runtime/pipeline/sensed_plant.h"
 #include "runtime/pipeline/senses.h"
 #include "runtime/pipeline/step.h"
 #include "runtime/pipeline/stopwatch.h"
@@ -226,6 +227,13 @@ Outcome<void> PlantGrowth::pose(const GrowthMoment& moment, const Project& proje
 
 const Plant& PlantGrowth::plant() const {
     return state_->plant;
+}
+
+std::shared_ptr<const SensedPlant> PlantGrowth::sensed() const {
+    return state_->own_senses == nullptr
+               ? nullptr
+               : std::make_shared<const SensedPlant>(sensed_plant_of(
+                     state_->grammar.bytecode, state_->senses.files, *state_->own_senses));
 }
 
 } // namespace lsys

@@ -47,15 +47,10 @@ void add_areas(const std::vector<SensedOrgan>& organs, SensedPart& part) {
     }
 }
 
-SensedPart sensed_part(const BytecodeEnvironment& declared,
-                       const SensedEnvironment& sensed,
-                       const EnvironmentSense& senses,
-                       std::size_t index) {
-    SensedPart part;
-    part.name = declared.name;
-    part.kind = declared.kind;
+/// The modules that asked, with their answers.
+void add_modules(const SensedEnvironment& sensed, SensedPart& part) {
     part.answers = sensed.answers;
-    const std::uint32_t fixed = answer_size(declared.kind);
+    const std::uint32_t fixed = answer_size(part.kind);
     std::size_t first = 0;
     for (std::size_t i = 0; i < sensed.modules.size(); ++i) {
         const std::uint32_t size = fixed == kUnknownAnswer ? sensed.sizes[i] : fixed;
@@ -63,18 +58,51 @@ SensedPart sensed_part(const BytecodeEnvironment& declared,
                                 std::span<const float>(part.answers).subspan(first, size)});
         first += size;
     }
-    if (declared.kind == EnvironmentKind::Shadow) {
-        part.cell = static_cast<double>(declared.cell);
-        add_exposures(sensed, part);
-    } else if (declared.kind == EnvironmentKind::Sky) {
-        part.cell = static_cast<double>(declared.cell);
-        add_areas(senses.organs(), part);
+}
+
+/// The part of an environment as it is declared, before any word is sensed.
+SensedPart declared_part(const BytecodeEnvironment& declared, const EnvironmentFiles& files) {
+    SensedPart part;
+    part.name = declared.name;
+    part.kind = declared.kind;
+    if (declared.kind == EnvironmentKind::Solid) {
+        part.meshes = files.meshes;
+        for (const EnvironmentSurface& surface : declared.surfaces) {
+            if (surface.path.empty()) {
+                part.planes.push_back(surface.plane);
+            }
+        }
     }
-    senses.environment(index).append_markers(part.markers);
     return part;
 }
 
 } // namespace
+
+SensedPlant sensed_plant_of(const Bytecode& bytecode,
+                            const std::vector<EnvironmentFiles>& files,
+                            const EnvironmentSense& senses) {
+    SensedPlant plant;
+    plant.has_sensed = !senses.sensed().empty();
+    plant.generation = senses.age();
+    for (std::size_t i = 0; i < bytecode.environments.size(); ++i) {
+        const BytecodeEnvironment& declared = bytecode.environments[i];
+        SensedPart& part = plant.parts.emplace_back(declared_part(declared, files[i]));
+        if (!plant.has_sensed) {
+            continue;
+        }
+        const SensedEnvironment& sensed = senses.sensed()[i];
+        add_modules(sensed, part);
+        if (part.kind == EnvironmentKind::Shadow) {
+            part.cell = static_cast<double>(declared.cell);
+            add_exposures(sensed, part);
+        } else if (part.kind == EnvironmentKind::Sky) {
+            part.cell = static_cast<double>(declared.cell);
+            add_areas(senses.organs(), part);
+        }
+        senses.environment(i).append_markers(part.markers);
+    }
+    return plant;
+}
 
 Outcome<SensedPlant>
 sense_plant(const PlantOptions& options, const Grammar& grammar, const Project& project) {
@@ -96,16 +124,9 @@ sense_plant(const PlantOptions& options, const Grammar& grammar, const Project& 
         }
         return step.end(*stop);
     }
-    SensedPlant plant;
-    if (own == nullptr || own->sensed().empty()) {
-        return step.done(std::move(plant));
-    }
-    plant.has_sensed = true;
-    plant.generation = own->age();
-    for (std::size_t i = 0; i < bytecode.environments.size(); ++i) {
-        plant.parts.push_back(sensed_part(bytecode.environments[i], own->sensed()[i], *own, i));
-    }
-    return step.done(std::move(plant));
+    return step.done(own == nullptr || own->sensed().empty()
+                         ? SensedPlant{}
+                         : sensed_plant_of(bytecode, senses.files, *own));
 }
 
 } // namespace lsys

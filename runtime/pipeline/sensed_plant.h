@@ -1,14 +1,16 @@
 // SPDX-License-Identifier: MIT
-// SensedPlant: what a plant sensed last: the places that asked, the answers, and what the
-// environments held. For dumps and viewers.
+// SensedPlant: what a plant sensed last: the places that asked, the answers, what the environments
+// held, and its obstacles. For dumps and viewers.
 #pragma once
 
 #include "grammar/base/outcome.h"
 #include "runtime/environment/environment.h"
+#include "runtime/environment/word_sense.h"
 #include "runtime/pipeline/grammar.h"
 #include "runtime/pipeline/plant.h"
 #include "runtime/pipeline/project.h"
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <string>
@@ -37,13 +39,24 @@ struct SensedPart {
     std::vector<float> answers;
     std::vector<SensedVoxel> voxels; // that hold a place or an area; by x, y, z
     std::vector<Vector3> markers;    // that are left; of kind Space
+    // Obstacles, of kind Solid.
+    std::vector<EnvironmentMesh> meshes;
+    std::vector<std::array<float, 4>> planes; // EnvironmentSurface::plane
 };
 
 struct SensedPlant {
     std::uint32_t generation = 0;  // of the last word that was sensed
     bool has_sensed = false;       // whether any word was
     std::vector<SensedPart> parts; // by index in Bytecode::environments
+    /// Size of the drawn plant as a multiple of the size that sensed: `#set height` scales it.
+    double scale = 1.0;
 };
+
+/// What `senses`, which has sensed words of a derivation with `bytecode`, holds now. `files`: what
+/// the environments read.
+[[nodiscard]] SensedPlant sensed_plant_of(const Bytecode& bytecode,
+                                          const std::vector<EnvironmentFiles>& files,
+                                          const EnvironmentSense& senses);
 
 /// Derives the grammar. Uses `file`, `generations` and `seed` of the options.
 [[nodiscard]] Outcome<SensedPlant>

@@ -57,6 +57,10 @@ bool draw_plants(const SheetRequest& request, const std::atomic<bool>& cancelled
             Renderer& device = *renderer.value();
             device.show_plant(plant.value()->mesh);
             device.show_lines(make_lines(plant.value()->plant.skeleton, options.lines));
+            device.show_senses(plant.value()->plant.sensed == nullptr
+                                   ? SenseDrawing{}
+                                   : make_sense_drawing(*plant.value()->plant.sensed,
+                                                        options.senses, {}, device.bounds()));
             const float aspect =
                 static_cast<float>(request.width) / static_cast<float>(request.height);
             const Camera from = with_parts(options.camera, Camera{});

@@ -64,6 +64,14 @@ void pan(Camera& camera, const glm::vec2& drag, float height) {
     }
 }
 
+/// A place in the window, in half picture heights to the right and up from the picture's centre.
+glm::vec2 place_in_picture(const glm::vec2& pixels, const PixelArea& area) {
+    // The upper edges of picture and window coincide.
+    const float half = 0.5F * static_cast<float>(area.height);
+    return {(pixels.x - static_cast<float>(area.x) - 0.5F * static_cast<float>(area.width)) / half,
+            (half - pixels.y) / half};
+}
+
 void zoom(Camera& camera, float wheel) {
     if (wheel != 0.0F) {
         constexpr float kZoomPerNotch = 0.85F;
@@ -235,6 +243,14 @@ void Controls::apply_to_view(const WindowInput& input,
         }
     }
     const ForestView* const shown = switcher.forest();
+    if (PlantView* const plant = switcher.plant();
+        plant != nullptr && !panels.flies && move_obstacle(input, area, *plant)) {
+        pressed_.reset();
+        WindowInput rest = input;
+        rest.left_drag = glm::vec2(0.0F);
+        apply(rest, seconds, static_cast<float>(area.height), *plant, panels);
+        return;
+    }
     if (!panels.flies && (shown == nullptr || shown->settings.tool == PaintTool::None)) {
         click(input, area, switcher.current());
     } else {
@@ -451,14 +467,25 @@ void Controls::click(const WindowInput& input, const PixelArea& area, View& view
     }
 }
 
+bool Controls::move_obstacle(const WindowInput& input, const PixelArea& area, PlantView& view) {
+    bool holds = view.has_grabbed();
+    for (const PointerEvent& event : input.pointer_events) {
+        const glm::vec2 place = place_in_picture(event.place, area);
+        if (event.kind == PointerEvent::Kind::Press) {
+            view.release_obstacle(); // its release may have gone to a dialog
+            holds = event.shift && view.grab_obstacle(place);
+            continue;
+        }
+        view.drag_obstacle(place);
+        if (event.kind == PointerEvent::Kind::Release) {
+            view.release_obstacle();
+        }
+    }
+    return holds;
+}
+
 void Controls::use_tool(const WindowInput& input, const PixelArea& area, ForestView& view) {
-    // The upper edges of picture and window coincide.
-    const auto place = [&area](const glm::vec2& pixels) {
-        const float half = 0.5F * static_cast<float>(area.height);
-        return glm::vec2(
-            (pixels.x - static_cast<float>(area.x) - 0.5F * static_cast<float>(area.width)) / half,
-            (half - pixels.y) / half);
-    };
+    const auto place = [&area](const glm::vec2& pixels) { return place_in_picture(pixels, area); };
     for (const PointerEvent& event : input.pointer_events) {
         if (event.kind == PointerEvent::Kind::Release) {
             view.end_stroke();
@@ -737,6 +764,18 @@ void Controls::press(const KeyPress& press, PlantView& view, PanelState& panels)
         break;
     case Key::G:
         settings.ground = !settings.ground;
+        break;
+    case Key::O:
+        settings.senses.obstacles = !settings.senses.obstacles;
+        break;
+    case Key::Y:
+        settings.senses.light = !settings.senses.light;
+        break;
+    case Key::X:
+        settings.senses.markers = !settings.senses.markers;
+        break;
+    case Key::D:
+        settings.senses.directions = !settings.senses.directions;
         break;
     case Key::B:
         settings.simulates = !settings.simulates;

@@ -82,6 +82,8 @@ inline constexpr auto kPlantKeys = std::to_array<KeyHelp>({
     {"V", "Person of 1.8 m as a scale"},
     {"S", "Shadows"},
     {"G", "Ground"},
+    {"O, Y, X, D", "Senses: obstacles, light, markers, directions"},
+    {"Shift+drag", "Move an obstacle; the plant grows again"},
     {"B", "Simulate gravity and wind"},
     {"Space", "Play or pause growth"},
     {"PageUp", "Next generation"},
@@ -172,6 +174,10 @@ public:
                const PixelArea& area,
                ForestView& view,
                PanelState& panels);
+    /// Moves the obstacle that a press of the left button with Shift grabs. Returns whether one was
+    /// held.
+    [[nodiscard]] static bool
+    move_obstacle(const WindowInput& input, const PixelArea& area, PlantView& view);
     /// Whether held keys may move the camera.
     [[nodiscard]] bool is_moving() const { return is_moving_; }
 

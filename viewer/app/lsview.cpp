@@ -107,6 +107,10 @@ run_plant_pictures(const ViewOptions& options, const Camera& camera, const Conso
     Renderer& renderer = *hidden_renderer.renderer;
     renderer.show_plant(document.mesh);
     renderer.show_lines(make_lines(document.plant.skeleton, options.lines));
+    if (document.plant.sensed != nullptr) {
+        renderer.show_senses(
+            make_sense_drawing(*document.plant.sensed, options.senses, {}, renderer.bounds()));
+    }
     return take_pictures(options, camera, document, renderer, console);
 }
 

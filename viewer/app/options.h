@@ -10,6 +10,7 @@
 #include "runtime/program/message_options.h"
 #include "runtime/program/run_options.h"
 #include "runtime/program/usage.h"
+#include "viewer/app/sense_view.h"
 #include "viewer/gl/renderer.h"
 #include "viewer/scene/branch_colours.h"
 #include "viewer/scene/camera.h"
@@ -60,6 +61,7 @@ struct ViewOptions {
     bool ground = true;
     PlantStyle style = PlantStyle::Surface;
     LineKind lines = LineKind::None;
+    SenseLook senses;                               // plants only
     BranchColours colours = BranchColours::Natural; // forests only
     SceneLight light;                               // values that replace the scene's
     std::uint32_t samples = 4;

@@ -210,6 +210,10 @@ ExitStatus take_pictures(const ViewOptions& options,
             if (status == ExitStatus::Ok) {
                 renderer.show_plant(mesh);
                 renderer.show_lines(make_lines(pose, options.lines));
+                const std::shared_ptr<const SensedPlant> sensed = growth->sensed();
+                renderer.show_senses(sensed == nullptr ? SenseDrawing{}
+                                                       : make_sense_drawing(*sensed, options.senses,
+                                                                            {}, renderer.bounds()));
             }
             return status;
         };

@@ -46,6 +46,7 @@ Outcome<std::shared_ptr<const PlantDocument>> make_plant_document(const ViewOpti
     plant.generations = options.grammar.generations;
     plant.seed = options.seed;
     plant.height = options.plant_height;
+    plant.senses = true;
     if (!step.take(grow_plant(plant, document->grammar, project), document->plant)) {
         return step.end();
     }

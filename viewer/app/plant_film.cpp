@@ -56,6 +56,8 @@ struct FilmState {
             return step.end();
         }
         made.modules = growth->plant().modules;
+        made.sensed = growth->sensed();
+        made.moves = request.options.grammar.moves;
         return step.done();
     }
 };

@@ -9,6 +9,7 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <vector>
 
 namespace lsys::view {
 
@@ -26,6 +27,8 @@ struct FilmMoment {
     MeshOptions mesh_options; // options with which `mesh` was made
     GrowthMoment moment;
     std::uint64_t modules = 0; // count of modules in the later of the two generations
+    std::shared_ptr<const SensedPlant> sensed; // by the later of the two generations
+    std::vector<EnvironmentMove> moves;        // with which it grew
     Messages messages;
     bool failed = false;
 };

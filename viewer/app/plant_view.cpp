@@ -28,6 +28,7 @@ PlantSource source_of(const ViewOptions& options) {
     source.generations = options.grammar.generations;
     source.seed = options.seed;
     source.mesh = options.mesh;
+    source.moves = options.grammar.moves;
     return source;
 }
 
@@ -38,6 +39,7 @@ void set_source(const PlantSource& source, ViewOptions& options) {
     options.grammar.generations = source.generations;
     options.seed = source.seed;
     options.mesh = source.mesh;
+    options.grammar.moves = source.moves;
 }
 
 PlantLook look_of(const ViewOptions& options) {
@@ -50,6 +52,7 @@ PlantLook look_of(const ViewOptions& options) {
     look.antialiasing = options.samples > 1;
     look.quality = options.quality;
     look.light = options.light;
+    look.senses = options.senses;
     return look;
 }
 
@@ -62,6 +65,7 @@ void set_look(const PlantLook& look, ViewOptions& options) {
     options.samples = look.antialiasing ? 4 : 1;
     options.quality = look.quality;
     options.light = look.light;
+    options.senses = look.senses;
 }
 
 bool is_same(const Bending& a, const Bending& b) {
@@ -178,6 +182,9 @@ bool PlantView::update() {
     if (shown_lines_ != settings.lines) {
         show_lines();
     }
+    if (shown_senses_ != settings.senses || shown_moves_ != settings.moves) {
+        show_senses();
+    }
     if (!requested_ || requested_->file != settings.file ||
         static_cast<const PlantSource&>(*requested_) != settings) {
         requested_ = settings;
@@ -261,6 +268,7 @@ void PlantView::swap(LoadOutcome outcome) {
     stats_.swap_seconds = seconds_since(outcome.changed_at);
     ++stats_.swaps;
     shown_outcome_ = std::move(outcome);
+    show_senses();
     logs_next_frame_ = true;
     changed_ = true;
 }
@@ -330,6 +338,7 @@ void PlantView::take_moment() {
     renderer_->show_plant(grown_.mesh);
     widen_film_ground();
     show_lines();
+    show_senses();
     changed_ = true;
     if (grown_.moment.generation >= default_generations()) {
         settings.plays = false;
@@ -374,7 +383,7 @@ void PlantView::grow() {
 }
 
 void PlantView::record_edits() {
-    if (!settings.plays) {
+    if (!settings.plays && !grabbed_) {
         history_.record(settings);
     }
 }
@@ -672,6 +681,7 @@ void PlantView::open(const std::string& file) {
     saved_ = settings;
     settings.figure = false;
     settings.plays = false;
+    grabbed_.reset();
     film_.reset();
     film_ground_ = glm::vec4(0.0F);
     frame_next_ = true;

@@ -11,9 +11,11 @@
 #include "viewer/app/plant_film.h"
 #include "viewer/app/plant_loader.h"
 #include "viewer/app/plant_motion.h"
+#include "viewer/app/sense_view.h"
 #include "viewer/app/view.h"
 #include "viewer/gl/renderer.h"
 
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -30,6 +32,7 @@ struct PlantSource {
     std::optional<std::uint32_t> generations;
     std::optional<std::uint64_t> seed;
     MeshOptions mesh;
+    std::vector<EnvironmentMove> moves; // of obstacles; save() does not write them
 
     friend bool operator==(const PlantSource&, const PlantSource&) = default;
 };
@@ -45,6 +48,7 @@ struct PlantLook {
     bool antialiasing = true;
     Quality quality = Quality::Auto;
     SceneLight light; // values that replace the default daylight
+    SenseLook senses;
 
     friend bool operator==(const PlantLook&, const PlantLook&) = default;
 };
@@ -136,6 +140,16 @@ public:
     /// Generations of the command line or grammar, without the user's settings.
     [[nodiscard]] std::uint32_t default_generations() const;
     [[nodiscard]] std::uint32_t generations() const;
+    /// What the plant shown senses; null if it senses nothing.
+    [[nodiscard]] const SensedPlant* sensed() const;
+    /// Grabs the obstacle at a place of the picture, in half picture heights to the right and up
+    /// from the centre. Returns whether there is one.
+    [[nodiscard]] bool grab_obstacle(const glm::vec2& place);
+    /// Moves the grabbed obstacle to another place of the picture, in the plane through the grabbed
+    /// point that faces the camera.
+    void drag_obstacle(const glm::vec2& place);
+    void release_obstacle() { grabbed_.reset(); }
+    [[nodiscard]] bool has_grabbed() const { return grabbed_.has_value(); }
     /// The moment of growth that is shown instead of document(); null if document() is shown.
     [[nodiscard]] const FilmMoment* grown() const { return shows_growth_ ? &grown_ : nullptr; }
 
@@ -143,9 +157,19 @@ protected:
     [[nodiscard]] PickRequest request_for(const Picked& picked) const override;
 
 private:
+    /// An obstacle that the mouse moves.
+    struct GrabbedObstacle {
+        std::string name;            // of its environment
+        std::array<float, 3> move{}; // its displacement when it was grabbed, m
+        double depth = 0.0;          // m, along the view
+        glm::dvec3 place{};          // the grabbed point, relative to the eye, m
+    };
+
     void take_outcome(LoadOutcome outcome);
     void swap(LoadOutcome outcome);
     void show_lines();
+    void show_senses();
+    [[nodiscard]] std::vector<EnvironmentMove> new_moves() const;
     void watch_files();
     void start_growth();
     void grow();
@@ -172,6 +196,9 @@ private:
     EditHistory<PlantEdits> history_;
     FileEdits file_edits_;
     LineKind shown_lines_ = LineKind::None;
+    SenseLook shown_senses_;
+    std::vector<EnvironmentMove> shown_moves_; // PlantSource::moves in the drawing of senses
+    std::optional<GrabbedObstacle> grabbed_;
     SteadyClock::time_point last_growth_;
     double growth_position_ = 0.0; // generations
     bool plays_next_ = false;      // growth starts to play at the next swap

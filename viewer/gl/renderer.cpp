@@ -13,6 +13,7 @@
 #include "viewer/gl/impl/plant_mesh.h"
 #include "viewer/gl/impl/program.h"
 #include "viewer/gl/impl/render_target.h"
+#include "viewer/gl/impl/sense_pass.h"
 #include "viewer/gl/impl/shadow_map.h"
 
 #include <fmt/format.h>
@@ -50,6 +51,7 @@ struct Programs {
     ProgramObject shadow;
     ProgramObject ground;
     ProgramObject line;
+    ProgramObject sense;
 };
 
 Result<Programs> make_programs(Device& device, const ShaderSource& shaders) {
@@ -59,12 +61,13 @@ Result<Programs> make_programs(Device& device, const ShaderSource& shaders) {
         const char* vertex;
         const char* fragment;
     };
-    const std::array<ProgramSpec, 5> wanted = {
+    const std::array<ProgramSpec, 6> wanted = {
         {{&Programs::sky, "sky.vert.glsl", "sky.frag.glsl"},
          {&Programs::mesh, "mesh.vert.glsl", "mesh.frag.glsl"},
          {&Programs::shadow, "shadow.vert.glsl", "shadow.frag.glsl"},
          {&Programs::ground, "ground.vert.glsl", "ground.frag.glsl"},
-         {&Programs::line, "line.vert.glsl", "line.frag.glsl"}}};
+         {&Programs::line, "line.vert.glsl", "line.frag.glsl"},
+         {&Programs::sense, "sense.vert.glsl", "sense.frag.glsl"}}};
     for (const ProgramSpec& one : wanted) {
         Result<ProgramObject> made = make_program(device, shaders, one.vertex, one.fragment);
         if (!made) {
@@ -131,8 +134,8 @@ class GlRenderer final : public Renderer {
 public:
     GlRenderer()
         : timer_(device_), target_(device_), shadow_(device_, kShadowTexels), textures_(device_),
-          plant_(device_), lines_(device_), forest_(device_), frame_(device_), near_frame_(device_),
-          empty_(make_vertex_array(device_)) {
+          plant_(device_), lines_(device_), senses_(device_), forest_(device_), frame_(device_),
+          near_frame_(device_), empty_(make_vertex_array(device_)) {
         device_.set_quality(tier_of(Quality::Auto));
     }
 
@@ -210,6 +213,7 @@ public:
         invalidate_shadows();
     }
     void show_lines(std::span<const LineVertex> lines) override { lines_.upload(lines); }
+    void show_senses(const SenseDrawing& drawing) override { senses_.upload(drawing); }
 
     Result<void> reload(const ShaderSource& shaders) override {
         Result<Programs> made = make_programs(device_, shaders);
@@ -401,6 +405,11 @@ private:
             glDrawArrays(GL_TRIANGLES, 0, 3);
             ++stats.draws;
             ++stats.triangles;
+        }
+        if (!is_forest_ && !senses_.empty()) {
+            glUseProgram(programs_.sense.name());
+            senses_.draw(stats);
+            glBindVertexArray(empty_.name());
         }
         glDepthFunc(GL_ALWAYS);
         if (frame.dims && !frame.transparent) {
@@ -613,6 +622,7 @@ private:
     std::unique_ptr<PlantMesh> figure_;     // made when a person is first shown
     std::optional<glm::vec3> figure_place_; // place of the person in figure_; empty: none is shown
     LineSet lines_;
+    SensePass senses_;
     ForestPass forest_;
     ForestFrameStats forest_stats_;
     bool is_forest_ = false; // a forest is shown

@@ -12,6 +12,7 @@
 #include "viewer/scene/forest_model.h"
 #include "viewer/scene/forest_square.h"
 #include "viewer/scene/lines.h"
+#include "viewer/scene/sense_drawing.h"
 
 #include <array>
 #include <cstdint>
@@ -192,6 +193,8 @@ public:
     virtual void show_plant(const Mesh& mesh) = 0;
     /// Replaces the lines drawn over everything.
     virtual void show_lines(std::span<const LineVertex> lines) = 0;
+    /// Replaces what the plant senses; pictures of forests do not show it.
+    virtual void show_senses(const SenseDrawing& drawing) = 0;
     /// Sets the quality of later pictures; Auto at first. Error: a shader does not compile; the old
     /// quality stays.
     [[nodiscard]] virtual Result<void> set_quality(Quality quality) = 0;

@@ -92,10 +92,9 @@ public:
             if (surface.path.empty()) {
                 continue;
             }
-            const Result<void> done =
-                environment.kind == EnvironmentKind::Map
-                    ? read_picture(surface, files.picture)
-                    : read_mesh(surface, environment.kind == EnvironmentKind::Space, files);
+            const Result<void> done = environment.kind == EnvironmentKind::Map
+                                          ? read_picture(surface, files.picture)
+                                          : read_mesh(surface, environment, files);
             if (!done) {
                 has_limit_ = has_limit_ || done.error().kind == ErrorKind::Limit;
                 ok = report(done.error(), surface) && ok;
@@ -121,8 +120,10 @@ private:
         return bytes;
     }
 
-    Result<void>
-    read_mesh(const EnvironmentSurface& surface, bool is_shape, EnvironmentFiles& files) {
+    Result<void> read_mesh(const EnvironmentSurface& surface,
+                           const BytecodeEnvironment& environment,
+                           EnvironmentFiles& files) {
+        const bool is_shape = environment.kind == EnvironmentKind::Space;
         const std::string path = path_to(surface);
         const Result<std::string> text = read_bytes(path);
         if (!text) {
@@ -133,11 +134,16 @@ private:
             return Error{fmt::format("cannot use `{}`: {}", shown_path(path), read.error().message),
                          read.error().kind};
         }
+        Vector3 offset{}; // a shape of markers is moved by its environment
+        for (std::size_t axis = 0; axis < offset.size() && !is_shape; ++axis) {
+            offset[axis] = static_cast<double>(environment.at[axis]);
+        }
         EnvironmentMesh& mesh = files.meshes.emplace_back();
         mesh.vertices.reserve(read.value().positions.size());
         for (const glm::vec3& place : read.value().positions) {
-            mesh.vertices.push_back({static_cast<double>(place.x), static_cast<double>(place.y),
-                                     static_cast<double>(place.z)});
+            mesh.vertices.push_back({static_cast<double>(place.x) + offset[0],
+                                     static_cast<double>(place.y) + offset[1],
+                                     static_cast<double>(place.z) + offset[2]});
         }
         const std::vector<std::uint32_t>& indices = read.value().indices;
         mesh.triangles.reserve(indices.size() / 3);

@@ -9,6 +9,7 @@
 #include <catch2/catch.hpp>
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <imgui.h>
 #include <imgui_internal.h>
@@ -295,6 +296,28 @@ TEST_CASE("no two widgets of the panels and dialogs of a plant have one id") {
     };
     drawn.frames(2);
     CHECK(drawn.twins().size() == 1);
+}
+
+TEST_CASE("the panel of a plant that senses has a section for its senses") {
+    DrawnPanels drawn(panel_options(LSYS_SOURCE_DIR "/tests/viewer/senses.lsys"));
+    REQUIRE(has_plant(drawn));
+    drawn.open_all();
+    CHECK(drawn.twins() == kNoWidgets);
+    const auto has_section = [&drawn] {
+        const auto found =
+            std::find_if(drawn.widgets.begin(), drawn.widgets.end(), [](const Widget& each) {
+                return each.id == each.window->GetID("Senses");
+            });
+        return found != drawn.widgets.end();
+    };
+    CHECK(has_section());
+    drawn.switcher.open(sample("teach-param"));
+    REQUIRE(drawn.until([&] {
+        const PlantDocument* const document = drawn.switcher.plant()->document();
+        return document != nullptr && document->plant.sensed == nullptr;
+    }));
+    drawn.frames(2);
+    CHECK_FALSE(has_section());
 }
 
 TEST_CASE("no two widgets of the panel of a forest have one id") {
