@@ -17,6 +17,7 @@
 #include "runtime/environment/impl/vectors.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace lsys {
@@ -94,11 +95,17 @@ private:
             if (is_cancelled(context_.cancelled)) {
                 return;
             }
+            const std::size_t begin = piece * kPlaces;
+            const std::size_t end = std::min(count, begin + kPlaces);
+            // Read at once: the processor waits for many places at the same time.
+            std::array<Vector3, kPlaces> positions;
+            for (std::size_t i = begin; i < end; ++i) {
+                positions[i - begin] = places[order[i].index].position;
+            }
             std::vector<std::uint32_t> hints(trees_.size(), 0);
-            const std::size_t end = std::min(count, (piece + 1) * kPlaces);
-            for (std::size_t i = piece * kPlaces; i < end; ++i) {
-                const std::size_t place = order[i].index;
-                answer_one(places[place].position, hints, answers.data() + place * 4);
+            for (std::size_t i = begin; i < end; ++i) {
+                answer_one(positions[i - begin], hints,
+                           answers.data() + std::size_t{order[i].index} * 4);
             }
         });
         if (is_cancelled(context_.cancelled)) {

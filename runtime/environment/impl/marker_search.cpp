@@ -89,8 +89,8 @@ public:
                                                        : -1.0F) {
         if (search.compares_headings_ && framed_.is_bounded) {
             cosine_ = static_cast<float>(search.reach_.cosine);
-            // In the unit of the margin's comment the product of heading and way is wrong by 24 u s,
-            // the length times the cosine by 11 u s.
+            // With u and s of Frame::framed_place(), the product of heading and way is wrong by
+            // 24 u s, the length times the cosine by 11 u s.
             angle_margin_ = static_cast<float>(-framed_.margin);
         }
     }

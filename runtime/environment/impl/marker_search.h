@@ -35,9 +35,9 @@ public:
 
     /// Without places, or cancelled: nothing can be found.
     [[nodiscard]] bool empty() const { return nodes_.empty(); }
-    /// kKilled if a place is strictly nearer to `marker` than the kill distance. Otherwise the index
-    /// of the nearest place that sees it, the lowest of several; kNoPlace if there is none. `hint` is
-    /// the result for a marker nearby, or kNoPlace: it changes only how fast the result is found.
+    /// kKilled if a place is strictly nearer to `marker` than the kill distance. Otherwise the
+    /// index of the nearest place that sees it, the lowest of several; kNoPlace if there is none.
+    /// `hint` is the result for a marker nearby, or kNoPlace: only the time depends on it.
     [[nodiscard]] std::uint32_t find(const Vector3& marker, std::uint32_t hint) const;
 
     /// Bytes over so many places while it is made.

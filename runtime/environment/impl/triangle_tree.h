@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// TriangleTree: the triangles of a mesh in a tree, for the nearest triangle (nearest_triangle.h) and
-// for the inside of a closed mesh: a bounding volume hierarchy of boxes in binary32, rounded
+// TriangleTree: the triangles of a mesh in a tree, for the nearest triangle (nearest_triangle.h)
+// and for the inside of a closed mesh: a bounding volume hierarchy of boxes in binary32, rounded
 // outwards. Answers are those of a loop over all triangles, bit by bit (triangle_distance.h).
 #pragma once
 
