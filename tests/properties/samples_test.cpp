@@ -170,6 +170,12 @@ TEST_CASE("a compiled grammar derives the word of its source") {
         std::filesystem::copy(sample.file.parent_path(), folder.path());
         const std::string compiled = folder / "sample.lsb";
         const std::string n = few_generations(sample);
+        if (tests::read_text(sample.file).find("#sense ") != std::string::npos) {
+            // Its turtle walks while it grows, and reads meshes beside the compiled file.
+            std::filesystem::copy(sample.file.parent_path(), folder.path(),
+                                  std::filesystem::copy_options::recursive |
+                                      std::filesystem::copy_options::overwrite_existing);
+        }
         CHECK(run_lsc({"compile", "--quiet", sample.file.string(), "-o", compiled}, "").status ==
               0);
         CHECK(dump({"-n", n, "--seed", "8", compiled}) ==
