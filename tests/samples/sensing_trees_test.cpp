@@ -4,6 +4,7 @@
 #include "runtime/program/host.h"
 #include "runtime/turtle/skeleton.h"
 #include "tests/support/lsc_run.h"
+#include "tests/support/sample_plants.h"
 
 #include <catch2/catch.hpp>
 
@@ -69,21 +70,6 @@ std::vector<std::vector<double>> buds(const std::string& word) {
     return found;
 }
 
-Skeleton skeleton_of(const std::string& name, const std::vector<Definition>& definitions = {}) {
-    Project project;
-    project.threads = 1;
-    project.host = make_file_host(nullptr);
-    GrammarOptions grammar_options;
-    grammar_options.definitions = definitions;
-    Outcome<Grammar> grammar = load_grammar(path_of(name), grammar_options, project);
-    REQUIRE(grammar);
-    PlantOptions options;
-    options.file = path_of(name);
-    Outcome<Plant> plant = grow_plant(options, grammar.value(), project);
-    REQUIRE(plant);
-    return std::move(plant.value().skeleton);
-}
-
 double base_width(const Segment& segment) {
     return 2.0 * static_cast<double>(segment.base_radius);
 }
@@ -124,7 +110,7 @@ TEST_CASE("a tree in a dome of space stays in it and stops when the space is tak
     const std::size_t before = word.rfind('\n', last - 1);
     CHECK(word.substr(last + 1) == word.substr(before + 1, last - before));
     // The dome is 4.4 m wide and ends at 4.8 m; a bud reaches 0.5 m and a shoot may leave it.
-    const Skeleton skeleton = skeleton_of("self-organising-space");
+    const Skeleton skeleton = test::sample_plant("self-organising-space").skeleton;
     const SkeletonStats stats = measure(skeleton);
     CHECK(stats.height < 4.8 + 0.5);
     CHECK(stats.height > 4.0);
@@ -137,7 +123,8 @@ TEST_CASE("control by the apex makes a leader, and boughs of low order") {
     for (const float lambda : {0.46F, 0.5F, 0.54F}) {
         INFO(lambda);
         const Skeleton skeleton =
-            skeleton_of("self-organising-tree", {{.name = "lambda", .value = lambda}});
+            test::sample_plant("self-organising-tree", {{.name = "lambda", .value = lambda}})
+                .skeleton;
         double orders = 0.0;
         float top = 0.0F;
         float leader = 0.0F;
@@ -178,7 +165,7 @@ TEST_CASE("space colonisation uses up all markers in reach") {
 
 TEST_CASE("sections are kept at every fork of a pine") {
     const double exponent = 2.3;
-    const Skeleton skeleton = skeleton_of("pipe-model-pine");
+    const Skeleton skeleton = test::sample_plant("pipe-model-pine").skeleton;
     REQUIRE(skeleton.segments.size() > 2000);
     std::vector<double> of_children(skeleton.segments.size(), 0.0);
     std::vector<int> children(skeleton.segments.size(), 0);
@@ -203,7 +190,7 @@ TEST_CASE("sections are kept at every fork of a pine") {
 }
 
 TEST_CASE("a pine drops its low boughs") {
-    const Skeleton skeleton = skeleton_of("pipe-model-pine");
+    const Skeleton skeleton = test::sample_plant("pipe-model-pine").skeleton;
     const double height = measure(skeleton).height;
     double lowest = height;
     for (const Segment& segment : skeleton.segments) {
@@ -212,6 +199,7 @@ TEST_CASE("a pine drops its low boughs") {
         }
     }
     CHECK(lowest > 0.25 * height);
-    const Skeleton kept = skeleton_of("pipe-model-pine", {{.name = "shed", .value = 0.0F}});
+    const Skeleton kept =
+        test::sample_plant("pipe-model-pine", {{.name = "shed", .value = 0.0F}}).skeleton;
     CHECK(kept.segments.size() > skeleton.segments.size());
 }

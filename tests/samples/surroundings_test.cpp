@@ -4,6 +4,7 @@
 #include "runtime/pipeline/plant.h"
 #include "runtime/program/host.h"
 #include "tests/support/lsc_run.h"
+#include "tests/support/sample_plants.h"
 
 #include <catch2/catch.hpp>
 #include <glm/common.hpp>
@@ -26,21 +27,6 @@ using namespace lsys;
 
 std::string file_of(const std::string& name, const std::string& extension = ".lsys") {
     return std::string(LSYS_SOURCE_DIR) + "/samples/" + name + "/" + name + extension;
-}
-
-Skeleton skeleton_of(const std::string& name, const std::vector<Definition>& definitions = {}) {
-    Project project;
-    project.threads = 1;
-    project.host = make_file_host(nullptr);
-    GrammarOptions grammar_options;
-    grammar_options.definitions = definitions;
-    PlantOptions options;
-    options.file = file_of(name);
-    Outcome<Grammar> grammar = load_grammar(options.file, grammar_options, project);
-    REQUIRE(grammar);
-    Outcome<Plant> plant = grow_plant(options, grammar.value(), project);
-    REQUIRE(plant);
-    return std::move(plant.value().skeleton);
 }
 
 // The frame of topiary: a profile turned about +Y.
@@ -184,7 +170,7 @@ std::vector<Crown> crowns_of(const Skeleton& skeleton) {
 
 TEST_CASE("no segment of the topiary is outside its frame by more than one segment") {
     const std::vector<glm::dvec2> profile = profile_of_frame();
-    const Skeleton skeleton = skeleton_of("topiary");
+    const Skeleton skeleton = test::sample_plant("topiary").skeleton;
     CHECK(skeleton.segments.size() > 10'000);
     std::size_t near_surface = 0;
     float top = 0.0F;
@@ -200,7 +186,8 @@ TEST_CASE("no segment of the topiary is outside its frame by more than one segme
     CHECK(near_surface > 500); // the bush fills the frame
     CHECK(top > 1.7F);         // up to its top at 1.76 m
     // Buds that no cut wakes stay dormant.
-    CHECK(skeleton_of("topiary", {{"wakes", 1.0F}}).segments.size() < skeleton.segments.size() / 2);
+    CHECK(test::sample_plant("topiary", {{"wakes", 1.0F}}).skeleton.segments.size() <
+          skeleton.segments.size() / 2);
 }
 
 TEST_CASE("a tip of competing-tips forks exactly if no other is within its radius") {
@@ -227,7 +214,7 @@ TEST_CASE("a tip of competing-tips forks exactly if no other is within its radiu
 }
 
 TEST_CASE("the climber keeps within its reach of the wall, outside it, and passes the window") {
-    const Skeleton skeleton = skeleton_of("climber");
+    const Skeleton skeleton = test::sample_plant("climber").skeleton;
     std::size_t nodes = 0;
     std::size_t above = 0;
     for (const Segment& segment : skeleton.segments) {
@@ -255,7 +242,7 @@ TEST_CASE("roots find the wet patches of the soil") {
     // The two large patches are 22 % of the soil (soil.py).
     double length = 0.0;
     double within = 0.0;
-    for (const Segment& segment : skeleton_of("roots-in-soil").segments) {
+    for (const Segment& segment : test::sample_plant("roots-in-soil").skeleton.segments) {
         const glm::dvec3 base(segment.base);
         const glm::dvec2 place(base.x / 1.2 + 0.5, base.z / 1.2 + 0.5); // in widths of the map
         const double part = segment.length;
@@ -269,12 +256,13 @@ TEST_CASE("roots find the wet patches of the soil") {
 }
 
 TEST_CASE("crowns of two trees lean apart, and one alone stands over its trunk") {
-    const std::vector<Crown> two = crowns_of(skeleton_of("two-trees"));
+    const std::vector<Crown> two = crowns_of(test::sample_plant("two-trees").skeleton);
     REQUIRE(two.size() == 2);
     CAPTURE(two[0].offset.x, two[0].width, two[1].offset.x, two[1].width);
     CHECK(two[0].offset.x < -0.05 * two[0].width);
     CHECK(two[1].offset.x > 0.05 * two[1].width);
-    const std::vector<Crown> alone = crowns_of(skeleton_of("two-trees", {{"trees", 1.0F}}));
+    const std::vector<Crown> alone =
+        crowns_of(test::sample_plant("two-trees", {{"trees", 1.0F}}).skeleton);
     REQUIRE(alone.size() == 1);
     CAPTURE(alone[0].offset.x, alone[0].offset.y, alone[0].width);
     CHECK(glm::length(alone[0].offset) < 0.05 * alone[0].width);

@@ -19,7 +19,8 @@ Project sample_project() {
 
 } // namespace
 
-lsys::Plant sample_plant(const std::string& name) {
+lsys::Plant sample_plant(const std::string& name,
+                         const std::vector<lsys::Definition>& definitions) {
     const Project project = sample_project();
     PlantOptions options;
     const std::string last = name.substr(name.rfind('/') + 1);

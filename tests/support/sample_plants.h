@@ -5,10 +5,13 @@
 #include "runtime/pipeline/plant.h"
 
 #include <string>
+#include <vector>
 
 namespace lsys::test {
 
-/// The plant of samples/NAME/LAST.lsys, where LAST is NAME or its part after the last `/`.
-[[nodiscard]] lsys::Plant sample_plant(const std::string& name);
+/// The plant of samples/NAME/LAST.lsys, where LAST is NAME or its part after the last `/`, with
+/// other values for the constants in `definitions`.
+[[nodiscard]] lsys::Plant sample_plant(const std::string& name,
+                                       const std::vector<lsys::Definition>& definitions = {});
 
 } // namespace lsys::test
