@@ -25,7 +25,9 @@ lsys::Plant sample_plant(const std::string& name,
     PlantOptions options;
     const std::string last = name.substr(name.rfind('/') + 1);
     options.file = std::string(LSYS_SOURCE_DIR) + "/samples/" + name + "/" + last + ".lsys";
-    Outcome<Grammar> grammar = load_grammar(options.file, {}, project);
+    GrammarOptions grammar_options;
+    grammar_options.definitions = definitions;
+    Outcome<Grammar> grammar = load_grammar(options.file, grammar_options, project);
     if (!grammar) {
         throw std::runtime_error("a sample does not compile: " + name);
     }
