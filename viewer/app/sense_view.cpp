@@ -276,7 +276,9 @@ SenseDrawing make_sense_drawing(const SensedPlant& plant,
                                 const SenseLook& look,
                                 const std::vector<EnvironmentMove>& moves,
                                 const Bounds& bounds) {
-    constexpr double kArrowPart = 0.04; // of the diagonal of the plant
+    // Lengths are parts of the diagonal of the plant. Few arrows are long, many leave room.
+    constexpr double kShortestArrow = 0.04;
+    constexpr double kLongestArrow = 0.2;
     constexpr double kMarkerPart = 0.006;
     const SenseExtent extent = extent_of(plant, bounds);
     const double diagonal =
@@ -297,8 +299,9 @@ SenseDrawing make_sense_drawing(const SensedPlant& plant,
         }
         if (look.directions) {
             drawer.begin(SensePrimitive::Lines, 0.0);
-            add_directions(part, kArrowPart * diagonal, kArrowColours[i % kArrowColours.size()],
-                           drawer);
+            const double spread = 0.5 / std::cbrt(static_cast<double>(part.modules.size()));
+            add_directions(part, std::clamp(spread, kShortestArrow, kLongestArrow) * diagonal,
+                           kArrowColours[i % kArrowColours.size()], drawer);
         }
     }
     drawer.begin(SensePrimitive::Triangles, 0.0);
