@@ -43,7 +43,7 @@ const sizesOfSamples = [
     [/apple-twig.*(bark|bark_normals|bark normals)\b/, '128 x 128'],
     [/apple-twig.*sphere/, '128 x 64'],
     [/pipe-model-pine.*spray/, '448 x 512'],
-    [/roots-in-soil.*soil/, '128 x 128'],
+    [/roots-in-soil.*soil_2|roots-in-soil.*soil 2/, '128 x 128'],
 ];
 // The size of a JPEG, which the first frame header (SOF0 to SOF2) of its segments has.
 function sizeOfJpeg(bytes) {

@@ -278,7 +278,7 @@ SenseDrawing make_sense_drawing(const SensedPlant& plant,
                                 const Bounds& bounds) {
     // Lengths are parts of the diagonal of the plant. Few arrows are long, many leave room.
     constexpr double kShortestArrow = 0.04;
-    constexpr double kLongestArrow = 0.2;
+    constexpr double kLongestArrow = 0.3;
     constexpr double kMarkerPart = 0.006;
     const SenseExtent extent = extent_of(plant, bounds);
     const double diagonal =
