@@ -54,8 +54,8 @@ using AnswerPlaces = std::function<std::optional<EnvironmentFailure>(
 
 /// The program or function that answers for an environment of kind Program.
 struct ProgramCommand {
-    StartProgram start;  // empty: this system starts no programs
-    std::string command; // empty: not given
+    StartProgram start;    // empty: this system starts no programs
+    std::string command;   // empty: not given
     double seconds = 60.0; // maximum time of an answer
     AnswerPlaces answer{}; // if set, it answers and no program is started
 };

@@ -200,6 +200,11 @@ TEST_CASE("imported grammars derive the same words") {
             }
             const LscRun one = run_lsc(ours, "");
             const LscRun other = run_lsc(theirs, "");
+            if (one.err.find("`--environment E=COMMAND`") != std::string::npos) { // asks a program
+                CHECK(one.status == other.status);
+                CHECK(other.err.find("`--environment E=COMMAND`") != std::string::npos);
+                continue;
+            }
             CHECK(one.status == 0);
             CHECK(one.out.size() > 1);
             CHECK(one.out == other.out);
