@@ -3,8 +3,8 @@
 
 #include "compiler/bytecode/verify.h"
 #include "grammar/rendering/render_diagnostic.h"
-#include "runtime/derive/derive.h"
 #include "runtime/derive/word_text.h"
+#include "tests/fuzz/small_derivation.h"
 
 #include <algorithm>
 #include <cstdlib>
@@ -40,16 +40,8 @@ CompiledText compile_text(std::string text, lsys::Dialect dialect, std::string_v
 }
 
 std::string derived_text(const lsys::Bytecode& bytecode) {
-    lsys::DeriveOptions options;
-    options.generations = std::min<std::uint32_t>(bytecode.generations.value_or(3), 4);
-    options.threads = 1;
-    options.limits.max_modules = 20'000;
-    options.limits.max_bytes = 16U << 20;
-    lsys::Derivation derivation(bytecode, options);
-    std::optional<lsys::Stop> stop = derivation.start();
-    if (!stop) {
-        stop = derivation.run_to(options.generations);
-    }
+    SmallDerivation derivation(bytecode);
+    const std::optional<lsys::Stop> stop = derivation.run();
     std::string text = std::to_string(stop ? 1 + static_cast<int>(*stop) : 0) + " ";
     if (!stop) {
         static_cast<void>(

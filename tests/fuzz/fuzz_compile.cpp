@@ -4,7 +4,7 @@
 #include "compiler/bytecode/verify.h"
 #include "compiler/compile.h"
 #include "grammar/lsys/parse.h"
-#include "runtime/derive/derive.h"
+#include "tests/fuzz/small_derivation.h"
 
 #include <algorithm>
 #include <cstdlib>
@@ -29,14 +29,6 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     if (lsys::verify(*outcome.bytecode).has_value()) {
         std::abort();
     }
-    lsys::DeriveOptions options;
-    options.generations = std::min<std::uint32_t>(outcome.bytecode->generations.value_or(3), 4);
-    options.threads = 1;
-    options.limits.max_modules = 20'000;
-    options.limits.max_bytes = 16U << 20;
-    lsys::Derivation derivation(*outcome.bytecode, options);
-    if (!derivation.start()) {
-        static_cast<void>(derivation.run_to(options.generations));
-    }
+    static_cast<void>(SmallDerivation(*outcome.bytecode).run());
     return 0;
 }

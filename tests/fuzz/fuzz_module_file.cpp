@@ -3,7 +3,7 @@
 // corrected first, so that the other checks of reader and verifier are reached.
 #include "compiler/bytecode/disassemble.h"
 #include "compiler/bytecode/module_file.h"
-#include "runtime/derive/derive.h"
+#include "tests/fuzz/small_derivation.h"
 
 #include <algorithm>
 #include <string>
@@ -18,14 +18,6 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
         return 0;
     }
     static_cast<void>(lsys::disassemble(read.value()));
-    lsys::DeriveOptions options;
-    options.generations = std::min<std::uint32_t>(read.value().generations.value_or(3), 4);
-    options.threads = 1;
-    options.limits.max_modules = 20'000;
-    options.limits.max_bytes = 16U << 20;
-    lsys::Derivation derivation(read.value(), options);
-    if (!derivation.start()) {
-        static_cast<void>(derivation.run_to(options.generations));
-    }
+    static_cast<void>(SmallDerivation(read.value()).run());
     return 0;
 }
