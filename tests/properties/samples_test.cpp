@@ -95,8 +95,7 @@ TEST_CASE("a dumped word parses as the axiom of the same file and is dumped unch
         }
         ++tried;
         const std::string folder = sample.file.parent_path().string();
-        const LscRun again =
-            run_lsc({"dump", "--quiet", "-n", "0", "--base", folder, "-"}, *text);
+        const LscRun again = run_lsc({"dump", "--quiet", "-n", "0", "--base", folder, "-"}, *text);
         if (has_markers(source)) {
             // An axiom senses; it meets the markers that the generations before have used up.
             INFO(again.err);

@@ -138,7 +138,8 @@ TEST_CASE("a plant that senses asks environments, whose files are those of the r
 }
 
 TEST_CASE("an environment of the kind program is refused, because a page starts none") {
-    const Answer answer = ask({{"op", "derive"}}, "#n = 1;\n#sense sun program;\n#w : F ?sun(0);\n");
+    const Answer answer =
+        ask({{"op", "derive"}}, "#n = 1;\n#sense sun program;\n#w : F ?sun(0);\n");
     CHECK(answer.head.at("status") == "diagnosed");
     const Json& message = answer.head.at("messages").at(0);
     CHECK(message.at("code") == "sense-failed");
