@@ -394,8 +394,12 @@ Diagnostic sense_failed(const RuntimeError& error, const Bytecode& bytecode) {
             "asked by `{}`, module {} of generation {} (counted from 0)",
             module_text(error, bytecode), grouped_digits(error.position), error.generation));
     }
-    if (!error.help.empty()) {
-        diagnostic.help.push_back(error.help);
+    for (std::size_t begin = 0; begin < error.help.size();) { // what a program wrote has lines
+        const std::size_t end = std::min(error.help.find('\n', begin), error.help.size());
+        if (end > begin) {
+            diagnostic.help.push_back(error.help.substr(begin, end - begin));
+        }
+        begin = end + 1;
     }
     return diagnostic;
 }
