@@ -198,7 +198,7 @@ void add_sensing_cases(std::map<std::string, Case>& all) {
     all["sense-program-1gb-of-messages"] =
         program("read q; head -c 1000000000 /dev/zero >&2; exit 3", "exit status 3");
     all["sense-program-too-few"] =
-        program("read q; echo '{\"answers\": [[1]]}'", "1 answers to 2 queries");
+        program("read q; echo '{\"answers\": [[1]]}'", "1 answer to 2 questions");
     all["sense-program-nan"] =
         program("read q; echo '{\"answers\": [[1], [NaN]]}'", "sense-failed");
 }
