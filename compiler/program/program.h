@@ -232,6 +232,7 @@ struct Program {
     SourceSpan height_span;         // place of the key in `#set height`; kNoFile if missing
     SourceSpan pipe_span;           // place of the key in `#set pipe`; kNoFile if missing
     std::vector<std::string> files; // paths by FileId
+    /// Places of the names that a file spells differently, ascending.
     std::vector<WrittenName> written_names;
 
     std::vector<Symbol> symbols;

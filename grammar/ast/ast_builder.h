@@ -109,6 +109,7 @@ public:
     void material(SourceSpan keyword);
     /// Adds a #sense with the values set since the last statement.
     void sense(NameId name, SourceSpan name_span);
+    /// Adds an #ignore, or with `considers` a #consider.
     void ignore(SourceSpan keyword, ModuleList modules, bool considers);
     void axiom(ModuleList modules, ExpressionId probability);
     void left_context(ModuleList left, SourceSpan less);

@@ -77,7 +77,7 @@ struct FormatTraits {
     bool back_faces = false; // takes ExportInfo::both_sides
     bool units = false;      // takes ExportInfo::unit
     bool collision = false;  // takes ExportInfo::collision
-    /// Writes trees as instances; null: the format has no instances.
+    /// Writes a forest, by default as instances; null: the format has no instances.
     Outcome<void> (*write_forest)(const ForestExportJob& job, PieceWriter& out) = nullptr;
     bool expands_forest = false; // write_forest can write ForestForm::Expanded
     Outcome<void> (*write)(const ExportJob& job, PieceWriter& out) = nullptr;

@@ -15,6 +15,9 @@ bool is_before(const SourceToken& a, const SourceToken& b) {
     return a.begin < b.begin;
 }
 
+static_assert(static_cast<int>(SourceTokenKind::Keyword) == static_cast<int>(NameKind::Environment),
+              "both begin with the same kinds of names");
+
 void add_names(const NameIndex& index, const std::string& path, std::vector<SourceToken>& tokens) {
     for (const NameUse& use : index.uses) {
         if (use.place.path == path) {

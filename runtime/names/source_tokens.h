@@ -12,7 +12,8 @@
 
 namespace lsys {
 
-/// The kinds of NameKind in its order, then the others.
+/// The enumerators of NameKind before NameKind::Environment, in the same order, then the others.
+/// Names of environments are tokens of the kind Module.
 enum class SourceTokenKind : std::uint8_t {
     Module,
     Constant,

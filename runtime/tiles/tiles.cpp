@@ -38,8 +38,9 @@ namespace lsys {
 namespace {
 
 constexpr const char* kGroundPicture = "pictures/ground.png";
-constexpr std::uint32_t kSampleTrees = 1024; // per species, for means of a placement on a grid
-// Mean colour of the ground without a picture, as in make_terrain_mesh().
+/// Per species; their crowns are averaged if the placement is on an unbounded grid.
+constexpr std::uint32_t kSampleTrees = 1024;
+/// Mean colour of the ground without a picture, as in make_terrain_mesh().
 constexpr glm::dvec3 kGroundColour(0.055, 0.07, 0.025);
 
 } // namespace
@@ -61,8 +62,8 @@ struct TileForest::State {
     std::optional<TreeSizer> sizer;
     std::unique_ptr<TreeSource> source;
     std::vector<double> max_scales; // by species, of a tree
-    std::vector<std::vector<Tree>>
-        samples;                 // by species: kSampleTrees trees of a placement on a grid
+    /// By species: kSampleTrees trees of a placement on an unbounded grid.
+    std::vector<std::vector<Tree>> samples;
     double density = 0.0;        // mean number of trees per m2
     double places = 0.0;         // expected number; only of a placement on an unbounded grid
     double largest_extent = 0.0; // m, of a tree, at least its height

@@ -68,7 +68,8 @@ Pattern cut_right(const Skeleton& skeleton,
                   const std::vector<std::string>& ignored,
                   Random& random) {
     Pattern pattern;
-    bool skipped = false; // a branch was skipped, so a pattern with the next one would not match
+    /// A branch was skipped: a pattern with the branch right after it would not match.
+    bool skipped = false;
     std::size_t i = place;
     for (int taken = 0; taken < length && i < skeleton.size() && skeleton[i].name != "]"; ++i) {
         if (skeleton[i].name == "[") {

@@ -74,9 +74,9 @@ struct ForestViewStats {
     double swap_seconds = 0.0;   // from the change to the swap
     double shown_seconds = 0.0;  // from the change to the first picture on the screen
     double draw_seconds = 0.0;   // last picture
-    FrameStats drawn;
-    std::uint64_t swaps = 0;   // count of forests shown
-    std::uint64_t moments = 0; // count of moments of growth shown
+    FrameStats drawn;            // of the last picture
+    std::uint64_t swaps = 0;     // count of forests shown
+    std::uint64_t moments = 0;   // count of moments of growth shown
     std::vector<CacheStats> caches;
 };
 

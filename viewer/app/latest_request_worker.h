@@ -143,7 +143,7 @@ private:
     mutable std::mutex mutex_; // guards the members from here to `began_`
     std::condition_variable changed_;
     std::optional<Request> pending_;
-    std::optional<Request> last_;
+    std::optional<Request> last_;     // the request that repeat() repeats
     std::optional<Request> finished_; // the last request that was not cancelled
     std::optional<Outcome> outcome_;
     bool is_running_ = false;

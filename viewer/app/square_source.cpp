@@ -153,7 +153,7 @@ std::shared_ptr<const StreamedTrees> SquareSource::describe(const ForestModel& m
         }
         std::vector<double> densities(crowns.size());
         field_.trees_at(x, z, densities);
-        double area = 0.0; // m2 of crowns per m2
+        double area = 0.0; // m2 of crowns per m2 of ground
         for (std::size_t s = 0; s < crowns.size(); ++s) {
             area += densities[s] * crowns[s];
         }

@@ -160,6 +160,7 @@ protected:
     [[nodiscard]] virtual PickRequest request_for(const Picked& picked) const = 0;
     /// Takes the outcomes of picker_ and tracer_. Returns whether picked() or traced() changed.
     bool take_picked();
+    /// Whether a pick or a trace is being made.
     [[nodiscard]] bool is_picking() const {
         return (picker_ != nullptr && picker_->is_busy()) ||
                (tracer_ != nullptr && tracer_->is_busy());

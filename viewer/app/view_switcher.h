@@ -34,7 +34,8 @@ public:
     /// Opens and frames another file: a scene as a forest, a grammar as a plant. With unsaved
     /// changes only sets leaving().
     void open(const std::string& file);
-    /// Returns whether the window may be closed. With unsaved changes sets leaving().
+    /// Returns whether the window may be closed. With unsaved changes it may not: then
+    /// may_quit() sets leaving().
     [[nodiscard]] bool may_quit();
     /// The last request that found unsaved changes; empty: none waits.
     [[nodiscard]] const std::optional<Leaving>& leaving() const { return leaving_; }

@@ -54,7 +54,7 @@ struct LodOptions {
 struct Sway {
     float height_factor = 0.0F; // m per metre of the tree's height
     float width_factor = 0.0F;  // m per metre of the tree's width
-    float flutter = 0.0F;       // m
+    float flutter = 0.0F;       // m, max displacement of leaves in addition
 
     /// Max displacement, m, of a tree with height and width in m.
     [[nodiscard]] float displacement(float height, float width) const {

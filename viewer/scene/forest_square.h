@@ -17,7 +17,7 @@ namespace lsys::view {
 struct ForestSquare {
     SquareId id;
     glm::dvec2 corner{};            // m; origin of `lod_trees` and `cells` along X and Z
-    std::vector<Tree> trees;        // by cell; places of the world
+    std::vector<Tree> trees;        // sorted by cell; world coordinates, not relative to `corner`
     std::vector<LodTree> lod_trees; // `trees` in the same order; LodTree::tree: index in `trees`
     std::vector<ForestCell> cells;  // `first`: index in `trees`
 

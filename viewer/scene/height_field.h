@@ -48,7 +48,8 @@ private:
     [[nodiscard]] std::optional<double>
     pick_in_cell(const Ray& ray, const Span& span, std::uint32_t column, std::uint32_t row) const;
 
-    /// Max heights of squares of cells; each level has half the sides of the one before.
+    /// Max heights of squares of cells. Each level has half the columns and half the rows of the
+    /// one before, rounded up.
     struct Level {
         std::uint32_t columns = 0;
         std::uint32_t rows = 0;

@@ -123,7 +123,8 @@ vec3 shade(vec3 albedo, vec3 normal, vec3 world_position, float lit, float trans
     return albedo * (ambient(normal) + frame.sun.rgb * (direct * lit));
 }
 
-// Fraction of the ambient light that reaches a place in a crown.
+// Fraction of the ambient light that reaches a place in a crown. `crown_position`: the place relative
+// to the centre of the crown, in half axes of the crown.
 float ambient_visibility(vec3 crown_position) {
     return clamp(0.4 + 0.6 * dot(crown_position, crown_position), 0.4, 1.0);
 }

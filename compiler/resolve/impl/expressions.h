@@ -118,7 +118,7 @@ private:
         /// Number of uses in the body per formal, numbered as Value::index of Opcode::Formal.
         std::vector<std::uint32_t> uses;
         std::vector<ValueId> nodes; // body without literals, operands before users
-        ValueId body = kPoison;
+        ValueId body = kPoison;     // root of the body
         bool has_choice = false;
     };
 

@@ -27,6 +27,7 @@ private:
     void report_argument(const Expression& argument);
     [[nodiscard]] std::optional<Edit> condition_edit(const std::string& test) const;
     [[nodiscard]] bool check_shape(const ProductionNode& node);
+    /// Checks the number of modules and the contexts of a head of a later stage.
     [[nodiscard]] bool check_stage(const ProductionNode& node);
     [[nodiscard]] bool check_sweep(const ProductionNode& node);
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Characters of texts in the book's notation: comments, blanks, parentheses, Greek letters.
+// Characters of texts in the notation of "The Algorithmic Beauty of Plants": comments, blanks,
+// parentheses, Greek letters.
 #pragma once
 
 #include "grammar/ast/parse_context.h"

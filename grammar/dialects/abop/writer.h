@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Writes a text in the notation of the book as .lsys text.
+// Writes a text in the notation of "The Algorithmic Beauty of Plants" as .lsys text.
 #pragma once
 
 #include "grammar/ast/translation.h"

@@ -84,7 +84,7 @@ private:
     ForeignExpressions& tree_;
     Translation& translation_;
     HoudiniSymbols symbols_;
-    std::map<std::string_view, SourceSpan> settings_; // by name of the setting in .lsys
+    std::map<std::string_view, SourceSpan> settings_; // place of the value, by name of the setting
     HoudiniExpressions expressions_;
     std::map<std::string, bool> has_probability_; // by group
     // Probability in place of a condition with `rand`.

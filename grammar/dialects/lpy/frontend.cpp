@@ -2,8 +2,8 @@
 // .lpy: the declarative part of L-Py. `Axiom:`, `derivation length:`, `module`, constants, and the
 // rules of `production:`, `decomposition:` and `homomorphism:` whose right sides are lists of
 // modules: `A --> FA`, or `A(x) :` and lines `produce FA`, perhaps under `if`, `elif` and `else`.
-// Other lines are Python, which lsc does not run; each is reported. The statements are those of the
-// book's notation, whose writer writes them.
+// Other lines are Python, which lsc does not run; each is reported. The statements are those of
+// abop/reader.h; abop/writer.h writes them.
 #include "grammar/ast/number.h"
 #include "grammar/ast/reports.h"
 #include "grammar/base/characters.h"

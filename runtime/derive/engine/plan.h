@@ -97,11 +97,11 @@ enum class ConditionKind : std::uint8_t { Always, Never, Comparisons, Expression
 struct Candidate {
     std::uint32_t production = 0;
     std::uint32_t group = 0;
-    std::uint32_t modules = 1;   // modules that a match replaces
-    std::uint32_t own_first = 0; // index of the formal of the module's first parameter
-    std::uint32_t first_comparison = 0;
+    std::uint32_t modules = 1;          // modules that a match replaces
+    std::uint32_t own_first = 0;        // index of the formal of the module's first parameter
+    std::uint32_t first_comparison = 0; // index in Plan::comparisons_
     std::uint32_t comparison_count = 0;
-    std::uint32_t comparison_room = 0;
+    std::uint32_t comparison_room = 0;   // comparisons for which there is room from that index
     std::uint32_t first_term = 0;        // index in terms, if more than kEntryTerms parameters
     std::uint32_t batch_program = kNone; // index in batch_programs(); set when first needed
     float weight = 0.0F;

@@ -35,7 +35,7 @@ struct OddInteger {
 
 TotalRange::TotalRange(std::span<const SensePlace> places) {
     int lowest = std::numeric_limits<int>::max();
-    int highest = std::numeric_limits<int>::min(); // above the top bit
+    int highest = std::numeric_limits<int>::min(); // one above the highest bit of any coordinate
     for (const SensePlace& place : places) {
         for (const double coordinate : place.position) {
             if (coordinate != 0.0) {

@@ -72,7 +72,8 @@ private:
     std::int32_t depth_ = 0; // along z
     std::int64_t place_count_ = 0;
     std::vector<ShadowSource> sources_; // in rows of ascending y
-    std::vector<Row> rows_;             // and the end
+    /// Also one after the last row; its `first` is sources_.size().
+    std::vector<Row> rows_;
     std::vector<Neighbour> neighbours_;
     std::array<std::size_t, 3> tile_cursors_{}; // tiles at x - 1, x, x + 1
     bool has_cursors_ = false;

@@ -113,7 +113,8 @@ void ForestDocument::add_collisions() {
             GltfCollision& made = collisions_[stage.first + i];
             made.shapes =
                 make_collision(skeleton_of(*stage.cache, stage.cache->instances[i]), shapes);
-            for (CollisionShape& shape : made.shapes) { // from positions to items of the grid
+            // From m to steps of `grid`, counted from grid.low.
+            for (CollisionShape& shape : made.shapes) {
                 for (glm::vec3& vertex : shape.vertices) {
                     vertex = glm::vec3((glm::dvec3(vertex) - glm::dvec3(grid.low)) /
                                        static_cast<double>(grid.step));

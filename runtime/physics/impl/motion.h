@@ -57,9 +57,11 @@ struct JointSolution {
 /// The action of a body and its descendants on the parent: a quadratic and a linear form in the spin
 /// of the parent and the velocity of the base of the body.
 struct Reduced {
+    // Coefficients of the quadratic form, named by the two factors of their terms.
     Symmetric spin_spin;
     Rows spin_velocity;
     Symmetric velocity_velocity;
+    // Coefficients of the linear form.
     glm::dvec3 spin{0.0};
     glm::dvec3 velocity{0.0};
     glm::dvec3 push{0.0}; // N, force of wind and ground on the body and its descendants

@@ -42,7 +42,7 @@ struct SensingAction {
 /// What `[` saves.
 struct SensingBrush {
     SensingPose pose;
-    float step = 0.0F;           // m
+    float step = 0.0F;           // m, length of an F without argument
     float angle = 0.0F;          // degrees
     float width = 0.0F;          // m, or radius / length (TurtleTraits::width_is_relative)
     ExactSineCosine turn;        // of `angle`

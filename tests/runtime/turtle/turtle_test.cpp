@@ -27,7 +27,8 @@ struct Drawing {
     }
 };
 
-/// Gives symbols with the names of the default profile their operations.
+/// Gives each symbol whose name is in the table its operation: names of the profile `lsys`, and L,
+/// S, D, T and R for operations that `lsys` has no name for.
 void give_operations(Bytecode& bytecode) {
     using enum TurtleOperation;
     const std::vector<std::pair<std::string, TurtleOperation>> known{
