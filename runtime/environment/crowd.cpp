@@ -125,10 +125,6 @@ public:
     CrowdEnvironment(const BytecodeEnvironment& declared, const EnvironmentContext& context)
         : declared_(declared), context_(context) {}
 
-    std::optional<EnvironmentFailure> begin(std::uint64_t /*seed*/) override {
-        return std::nullopt;
-    }
-
     std::optional<EnvironmentFailure> answer(const SensedWord& word,
                                              std::vector<float>& answers,
                                              std::vector<std::uint32_t>& /*sizes*/) override {

@@ -93,7 +93,9 @@ public:
     Environment& operator=(const Environment&) = delete;
 
     /// Begins a derivation: forgets all that an earlier one has left.
-    [[nodiscard]] virtual std::optional<EnvironmentFailure> begin(std::uint64_t seed) = 0;
+    [[nodiscard]] virtual std::optional<EnvironmentFailure> begin(std::uint64_t /*seed*/) {
+        return std::nullopt; // most kinds keep nothing
+    }
     /// Sees all places of the word, then answers: answers[i * size + k] is number k of the answer
     /// at places[i], where `size` is answer_size() of the kind. Numbers are binary64 until here and
     /// are rounded once; -0 becomes 0. `answers` has places.size() * size elements; a kind with

@@ -22,10 +22,6 @@ public:
         LSYS_CHECK(picture_.values.size() == std::size_t{picture_.columns} * picture_.rows);
     }
 
-    std::optional<EnvironmentFailure> begin(std::uint64_t /*seed*/) override {
-        return std::nullopt;
-    }
-
     std::optional<EnvironmentFailure> answer(const SensedWord& word,
                                              std::vector<float>& answers,
                                              std::vector<std::uint32_t>& /*sizes*/) override {

@@ -109,9 +109,6 @@ class FunctionEnvironment final : public Environment {
 public:
     explicit FunctionEnvironment(AnswerPlaces answer) : answer_(std::move(answer)) {}
 
-    std::optional<EnvironmentFailure> begin(std::uint64_t /*seed*/) override {
-        return std::nullopt;
-    }
     std::optional<EnvironmentFailure> answer(const SensedWord& word,
                                              std::vector<float>& answers,
                                              std::vector<std::uint32_t>& sizes) override {

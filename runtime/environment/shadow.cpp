@@ -3,6 +3,7 @@
 // 2009, section 4). The shadow is evaluated at the voxels of the places only.
 #include "runtime/base/out_of_memory.h"
 #include "runtime/environment/environment.h"
+#include "runtime/environment/impl/input_checks.h"
 #include "runtime/environment/impl/shadow_layers.h"
 #include "runtime/environment/impl/shadow_run.h"
 #include "runtime/environment/impl/voxel_tiles.h"
@@ -23,10 +24,6 @@ public:
     ShadowEnvironment(const BytecodeEnvironment& declared, const EnvironmentContext& context)
         : declared_(declared), context_(context), layers_(declared) {}
 
-    std::optional<EnvironmentFailure> begin(std::uint64_t /*seed*/) override {
-        return std::nullopt;
-    }
-
     std::optional<EnvironmentFailure> answer(const SensedWord& word,
                                              std::vector<float>& answers,
                                              std::vector<std::uint32_t>& /*sizes*/) override {
@@ -37,12 +34,11 @@ public:
             VoxelTiles::bytes_for(word.places.size()) +
             context_.workers->count() * (shadow_table_bytes(declared_.levels) + kPieceBytes);
         if (bytes > context_.max_bytes) {
-            return EnvironmentFailure{Stop::Limit, {}, {}, bytes, 0};
+            return beyond_memory(bytes);
         }
-        return catch_out_of_memory([&] { return answer_places(word.places, answers); },
-                                   []() -> std::optional<EnvironmentFailure> {
-                                       return EnvironmentFailure{Stop::OutOfMemory, {}, {}, 0, 0};
-                                   });
+        return catch_out_of_memory(
+            [&] { return answer_places(word.places, answers); },
+            []() -> std::optional<EnvironmentFailure> { return stopped(Stop::OutOfMemory); });
     }
 
 private:
@@ -73,7 +69,7 @@ private:
             evaluate(tiles, tile_bits, begin, std::min(voxels, begin + kPiece), answers);
         });
         if (cancelled()) {
-            return EnvironmentFailure{Stop::Cancelled, {}, {}, 0, 0};
+            return stopped(Stop::Cancelled);
         }
         return std::nullopt;
     }

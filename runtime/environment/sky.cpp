@@ -4,6 +4,7 @@
 #include "runtime/base/exact_functions.h"
 #include "runtime/base/out_of_memory.h"
 #include "runtime/environment/environment.h"
+#include "runtime/environment/impl/input_checks.h"
 #include "runtime/environment/impl/leaf_area.h"
 #include "runtime/environment/impl/sky_ray.h"
 
@@ -48,20 +49,15 @@ public:
         }
     }
 
-    std::optional<EnvironmentFailure> begin(std::uint64_t /*seed*/) override {
-        return std::nullopt;
-    }
-
     std::optional<EnvironmentFailure> answer(const SensedWord& word,
                                              std::vector<float>& answers,
                                              std::vector<std::uint32_t>& /*sizes*/) override {
         if (word.places.empty()) {
             return std::nullopt;
         }
-        return catch_out_of_memory([&] { return answer_places(word, answers); },
-                                   []() -> std::optional<EnvironmentFailure> {
-                                       return EnvironmentFailure{Stop::OutOfMemory, {}, {}, 0, 0};
-                                   });
+        return catch_out_of_memory(
+            [&] { return answer_places(word, answers); },
+            []() -> std::optional<EnvironmentFailure> { return stopped(Stop::OutOfMemory); });
     }
 
 private:
@@ -142,7 +138,7 @@ private:
             return beyond("the place", first_beyond);
         }
         if (is_cancelled()) {
-            return EnvironmentFailure{Stop::Cancelled, {}, {}, 0, 0};
+            return stopped(Stop::Cancelled);
         }
         return std::nullopt;
     }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "runtime/environment/impl/voxel_tiles.h"
 
+#include "runtime/environment/impl/input_checks.h"
+
 #include <algorithm>
 #include <bit>
 #include <cmath>
@@ -55,7 +57,7 @@ VoxelTiles::build(std::size_t count, const std::function<Vector3(std::size_t)>& 
     }
     make_keys();
     if (!sort_records(records_, scratch_, workers_, cancelled_)) {
-        return EnvironmentFailure{Stop::Cancelled, {}, {}, 0, 0};
+        return stopped(Stop::Cancelled);
     }
     find_voxels();
     return std::nullopt;
