@@ -57,7 +57,8 @@ struct EnvironmentSurface {
     std::uint32_t site = 0xFFFFFFFFu; // in Bytecode::sites: the name of the file, or the plane
 };
 
-/// An environment with all keys of its statement. Keys of other kinds keep the values below.
+/// An environment with all keys of its statement. Keys that the kind does not have keep their
+/// initial values.
 struct BytecodeEnvironment {
     std::string name; // without the `?`
     EnvironmentKind kind = EnvironmentKind::Shadow;
@@ -65,9 +66,9 @@ struct BytecodeEnvironment {
     float cell = 0.5F;                // edge of a voxel; > 0
     std::uint32_t levels = 8;         // layers of voxels below a place that it shades; up to 255
     float strength = 0.2F;            // shadow that a place adds to its own voxel; >= 0
-    float ratio = 2.0F;               // from the shadow of a layer to that of the layer below; > 0
-    float extinction = 0.5F;          // of light per leaf area; >= 0
-    std::uint32_t directions = 46;    // of the sky; 1 to 4,096
+    float ratio = 2.0F;               // shadow of a layer / shadow of the layer below it; > 0
+    float extinction = 0.5F;          // extinction coefficient of light per leaf area index; >= 0
+    std::uint32_t directions = 46;    // number of directions of the sky; 1 to 4,096
     SpaceShape shape = SpaceShape::Box;
     std::array<float, 3> size{}; // Space: x y z, > 0; Map: x z 0, > 0; unused by SpaceShape::Mesh
     std::array<float, 3> at{};   // Space: middle of the base, x y z; Map: middle, x z 0

@@ -81,7 +81,7 @@ inline constexpr float kMaxPipeExponent = 4.0F;
 
 /// The flare of a stem at the ground, and its buttress roots (docs/language.md section 7.8).
 struct Flare {
-    float factor = 1.0F;     // of the radius at the ground, 1 to kMaxFlare; 1: no flare
+    float factor = 1.0F;     // radius at the ground / radius without flare, 1 to kMaxFlare
     float height = 0.0F;     // m above 0: where the flare begins
     std::uint32_t roots = 0; // kMinRoots to kMaxRoots; 0: none
 

@@ -180,8 +180,9 @@ struct ProgramMaterial {
 struct ProgramEnvironment {
     NameId name = kNoName; // without the `?`
     SourceSpan name_span;
-    BytecodeEnvironment values;            // without name and sites
-    std::vector<SourceSpan> surface_spans; // of values.surfaces: file names with quotes, or keys
+    BytecodeEnvironment values; // without name and sites
+    /// Places of values.surfaces: file names with quotes, or keys.
+    std::vector<SourceSpan> surface_spans;
 };
 
 /// A constant of the grammar, for dumps and for sliders.

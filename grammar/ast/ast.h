@@ -56,7 +56,8 @@ enum class BinaryOperation : std::uint8_t {
 [[nodiscard]] const char* spelling(UnaryOperation operation);
 [[nodiscard]] const char* spelling(BinaryOperation operation);
 
-/// A range of indices into a list vector of the Ast.
+/// A range of indices into a vector of the Ast that holds lists one after the other, such as
+/// `Ast::expression_lists`.
 struct ListRange {
     std::uint32_t first = 0;
     std::uint32_t count = 0;
@@ -212,7 +213,7 @@ struct ObjectNode {
 struct IncludeNode {
     SourceSpan path_span;  // with the quotes
     std::string path;      // as written
-    FileId file = kNoFile; // kNoFile until it is read
+    FileId file = kNoFile; // kNoFile until the file is read
 };
 
 /// A word, number or file name after the key of a #set, in a #material or in a #sense.

@@ -141,7 +141,8 @@ public:
     void set_watermark();
 
 private:
-    /// State of the last name of the current module list, for parentheses after it.
+    /// State of the last name of the current module list. Decides whether parentheses may follow
+    /// it.
     enum class LastName : std::uint8_t {
         None,  // no name yet, or a character that was reported because it is not a module
         Empty, // an empty text in back quotes
@@ -191,7 +192,7 @@ private:
 
     std::array<NameId, 128> one_character_names_; // kUnset until interned; index: the character
     struct CachedWord {
-        std::uint64_t key = 0; // its characters
+        std::uint64_t key = 0; // the characters of the name
         NameId name = kNoName;
     };
     std::vector<CachedWord> word_cache_; // recent names of up to eight characters
@@ -204,7 +205,7 @@ private:
     bool is_discarded_ = false; // the current statement
     bool has_node_ = false;
     Statement statement_;
-    ProductionNode production_; // the parts parsed so far
+    ProductionNode production_; // the current production; parts not parsed yet are empty
     Watermark watermark_;
 };
 

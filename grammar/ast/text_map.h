@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The scanned text of a file and the map to the file. Typographic characters are reported and
-// replaced before the scan, so that later stages read ASCII; a TextMap maps offsets of the scanned
-// text to offsets of the file.
+// The scanned text of a file, and the map from its offsets to offsets of the file. Typographic
+// characters are reported and replaced before the scan, so that later stages read ASCII; a TextMap
+// maps offsets of the scanned text to offsets of the file.
 #pragma once
 
 #include "grammar/ast/translation.h"

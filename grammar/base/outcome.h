@@ -24,7 +24,7 @@ enum class Stop : std::uint8_t {
     Failed,      // the environment: a missing file, an unsuitable option
     Limit,       // a limit of Limits; see the diagnostics
     OutOfMemory, // a failed allocation
-    Cancelled,   // by the host
+    Cancelled,   // ended by Host::cancelled
 };
 
 /// One message of a step, rendered by programs as text, as JSON or in a window.
@@ -94,7 +94,7 @@ private:
     Messages messages_;
 };
 
-/// The outcome of a step without a value.
+/// The outcome of a step that computes no value.
 template <>
 class [[nodiscard]] Outcome<void> {
 public:

@@ -10,7 +10,7 @@ namespace lsys {
 namespace {
 
 struct Signature {
-    std::string_view bytes; // at the beginning of the file
+    std::string_view bytes; // bytes with which such files begin
     std::string_view description;
 };
 constexpr std::array kSignatures{

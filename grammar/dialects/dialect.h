@@ -39,7 +39,8 @@ struct DialectRow {
     void (*translate)(const DialectRow& row,
                       const ParseContext& context,
                       Translation& out) = nullptr;
-    /// Names of the systems of a file, in order. no_system_names: a file is one unnamed system.
+    /// Names of the systems of a file, in order. The function is no_system_names for dialects in
+    /// which a file is one unnamed system.
     std::vector<std::string> (*systems)(std::string_view text) = nullptr;
 };
 /// All dialects, .lsys first.

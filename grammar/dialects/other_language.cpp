@@ -247,7 +247,8 @@ std::optional<OtherLanguage> recognise_other_language(std::string_view text) {
         return language_at(&lines.front(), std::string(lparser.title), reading_of(lparser));
     }
     for (const DialectRow& row : dialects()) {
-        // Messages of .lsys explain the lines of the book's notation one by one.
+        // Texts in the dialects abop and lpy are parsed as .lsys, whose messages explain their
+        // lines one by one.
         const bool is_explained =
             row.recognise == nullptr || row.dialect == Dialect::Abop || row.dialect == Dialect::Lpy;
         if (!is_explained && !row.recognise(text).empty()) {

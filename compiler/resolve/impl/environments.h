@@ -67,9 +67,10 @@ private:
     ExpressionResolver& expressions_;
     SymbolTable& symbols_;
     Suggestions suggestions_;
-    std::unordered_map<NameId, SourceSpan> first_;             // by name
-    std::unordered_map<std::uint32_t, std::uint32_t> numbers_; // of Ast::senses: the environment
-    std::unordered_map<NameId, bool> declared_;                // by name of the module, with `?`
+    std::unordered_map<NameId, SourceSpan> first_; // by name
+    /// Index of the environment, by index in Ast::senses.
+    std::unordered_map<std::uint32_t, std::uint32_t> numbers_;
+    std::unordered_map<NameId, bool> declared_; // by name of the module, with `?`
 };
 
 } // namespace lsys

@@ -69,7 +69,7 @@ std::string without_comments(FileId file, std::string_view text, const ParseCont
     blank(0, text.starts_with("\xEF\xBB\xBF") ? 3 : 0);
     bool is_first = true; // no character but blanks in this line so far
     bool is_indented = false;
-    std::size_t end = 0; // of the line
+    std::size_t end = 0; // end of the line
     for (std::size_t at = 0; at < text.size();) {
         const char c = text[at];
         end = at < end ? end : std::min(text.find('\n', at), text.size());

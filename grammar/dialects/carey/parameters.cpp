@@ -171,7 +171,7 @@ private:
     ParseContext quiet_;
     std::vector<RuleWithModules> rules_;
     std::set<SymbolForm> enqueued_;
-    std::vector<PlacedModule> pending_; // modules to follow
+    std::vector<PlacedModule> pending_; // modules whose parameters have not been followed yet
 };
 
 } // namespace

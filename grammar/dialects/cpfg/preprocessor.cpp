@@ -258,7 +258,7 @@ private:
             return place >= text.size() || is_blank(text[place]) || text[place] == '\n';
         };
         const bool is_between = at != 0 && !is_space(at - 1) && !is_space(at + 2);
-        constexpr std::string_view kEnds = ";*/"; // of a statement or a comment
+        constexpr std::string_view kEnds = ";*/"; // characters that end a statement or a comment
         if (!is_between || kEnds.find(text[at - 1]) != kEnds.npos || text[at + 2] == '/') {
             return;
         }

@@ -120,7 +120,7 @@ void CpfgWriter::lower_productions() {
     }
 }
 
-/// Lowers a production after CpfgExpressions::begin().
+/// Translates a production to .lsys. Precondition: CpfgExpressions::begin() was called for it.
 void CpfgWriter::lower(std::size_t index) {
     const CpfgProduction& production = session_.productions[index];
     Lowered& lowered = lowered_[index];

@@ -28,7 +28,7 @@ public:
     void write(std::string_view turtle);
 
 private:
-    /// A production in .lsys.
+    /// A production translated to .lsys.
     struct Lowered {
         bool is_written = false;
         bool in_group = false;

@@ -295,7 +295,7 @@ private:
         const std::string_view symbol = text(module.span);
         if (symbol == "(" || symbol == ")") {
             if (has_stray_ && symbol == ")") {
-                return; // its `(` has been reported
+                return; // the stray `(` has been reported
             }
             has_stray_ = true;
             context_.diagnostics.add(DiagnosticCode::ForeignFeature, module.span,
@@ -350,7 +350,8 @@ private:
         }
     }
 
-    /// Writes how commands that are several modules, and that rules replace, draw.
+    /// Writes the `#interpret` productions of the commands that rules replace and that several
+    /// modules draw.
     void write_drawings() {
         std::size_t index = 0;
         for (const auto& [symbol, span] : drawn_) {

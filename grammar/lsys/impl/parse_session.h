@@ -47,7 +47,7 @@ public:
     bool failed = false;         // the statement has a syntax error and gets no further reports
     bool token_inserted = false; // the last token was inserted
 
-    /// The current match.
+    /// Place of the current match: the text that a rule of the scanner has matched last.
     [[nodiscard]] SourceSpan match() const { return scanned.span(scan.begin, scan.end); }
     [[nodiscard]] std::string_view match_text() const {
         return scanned.text.substr(scan.begin, scan.end - scan.begin);
