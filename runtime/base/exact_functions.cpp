@@ -72,11 +72,11 @@ DoubleDouble double_double(const WideFixedPoint& number) {
                                                               : -lsys::rounded(back - number, 0)};
 }
 
-constexpr std::uint32_t kSteps = 64; // of the tables: pi/256 = 45/64 degrees, and log(2)/64
+constexpr std::uint32_t kSteps = 64; // steps of a table: pi/256 rad = 45/64 degrees, or log(2)/64
 
 struct Tables {
-    std::array<DoubleDouble, kSteps + 1> sines;   // of i * pi/256
-    std::array<DoubleDouble, kSteps + 1> cosines; // of i * pi/256
+    std::array<DoubleDouble, kSteps + 1> sines;   // sines of i * pi/256
+    std::array<DoubleDouble, kSteps + 1> cosines; // cosines of i * pi/256
     std::array<DoubleDouble, kSteps> powers;      // 2^(i/64)
 
     Tables() {
@@ -101,7 +101,7 @@ struct TableAngle {
     std::uint32_t quarter = 0; // 0 to 3
     int step = 0;
     DoubleDouble rest;
-    double error = 0.0; // of `rest`, absolute
+    double error = 0.0; // max absolute error of `rest`
 };
 
 TableAngle angle_of_steps(double steps, DoubleDouble rest, double error) {

@@ -24,7 +24,7 @@ inline constexpr std::uint32_t kStateFileVersion = 3;
 struct StateHeader {
     std::uint64_t program_digest = 0; // digest() of the bytecode
     std::uint64_t seed = 0;
-    std::uint32_t generations = 0; // of the whole derivation
+    std::uint32_t generations = 0; // generations of the whole derivation
     std::uint32_t age = 0;
 };
 

@@ -80,7 +80,7 @@ struct TracedRange {
 /// A local value.
 struct TracedLocal {
     std::string name;
-    std::string text; // its expression; for `if`, the chosen side
+    std::string text; // the expression of the local value; for `if`, the chosen side
     float value = 0.0F;
     std::vector<std::string> choices; // conditions of `if` in it: "x > 2 is true"
 };

@@ -162,7 +162,7 @@ private:
     }
 
     std::vector<std::uint32_t> parent_;
-    std::vector<std::uint8_t> turned_; // against the parent; 0 for roots
+    std::vector<std::uint8_t> turned_; // 1: faces the side opposite to its parent's; 0 for roots
     std::vector<std::uint32_t> path_;
 };
 

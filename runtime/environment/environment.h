@@ -42,11 +42,12 @@ struct SensedOrgan {
 /// The input of an environment for one word.
 struct SensedWord {
     std::uint32_t generation = 0;        // age of the word
-    std::span<const SensePlace> places;  // of the environment's own modules, in word order
-    std::span<const SensedOrgan> organs; // of the whole word, in word order; for kind Sky
-    std::span<const float> parameters;   // of the modules at `places`, one after the other
+    std::span<const SensePlace> places;  // places of the environment's own modules, in word order
+    std::span<const SensedOrgan> organs; // organs of the whole word, in word order; for kind Sky
+    /// Parameters of the modules at `places`, one after the other.
+    std::span<const float> parameters;
     std::span<const std::uint32_t>
-        first; // of each place: index of its first parameter; and the end
+        first; // by place: index of its first parameter; last: the size of `parameters`
 };
 
 /// A closed or open surface of triangles.
@@ -82,7 +83,7 @@ struct EnvironmentFailure {
 struct EnvironmentContext {
     Workers* workers = nullptr;
     const std::atomic<bool>* cancelled = nullptr;
-    std::uint64_t max_bytes = ~std::uint64_t{0}; // that the environment may hold
+    std::uint64_t max_bytes = ~std::uint64_t{0}; // max bytes that the environment may hold
 };
 
 class Environment {

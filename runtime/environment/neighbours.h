@@ -28,7 +28,7 @@ struct Neighbour {
 };
 
 struct Neighbours {
-    std::vector<ShadingWord> words; // of one plant, by age
+    std::vector<ShadingWord> words; // words of one plant, by age
     std::vector<Neighbour> plants;  // all of the same shape
 
     /// Appends what the neighbours show to an environment at an age; nothing if the plant had no

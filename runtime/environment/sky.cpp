@@ -172,7 +172,7 @@ private:
     EnvironmentContext context_;
     double cell_; // m
     std::vector<SkyDirection> directions_;
-    double weight_ = 0.0; // of all directions
+    double weight_ = 0.0; // sum of the weights of all directions
 };
 
 } // namespace

@@ -27,7 +27,7 @@ namespace {
 struct SolidPlane {
     Vector3 normal{};    // a, b, c
     double offset = 0.0; // d
-    double length = 1.0; // of `normal`
+    double length = 1.0; // length of `normal`
 };
 
 class SolidEnvironment : public Environment {
@@ -80,8 +80,9 @@ private:
                                                  std::vector<float>& answers) const {
         // Places next to each other are answered one after the other, because they meet the same
         // nodes of the trees.
-        constexpr std::size_t kPlaces = 1U << 8;        // of one piece of work
-        constexpr std::size_t kPlacesPerLeaf = 1U << 4; // of the tree that orders places
+        constexpr std::size_t kPlaces = 1U << 8; // places per piece of work
+        // Places per leaf of the tree that sorts them in space.
+        constexpr std::size_t kPlacesPerLeaf = 1U << 4;
         const std::size_t count = places.size();
         const std::uint64_t bytes = tree_bytes_ + count * sizeof(SplitItem) +
                                     split_node_count(count, kPlacesPerLeaf) * sizeof(SplitNode);
@@ -181,7 +182,7 @@ private:
     EnvironmentContext context_;
     std::vector<SolidPlane> planes_;
     std::vector<std::unique_ptr<TriangleTree>> trees_; // one for each mesh, after begin()
-    std::uint64_t tree_bytes_ = 0;                     // of `trees_`
+    std::uint64_t tree_bytes_ = 0;                     // bytes of `trees_`
 };
 
 } // namespace

@@ -94,7 +94,7 @@ private:
     std::unique_ptr<TriangleTree> crown_tree_;
     std::optional<MarkerShape> shape_; // after begin()
     std::uint64_t seed_ = 0;
-    LargeVector<Marker> markers_; // that are left, by ascending index
+    LargeVector<Marker> markers_; // markers that no place has killed, by ascending index
 };
 
 std::optional<EnvironmentFailure> SpaceEnvironment::prepare_crown() {

@@ -94,7 +94,7 @@ public:
 
     /// The first module with an answer that is not finite.
     std::optional<SenseModule> failed;
-    float value = 0.0F; // its answer
+    float value = 0.0F; // the first value of that answer that is not finite
 
 private:
     struct Asked {
@@ -263,7 +263,7 @@ EnvironmentSense::ask(std::size_t index, Word& word, std::uint32_t age, Derivati
     sensed.sizes.clear();
     sensed.answers.assign(size == kUnknownAnswer ? 0 : sensed.places.size() * size, 0.0F);
     SensedWord asked{age, sensed.places, organs_, parameters, first};
-    std::vector<SensePlace> all_places; // with those of neighbours, which get answers, too
+    std::vector<SensePlace> all_places; // also places of neighbours, whose answers are dropped
     std::vector<SensedOrgan> all_organs;
     if (options_.neighbours != nullptr && kind == EnvironmentKind::Shadow) {
         all_places = sensed.places;

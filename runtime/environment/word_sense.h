@@ -33,16 +33,17 @@ struct SenseOptions {
     SensingOptions objects;
     /// Plants that shade the one that senses (neighbours.h); null: none. Outlives the object.
     const Neighbours* neighbours = nullptr;
-    std::uint32_t threads = 0;                   // 0: as many as the machine has
-    std::uint64_t max_bytes = ~std::uint64_t{0}; // of places, answers and environments
+    std::uint32_t threads = 0; // 0: as many as the machine has
+    /// Max bytes of places, answers and environments together.
+    std::uint64_t max_bytes = ~std::uint64_t{0};
     const std::atomic<bool>* cancelled = nullptr;
 };
 
 /// The places of an environment in a word, and its answers.
 struct SensedEnvironment {
     std::vector<SenseModule> modules; // in word order
-    std::vector<SensePlace> places;   // of `modules`
-    std::vector<float> answers;       // of `modules`, one after the other
+    std::vector<SensePlace> places;   // the places of `modules`
+    std::vector<float> answers;       // answers to `modules`, one after the other
     std::vector<std::uint32_t> sizes; // numbers of each answer, if the kind has no fixed number
 };
 
@@ -69,7 +70,7 @@ public:
     [[nodiscard]] const Environment& environment(std::size_t index) const {
         return *environments_[index];
     }
-    [[nodiscard]] std::uint32_t age() const { return age_; } // of the last word that was sensed
+    [[nodiscard]] std::uint32_t age() const { return age_; } // age of the last sensed word
 
 private:
     class Sink;

@@ -204,8 +204,8 @@ Outcome<GroundPictures> make_ground_pictures(const LoadedScene& loaded,
 struct GrownStage {
     std::vector<ForestStage> stages; // one, or one for each case of Surroundings
     std::vector<UserMesh> user_meshes;
-    Settings settings;      // of the grammar
-    SourceSpan height_span; // of `#set height` in the grammar
+    Settings settings;      // settings of the grammar
+    SourceSpan height_span; // place of `#set height` in the grammar
     std::shared_ptr<const SourceMap> sources;
     AxiomPlace axiom;
     bool can_reuse_branches = false; // some branch can be replaced by a recorded one
@@ -681,7 +681,7 @@ double halo_of(const PlacementOptions& options, const Forest& kinds, const TreeS
     for (std::size_t s = 0; s < kinds.species.size(); ++s) {
         scales.push_back(max_scale(options, sizer, static_cast<std::uint16_t>(s)));
     }
-    constexpr double kRounding = 1.0 + 1e-6; // of scales to binary32
+    constexpr double kRounding = 1.0 + 1e-6; // max rounding error of scales in binary32
     return kRounding * reach_of_surroundings(kinds, scales);
 }
 

@@ -28,14 +28,14 @@ namespace lsys {
 
 struct LoadedScene {
     Scene scene;
-    std::shared_ptr<const SourceMap> sources; // of the spans in `scene`
+    std::shared_ptr<const SourceMap> sources; // files of the spans in `scene`
     std::string folder;                       // base of relative paths in the scene
 };
 
 /// Place of the axiom of a grammar, for notes on its plants.
 struct AxiomPlace {
     SourceSpan span;
-    std::shared_ptr<const SourceMap> sources; // of `span`
+    std::shared_ptr<const SourceMap> sources; // file of `span`
     /// Whether the plants are known to be equal or copies of the heroes, or no branch was replaced;
     /// note_variety() then adds no note.
     bool is_noted = false;

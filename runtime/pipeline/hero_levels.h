@@ -27,7 +27,7 @@ struct Hero {
     bool is_alone = false;
     Skeleton skeleton; // in the coordinates of the cache's heroes
     DetailLevels levels;
-    Bounds bounds;            // of level 0
+    Bounds bounds;            // bounds of level 0
     double reach = 0.0;       // m, greatest distance of level 0 from the base of plant or branch
     std::vector<bool> in_use; // by level: whether some tree uses it
     std::vector<Mesh> meshes; // by level; made only for levels in use

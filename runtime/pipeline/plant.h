@@ -38,7 +38,7 @@ struct Plant {
     std::uint64_t modules = 0;         // number of modules of the derived word
     std::uint32_t generations = 0;
     std::uint64_t seed = 0;
-    double derive_seconds = 0.0; // with PlantOptions::stream includes drawing
+    double derive_seconds = 0.0; // includes drawing with PlantOptions::stream
     double draw_seconds = 0.0;
     std::shared_ptr<const SensedPlant> sensed{}; // null: not asked for, or it has no senses
 };

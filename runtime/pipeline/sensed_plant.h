@@ -28,7 +28,7 @@ struct SensedVoxel {
 struct SensedModule {
     std::uint64_t position = 0; // index in the word
     SensePlace place;
-    std::span<const float> answer; // of SensedPart::answers
+    std::span<const float> answer; // a part of SensedPart::answers
 };
 
 struct SensedPart {
@@ -37,16 +37,16 @@ struct SensedPart {
     double cell = 0.0; // edge of a voxel, m; 0: no voxels
     std::vector<SensedModule> modules;
     std::vector<float> answers;
-    std::vector<SensedVoxel> voxels; // that hold a place or an area; by x, y, z
-    std::vector<Vector3> markers;    // that are left; of kind Space
+    std::vector<SensedVoxel> voxels; // voxels with a place or a leaf area; sorted by x, y, z
+    std::vector<Vector3> markers;    // markers that are left; kind Space
     // Obstacles, of kind Solid.
     std::vector<EnvironmentMesh> meshes;
     std::vector<std::array<float, 4>> planes; // EnvironmentSurface::plane
 };
 
 struct SensedPlant {
-    std::uint32_t generation = 0;  // of the last word that was sensed
-    bool has_sensed = false;       // whether any word was
+    std::uint32_t generation = 0;  // age of the last word that was sensed
+    bool has_sensed = false;       // whether any word was sensed
     std::vector<SensedPart> parts; // by index in Bytecode::environments
     /// Size of the drawn plant as a multiple of the size that sensed: `#set height` scales it.
     double scale = 1.0;

@@ -53,10 +53,10 @@ private:
     void wait_for_exit();
 
     int process_ = 0;  // 0: none
-    int input_ = -1;   // descriptor of our end of its standard input
-    int output_ = -1;  // of its standard output
-    int error_ = -1;   // of its standard error
-    std::string read_; // of its standard output, not yet returned
+    int input_ = -1;   // our end of the program's standard input, a file descriptor
+    int output_ = -1;  // our end of the program's standard output
+    int error_ = -1;   // our end of the program's standard error
+    std::string read_; // bytes of standard output that ask() has not returned yet
     std::string messages_;
     std::string exit_text_;
 };

@@ -28,7 +28,7 @@ struct Joint {
 /// The motion of an item, relative to its parent.
 struct Motion {
     Ends<glm::quat> turn;
-    Ends<glm::vec3> offset;            // from the parent's tip, in the parent's frame
+    Ends<glm::vec3> offset;            // vector from the parent's tip, in the parent's frame
     std::uint32_t parent = kNoSegment; // index in State::segments
     bool eases = false;                // grows from size 0 or shrinks to size 0
 };
@@ -94,7 +94,8 @@ struct SkeletonGrowth::State {
     LargeVector<MovingSegment> segments; // segments of `after`, then segments that shrink
     LargeVector<MovingObject> objects;
     LargeVector<MovingPolygon> polygons;
-    LargeVector<Ends<glm::vec3>> corners;          // from the parent's tip, in the parent's frame
+    /// Vectors from the parent's tip, in the parent's frame.
+    LargeVector<Ends<glm::vec3>> corners;
     LargeVector<std::uint32_t> shrinking_segments; // indexes in `before`
     LargeVector<std::uint32_t> shrinking_objects;
     LargeVector<std::uint32_t> shrinking_polygons;

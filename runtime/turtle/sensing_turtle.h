@@ -54,14 +54,16 @@ protected:
 };
 
 struct SensingOptions {
-    std::uint64_t seed = 0; // of the draws of `#interpret`
+    std::uint64_t seed = 0; // seed of the draws of `#interpret`
     bool organs = false;    // whether to report organs
     /// Lengths along +Y of the files of MeshFile symbols, by symbol; empty: 1 each.
     std::vector<float> mesh_lengths;
     /// Half the areas of the triangles of the files of MeshFile symbols, by symbol, m^2 at size 1.
     std::vector<double> mesh_areas;
-    double leaf_area = 0.0;                      // of the object LEAF, likewise
-    double flower_area = 0.0;                    // of the object FLOWER, likewise
+    /// Half the area of the triangles of LEAF, m^2 at size 1.
+    double leaf_area = 0.0;
+    /// Half the area of the triangles of FLOWER, m^2 at size 1.
+    double flower_area = 0.0;
     std::uint64_t max_bytes = ~std::uint64_t{0}; // limit of the stack of `[`
     const std::atomic<bool>* cancelled = nullptr;
 };

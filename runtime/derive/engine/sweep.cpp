@@ -284,7 +284,7 @@ private:
     const WordView<C>& view_;
     float* parameters_;
     Chooser<C> chooser_;
-    std::vector<float> values_; // of visit_general()
+    std::vector<float> values_; // values computed by visit_general()
     SweepBases bases_{};
     SweepNeighbour axis_;
     Stack<SweepNeighbour> branches_; // of this level: from first_branch_ on, the last first

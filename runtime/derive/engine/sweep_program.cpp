@@ -67,7 +67,8 @@ public:
     static Chain steps() { return constant(kStepsConstant); }
     static Chain unary(Opcode opcode, Chain x) {
         if (!x.empty()) {
-            x.push_back({opcode, kConstantBase, kStepConstant}); // its operand is not used
+            // The operation ignores its operand.
+            x.push_back({opcode, kConstantBase, kStepConstant});
         }
         return x;
     }

@@ -52,7 +52,7 @@ struct SweepCandidate {
     bool has_axis = false; // whether the context has a module of the axis
     SweepContext axis;
     TableRange branches;  // of SweepProgram::branch(), in text order, before the module of the axis
-    TableRange condition; // of operations; count 0: always true
+    TableRange condition; // range of operations; count 0: the condition always holds
     TableRange chains;    // one per parameter
 };
 
@@ -95,7 +95,7 @@ public:
     [[nodiscard]] std::uint64_t held_bytes() const;
 
 private:
-    class Compiler; // of expressions
+    class Compiler; // compiles expressions to chains
 
     [[nodiscard]] float value(TableRange chain, const SweepBases& bases) const {
         const SweepOperation* operation = operations_.data() + chain.first;

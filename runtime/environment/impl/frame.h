@@ -56,7 +56,7 @@ public:
     /// u s, its length beside the axis 29 u s; if the rounded axis has not the length 1, 12 u s
     /// more. Together a distance is wrong by 46 u s at most; the margin is 64 u s.
     [[nodiscard]] FramedPlace framed_place(const Vector3& place) const {
-        constexpr double kLargest = 0x1p50; // whose square is far from overflow
+        constexpr double kLargest = 0x1p50; // the square is far from overflow
         const Vector3 at = framed(place);
         const double size = 1.0 + std::max({std::abs(at[0]), std::abs(at[1]), std::abs(at[2])});
         FramedPlace result;

@@ -43,7 +43,7 @@ struct CellArea {
 
 /// Answer of a LeafAreaTable for one cell.
 struct CellContent {
-    double opacity = 0.0; // of light per metre of path
+    double opacity = 0.0; // opacity to light, per metre of path
     /// The cell is in an empty block of 2^empty_bits cells along each axis, aligned to CellBox::low.
     std::uint32_t empty_bits = 0;
 };
@@ -51,7 +51,7 @@ struct CellContent {
 /// From the area in a cell to its opacity per metre.
 struct Extinction {
     double extinction = 0.0; // per leaf area index
-    double volume = 0.0;     // of a cell, m^3
+    double volume = 0.0;     // volume of a cell, m^3
 
     [[nodiscard]] double opacity(double area) const { return extinction * area / volume; }
 };
@@ -150,7 +150,7 @@ private:
 
     CellIndex low_;
     std::uint32_t levels_;
-    std::uint32_t shift_ = 0; // from a hash to an index
+    std::uint32_t shift_ = 0; // a hash >> shift_ is an index in entries_
     std::vector<Entry> entries_;
 };
 

@@ -20,7 +20,7 @@ inline constexpr std::uint32_t kKilled = kNoPlace - 1;
 /// Which markers a place sees and kills.
 struct MarkerReach {
     double radius_squared = 0.0; // m^2
-    double cosine = -1.0;        // of the half angle of the cone of view
+    double cosine = -1.0;        // cosine of half the opening of the cone of view
     bool sees_all = false;
     double kill_squared = 0.0; // m^2
 };
@@ -46,8 +46,8 @@ public:
 private:
     /// Children in coordinates of the frame.
     struct Node : WideNode {
-        std::array<Lanes, 3> low{};  // of the box of each child; of a leaf: the place
-        std::array<Lanes, 3> high{}; // of a leaf: the heading
+        std::array<Lanes, 3> low{};  // low corner of the box of each child; in a leaf: the place
+        std::array<Lanes, 3> high{}; // high corner of that box; in a leaf: the heading
     };
     class Query;
 

@@ -38,14 +38,14 @@ public:
 private:
     SpaceShape shape_;
     const TriangleTree* crown_;
-    Vector3 low_{};    // of the bounding box
+    Vector3 low_{};    // low corner of the bounding box
     Vector3 extent_{}; // high - low
 };
 
 /// Key of the draws of an environment.
 struct MarkerKey {
     std::uint64_t seed = 0;
-    std::uint32_t number = 0; // of the environment
+    std::uint32_t number = 0; // index of the environment in Bytecode::environments
 };
 
 /// Max points that are tried for one marker.

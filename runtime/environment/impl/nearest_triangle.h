@@ -50,7 +50,7 @@ public:
 private:
     /// Children in coordinates of the frame.
     struct Node : WideNode {
-        std::array<Lanes, 3> middle{}; // of the cylinder of each child
+        std::array<Lanes, 3> middle{}; // middle of the cylinder of each child
         std::array<Lanes, 3> axis{};   // unit vector
         Lanes half_length{};
         Lanes radius{};

@@ -17,13 +17,13 @@ namespace lsys {
 
 struct PointTree {
     struct Node {
-        Vector3 low{}; // of the box around its places
+        Vector3 low{}; // low corner of the box around the node's places
         Vector3 high{};
         SplitNode items;
     };
     LargeVector<Node> nodes;              // in preorder; none without places
     LargeVector<Vector3> points;          // by leaves
-    LargeVector<std::uint32_t> positions; // of each point: its index in the word
+    LargeVector<std::uint32_t> positions; // by point: its index in the word
 };
 
 /// Empty when cancelled, or without places.

@@ -8,7 +8,7 @@ namespace lsys {
 
 namespace {
 
-constexpr std::int64_t kMaxTablePlaces = std::int64_t{1} << 29; // as count_by_tables() demands
+constexpr std::int64_t kMaxTablePlaces = std::int64_t{1} << 29; // required by count_by_tables()
 constexpr std::int64_t kNoRow = std::numeric_limits<std::int64_t>::max();
 
 /// Counts of the squares of one layer, around three neighbours along an axis, that contain a place

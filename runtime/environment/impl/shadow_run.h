@@ -42,7 +42,7 @@ private:
     struct Neighbour {
         std::size_t next = 0;
         std::size_t end = 0;
-        std::int64_t y = 0; // of `next`
+        std::int64_t y = 0; // y of voxel `next`
         std::int32_t x = 0; // offset to coordinates of the tables
         std::int32_t z = 0;
     };
@@ -63,7 +63,8 @@ private:
     const VoxelTiles& tiles_;
     const ShadowLayers& layers_;
     std::int32_t edge_;
-    std::int32_t reach_; // from a voxel to the farthest one that shades it or a neighbour
+    /// Voxels along an axis from a target to the farthest source of it or a neighbour.
+    std::int32_t reach_;
 
     std::vector<TileVoxel> targets_; // sorted by y; x and z count from the corner of the tables
     std::int32_t corner_x_ = 0;      // corner of the tables in coordinates of the tile
@@ -79,7 +80,7 @@ private:
     bool has_cursors_ = false;
     std::array<SummedAreaTable, 3> tables_;
     SummedAreaTable empty_table_;
-    std::vector<LayerCounts> pair_counts_; // of each layer
+    std::vector<LayerCounts> pair_counts_; // counts by layer
     std::vector<ShadowSum> sums_;
 };
 

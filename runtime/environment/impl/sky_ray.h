@@ -168,7 +168,7 @@ private:
 
     Vector3 place_;
     Vector3 direction_;
-    double size_; // of a cell, m
+    double size_; // edge of a cell, m
     CellIndex at_;
     double passed_ = 0.0; // m
 };

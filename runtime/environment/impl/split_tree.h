@@ -24,7 +24,7 @@ struct SplitItem {
 
 /// A node. Nodes are in preorder, so the first child of node i is i + 1.
 struct SplitNode {
-    std::uint32_t begin = 0; // of its items
+    std::uint32_t begin = 0; // items of the node are [begin, end)
     std::uint32_t end = 0;
     std::uint32_t second = 0; // index of the second child; 0 for a leaf
 };

@@ -190,7 +190,8 @@ bool TriangleTree::is_inside(const Vector3& place) const {
 
 std::uint64_t TriangleTree::bytes(const EnvironmentMesh& mesh) {
     // First the edges and the order of vertices, then items, nodes and corners.
-    constexpr std::uint64_t kEdgeBytes = 3 * 16 * 3 / 2; // with the space of a merge
+    // Bytes per triangle, with the buffer of a merge sort.
+    constexpr std::uint64_t kEdgeBytes = 3 * 16 * 3 / 2;
     constexpr std::uint64_t kTurnedBytes = 9;
     constexpr std::uint64_t kTreeBytes =
         sizeof(SplitItem) + sizeof(LeafTriangle) + (sizeof(SplitNode) + sizeof(Node)) / 2;

@@ -38,7 +38,7 @@ public:
 
 private:
     struct Node {
-        std::array<float, 3> low{}; // of the box around its triangles
+        std::array<float, 3> low{}; // low corner of the box around the node's triangles
         std::array<float, 3> high{};
         std::uint32_t begin = 0; // a leaf: its first triangle; else: the second child
         std::uint32_t count = 0; // triangles of a leaf; 0: the first child follows

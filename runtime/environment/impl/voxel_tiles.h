@@ -22,7 +22,7 @@ inline constexpr double kMaxVoxelIndex = 2147483648.0; // 2^31
 
 /// A voxel within its tile.
 struct TileVoxel {
-    std::int64_t y = 0; // from the lowest occupied voxel
+    std::int64_t y = 0; // counted from the lowest occupied voxel
     std::int32_t x = 0; // 0 to edge - 1
     std::int32_t z = 0;
 };
@@ -84,8 +84,9 @@ private:
     VoxelIndex low_{};  // least index along each axis
     VoxelIndex high_{}; // greatest
     std::uint64_t key_step_ = 0;
-    LargeVector<std::size_t> first_;       // record of each voxel; and the end
-    LargeVector<std::size_t> first_voxel_; // of each tile; and the end
+    /// By voxel: its first record; last: the number of records.
+    LargeVector<std::size_t> first_;
+    LargeVector<std::size_t> first_voxel_; // by tile: its first voxel; last: the number of voxels
 };
 
 } // namespace lsys

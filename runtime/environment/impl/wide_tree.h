@@ -18,14 +18,14 @@ namespace lsys {
 /// The base of a node: up to four children.
 struct WideNode {
     std::array<std::uint32_t, kLanes> children{}; // nodes, or items of a leaf
-    std::uint32_t count = 0;                      // of children
+    std::uint32_t count = 0;                      // number of children
     bool is_leaf = false;
 };
 
 /// A child, and the items below it.
 struct WideChild {
-    std::uint32_t node = 0; // its parent
-    std::uint32_t lane = 0; // its number there
+    std::uint32_t node = 0; // index of the parent node
+    std::uint32_t lane = 0; // index of the child in its parent
     std::uint32_t begin = 0;
     std::uint32_t end = 0;
 };

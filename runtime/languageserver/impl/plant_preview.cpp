@@ -27,8 +27,9 @@ namespace {
 constexpr std::uint64_t kMaxModules = 4'000'000;
 constexpr std::uint64_t kMaxTriangles = 1'000'000;
 constexpr double kMaxSeconds = 10.0;
-constexpr std::uint64_t kMaxBytes = std::uint64_t{1} << 30U; // of a word, skeleton or mesh
-constexpr std::uint32_t kCoarsestLevel = 4;                  // of MeshOptions::level
+/// Max bytes of a word, skeleton or mesh.
+constexpr std::uint64_t kMaxBytes = std::uint64_t{1} << 30U;
+constexpr std::uint32_t kCoarsestLevel = 4; // max of MeshOptions::level
 
 /// A request, with all texts that its answer needs.
 struct PlantJob {

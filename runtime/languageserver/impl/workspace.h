@@ -73,7 +73,7 @@ struct EditorFeatures {
 
 /// The result of checking a document.
 struct CheckedDocument {
-    std::string path; // of the checked file
+    std::string path; // path of the checked file
     GrammarText text;
     CompiledText compiled;
     std::string failure; // why the document could not be checked; empty if it was
@@ -81,8 +81,9 @@ struct CheckedDocument {
 
 /// A parsed grammar with its names.
 struct IndexedGrammar {
-    std::map<std::string, std::optional<std::string>> texts; // that were read; nullopt: failed
-    bool is_lsys = true;                                     // parsed as .lsys
+    /// Texts that were read, by path; nullopt: reading failed.
+    std::map<std::string, std::optional<std::string>> texts;
+    bool is_lsys = true; // parsed as .lsys
     ParsedGrammar parsed;
     NameIndex index;
 };

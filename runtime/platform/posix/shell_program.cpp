@@ -119,8 +119,8 @@ bool may_be_repeated(int reason) {
 
 /// The lines of one call of ask().
 struct ShellProgram::Exchange {
-    std::string out;         // to be written
-    std::size_t written = 0; // bytes of it that are written
+    std::string out;         // bytes to be written
+    std::size_t written = 0; // number of bytes of `out` that have been written
     std::uint64_t max_bytes = 0;
 };
 
@@ -232,8 +232,9 @@ bool ShellProgram::read_some(Exchange& exchange) {
 }
 
 void ShellProgram::read_messages() {
-    std::array<char, 4096> bytes;  // NOLINT(cppcoreguidelines-pro-type-member-init)
-    constexpr int kMaxReads = 256; // of one call, so that a flood of messages does not hold it
+    std::array<char, 4096> bytes; // NOLINT(cppcoreguidelines-pro-type-member-init)
+    // Max reads per call, so that a flood of messages does not block it.
+    constexpr int kMaxReads = 256;
     for (int i = 0; i < kMaxReads && error_ >= 0; ++i) {
         const ssize_t count = ::read(error_, bytes.data(), bytes.size());
         if (count <= 0) {

@@ -36,7 +36,7 @@ struct SensingAction {
     std::uint8_t given = 0;           // number of arguments
     std::uint32_t stored = 0;         // number of parameters in the word
     const float* constants = nullptr; // arguments, if the word stores none
-    ExactSineCosine turn;             // of a constant angle; signed
+    ExactSineCosine turn;             // the constant angle of a turn; signed
 };
 
 /// What `[` saves.
@@ -45,7 +45,7 @@ struct SensingBrush {
     float step = 0.0F;           // m, length of an F without argument
     float angle = 0.0F;          // degrees
     float width = 0.0F;          // m, or radius / length (TurtleTraits::width_is_relative)
-    ExactSineCosine turn;        // of `angle`
+    ExactSineCosine turn;        // sine and cosine of `angle`
     double second_heading = 0.0; // degrees from the first heading to the left
 };
 
@@ -113,7 +113,7 @@ struct SensingTurtle::State {
     SenseSink* sink = nullptr;
     std::uint32_t age = 0;
     std::uint64_t position = 0; // index of the current module; in the word that is interpreted
-    Code code = 0;              // of the current module
+    Code code = 0;              // code of the current module
     std::uint64_t walked_parameters = 0; // parameters of the modules before the current piece
     std::uint64_t first_of_piece = 0;    // index in the word of the piece that is interpreted
     std::optional<Stop> stopped;

@@ -39,10 +39,11 @@ struct SensePlace {
 
 /// All modules `?NAME` of one word, in word order. The spans are valid during the call.
 struct EnvironmentQuery {
-    std::uint32_t generation = 0;           // age of the word
-    std::span<const SensePlace> places;     // of the modules; at least one
-    std::span<const float> parameters;      // of the modules, one after the other
-    std::span<const std::uint32_t> offsets; // of each module: index of its first parameter; the end
+    std::uint32_t generation = 0;       // age of the word
+    std::span<const SensePlace> places; // places of the modules; at least one
+    std::span<const float> parameters;  // parameters of the modules, one after the other
+    /// By module: index of its first parameter; last: the size.
+    std::span<const std::uint32_t> offsets;
 };
 
 /// The answers to a query: `size` numbers for each place, in the order of the places. They
@@ -73,7 +74,7 @@ struct Host {
 };
 
 struct Limits {
-    std::uint64_t max_modules = std::uint64_t{1} << 32; // of one word
+    std::uint64_t max_modules = std::uint64_t{1} << 32; // max modules of one word
     /// Max bytes of one word, skeleton, mesh and file. 0: half of the memory of the machine.
     std::uint64_t max_bytes = 0;
 };
