@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The keys of `#sense`: one table, from which the resolver, the dumps, messages, the language server
-// and its documents are made (docs/language.md section 13).
+// The keys of `#sense`: one table, from which the resolver, the dumps, messages, the language
+// server and its documents are made (docs/language.md section 13).
 #pragma once
 
 #include "compiler/bytecode/environment.h"

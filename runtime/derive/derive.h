@@ -53,7 +53,7 @@ struct RuntimeError {
     bool in_weight = false;            // in a weight; in_condition is then true
     std::uint32_t environment = kNone; // for SenseFailed: index in Bytecode::environments, or kNone
     std::string text; // for SenseFailed: the reason, for example "its program has ended"
-    std::string help; // for SenseFailed: what to do about it, or empty
+    std::string help; // for SenseFailed: advice for the author, or empty
 };
 
 struct DerivationEnd;
@@ -67,15 +67,15 @@ public:
     WordSense(const WordSense&) = delete;
     WordSense& operator=(const WordSense&) = delete;
 
-    /// Begins a derivation: makes what its environments hold at the start, such as markers.
-    /// `globals`: the values of Bytecode::globals. Sets `end` if it returns a Stop.
+    /// Begins a derivation: sets up the data that environments keep from word to word, such as
+    /// markers. `globals`: the values of Bytecode::globals. Sets `end` if it returns a Stop.
     [[nodiscard]] virtual std::optional<Stop> begin(std::uint64_t seed,
                                                     std::uint32_t generations,
                                                     std::span<const float> globals,
                                                     DerivationEnd& end) = 0;
-    /// Walks over `word`, a complete word of age `age`, and writes the answers into the first
-    /// parameters of its sense modules. Sets `end` if it returns a Stop; the parameters of the word
-    /// are then unspecified.
+    /// Writes the answers to the sense modules of `word`, a complete word of age `age`, into their
+    /// first parameters. Sets `end` if it returns a Stop; the parameters of the word are then
+    /// unspecified.
     [[nodiscard]] virtual std::optional<Stop>
     sense(Word& word, std::uint32_t age, DerivationEnd& end) = 0;
     /// The data that environments keep from one word to the next, such as markers that are left, as
@@ -118,7 +118,8 @@ struct DeriveOptions {
     std::function<void(std::uint32_t generation, std::uint64_t modules_written)> progress;
     /// Called before and after each pass. Before a pass, each origin in `in` is set to the index of
     /// its module, so the origins in `out` name the modules of `in` that were rewritten. Not called
-    /// for passes that cannot change the word; after a pass with an error only if it is a sweep. Precondition: `origins`; fewer than 2^32 modules.
+    /// for passes that cannot change the word; after a pass with an error only if it is a sweep.
+    /// Precondition: `origins`; fewer than 2^32 modules.
     std::function<void(const DerivationPass& pass)> on_pass;
 };
 

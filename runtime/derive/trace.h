@@ -50,7 +50,8 @@ LSYS_COUNTED_ENUM(ContextEnd,
                   NoBranch,    // there is no branch where the pattern has `[`
                   NotSearched);
 
-/// The search for a context, in its order: from the module outwards.
+/// The search for a context: visited modules in the order of the search, from the traced module
+/// outwards.
 struct ContextTrace {
     ContextEnd end = ContextEnd::NotSearched;
     std::vector<VisitedModule> visited;

@@ -423,8 +423,8 @@ bool ModuleClasses::is_identity(Code code, std::uint32_t production) const {
     return true;
 }
 
-/// Whether every outcome yields the module itself, and nothing else changes it. More than 16 outcomes
-/// count as a change.
+/// Whether every outcome yields the module itself, and nothing else changes it. More than 16
+/// outcomes count as a change.
 bool ModuleClasses::is_unchanged(const ClassExpansion& expansion, Code code) const {
     constexpr std::uint32_t kMaxOutcomes = 16;
     if (expansion.outcomes.count > kMaxOutcomes || may_change(bytecode_->symbol_of(code), 0)) {

@@ -28,9 +28,9 @@ struct LevelSteps {
     std::uint32_t first_age = 0;
     std::uint32_t last_age = 0;
     std::uint32_t depth = 0;           // passes over the word of each age
-    bool checked = false;              // a module that matches after the last pass is an error
+    bool checked = false;              // error if a module still matches after the last pass
     std::uint64_t first_pass_draw = 0; // number of the first draw of the first pass
-    bool prunes = false;               // each generation begins with the cuts of `%` modules
+    bool prunes = false;               // before each generation, `%` modules cut off branches
 
     /// Number of steps, which is also the index of the last level.
     [[nodiscard]] std::uint64_t count() const {

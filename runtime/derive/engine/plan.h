@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Plan: a program prepared for rewriting; every decision that does not depend on the module is made
-// in advance. Made once per run, when the globals are known; updated for each generation if
-// something depends on step(), and for each rule if a pass rewrites one rule only. Read by the
-// passes, by many threads at once.
+// in advance. Made once per derivation, when the values of the globals are known; updated for each
+// generation if a condition, weight or argument depends on step(), and for each rule if a pass
+// rewrites one rule only. Read by the passes, by many threads at once.
 //
 // A row says how modules of a code are rewritten: by one entry, by a random choice among a fixed
 // set, by the first comparison that holds, or by conditions and contexts. An entry is a successor:
@@ -30,7 +30,7 @@
 
 namespace lsys {
 
-/// Max parameters that an entry computes without a loop.
+/// Max parameters of an entry whose terms are stored in the entry itself.
 inline constexpr std::size_t kEntryTerms = 4;
 /// Max parameters of a batched entry.
 inline constexpr std::uint32_t kMaxBatchedParameters = 16;
@@ -48,7 +48,7 @@ struct alignas(64) Entry {
     std::uint32_t candidate = kNone; // kNone: a copy of the module
     std::uint32_t first_place = 0;   // index of the successor in template_codes
     bool general = false;            // parameters need a batch or evaluate()
-    bool reads_own = false;          // terms read the module's parameters
+    bool reads_own = false;          // terms read parameters of the rewritten module
     bool special = false;            // not written by one wide store of codes and one of terms
     bool batched = false;            // special for its parameters only, which a batch computes
 };

@@ -15,7 +15,7 @@ constexpr std::uint32_t kStepConstant = 0;
 constexpr std::uint32_t kStepsConstant = 1;
 constexpr std::uint32_t kFirstGlobal = 2;
 
-/// A chain being made; no operation: the value is not a chain.
+/// The operations of a chain; empty if the value cannot be computed by a chain.
 using Chain = std::vector<SweepOperation>;
 
 /// Longer chains are left to the stack machine.

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-// SweepProgram: the productions of a sweep in the form that its loop runs. Productions whose
-// expressions are chains, `((a op b) op c) op d` with formals and constants as operands, and whose
-// context is one module and the branches before it, need neither the stack machine nor tables of
-// neighbours: the loop keeps the neighbours while it passes them. Symbols with other productions
-// have Kind::General.
+// SweepProgram: the productions of a sweep, compiled to the operations that its loop executes.
+// Productions whose expressions are chains, `((a op b) op c) op d` with formals and constants as
+// operands, and whose context is one module and the branches before it, need neither the stack
+// machine nor tables of neighbours: the loop remembers the neighbours as it visits them. Symbols
+// with other productions have Kind::General.
 #pragma once
 
 #include "compiler/bytecode/arithmetic.h"
