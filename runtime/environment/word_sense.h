@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// EnvironmentSense: answers the sense modules of words (docs/language.md section 13). Walks over a
-// word with a SensingTurtle, gives each environment all places of its modules, and writes the
-// answers, and those to `?P ?H ?U ?R ?L`, into the parameters of the word.
+// EnvironmentSense: answers the sense modules of words (docs/language.md section 13). Runs a
+// SensingTurtle over a word, gives each environment all places of its modules, and writes the
+// answers of the environments and the answers to `?P ?H ?U ?R ?L` into the parameters of the word.
 #pragma once
 
 #include "compiler/bytecode/bytecode.h"
@@ -31,7 +31,7 @@ struct SenseOptions {
     std::vector<ProgramCommand> programs;
     /// Lengths and areas of objects; EnvironmentSense sets the other members.
     SensingOptions objects;
-    /// Plants that shade the one that senses (neighbours.h); null: none. Outlives the object.
+    /// Plants that shade the sensing plant (neighbours.h); null: none. Outlives the object.
     const Neighbours* neighbours = nullptr;
     std::uint32_t threads = 0; // 0: as many as the machine has
     /// Max bytes of places, answers and environments together.

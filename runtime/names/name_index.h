@@ -16,8 +16,8 @@
 
 namespace lsys {
 
-/// The name spaces (docs/language.md section 2.1). Local values count as formals. The name of a sense
-/// module `?NAME` is the environment NAME, without the `?`.
+/// The name spaces (docs/language.md section 2.1). Local values count as formals. The name of a
+/// sense module `?NAME` is the environment NAME, without the `?`.
 enum class NameKind : std::uint8_t { Module, Constant, Formal, Function, Production, Environment };
 
 /// Bytes [begin, end) of a file.

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// ShellProgram: a command line of the shell that runs beside this process and answers lines of text.
+// ShellProgram: a command line of the shell that runs beside this process and answers lines of
+// text.
 #pragma once
 
 #include "runtime/platform/file.h"

@@ -4,10 +4,10 @@
 // sines and cosines that are rounded correctly, so places are equal on every machine; the turtle
 // that draws (turtle.h) is faster and need not be.
 //
-// Turns change two axes: a yaw by a makes H' = cos(a) H + sin(a) R and R' = cos(a) R - sin(a) H, each
-// product and sum rounded; frames are not normalised. Rotations about other axes (tropism, the
-// operations Bend and PointAt) use the formula of Rodrigues for each of H, R, U:
-// v' = (v cos(a) + (k x v) sin(a)) + k ((k . v) (1 - cos(a))). Cuts have no effect.
+// Turns change two axes: a yaw by a makes H' = cos(a) H + sin(a) R and R' = cos(a) R - sin(a) H,
+// each product and sum rounded; frames are not normalised. Rotations about other axes (tropism, the
+// operations Bend and PointAt) use the formula of Rodrigues for each of H, R, U: v' = (v cos(a) +
+// (k x v) sin(a)) + k ((k . v) (1 - cos(a))). Cuts have no effect.
 #pragma once
 
 #include "compiler/bytecode/bytecode.h"
@@ -76,9 +76,9 @@ public:
     SensingTurtle(const SensingTurtle&) = delete;
     SensingTurtle& operator=(const SensingTurtle&) = delete;
 
-    /// Walks over a word of age `age`, as the productions of `#interpret` rewrite it. A sense module
-    /// that they replace stands where what replaces it begins; those that they write are skipped.
-    /// Stop::Diagnosed: error() is set.
+    /// Walks over a word of age `age`, as the productions of `#interpret` rewrite it. A sense
+    /// module that they replace stands where what replaces it begins; those that they write are
+    /// skipped. Stop::Diagnosed: error() is set.
     [[nodiscard]] std::optional<Stop> walk(const Word& word, std::uint32_t age, SenseSink& sink);
     [[nodiscard]] const RuntimeError& error() const;
 

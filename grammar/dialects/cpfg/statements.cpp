@@ -62,8 +62,9 @@ void CpfgExpressions::read_header() {
     in_header_ = false;
 }
 
-/// Classifies the variables that the blocks of a step (`StartEach:`, `EndEach:`) assign: incremented
-/// by each step, assigned anew by each step, or unknown. Then writes the calls of these blocks.
+/// Classifies the variables that the blocks of a step (`StartEach:`, `EndEach:`) assign:
+/// incremented by each step, assigned anew by each step, or unknown. Then writes the calls of these
+/// blocks.
 void CpfgExpressions::classify_changed_globals() {
     find_changed_globals(session_.start_each);
     find_changed_globals(session_.end_each);

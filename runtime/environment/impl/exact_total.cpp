@@ -108,7 +108,8 @@ double TotalRange::rounded(const std::uint64_t* total) const {
     if (top == 0) {
         return 0.0;
     }
-    // The upper 64 bits of the number, from its top bit on, and whether a bit below is set.
+    // `upper`: the 64 bits of the number from its top bit on. `below`: whether any lower bit is
+    // set.
     const auto empty = static_cast<std::size_t>(std::countl_zero(magnitude[top - 1]));
     std::uint64_t upper = magnitude[top - 1] << empty;
     bool below = false;

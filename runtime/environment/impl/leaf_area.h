@@ -41,14 +41,15 @@ struct CellArea {
     double area = 0.0; // m^2
 };
 
-/// Answer of a LeafAreaTable for one cell.
+/// The entry of a LeafAreaTable for one cell.
 struct CellContent {
     double opacity = 0.0; // opacity to light, per metre of path
-    /// The cell is in an empty block of 2^empty_bits cells along each axis, aligned to CellBox::low.
+    /// The cell is in an empty block of 2^empty_bits cells along each axis, aligned to
+    /// CellBox::low.
     std::uint32_t empty_bits = 0;
 };
 
-/// From the area in a cell to its opacity per metre.
+/// Converts the leaf area in a cell to the opacity of the cell per metre of path.
 struct Extinction {
     double extinction = 0.0; // per leaf area index
     double volume = 0.0;     // volume of a cell, m^3
@@ -68,7 +69,7 @@ public:
         }
         return index;
     }
-    /// From the index of a cell to that of the next one along an axis.
+    /// Difference between the indexes of two cells that are neighbours along an axis.
     [[nodiscard]] std::size_t stride(std::size_t axis) const {
         return axis == 0 ? extents_[1] * extents_[2] : axis == 1 ? extents_[2] : 1;
     }
@@ -81,8 +82,8 @@ private:
     LargeVector<double> opacities_;
 };
 
-/// A hash table of the occupied cells, and of the occupied blocks of 8, 64, 512, ... cells along
-/// each axis up to one block for all.
+/// A hash table of the occupied cells and of the occupied blocks of 8, 64, 512, ... cells along
+/// each axis. The largest block contains all cells.
 class LeafAreaTable {
 public:
     [[nodiscard]] static std::uint64_t bytes_for(std::uint64_t organs, const CellBox& box);
@@ -103,7 +104,7 @@ public:
 private:
     static constexpr std::uint32_t kBlockBits = 3;
     using Steps = std::array<std::uint64_t, 3>; // up to 2^32
-    /// Not zero for any block.
+    /// Identifies a cell or block; never 0, which marks an unused entry.
     struct Key {
         std::uint64_t high = 0;
         std::uint64_t low = 0;
@@ -138,7 +139,7 @@ private:
         hash = (hash ^ (hash >> 29)) * 0xBF58476D1CE4E5B9U;
         return hash >> shift_;
     }
-    /// The entry of `key`, or the unused one where it would stand.
+    /// Index of the entry of `key`, or of the unused entry into which `key` would be put.
     [[nodiscard]] std::size_t index_of(const Key& key) const {
         std::size_t index = slot_of(key);
         while (entries_[index].is_used() && entries_[index].key != key) {

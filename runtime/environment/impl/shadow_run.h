@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// ShadowRun: the shadow at some voxels of one tile. Where places are dense, squares are counted by
-// summed-area tables; where they are sparse, each pair of places is counted. Both counts are exact.
+// ShadowRun: computes the shadow at some voxels, the targets, of one tile, from the occupied voxels
+// that can shade them, the sources. Where places are dense, places in squares are counted by
+// summed-area tables; where they are sparse, pair by pair. Both counts are exact.
 #pragma once
 
 #include "runtime/environment/impl/shadow_boxes.h"
@@ -14,8 +15,9 @@
 
 namespace lsys {
 
-/// Tiles are at least as wide as a pyramid reaches beyond its voxel and the neighbours of that, so
-/// that the nine tiles around a voxel hold all places that shade it.
+/// Width of a tile as a power of two, in voxels: at least the distance over which a pyramid shades
+/// a voxel or its neighbours, so that a tile and the eight tiles around it contain all places that
+/// shade voxels of the tile.
 [[nodiscard]] std::uint32_t shadow_tile_bits(std::uint32_t levels);
 /// Memory of a run for tables, bytes.
 [[nodiscard]] std::uint64_t shadow_table_bytes(std::uint32_t levels);
@@ -27,8 +29,8 @@ public:
         : tiles_(tiles), layers_(layers), edge_(std::int32_t{1} << tile_bits),
           reach_(static_cast<std::int32_t>(layers.last()) + 1) {}
 
-    /// Voxels `begin` ... `end` - 1 belong to `tile`. Runs of one object are in ascending order. The
-    /// result is valid until the next run.
+    /// Voxels `begin` ... `end` - 1 belong to `tile`. Runs of one object are in ascending order.
+    /// The result is valid until the next run.
     [[nodiscard]] std::span<const ShadowSum>
     evaluate(std::size_t tile, std::size_t begin, std::size_t end);
 
@@ -38,7 +40,7 @@ private:
         std::int64_t y = 0;
         std::size_t first = 0; // in sources_
     };
-    /// Voxels of a neighbouring tile that are not read yet.
+    /// A neighbouring tile; its voxels from `next` to `end` are not read yet.
     struct Neighbour {
         std::size_t next = 0;
         std::size_t end = 0;
@@ -73,7 +75,7 @@ private:
     std::int32_t depth_ = 0; // along z
     std::int64_t place_count_ = 0;
     std::vector<ShadowSource> sources_; // in rows of ascending y
-    /// Also one after the last row; its `first` is sources_.size().
+    /// Rows of sources_, and one row more, whose `first` is sources_.size().
     std::vector<Row> rows_;
     std::vector<Neighbour> neighbours_;
     std::array<std::size_t, 3> tile_cursors_{}; // tiles at x - 1, x, x + 1

@@ -44,9 +44,9 @@ public:
     [[nodiscard]] std::size_t voxel_count() const { return first_.size() - 1; }
     [[nodiscard]] std::size_t tile_count() const { return first_voxel_.size() - 1; }
     [[nodiscard]] std::size_t first_voxel(std::size_t tile) const { return first_voxel_[tile]; }
-    /// The last tile that begins at or before `voxel`: its own.
+    /// The tile that contains voxel number `voxel`.
     [[nodiscard]] std::size_t tile_of(std::size_t voxel) const;
-    /// Voxels of a tile are sorted by y.
+    /// Position of voxel number `voxel` within its tile. Voxels of a tile are sorted by y.
     [[nodiscard]] TileVoxel voxel(std::size_t voxel) const {
         const std::uint64_t low = records_[first_[voxel]].low;
         const std::uint64_t mask = (std::uint64_t{1} << edge_bits_) - 1;
