@@ -68,7 +68,7 @@ struct ParsedGrammar {
     Diagnostics diagnostics;
     Ast ast;
     std::vector<SourceSpan> statements;
-    bool is_translated = false; // from another dialect: names may be made up
+    bool is_translated = false; // from another dialect: the text may lack some names of the tree
 };
 
 struct NameIndex {

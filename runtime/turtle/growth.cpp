@@ -15,7 +15,8 @@ namespace lsys {
 
 namespace {
 
-/// A value in the earlier drawing (0) and in the later drawing (1).
+/// The value of a quantity in the earlier drawing, at index 0, and in the later drawing, at index
+/// 1.
 template <typename T>
 using Ends = std::array<T, 2>;
 
@@ -38,7 +39,7 @@ struct MovingSegment {
     Ends<float> length{};
     Ends<float> base_radius{};
     Ends<float> tip_radius{};
-    bool is_apart = false; // linked in `after` only, so until then it has a gap to its parent
+    bool is_apart = false; // linked in `after` only: there may be a gap to its parent before time 1
 };
 
 struct MovingObject {
@@ -281,8 +282,8 @@ struct SkeletonGrowth::State {
                 const Polygon& old = before.polygons[old_of[i]];
                 set_end(moving.motion, 0, {}, old.frame);
                 for (std::uint32_t k = 0; k < polygon.corner_count; ++k) {
-                    // If the polygon has more corners than the old one, adjacent corners begin at
-                    // the same point.
+                    // If the polygon has more corners than the old one, several adjacent corners
+                    // begin at one old corner.
                     const auto at = static_cast<std::uint32_t>(std::uint64_t{k} * old.corner_count /
                                                                polygon.corner_count);
                     corners[moving.first_corner + k][0] =
@@ -321,7 +322,8 @@ struct SkeletonGrowth::State {
         out.corners = from.corners;
     }
 
-    /// Copies the drawing of `after`, then the shrinking items of `before`; pose() moves them.
+    /// Copies the drawing of `after`, then the shrinking items of `before`. pose() then moves all
+    /// items.
     void copy_fixed(Skeleton& out) const {
         copy_drawing(after, out);
         for (const std::uint32_t index : shrinking_segments) {

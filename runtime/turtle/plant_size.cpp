@@ -77,9 +77,9 @@ void change_segment(Segment& segment, const StemMaterial& material, const Change
     }
 }
 
-/// Whether the child `i`, which comes before the child `chosen` of the same parent, continues the
-/// parent rather than `chosen`: a child on the axis of the parent comes first, then the one with
-/// more tips, then the first one.
+/// Whether child `i`, which comes before child `chosen` of the same parent, continues the parent
+/// better than `chosen`. A child on the axis of the parent is better than others, then a child with
+/// more tips, then the earlier child.
 bool continues_better(const Skeleton& skeleton,
                       const std::vector<std::uint32_t>& tips,
                       std::uint32_t i,

@@ -141,7 +141,8 @@ struct Turtle::State {
     bool place_centred(const Action& action, float diameter);
     bool save();
     bool restore();
-    /// Skips a module after a `%` or in a skipped branch; the branch's `]` restores the turtle.
+    /// Skips a module after a `%` or in a skipped branch. The `]` of that branch restores the
+    /// turtle.
     bool skip(const Action& action);
     bool save_branch(const Action& action, const float* arguments);
     [[nodiscard]] TurtlePlace current_place() const;
