@@ -209,7 +209,7 @@ struct GrownStage {
     std::shared_ptr<const SourceMap> sources;
     AxiomPlace axiom;
     bool can_reuse_branches = false; // some branch can be replaced by a recorded one
-    bool is_blind = false; // should sense its surroundings, but asks no environment with shade
+    bool is_blind = false; // the scene wants it to sense neighbours, but no environment reads shade
     std::vector<BranchOrigin> origins; // by instance; empty unless grow_stage() is asked for them
 };
 

@@ -128,7 +128,7 @@ private:
         }
     }
 
-    /// The options of one derivation with senses of its own.
+    /// The options of a derivation that uses `senses`.
     static DeriveOptions with_senses(DeriveOptions options, WordSense* senses) {
         options.senses = senses;
         return options;

@@ -39,7 +39,7 @@ public:
     EnvironmentProgram(double seconds, const std::atomic<bool>* cancelled)
         : seconds_(seconds), cancelled_(cancelled) {}
 
-    /// Returns 0 or the reason of the system.
+    /// Returns 0, or the reason for which the system did not start the program.
     int start(const std::string& command) { return program_.start(command); }
 
     std::optional<ProgramFailure>

@@ -666,7 +666,7 @@ private:
         }
     }
 
-    /// Whether all traces of the list are of the pass of `trace`.
+    /// Whether all traces of the list belong to the same pass as `trace`.
     [[nodiscard]] bool is_only_pass(const std::vector<ModuleTrace>& list,
                                     const ModuleTrace& trace) const {
         return std::none_of(list.begin(), list.end(), [&](const ModuleTrace& other) {
