@@ -228,7 +228,7 @@ Json go_to_definition(Workspace& workspace, const Json& params) {
     if (found.use != nullptr) {
         return locations;
     }
-    // The file of an `#include`.
+    // The name may be the file of an `#include`.
     const std::uint32_t offset = at.offset(found.path, params.at("position"));
     for (const StatementOutline& statement : found.index->statements) {
         if (statement.kind == StatementKind::Include && statement.name_place.path == found.path &&

@@ -50,7 +50,7 @@ Json number_of(float value) {
     return std::isfinite(value) ? Json::parse(fmt::format("{}", value)) : Json();
 }
 
-/// A whole number of the parameters from `min` on; `initial` if it is missing.
+/// The parameter `name`, a whole number of at least `min`; `initial` if the parameter is missing.
 std::uint64_t
 whole_number(const Json& params, const char* name, std::uint64_t min, std::uint64_t initial) {
     const Json value = params.value(name, Json(initial));
@@ -117,7 +117,7 @@ std::string text_of(const Messages& messages) {
     return text;
 }
 
-/// The answer without a plant.
+/// Completes `answer` for a request that gives no plant.
 Json failed(Json answer, std::string_view reason, std::string message) {
     answer["plant"] = nullptr;
     answer["reason"] = reason;
@@ -130,7 +130,7 @@ Json stopped(const PlantJob& job, Stop stop, const Messages& messages) {
     return failed(job.answer, is_limit ? "limit" : "grammar", text_of(messages));
 }
 
-/// A file of a grammar, whose places become ranges.
+/// A file of a grammar. Converts places in the file to ranges of LSP.
 class FilePlaces {
 public:
     FilePlaces(const SourceFile& file, std::string uri, PositionEncoding encoding)
@@ -140,7 +140,7 @@ public:
     FilePlaces(const FilePlaces&) = delete;
     FilePlaces& operator=(const FilePlaces&) = delete;
 
-    /// Adds a statement; sort() follows the last one.
+    /// Adds a statement. Call sort() after the last one.
     void add(const SourceSpan& statement) { statements_.push_back(statement); }
     void sort() {
         std::sort(statements_.begin(), statements_.end(),
@@ -228,7 +228,7 @@ private:
     Json all_ = Json::array();
 };
 
-/// The number of the source of each item (number_items()).
+/// The number of the source of each item, in the order of number_items().
 std::vector<std::uint32_t> sources_of_items(const Skeleton& skeleton, Sources& sources) {
     std::vector<std::uint32_t> numbers;
     for (const LargeVector<Origin>* const origins :

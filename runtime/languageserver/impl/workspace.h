@@ -52,7 +52,7 @@ struct Document {
     std::int64_t version = 0;
     bool is_lsys = false;         // the editor calls the language `lsys`
     bool is_dirty = true;         // the diagnostics are out of date
-    bool is_published = false;    // the editor has these diagnostics, unless it pulls them
+    bool is_published = false;    // sent, or the editor requests diagnostics itself
     std::set<std::string> inputs; // files read by the last check
     Json diagnostics = Json::array();
     std::shared_ptr<const CheckedDocument> checked; // null: not checked since the last change
@@ -71,7 +71,7 @@ struct EditorFeatures {
     PositionEncoding encoding = PositionEncoding::Utf16;
 };
 
-/// The result of checking a document.
+/// The result of checking a document, and the file that was checked.
 struct CheckedDocument {
     std::string path; // path of the checked file
     GrammarText text;

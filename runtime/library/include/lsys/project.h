@@ -30,7 +30,7 @@ struct Progress {
     std::uint64_t modules = 0; // modules of this generation written so far
 };
 
-/// Where the turtle stands at a module `?NAME`, in the plant's own axes, +Y up.
+/// The pose of the turtle at a module `?NAME`, in the plant's own axes, +Y up.
 struct SensePlace {
     std::array<double, 3> position{}; // m
     std::array<double, 3> heading{};  // unit vector
@@ -68,8 +68,8 @@ struct Host {
     /// Set to true by another thread to end the call with Status::Cancelled. The library sets it to
     /// true if `progress` or an exception of a callback ends the call. May be null.
     std::atomic<bool>* cancelled = nullptr;
-    /// Answer the environments that `#sense NAME program;` declares, by NAME, in place of the
-    /// programs of `lsc --environment`.
+    /// Functions that answer environments of `#sense NAME program;`, by NAME, in place of programs
+    /// of `lsc --environment`.
     std::map<std::string, EnvironmentFunction> environments;
 };
 
