@@ -33,7 +33,8 @@ std::uint32_t number(SymbolId id) {
     return static_cast<std::uint32_t>(id);
 }
 
-/// Kind of place that code belongs to. It decides which instructions are allowed.
+/// The place in which a piece of code is used, which decides the instructions that the code may
+/// have.
 enum class CodePlace : std::uint8_t { Global, Axiom, Condition, Locals, Successor };
 
 /// Verifies bytecode in one pass over the tables in the order that bytecode.h describes. A check
@@ -142,7 +143,7 @@ private:
         return count < kNone || fail("{} codes", count);
     }
 
-    /// Whether a sense module can ask this.
+    /// Whether `sense` is a value that a symbol may have.
     [[nodiscard]] bool is_sense(Sense sense) const {
         return asks_environment(sense)
                    ? static_cast<std::size_t>(sense) < bytecode_.environments.size()

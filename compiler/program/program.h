@@ -27,8 +27,8 @@ namespace lsys {
 
 enum class ValueId : std::uint32_t {};
 inline constexpr ValueId kNoValue{0xFFFFFFFFu};
-/// Program::values[0]: the literal NaN, which replaces an expression in error. Checks ignore it. No
-/// literal of a valid program has this id.
+/// Program::values[0]: the literal NaN, which replaces an expression in error. Checks do not report
+/// expressions with this value. No literal of a valid program has this id.
 inline constexpr ValueId kPoison{0};
 
 /// A node of an expression: an instruction and its operands. Constants are folded: a node whose

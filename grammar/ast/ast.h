@@ -231,13 +231,15 @@ struct SetNode {
     ListRange values; // in Ast::set_values
 };
 
-/// The index, keys and their values as written; the resolver tells them apart.
+/// The index, the keys and the values of the keys, in one list as written. The resolver decides
+/// which entries are keys.
 struct MaterialNode {
     SourceSpan keyword_span; // `#material`
     ListRange values;        // in Ast::set_values
 };
 
-/// The kind, keys and their values as written; the resolver tells them apart.
+/// The kind, the keys and the values of the keys, in one list as written. The resolver decides
+/// which entries are keys.
 struct SenseNode {
     NameId name = kNoName; // without `?`
     SourceSpan name_span;
@@ -363,7 +365,8 @@ public:
     [[nodiscard]] std::uint32_t index() const { return index_; }
     /// Name of the current module.
     [[nodiscard]] NameId name() const;
-    /// Advances to `index`. Precondition: no module before it has a `(`.
+    /// Advances to module `index`. Precondition: no module from the current one to `index` - 1 has
+    /// a `(`.
     void skip_bare(std::uint32_t index) { index_ = index; }
 
 private:

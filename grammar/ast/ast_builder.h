@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // AstBuilder: builds the Ast of one file, one node per call of the parser. It reports the mistakes
-// that show only in complete nodes (depth of brackets, chained comparisons, ranges without two
-// values). finish_statement() keeps the nodes of a statement or rolls them back, so the Ast holds
-// whole statements.
+// that can be found only in complete nodes: brackets nested too deep, chained comparisons, ranges
+// without two values. finish_statement() keeps the nodes of a statement or rolls them back, so the
+// Ast holds whole statements.
 #pragma once
 
 #include "grammar/ast/ast.h"
@@ -76,8 +76,8 @@ public:
     [[nodiscard]] ModuleList
     module_arguments(ModuleList list, std::uint32_t count, SourceSpan parentheses);
 
-    /// Removes each `//` at or after `begin` of the scanned text from Ast::slashes; another message
-    /// already explains them.
+    /// Removes each `//` at or after `begin` of the scanned text from Ast::slashes, because another
+    /// message already explains these `//`.
     void remove_slashes(std::uint32_t begin);
 
     // --- statements
@@ -134,8 +134,8 @@ public:
     /// statement.
     void recover();
 
-    /// Ends the current statement: keeps its nodes, or rolls them back and marks the Ast as
-    /// incomplete. Returns whether it was kept.
+    /// Ends the current statement: keeps its nodes, or rolls the nodes back and marks the Ast as
+    /// incomplete. Returns whether the statement was kept.
     bool finish_statement(SourceSpan span, bool keep);
     /// Protects all present nodes from rollbacks, for example the nodes of an included file.
     void set_watermark();

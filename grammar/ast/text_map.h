@@ -22,7 +22,8 @@ public:
     /// Replaces the bytes [begin, end) of the source. Precondition: `begin` is not before the end
     /// of the last replacement.
     void replace(std::uint32_t begin, std::uint32_t end, std::string_view replacement);
-    /// Appends the source after the last replacement to text(). Call it once, at the end.
+    /// Appends the source after the last replacement to text(). Call finish() once, after the last
+    /// replacement.
     void finish();
 
     [[nodiscard]] const std::string& text() const { return text_; }

@@ -32,7 +32,7 @@ struct Message {
     enum class Kind : std::uint8_t {
         Diagnostics, // with places in `sources`
         Error,       // failure of the environment
-        Help,        // for the error before it
+        Help,        // advice for the error before the message
         Info,        // about the result
         Detail,      // about the work, for verbose output
     };

@@ -55,7 +55,8 @@ struct DetectedDialect {
 };
 /// Detects the dialect from the extension of `path`; if no dialect has the extension, or if it is
 /// `.l` or `.ls`, which several programs use, from the content of `text`. A `.l` file of unknown
-/// content is L3D. A text of a language that lsc does not read is .lsys, whose front end names it.
+/// content is L3D. A text in a language that lsc does not read is treated as .lsys, whose front end
+/// reports the language.
 [[nodiscard]] DetectedDialect detect_dialect(std::string_view path, std::string_view text);
 
 /// Names of the systems of `text`, in order; none for dialects whose files hold one system.
@@ -63,8 +64,8 @@ struct DetectedDialect {
 /// Whether a file may hold several systems, each with a name.
 [[nodiscard]] bool has_systems(Dialect dialect);
 
-/// Translates the file `root` to .lsys text. Reports mistakes where they stand; after errors the
-/// text is incomplete and not to be used. Precondition: not Dialect::Lsys.
+/// Translates the file `root` to .lsys text. Reports mistakes at their places in the file; after
+/// errors the text is incomplete and must not be used. Precondition: not Dialect::Lsys.
 [[nodiscard]] Translation translate(FileId root, Dialect dialect, const ParseContext& context);
 
 /// Reports a .lsys file that is not text or looks like another language; returns whether it may be

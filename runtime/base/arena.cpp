@@ -20,8 +20,8 @@ constexpr std::size_t kMaxHeapArena = std::size_t{16} << 10;
 constexpr std::align_val_t kHeapAlignment{64}; // a cache line
 /// Max bytes of an arena on small pages; larger arenas use huge pages.
 constexpr std::size_t kMaxSmallArena = std::size_t{1} << 20;
-/// Min bytes in use for which a huge page pays off: zeroing it takes as long as zeroing a third of
-/// it in small pages.
+/// Min bytes in use for which a huge page pays off: zeroing a huge page takes as long as zeroing a
+/// third of its bytes in small pages.
 constexpr std::size_t kMinHugePageUse = kHugePage / 3;
 /// Min bytes of address space of a large arena; only pages that are written take memory.
 constexpr std::size_t kLargeReservation = std::size_t{256} << 20;

@@ -85,7 +85,7 @@ struct LatestJob::State {
     std::mutex mutex; // guards the members below
     std::condition_variable changed;
     std::deque<Entry> entries; // references to entries stay valid
-    /// Time at which the running job is cancelled; unset once it is.
+    /// Time at which the running job will be cancelled; unset if the job has been cancelled.
     std::optional<JobClock::time_point> deadline;
     bool stops = false;
     std::thread worker;

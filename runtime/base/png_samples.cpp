@@ -145,7 +145,8 @@ bool write_rows(png_structp png, png_infop info, const PngSize& size, png_const_
     png_set_filter(png, PNG_FILTER_TYPE_BASE, PNG_FILTER_UP);
     png_set_compression_level(png, kLevel);
     png_set_compression_strategy(png, 0); // the default of zlib
-    // Room for zlib's output even for incompressible bytes, so that it is written as one IDAT.
+    // Make the buffer large enough for zlib's output, even for incompressible bytes, so that libpng
+    // writes the output as one IDAT.
     png_set_compression_buffer_size(png, row_bytes * size.rows / 1000 * 1001 + 1024);
     png_write_info(png, info);
     if (opaque) {

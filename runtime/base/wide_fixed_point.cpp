@@ -143,7 +143,7 @@ double rounded(const WideFixedPoint& number, int exponent) {
     const int result_exponent = top - WideFixedPoint::kFractionBits + exponent;
     // Bits that a subnormal result lacks.
     const int lost = std::max(0, kLeastExponent - result_exponent);
-    const int kept = kPrecision - lost; // bits of the result; below 0 it is 0
+    const int kept = kPrecision - lost; // bits of the result; if negative, the result is 0
     if (kept < 0) {
         return 0.0;
     }

@@ -79,7 +79,7 @@ public:
     [[nodiscard]] virtual std::optional<Stop>
     sense(Word& word, std::uint32_t age, DerivationEnd& end) = 0;
     /// The data that environments keep from one word to the next, such as markers that are left, as
-    /// bytes for a saved state. Empty if they keep nothing.
+    /// bytes for a saved state. Empty if environments keep no data.
     [[nodiscard]] virtual std::string state() const = 0;
     /// Continues from bytes of state(), after begin(). False: the bytes are not of this program.
     [[nodiscard]] virtual bool restore(std::string_view state) = 0;
@@ -95,8 +95,8 @@ struct DerivationPass {
     std::uint64_t first_draw = 0; // number of the first draw of each module
     const Word* in = nullptr;
     const Word* out = nullptr; // null: the pass is about to begin
-    /// Down, Up: the module at which the sweep ended with an error; kNoFault: none. Modules that it
-    /// had not visited are in `out` as in `in`.
+    /// Down, Up: the module at which the sweep ended with an error; kNoFault: none. Modules that
+    /// the sweep had not visited are equal in `in` and `out`.
     std::uint64_t fault = kNoFault;
     static constexpr std::uint64_t kNoFault = ~std::uint64_t{0};
 };
@@ -118,8 +118,8 @@ struct DeriveOptions {
     std::function<void(std::uint32_t generation, std::uint64_t modules_written)> progress;
     /// Called before and after each pass. Before a pass, each origin in `in` is set to the index of
     /// its module, so the origins in `out` name the modules of `in` that were rewritten. Not called
-    /// for passes that cannot change the word; after a pass with an error only if it is a sweep.
-    /// Precondition: `origins`; fewer than 2^32 modules.
+    /// for passes that cannot change the word; not called after a pass that ends with an error,
+    /// except a sweep. Precondition: `origins`; fewer than 2^32 modules.
     std::function<void(const DerivationPass& pass)> on_pass;
 };
 
@@ -130,8 +130,8 @@ struct DerivationEnd {
     LimitReport limit;        // for Stop::Limit and Stop::OutOfMemory
 };
 
-/// One derivation in progress. Holds a reference to the bytecode, which outlives it. Functions that
-/// return a Stop return none on success; end() has the facts.
+/// One derivation in progress. The bytecode must outlive the object. Functions that return a Stop
+/// return none on success; end() has the facts.
 class Derivation {
 public:
     Derivation(const Bytecode& bytecode, DeriveOptions options);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// State files: derivations saved before their end (`--save-state`, `--from`). A file holds the
-// digest of the program, seed, number of generations, age, word and what the environments of sense
-// modules keep, with magic, versions and a checksum; state_file.cpp shows the layout.
+// State files: derivations saved before their end (`--save-state`, `--from`). A file has the digest
+// of the program, seed, number of generations, age, word, and the data that the environments of
+// sense modules keep, with magic, versions and a checksum; state_file.cpp shows the layout.
 #pragma once
 
 #include "compiler/bytecode/bytecode.h"
@@ -34,7 +34,7 @@ struct SavedState {
     std::string sense_state; // Derivation::sense_state(), for Derivation::resume()
 };
 
-/// Hands the bytes of a state file to `flush`, in order and in few pieces, without copying the
+/// Passes the bytes of a state file to `flush`, in order and in few pieces, without copying the
 /// word. Returns false as soon as flush does.
 [[nodiscard]] bool write_state(const StateHeader& header,
                                const Word& word,

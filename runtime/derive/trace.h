@@ -107,7 +107,8 @@ LSYS_COUNTED_ENUM(Verdict,
                   NotDrawn,  // it matches, but another production was drawn
                   NotTried); // an earlier production was taken
 
-/// A production for modules of the traced module's name, and why it applies or does not.
+/// A production whose predecessor has the name of the traced module, and the reason why the
+/// production applies or does not.
 struct Attempt {
     ProductionId production = kNoProduction;
     Verdict verdict = Verdict::NotTried;
@@ -238,8 +239,8 @@ public:
     /// changes nothing.
     void finish();
 
-    /// All traces, each after its parent: of the modules of begin() in each pass, and of modules
-    /// written for them to which productions of later passes may apply.
+    /// All traces, each after its parent: of the modules given to begin(), in each pass, and of
+    /// modules written for these modules, if productions of later passes may apply to them.
     [[nodiscard]] const std::vector<ModuleTrace>& traces() const;
     /// A module of the last word of the step.
     struct Place {

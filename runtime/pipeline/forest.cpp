@@ -210,7 +210,7 @@ struct GrownStage {
     AxiomPlace axiom;
     bool can_reuse_branches = false; // some branch can be replaced by a recorded one
     bool is_blind = false; // the scene wants it to sense neighbours, but no environment reads shade
-    std::vector<BranchOrigin> origins; // by instance; empty unless grow_stage() is asked for them
+    std::vector<BranchOrigin> origins; // by instance; empty for a stage without `origins_of`
 };
 
 /// The origins of the instances, by instance; empty if the cache has no origins.

@@ -88,8 +88,9 @@ placement_options(const Scene& scene, const Project& project, const GrownForest&
 /// An upper bound of the scale of a tree of a species. Not for Domination, whose trees grow.
 [[nodiscard]] double
 max_scale(const PlacementOptions& options, const TreeSizer& sizer, std::uint16_t species);
-/// Width in m of a border around a part of a forest: trees in it can be neighbours of trees of the
-/// part. 0 if no species of `kinds` senses its surroundings. Not for Domination.
+/// Width in m of a border around a part of a forest, such that all neighbours of trees of the part
+/// are in the part or the border. 0 if no species of `kinds` senses its surroundings. Not for
+/// Domination.
 [[nodiscard]] double
 halo_of(const PlacementOptions& options, const Forest& kinds, const TreeSizer& sizer);
 

@@ -604,7 +604,7 @@ private:
         }
     }
 
-    /// What a sense module asks: "the environment `light` (shadow)", "the turtle".
+    /// The target of a sense module's question: "the environment `light` (shadow)", "the turtle".
     [[nodiscard]] std::string asked_text(const TracedModule& asking) const {
         const Sense sense = bytecode_.symbol(asking.symbol).sense;
         if (!asks_environment(sense)) {

@@ -62,8 +62,9 @@ float spring_of(const Segment& segment, double elasticity) {
                           to_double(segment.tip_radius), elasticity);
 }
 
-/// Calls change(segment), and computes the mass and spring of the segment again. Values that differ
-/// from those of the old shape were given by the author and stay.
+/// Calls change(segment), and computes the mass and spring of the segment again. A mass or spring
+/// that differs from the one computed for the old shape was given by the author and stays
+/// unchanged.
 template <typename Change>
 void change_segment(Segment& segment, const StemMaterial& material, const Change& change) {
     const bool mass_follows = segment.mass == mass_of(segment, material.density);

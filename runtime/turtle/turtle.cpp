@@ -122,8 +122,8 @@ void Turtle::State::run_some(std::span<const C> codes,
     position = first + codes.size();
 }
 
-/// Walks over words of L3D, whose parameters are characters in parentheses. A command is executed
-/// when its parameter has been read, one or more modules later.
+/// Executes the modules of a word of L3D, whose parameters are characters in parentheses. A command
+/// is executed when its parameter has been read, one or more modules later.
 template <typename C>
 void Turtle::State::run_text(std::span<const C> codes,
                              const float*& parameters,

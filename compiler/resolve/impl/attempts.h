@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The probable kind of statements that did not parse, from a second look at the text, so that a
-// damaged `#define a 2 2;` does not make every use of `a` an error. Empty unless Ast::incomplete.
+// The statements and names that a text with syntax errors seems to have, found by a simple search
+// of the text, so that a wrong `#define a 2 2;` does not make every use of `a` an error. Empty
+// unless Ast::incomplete.
 #pragma once
 
 #include "compiler/resolve/impl/resolution.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Keys with values, as #material and #sense have them.
+// The keys of #material and #sense statements, with their values.
 #pragma once
 
 #include "compiler/resolve/impl/resolution.h"
@@ -18,8 +18,8 @@ struct KeyedValues {
 };
 
 /// Splits values into keys, each with the values up to the next key. A word is a key, unless
-/// is_value(word, key) says that it is a value of the key before it. Values before the first key
-/// are dropped; Precondition: the caller has reported them.
+/// is_value(word, key) says that it is a value of the key before it. Drops values before the first
+/// key. Precondition: the caller has reported such values.
 template <typename IsValue>
 [[nodiscard]] std::vector<KeyedValues>
 split_keyed_values(const Ast& ast, ListRange range, IsValue is_value) {

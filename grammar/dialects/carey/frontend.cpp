@@ -87,7 +87,7 @@ void write_choice(const CareyRule& rule,
 }
 
 /// Writes a rule as a production whose left side ends in a module with `parameters` parameters. The
-/// last module of its right side gets them.
+/// last module of the rule's right side gets these parameters.
 void write_production(const CareyRule& rule,
                       const RuleSelection& selection,
                       std::size_t parameters,

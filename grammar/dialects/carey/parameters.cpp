@@ -117,7 +117,7 @@ private:
             [](const PlacedModule& a, const PlacedModule& b) { return a.form == b.form; });
     }
 
-    /// Hands the parameters of a module to the last symbol of the rule's right side. Reports and
+    /// Gives the parameters of a module to the last symbol of the rule's right side. Reports and
     /// returns false if that symbol cannot have parameters.
     bool follow(const RuleWithModules& rule, const PlacedModule& module) {
         if (takes_parameters(rule)) {

@@ -47,7 +47,7 @@ public:
 
     /// Suppresses reports, for statements whose mistakes have been reported.
     void set_quiet(bool quiet) { quiet_ = quiet; }
-    /// Warns once per `what` that lsc leaves it out.
+    /// Warns that lsc ignores `what`, once for each `what`.
     void warn_left_out(SourceSpan span, const std::string& what, const std::string& message);
 
 private:

@@ -15,7 +15,8 @@ namespace lsys {
 
 namespace {
 
-/// Max bytes of all expanded macros. Only macros that use other macros several times each reach it.
+/// Max bytes of all expanded macros. Only macros that each use another macro several times reach
+/// this limit.
 constexpr std::size_t kMaxExpanded = std::size_t{1} << 24;
 constexpr int kMaxMacroDepth = 64;
 

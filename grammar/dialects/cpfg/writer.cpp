@@ -495,7 +495,7 @@ void CpfgWriter::write_successor(std::size_t index, const ForeignWriting& how) {
 }
 
 /// Writes the productions of a module with random conditions or choices: the first production draws
-/// the random numbers, the others choose by them.
+/// the random numbers, and the others are chosen by these numbers.
 void CpfgWriter::write_group(std::size_t index) {
     const std::vector<std::size_t>& members = groups_.at(index);
     const CpfgProduction& first = session_.productions[index];

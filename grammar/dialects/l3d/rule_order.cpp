@@ -29,7 +29,7 @@ struct Key {
     std::vector<std::string_view> values;
 };
 
-/// Indices of keys in the order in which a generation replaces them.
+/// Indices of keys, in the order in which a generation applies the rules of the keys.
 using Order = std::vector<std::size_t>;
 
 std::vector<Key> keys_of(const std::vector<L3dRule>& rules, const SourceMap& sources) {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // .ls: the files of Lparser (Laurens Lapre). Recursion depth, basic angle and thickness, the axiom,
-// rules `A=...` of one symbol, and a line `@`; or the same as lines with keywords, `recursion 12`
-// and `rule A = ...`. The turtle is the profile `houdini`, which scales step, width and angle; each
-// command of Lparser becomes modules of this profile.
+// rules `A=...` of one symbol, and a line `@`; or the same values as lines with keywords,
+// `recursion 12` and `rule A = ...`. The turtle is the profile `houdini`, which scales step, width
+// and angle; each command of Lparser becomes modules of this profile.
 //
 // Lparser draws a segment as thick as its length times the thickness. Here the width is that of a
 // segment of the current step, so a command that scales the step scales the width, too.
@@ -279,7 +279,8 @@ private:
         return modules;
     }
 
-    /// `tail`: parameter of the last module, if it has none of its own and is no bracket.
+    /// `tail`: parameter for the last module of the list, if that module has none of its own and is
+    /// no bracket.
     void write_modules(SourceSpan list, std::string_view tail = {}) {
         std::size_t polygons = 0; // open `{`
         read_letter_modules(list, context_, [&](const LetterModule& module) {

@@ -384,7 +384,7 @@ std::string lowered(std::string_view text) {
 }
 
 /// The text after `word` and one of `signs`: `6` for `n = 6`. Returns nullopt if the line does not
-/// begin with these.
+/// begin with `word` and a sign.
 std::optional<std::string_view>
 value_after(std::string_view line, std::string_view word, std::string_view signs) {
     if (!lowered(line.substr(0, word.size())).starts_with(word)) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // A part of a source line as a terminal shows it: tabs expanded, invisible characters spelt out,
-// with the column of each byte. For the frames of messages; bounded in size for lines of any
-// length.
+// with the column of each byte. Used for the source lines in messages; the size of an excerpt is
+// limited even for very long lines.
 #pragma once
 
 #include "grammar/base/utf8.h"

@@ -90,7 +90,7 @@ public:
     };
     /// The block of the first level, to be filled; null pointers if the limit on memory is reached.
     [[nodiscard]] Block first_block();
-    /// Sends the `count` modules in the first block down all levels.
+    /// Rewrites the `count` modules in the first block through all levels.
     [[nodiscard]] std::optional<Stop> push(std::uint64_t count);
 
     [[nodiscard]] RuntimeError& error() { return error_; }

@@ -213,8 +213,8 @@ public:
     [[nodiscard]] bool all_fixed() const { return active_.dynamic_rows == 0; }
     [[nodiscard]] bool needs_contexts() const { return active_.needs_contexts; }
     [[nodiscard]] bool reads_contexts() const { return active_.reads_contexts; }
-    /// The max number of modules that a match replaces. It may exceed 1 in leftmost rewriting, and
-    /// in a pass of one rule, where every match replaces this number.
+    /// The max number of modules that a match replaces. This number may exceed 1 in leftmost
+    /// rewriting, and in a pass of one rule, in which every match replaces this number of modules.
     [[nodiscard]] std::uint32_t predecessor_count() const { return active_.predecessor_count; }
     /// Modules replaced by a match whose successor is `entry`.
     [[nodiscard]] std::uint32_t replaced_modules(const Entry& entry) const {

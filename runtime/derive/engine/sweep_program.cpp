@@ -140,8 +140,8 @@ SweepProgram::SweepProgram(const Bytecode& bytecode, const PlanInputs& inputs, S
     }
 }
 
-/// Adds the elements of the context, whose formals `compiler` then knows; false if the context has
-/// another form.
+/// Adds the elements of the context, and tells `compiler` where their formals are. Returns false if
+/// the context is anything but branches of at most one module each, followed by at most one module.
 bool SweepProgram::add_contexts(const Bytecode& bytecode,
                                 TableRange pattern,
                                 Compiler& compiler,

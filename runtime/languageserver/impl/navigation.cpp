@@ -132,7 +132,8 @@ std::string reason_against(const NameAt& at) {
                                           : quoted(use.name) + " is not defined";
 }
 
-/// Whether renaming keeps the meaning: after it, every name has the same role.
+/// Whether renaming keeps the meaning: whether every name has the same kind and scope before and
+/// after it.
 bool is_kept(const NameIndex& before,
              const NameIndex& after,
              const NameUse& renamed,

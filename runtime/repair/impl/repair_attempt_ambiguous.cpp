@@ -82,7 +82,8 @@ std::set<DiagnosticCode> RepairAttempt::codes_of_single_mistakes() const {
     return single;
 }
 
-/// Whether the author may have mistyped the sign that a fix added as a character beside it.
+/// Whether a fix added a sign that the author may have typed, wrongly, as a character next to its
+/// place.
 bool RepairAttempt::may_be_mistyped(const AppliedFix& fix) const {
     if (fix.added == '\0' || fix.added == '#') {
         return false; // characters beside a `#` belong to a label, whose spelling changes no word

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The operations of a SensingTurtle that move or turn it, or place organs; their meaning is that of
-// commands.cpp and dialects.cpp.
+// The operations of a SensingTurtle that move or turn the turtle, or place organs. Their effects
+// equal those of the operations in commands.cpp and dialects.cpp.
 #include "grammar/base/contract.h"
 #include "runtime/base/out_of_memory.h"
 #include "runtime/derive/brackets.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The state of a SensingTurtle. The walk over a word is in sensing_turtle.cpp, the operations are
-// in sensing_operations.cpp.
+// The state of a SensingTurtle. The loop over the modules of a word is in sensing_turtle.cpp, the
+// operations are in sensing_operations.cpp.
 #pragma once
 
 #include "runtime/base/exact_functions.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The state of a Turtle while it draws. The walk over a word is in turtle.cpp, the commands are in
-// commands.cpp.
+// The state of a Turtle while it draws. The loop over the modules of a word is in turtle.cpp, the
+// commands are in commands.cpp.
 #pragma once
 
 #include "runtime/base/out_of_memory.h"
@@ -61,7 +61,7 @@ struct PendingCommand {
     std::string text;
 };
 
-/// Brush and pose. The walk copies them separately, because it keeps the pose in registers.
+/// Brush and pose. run_some() copies the two separately, because it keeps the pose in registers.
 struct TurtleState : Brush {
     Pose pose;
 };
