@@ -102,7 +102,7 @@ struct BytecodeSymbol {
     SymbolKind kind = SymbolKind::Plain;
     bool ignored = false; // contexts skip the symbol (#ignore, #consider)
     TurtleOperation turtle = TurtleOperation::Nothing;
-    std::string mesh_file; // for TurtleOperation::MeshFile
+    std::string mesh_file; // path of the file, for TurtleOperation::MeshFile
     Sense sense = Sense::Nothing;
 
     /// Whether the symbol is a sense module, `?NAME`.

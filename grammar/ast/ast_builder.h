@@ -147,7 +147,7 @@ private:
         None,  // no name yet, or a character that was reported because it is not a module
         Empty, // an empty text in back quotes
         Bare,
-        Called, // with parameters
+        Called, // a module with parameters
     };
     /// Sizes of the Ast without the current statement, to which a rollback returns.
     struct Watermark {

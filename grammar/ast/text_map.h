@@ -43,7 +43,7 @@ private:
 
     std::string_view source_;
     std::string text_;
-    std::uint32_t consumed_ = 0; // bytes of source_
+    std::uint32_t consumed_ = 0; // number of bytes of source_ that are in text()
     ChunkedVector<Edit> edits_;
     // Last result of edits_ending_by(), a start for the next search: offsets mostly ascend.
     mutable std::size_t hint_ = 0;
@@ -54,7 +54,7 @@ struct ScannedText {
     FileId file = kNoFile;
     std::string_view text;
     const TextMap* map = nullptr;             // null if the text is the file's own
-    const Translation* translation = nullptr; // for a file of another dialect, instead of a map
+    const Translation* translation = nullptr; // replaces `map` for a file of another dialect
 
     [[nodiscard]] std::uint32_t source_begin(std::uint32_t offset) const {
         if (translation != nullptr) {

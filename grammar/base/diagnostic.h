@@ -78,7 +78,7 @@ struct Diagnostic {
     std::vector<std::string> notes;
     std::vector<std::string> help;
     std::vector<Fix> fixes;
-    std::vector<Fact> facts; // in JSON only; the texts state the same facts
+    std::vector<Fact> facts; // shown in JSON only; the texts state the same facts
 };
 
 /// Adds a fix of one edit, which replaces `span`.

@@ -30,14 +30,14 @@ enum class Stop : std::uint8_t {
 /// One message of a step, rendered by programs as text, as JSON or in a window.
 struct Message {
     enum class Kind : std::uint8_t {
-        Diagnostics, // with places in `sources`
+        Diagnostics, // diagnostics whose places are in `sources`
         Error,       // failure of the environment
         Help,        // advice for the error before the message
         Info,        // about the result
         Detail,      // about the work, for verbose output
     };
     Kind kind = Kind::Diagnostics;
-    std::string text; // for all kinds except Diagnostics
+    std::string text; // empty for Diagnostics
     Diagnostics diagnostics;
     std::shared_ptr<const SourceMap> sources; // files of Diagnostics; null if none has a place
 };

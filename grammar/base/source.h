@@ -70,7 +70,7 @@ private:
     std::string text_;
     bool has_byte_order_mark_ = false;
     std::vector<std::uint32_t> line_begins_;
-    std::vector<Checkpoint> checkpoints_; // ascending
+    std::vector<Checkpoint> checkpoints_; // ascending by offset
 };
 
 /// Maximum size of a file: offsets have 32 bits.

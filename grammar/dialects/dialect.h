@@ -27,8 +27,8 @@ enum class Dialect : std::uint8_t {
 struct DialectRow {
     Dialect dialect{};
     std::string_view name;       // value of the option --dialect
-    std::string_view title;      // in messages
-    std::string_view extensions; // with dots, separated by blanks
+    std::string_view title;      // name of the dialect in messages
+    std::string_view extensions; // extensions with dots, separated by blanks
     std::string_view turtle;     // default profile: the `#set turtle` of a translation
     std::string_view page;       // page of the manual, from the root of the sources
 

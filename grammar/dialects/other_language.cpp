@@ -13,7 +13,7 @@ namespace lsys {
 namespace {
 
 struct Line {
-    std::string_view text; // without blanks at its ends
+    std::string_view text; // the line without blanks at its ends
     std::uint32_t begin = 0;
 };
 

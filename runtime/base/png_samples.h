@@ -18,7 +18,7 @@ namespace lsys {
 struct PngSamples {
     std::uint32_t columns = 0;
     std::uint32_t rows = 0;
-    std::uint32_t channels = 0; // per pixel
+    std::uint32_t channels = 0; // channels per pixel
     std::vector<std::uint8_t> bytes;
 };
 

@@ -49,8 +49,8 @@ struct RuntimeError {
     float maximum = 0.0F; // the second argument of BadDistribution
     Opcode opcode = Opcode::Range;     // for BadDistribution
     std::uint32_t global = kNone;      // for OutOfBounds and errors while globals are drawn
-    bool in_condition = false;         // in a condition or weight; false: in an argument
-    bool in_weight = false;            // in a weight; in_condition is then true
+    bool in_condition = false;         // true: in a condition or weight; false: in an argument
+    bool in_weight = false;            // true: in a weight; in_condition is then also true
     std::uint32_t environment = kNone; // for SenseFailed: index in Bytecode::environments, or kNone
     std::string text; // for SenseFailed: the reason, for example "its program has ended"
     std::string help; // for SenseFailed: advice for the author, or empty
@@ -126,8 +126,8 @@ struct DeriveOptions {
 /// The reason why a derivation ended before its last word, as facts for messages.
 struct DerivationEnd {
     std::optional<Stop> stop; // none: the derivation is complete, or may go on
-    RuntimeError error;       // for Stop::Diagnosed
-    LimitReport limit;        // for Stop::Limit and Stop::OutOfMemory
+    RuntimeError error;       // set with Stop::Diagnosed
+    LimitReport limit;        // set with Stop::Limit and Stop::OutOfMemory
 };
 
 /// One derivation in progress. The bytecode must outlive the object. Functions that return a Stop

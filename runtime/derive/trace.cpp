@@ -93,7 +93,7 @@ struct StepTracer::State {
     std::vector<ModuleTrace>
         traces_without_pass;                     // traces of the roots, if the engine makes no pass
     std::vector<std::uint32_t> pass_productions; // productions of the current pass
-    std::size_t first_of_pass = 0;               // in traces
+    std::size_t first_of_pass = 0;               // index in traces
     /// By place: the index of its trace in the current pass; kNoTrace: the module was copied and
     /// has no trace.
     std::vector<std::size_t> trace_of_place;

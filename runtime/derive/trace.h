@@ -38,7 +38,7 @@ module_text(const Bytecode& bytecode, std::string_view name, const std::vector<f
 
 /// A module that a context search visited.
 struct VisitedModule {
-    std::uint64_t position = 0; // in the word read
+    std::uint64_t position = 0; // position in the word that the pass reads
     std::uint32_t item = 0;     // pattern item that the module was compared with
     TracedModule module;
 };
@@ -170,7 +170,7 @@ struct ModuleTrace {
     std::size_t root = 0;          // index of the start module in StepTracer::begin()
     std::size_t parent = kNoTrace; // the trace that wrote the module, in StepTracer::traces()
     std::uint64_t offset = 0;      // index in ModuleTrace::written of the parent
-    std::uint64_t position = 0;    // in the word read
+    std::uint64_t position = 0;    // position in the word that the pass reads
     TracedModule module;
 
     std::vector<Attempt> attempts; // in file order

@@ -215,7 +215,7 @@ std::optional<std::string> read_answers(std::string_view line,
                                         std::vector<std::uint32_t>& sizes) {
     AnswerReader reader(line);
     const auto malformed = [&] {
-        constexpr std::size_t kShown = 60; // characters
+        constexpr std::size_t kShown = 60; // max characters of the line in the message
         return fmt::format("its program answered `{}{}`, not {{\"answers\": [[numbers], ...]}}",
                            line.substr(0, kShown), line.size() > kShown ? "..." : "");
     };

@@ -95,7 +95,7 @@ private:
     EnvironmentContext context_;
     EnvironmentMesh crown_; // mesh of SpaceShape::Mesh, moved to its place
     std::unique_ptr<TriangleTree> crown_tree_;
-    std::optional<MarkerShape> shape_; // after begin()
+    std::optional<MarkerShape> shape_; // set by begin()
     std::uint64_t seed_ = 0;
     LargeVector<Marker> markers_; // markers that no place has killed, by ascending index
 };

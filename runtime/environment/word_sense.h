@@ -41,7 +41,7 @@ struct SenseOptions {
 
 /// The places of an environment in a word, and its answers.
 struct SensedEnvironment {
-    std::vector<SenseModule> modules; // in word order
+    std::vector<SenseModule> modules; // sense modules in word order
     std::vector<SensePlace> places;   // the places of `modules`
     std::vector<float> answers;       // answers to `modules`, one after the other
     std::vector<std::uint32_t> sizes; // numbers of each answer, if the kind has no fixed number

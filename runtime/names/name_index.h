@@ -31,7 +31,7 @@ struct TextPlace {
 };
 
 struct NameUse {
-    TextPlace place; // without back quotes
+    TextPlace place; // place of the name without back quotes
     NameKind kind{};
     std::string name;
     TextPlace scope; // statement of a formal; else empty

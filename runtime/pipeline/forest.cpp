@@ -202,7 +202,7 @@ Outcome<GroundPictures> make_ground_pictures(const LoadedScene& loaded,
 /// One stage of a species: its heroes with one number of generations, and the mesh files of its
 /// grammar.
 struct GrownStage {
-    std::vector<ForestStage> stages; // one, or one for each case of Surroundings
+    std::vector<ForestStage> stages; // one stage, or one for each case of Surroundings
     std::vector<UserMesh> user_meshes;
     Settings settings;      // settings of the grammar
     SourceSpan height_span; // place of `#set height` in the grammar

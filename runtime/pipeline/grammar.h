@@ -25,7 +25,7 @@ namespace lsys {
 
 /// Displacement of an environment of `#sense`: of its obstacles, its markers or its map.
 struct EnvironmentMove {
-    std::string name;          // without the `?`
+    std::string name;          // name without the `?`
     std::array<float, 3> by{}; // m, in the plant's own axes; finite
 
     friend bool operator==(const EnvironmentMove&, const EnvironmentMove&) = default;

@@ -23,8 +23,8 @@ namespace {
 /// Max numbers of items shown, so that the report of a module fits one screen.
 constexpr std::size_t kMaxParts = 12;
 constexpr std::size_t kMaxWritten = 60;
-constexpr std::size_t kMaxLater = 8;   // modules of later passes
-constexpr std::size_t kMaxVisited = 6; // modules that a context search visited
+constexpr std::size_t kMaxLater = 8;   // max modules of later passes
+constexpr std::size_t kMaxVisited = 6; // max modules that a context search visited
 /// Max width of a line that joins shorter lines.
 constexpr std::size_t kMaxListColumns = 96;
 /// Max number of productions with frames. If there are more, each production that does not apply

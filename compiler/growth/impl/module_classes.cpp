@@ -16,7 +16,7 @@ namespace {
 
 constexpr std::uint32_t kUnknownBits = 0xFFFFFFFFU; // bits of a NaN; parameters are never NaN
 constexpr std::uint64_t kMaxGridWork = 65'536;      // max points times productions
-constexpr std::size_t kMaxVariableModules = 65'536; // per word
+constexpr std::size_t kMaxVariableModules = 65'536; // max variable modules per word
 
 } // namespace
 

@@ -13,8 +13,8 @@ namespace lsys {
 /// A key and the values behind it, as written.
 struct KeyedValues {
     NameId key = kNoName;
-    SourceSpan span;  // of the key
-    ListRange values; // in Ast::set_values
+    SourceSpan span;  // place of the key
+    ListRange values; // range of Ast::set_values
 };
 
 /// Splits values into keys, each with the values up to the next key. A word is a key, unless

@@ -21,7 +21,7 @@ constexpr std::size_t kNone = std::string_view::npos;
 constexpr std::string_view kBlanks = " \t\r\n";
 
 struct Key {
-    std::string_view name; // in lower case, blanks as they are
+    std::string_view name; // name in lower case, with blanks as in the file
     AbopKey key;
 };
 constexpr std::array kKeys{
@@ -590,7 +590,7 @@ private:
     SourceSpan more_;                 // the rest of the line after a setting
     std::vector<SourceSpan> bare_;    // lines of symbols before the first rule
     std::vector<SourceSpan> unread_;  // lines without meaning
-    bool is_unread_reported_ = false; // one such line is reported
+    bool is_unread_reported_ = false; // an unread line has been reported
     std::size_t statements_ = 0;
     std::size_t others_ = 0;
 };

@@ -265,7 +265,7 @@ void AbopWriter::write_drawings() {
     }
     for (const auto& [head, span] : segments_) {
         const std::size_t open = head.find('(');
-        const char forward = head[1]; // after the back quote
+        const char forward = head[1]; // the first character after the back quote
         out_.put("#interpret draw" + std::to_string(++index) + " : " + head + " : * : " + forward +
                      (open == kNone ? std::string() : head.substr(open)) + ";\n",
                  span);

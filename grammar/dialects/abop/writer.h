@@ -26,7 +26,7 @@ private:
     enum class Place : std::uint8_t { Word, Pattern, List };
     struct Symbol {
         SourceSpan span;
-        std::string name; // in .lsys, in back quotes where necessary
+        std::string name; // name in .lsys, in back quotes where necessary
         SourceSpan inner; // between the parentheses; empty: there are none
         bool has_arguments = false;
     };

@@ -21,7 +21,7 @@ using SymbolForm = std::pair<char32_t, std::size_t>;
 
 struct PlacedModule {
     SymbolForm form;
-    SourceSpan span; // with the parameters
+    SourceSpan span; // place of the module with its parameters
 };
 
 struct RuleWithModules {

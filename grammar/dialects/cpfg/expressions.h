@@ -121,7 +121,7 @@ private:
     bool binds_draws_ = false;
     bool in_header_ = false;
     bool in_axiom_ = false;
-    bool in_step_ = false; // in a block that runs in each step
+    bool in_step_ = false; // whether the current block runs in each step
     bool has_integer_part_ = false;
     bool has_normal_ = false;
     bool quiet_ = false;

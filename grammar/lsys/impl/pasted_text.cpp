@@ -90,7 +90,7 @@ void repair_fences(DraftText& draft) {
         return;
     }
     Fix fix{fences.size() == 1 ? "remove the line" : "remove these lines", {}, false};
-    std::vector<const FreeLine*> prose; // before the first fence and after the last
+    std::vector<const FreeLine*> prose; // lines before the first fence and after the last
     for (const FreeLine& line : lines) {
         const bool is_outside = line.begin < fences.front()->begin ||
                                 (fences.size() > 1 && line.begin > fences.back()->begin);

@@ -23,7 +23,7 @@ struct Excerpt {
         std::uint32_t column = 0;
     };
 
-    std::string text;                   // for printing
+    std::string text;                   // text to print
     std::vector<CharacterPlace> places; // ascending; the last is the end of the excerpt
     std::size_t begin = 0;              // first byte within the line
     std::size_t end = 0;                // one past the last byte

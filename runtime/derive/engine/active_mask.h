@@ -18,8 +18,8 @@ namespace lsys {
 
 /// Bits of 64 modules, the first in the lowest bit.
 struct ActiveBits {
-    std::uint64_t active = 0; // may be rewritten
-    std::uint64_t stores = 0; // stores a parameter
+    std::uint64_t active = 0; // modules that may be rewritten
+    std::uint64_t stores = 0; // modules that store a parameter
 };
 
 /// std::popcount without the library call that it compiles to for machines without the instruction.

@@ -59,7 +59,7 @@ struct LevelBlock {
     std::span<const C> codes;
     const float* parameters = nullptr;
     const Origin* origins = nullptr;  // null unless LevelOptions::origins
-    std::uint64_t first_position = 0; // in the last word
+    std::uint64_t first_position = 0; // position of the first module in the last word
 };
 
 struct LevelOptions {

@@ -49,7 +49,7 @@ struct alignas(64) Entry {
     std::uint32_t first_place = 0;   // index of the successor in template_codes
     bool general = false;            // parameters need a batch or evaluate()
     bool reads_own = false;          // terms read parameters of the rewritten module
-    bool special = false;            // not written by one wide store of codes and one of terms
+    bool special = false;            // needs more than one wide store of codes and one of terms
     bool batched = false;            // special for its parameters only, which a batch computes
 };
 
@@ -319,7 +319,7 @@ private:
     TableRange productions_;
     bool families_by_symbol_; // a family holds all productions of its symbol
     std::uint32_t generation_ = 0;
-    std::optional<GlibcRuleDraws> glibc_draws_; // with `random glibc`
+    std::optional<GlibcRuleDraws> glibc_draws_; // set with `random glibc`
 
     std::vector<Row> rows_; // by code
     std::vector<Entry> entries_;

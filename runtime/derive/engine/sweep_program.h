@@ -45,7 +45,7 @@ struct SweepNeighbour {
 /// An element of a context: the first module of a branch, or the next module of the axis.
 struct SweepContext {
     SymbolId symbol = kNoSymbol; // kNoSymbol: any branch
-    std::uint32_t base = 0;      // in SweepBases
+    std::uint32_t base = 0;      // index in SweepBases
 };
 
 struct SweepCandidate {

@@ -51,7 +51,7 @@ struct CellContent {
 
 /// Converts the leaf area in a cell to the opacity of the cell per metre of path.
 struct Extinction {
-    double extinction = 0.0; // per leaf area index
+    double extinction = 0.0; // extinction coefficient per leaf area index
     double volume = 0.0;     // volume of a cell, m^3
 
     [[nodiscard]] double opacity(double area) const { return extinction * area / volume; }
@@ -103,7 +103,8 @@ public:
 
 private:
     static constexpr std::uint32_t kBlockBits = 3;
-    using Steps = std::array<std::uint64_t, 3>; // up to 2^32
+    /// Cells from CellBox::low along each axis; up to 2^32.
+    using Steps = std::array<std::uint64_t, 3>;
     /// Identifies a cell or block; never 0, which marks an unused entry.
     struct Key {
         std::uint64_t high = 0;

@@ -27,7 +27,7 @@ namespace lsys {
 /// A triangle of a mesh, in the order of the leaves of a tree.
 struct LeafTriangle {
     std::array<std::uint32_t, 3> vertices{};
-    std::uint32_t index = 0; // in the file
+    std::uint32_t index = 0; // index of the triangle in the file
 };
 
 inline constexpr std::size_t kTrianglesPerLeaf = kLanes;

@@ -22,7 +22,7 @@ struct PointTree {
         Vector3 high{};
         SplitNode items;
     };
-    LargeVector<Node> nodes;              // in preorder; none without places
+    LargeVector<Node> nodes;              // nodes in preorder; none without places
     LargeVector<Vector3> points;          // by leaves
     LargeVector<std::uint32_t> positions; // by point: its index in the word
 };

@@ -26,7 +26,7 @@ struct LayerCounts {
 /// Sums over the layers from 0 on.
 struct ShadowSum {
     double shade = 0.0;    // s: shadow at the voxel
-    Vector3 differences{}; // along x, y, z; without the strength
+    Vector3 differences{}; // differences along x, y, z, not yet times the strength
 };
 
 class ShadowLayers {

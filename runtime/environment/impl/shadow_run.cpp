@@ -298,7 +298,7 @@ void ShadowRun::count_pairs_of(std::size_t index, std::size_t first_row, std::si
             const std::int64_t x = source.x - target.x;
             const std::int64_t z = source.z - target.z;
             const std::int64_t distance = std::max(std::abs(x), std::abs(z));
-            if (distance > height + 2) { // beyond the widest layer of the neighbours
+            if (distance > height + 2) { // farther than the widest layer of the neighbours
                 continue;
             }
             for (std::int64_t rise = -1; rise <= 1; ++rise) {

@@ -38,7 +38,7 @@ private:
     /// A row of sources with the same y.
     struct Row {
         std::int64_t y = 0;
-        std::size_t first = 0; // in sources_
+        std::size_t first = 0; // index in sources_
     };
     /// A neighbouring tile; its voxels from `next` to `end` are not read yet.
     struct Neighbour {
@@ -71,8 +71,8 @@ private:
     std::vector<TileVoxel> targets_; // sorted by y; x and z count from the corner of the tables
     std::int32_t corner_x_ = 0;      // corner of the tables in coordinates of the tile
     std::int32_t corner_z_ = 0;
-    std::int32_t width_ = 0; // along x
-    std::int32_t depth_ = 0; // along z
+    std::int32_t width_ = 0; // extent of the tables along x, in voxels
+    std::int32_t depth_ = 0; // extent of the tables along z, in voxels
     std::int64_t place_count_ = 0;
     std::vector<ShadowSource> sources_; // in rows of ascending y
     /// Rows of sources_, and one row more, whose `first` is sources_.size().

@@ -17,7 +17,7 @@ struct Triangle {
 };
 
 struct NearestPoint {
-    Vector3 away{};                                           // from the place to the point
+    Vector3 away{};                                           // vector from the place to the point
     double squared = std::numeric_limits<double>::infinity(); // length of `away`, squared
 };
 

@@ -51,7 +51,7 @@ private:
 
     const EnvironmentMesh& mesh_;
     MeshClosure closure_;
-    LargeVector<Node> nodes_;             // in preorder
+    LargeVector<Node> nodes_;             // nodes in preorder
     LargeVector<LeafTriangle> triangles_; // by leaves
     NearestTriangle nearest_triangle_;
 };

@@ -222,10 +222,10 @@ private:
     const Ast& ast_;
     Places& at_;
     TurtleProfile profile_;
-    std::map<ModuleKey, std::vector<std::string>> modules_; // formals
+    std::map<ModuleKey, std::vector<std::string>> modules_; // formals by module
     /// Numbers of parameters, by module.
     std::map<std::string_view, std::set<std::uint32_t>> counts_;
-    std::map<std::string_view, std::vector<std::string>> functions_; // formals
+    std::map<std::string_view, std::vector<std::string>> functions_; // formals by function
     std::vector<std::pair<std::pair<std::uint32_t, std::string>, Json>> hints_;
 };
 

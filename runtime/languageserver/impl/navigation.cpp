@@ -68,7 +68,7 @@ bool is_shown(const StatementOutline& statement) {
 struct NameAt {
     std::shared_ptr<const NameIndex> index;
     std::vector<std::string> roots;
-    const NameUse* use = nullptr; // in `index`; null: no name
+    const NameUse* use = nullptr; // a use in `index`; null: no name
     std::string path;
 
     /// All uses of the name, definitions too, in ascending order.

@@ -34,7 +34,7 @@ constexpr std::uint32_t kCoarsestLevel = 4; // max of MeshOptions::level
 /// A request, with all texts that its answer needs.
 struct PlantJob {
     Json answer;     // the members that are known before the plant is grown
-    Grammar grammar; // without errors
+    Grammar grammar; // a grammar without errors
     std::vector<SourceSpan> statements;
     PlantOptions plant;
     std::map<std::string, std::string> uris; // by path
@@ -165,7 +165,7 @@ public:
 private:
     std::string uri_;
     std::size_t mark_; // bytes of the byte order mark
-    std::string text_; // with the byte order mark
+    std::string text_; // text of the file with its byte order mark
     TextPositions positions_;
     std::vector<SourceSpan> statements_; // do not overlap
 };

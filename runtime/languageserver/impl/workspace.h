@@ -46,9 +46,9 @@ struct RequestError : std::runtime_error {
 struct CheckedDocument;
 
 struct Document {
-    std::string uri; // as the editor writes it
+    std::string uri; // URI as the editor writes it
     std::string path;
-    std::string text; // with a byte order mark, if the editor sends one
+    std::string text; // text with a byte order mark, if the editor sends one
     std::int64_t version = 0;
     bool is_lsys = false;         // the editor calls the language `lsys`
     bool is_dirty = true;         // the diagnostics are out of date
@@ -165,7 +165,7 @@ public:
 
 private:
     struct File {
-        std::string text;     // with the byte order mark of an open document
+        std::string text;     // text with the byte order mark of an open document
         std::size_t mark = 0; // bytes of the byte order mark
         std::string unmarked; // `text` without the mark
         std::optional<TextPositions> positions;

@@ -33,7 +33,7 @@ struct PlantRun {
     /// Levels of the plant; empty if only the finest is needed.
     DetailLevels levels = {};
     std::set<std::string> pictures = {};    // names of the written pictures, shared by all frames
-    std::optional<glm::vec3> pivot = {};    // for all frames of a growth: pivot of the last plant
+    std::optional<glm::vec3> pivot = {};    // for frames of a growth: pivot of the last plant
     bool is_placed = false;                 // pivot and unit have been applied to the mesh
     std::vector<Mesh>* collected = nullptr; // if not null, receives the meshes in place of files
     const PlantVariants* variants = nullptr;

@@ -23,7 +23,7 @@ enum class SensingStep : std::uint8_t {
     Yaw, // by a constant angle
     Pitch,
     Roll,
-    Forward, // without tropism
+    Forward, // a move without tropism
     Save,
     Restore,
     Sense,

@@ -208,7 +208,8 @@ struct Turtle::State {
     Code code = 0;              // code of the current module
     Origin origin;              // origin of the current module, if the word has origins
     Origin polygon_origin;      // origin of the `{` of the polygon closed last
-    std::uint64_t cut = 0;      // in a skipped part: 1 + its number of open brackets; else 0
+    /// 1 + open brackets of a part that is skipped; 0: nothing is skipped.
+    std::uint64_t cut = 0;
     bool interprets = false;
     std::unique_ptr<Interpretation> interpretation; // made with the first piece
     std::vector<Code> piece;                        // codes that are interpreted, widened to Code
