@@ -82,7 +82,7 @@ inline constexpr float kMaxPipeExponent = 4.0F;
 /// The flare of a stem at the ground, and its buttress roots (docs/language.md section 7.8).
 struct Flare {
     float factor = 1.0F;     // radius at the ground / radius without flare, 1 to kMaxFlare
-    float height = 0.0F;     // m above 0: where the flare begins
+    float height = 0.0F;     // m, above 0: height up to which the trunk flares
     std::uint32_t roots = 0; // kMinRoots to kMaxRoots; 0: none
 
     friend bool operator==(const Flare&, const Flare&) = default;

@@ -38,7 +38,7 @@ struct Count {
 /// Predicted contents of the word of one generation.
 struct GenerationSize {
     Count modules;
-    Count parameters; // stored
+    Count parameters; // stored parameters
     Count segments;   // modules that draw
     Count bytes;      // code width per module, plus 4 per stored parameter
 };

@@ -106,7 +106,7 @@ struct TableAngle {
 };
 
 TableAngle angle_of_steps(double steps, DoubleDouble rest, double error) {
-    constexpr std::int32_t kQuarter = 128; // steps
+    constexpr std::int32_t kQuarter = 128; // steps per quarter turn
     const auto whole = static_cast<std::int32_t>(steps);
     const std::int32_t quarter = (whole + kQuarter / 2) >> 7;
     return {static_cast<std::uint32_t>(quarter) & 3U, whole - quarter * kQuarter, rest, error};

@@ -17,7 +17,7 @@ namespace lsys {
 
 struct PlantSenses {
     std::vector<EnvironmentFiles> files; // by index in Bytecode::environments
-    SenseOptions options;                // options; SenseOptions::files is not set
+    SenseOptions options;                // SenseOptions::files is not set
 
     /// Makes the EnvironmentSense of a derivation with `bytecode`; null if the bytecode has no
     /// sense modules. This object and the bytecode must outlive the result.

@@ -200,7 +200,7 @@ bool CpfgWriter::can_bind(const std::vector<std::size_t>& members) {
     return true;
 }
 
-/// Lowers the productions anew, with their random numbers as parameters.
+/// Translates the productions again, with their random numbers as parameters.
 void CpfgWriter::bind_group(const std::vector<std::size_t>& members) {
     groups_[members.front()] = members;
     expressions_.set_quiet(true);

@@ -123,7 +123,7 @@ private:
     std::uint64_t last_ = 0; // index of the last level
     WordView<C> view_;       // the block being rewritten
     PassKeys keys_;
-    std::deque<Chooser<C>> choosers_; // for rewriting and for passes; refer to view_ and keys_
+    std::deque<Chooser<C>> choosers_; // one for rewriting, one for passes; refer to view_ and keys_
     std::vector<Level> levels_;
     std::deque<Pruner> pruners_; // by generation, if LevelSteps::prunes
     std::vector<R> records_;

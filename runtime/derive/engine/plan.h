@@ -204,7 +204,7 @@ public:
     [[nodiscard]] bool has_batched() const { return has_batched_; }
     /// Whether some batched entry draws random numbers, which takes most of the time of a batch.
     [[nodiscard]] bool has_batched_draws() const { return has_batched_draws_; }
-    /// Room for parameters that the wide loop needs per module.
+    /// Number of parameters per module for which the wide loop needs room.
     [[nodiscard]] std::uint32_t wide_parameters() const { return wide_parameters_; }
     /// Whether terms of an entry may read different parameters.
     [[nodiscard]] bool mixes_inputs() const { return mixes_inputs_; }

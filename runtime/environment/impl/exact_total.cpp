@@ -48,7 +48,8 @@ TotalRange::TotalRange(std::span<const SensePlace> places) {
     }
     if (lowest <= highest) {
         lowest_ = lowest;
-        const auto bits = static_cast<std::size_t>(highest - lowest) + 33; // terms and sign
+        // 32 bits for the terms, and a sign.
+        const auto bits = static_cast<std::size_t>(highest - lowest) + 33;
         words_ = (bits + kWordBits - 1) / kWordBits;
     }
 }

@@ -12,7 +12,8 @@
 
 namespace lsys {
 
-/// Max words of a total: 2^-1074 to 2^1024, a sign, and 32 bits for the number of terms.
+/// Max 64-bit words of a total: bits from 2^-1074 to 2^1024, a sign, and 32 bits for the number of
+/// terms.
 inline constexpr std::size_t kMaxTotalWords = 34;
 
 /// A total in two's complement, the least word first. Words beyond TotalRange::words() are unused.

@@ -163,7 +163,8 @@ private:
         return ~lane_bits(hidden & (squared > kill_limit_));
     }
 
-    /// Returns whether the place kills the marker.
+    /// Makes the place at `position` the one found if it is nearer and sees the marker. Returns
+    /// whether the place kills the marker.
     [[nodiscard]] bool consider(std::uint32_t position) {
         const Vector3 way = minus(marker_, search_.places_[position].position);
         const double squared = squared_length(way);

@@ -15,7 +15,7 @@ namespace {
 constexpr std::uint32_t kMarkerGeneration = 0xFFFFFFFDu;
 constexpr std::uint32_t kCellBits = 5; // a grid has 32 cells along each axis
 
-/// Number of the cell of a marker: the bits of the three indexes in turn.
+/// Morton code of the grid cell of a marker: interleaves the bits of the three cell indexes.
 std::uint32_t cell_of(const Marker& marker) {
     std::uint32_t cell = 0;
     for (std::uint32_t axis = 0; axis < 3; ++axis) {

@@ -22,8 +22,8 @@ struct Marker {
 /// The box and the shape that hold the markers.
 class MarkerShape {
 public:
-    /// All arguments outlive the shape. `crown` is the tree of the mesh, already moved, of shape
-    /// Mesh; null for others.
+    /// All arguments must outlive the shape. `crown`: for SpaceShape::Mesh, the tree of the mesh,
+    /// already moved to its place; else null.
     MarkerShape(const BytecodeEnvironment& declared,
                 const EnvironmentMesh* mesh,
                 const TriangleTree* crown);

@@ -17,7 +17,7 @@ namespace lsys {
 struct ShadowSource {
     std::int32_t x = 0;
     std::int32_t z = 0;
-    std::int64_t count = 0; // places
+    std::int64_t count = 0; // number of places in the voxel
 };
 
 /// Element (x, z) is the number of places with smaller x and smaller z, modulo 2^32: four reads

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // TriangleTree: the triangles of a mesh in a tree, for the nearest triangle (nearest_triangle.h)
 // and for the inside of a closed mesh: a bounding volume hierarchy of boxes in binary32, rounded
-// outwards. Answers are those of a loop over all triangles, bit by bit (triangle_distance.h).
+// outwards. Results have the same bits as those of a loop over all triangles (triangle_distance.h).
 #pragma once
 
 #include "runtime/environment/closed_mesh.h"
