@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Bytecode: a compiled L-system, the contract of compiler and runtime. Made by compiler/lower or
-// read from a .lsb file; the runtime uses no other data of the compiler. It is self-contained,
+// Bytecode: a compiled L-system, the interface between compiler and runtime. Made by compiler/lower
+// or read from a .lsb file; the runtime uses no other data of the compiler. It is self-contained,
 // immutable and passes verify().
 //
 // A word is a sequence of codes. Code c < symbols.size() is a module of symbol c whose parameters
@@ -89,7 +89,7 @@ enum class SymbolId : std::uint32_t {};
 inline constexpr SymbolId kNoSymbol{0xFFFFFFFFu};
 enum class ProductionId : std::uint32_t {};
 inline constexpr ProductionId kNoProduction{0xFFFFFFFFu};
-/// A code of a word; see the head of this file.
+/// A code of a word; see the comment at the top of this file.
 using Code = std::uint32_t;
 inline constexpr std::uint32_t kNone = 0xFFFFFFFFu;
 
@@ -102,7 +102,7 @@ struct BytecodeSymbol {
     SymbolKind kind = SymbolKind::Plain;
     bool ignored = false; // contexts skip the symbol (#ignore, #consider)
     TurtleOperation turtle = TurtleOperation::Nothing;
-    std::string mesh_file; // for TurtleOperation::MeshFile
+    std::string mesh_file; // path of the file, for TurtleOperation::MeshFile
     Sense sense = Sense::Nothing;
 
     /// Whether the symbol is a sense module, `?NAME`.
@@ -268,10 +268,10 @@ struct Bytecode {
     [[nodiscard]] bool has(Stage stage) const { return productions_of(stage).count != 0; }
     /// Number of rules of Stage::Rewrite. Rules of later stages have higher numbers.
     [[nodiscard]] std::uint32_t rewriting_rule_count() const;
-    /// Whether a symbol can cut off the rest of its branch.
+    /// Whether some symbol can cut off the modules after it in its branch.
     [[nodiscard]] bool has_cuts() const;
-    /// Whether a symbol is a sense module: then each word of a derivation goes to
-    /// DeriveOptions::senses, which writes the values of its sense modules.
+    /// Whether some symbol is a sense module. If so, a derivation passes each word to
+    /// DeriveOptions::senses, which writes the answers into the parameters of sense modules.
     [[nodiscard]] bool has_senses() const;
     /// Whether there are productions of `#down` or `#up`.
     [[nodiscard]] bool has_sweeps() const { return has(Stage::Down) || has(Stage::Up); }

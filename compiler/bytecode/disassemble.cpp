@@ -90,7 +90,7 @@ private:
         }
     }
 
-    /// " asks N", the number of an environment, or " asks the turtle".
+    /// " asks N" with the index N of an environment, or " asks the turtle".
     static std::string sense_text(Sense sense) {
         return asks_environment(sense) ? fmt::format(" asks {}", static_cast<std::uint32_t>(sense))
                : sense == Sense::Nothing ? ""

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The text listing of Bytecode: `lsc dump --stage bytecode`. Precondition: verify() accepts it.
+// The text listing of Bytecode: `lsc dump --stage bytecode`. Precondition: verify() accepts the
+// bytecode.
 #pragma once
 
 #include "compiler/bytecode/bytecode.h"

@@ -54,25 +54,27 @@ struct EnvironmentSurface {
     std::string path; // relative to the root file; empty for a plane
     /// Plane: a x + b y + c z + d = 0, solid where the left side is negative.
     std::array<float, 4> plane{};
-    std::uint32_t site = 0xFFFFFFFFu; // in Bytecode::sites: the name of the file, or the plane
+    /// Index in Bytecode::sites: the name of the file, or the plane.
+    std::uint32_t site = 0xFFFFFFFFu;
 };
 
-/// An environment with all keys of its statement. Keys of other kinds keep the values below.
+/// An environment with all keys of its statement. Keys that the kind does not have keep their
+/// initial values.
 struct BytecodeEnvironment {
-    std::string name; // without the `?`
+    std::string name; // name without the `?`
     EnvironmentKind kind = EnvironmentKind::Shadow;
-    std::uint32_t site = 0xFFFFFFFFu; // in Bytecode::sites: the name in the statement
+    std::uint32_t site = 0xFFFFFFFFu; // index in Bytecode::sites: the name in the statement
     float cell = 0.5F;                // edge of a voxel; > 0
     std::uint32_t levels = 8;         // layers of voxels below a place that it shades; up to 255
     float strength = 0.2F;            // shadow that a place adds to its own voxel; >= 0
-    float ratio = 2.0F;               // from the shadow of a layer to that of the layer below; > 0
-    float extinction = 0.5F;          // of light per leaf area; >= 0
-    std::uint32_t directions = 46;    // of the sky; 1 to 4,096
+    float ratio = 2.0F;               // shadow of a layer / shadow of the layer below it; > 0
+    float extinction = 0.5F;          // extinction coefficient of light per leaf area index; >= 0
+    std::uint32_t directions = 46;    // number of directions of the sky; 1 to 4,096
     SpaceShape shape = SpaceShape::Box;
     std::array<float, 3> size{}; // Space: x y z, > 0; Map: x z 0, > 0; unused by SpaceShape::Mesh
     std::array<float, 3> at{};   // Space: middle of the base, x y z; Map: middle, x z 0
     std::uint32_t count = 1;     // markers; 1 to 2^26
-    float radius = 1.0F;         // within which a place sees markers or other places; > 0
+    float radius = 1.0F;         // max distance at which a place sees markers or places; > 0
     float angle = 90.0F;         // full opening of the cone of view, degrees; above 0, up to 360
     float kill = 0.0F;           // markers nearer than this to a place vanish; >= 0
     float low = 0.0F;            // Map: value of black

@@ -183,7 +183,7 @@ void append(std::string& out, float value) {
                number_to_chars(buffer.data(), buffer.data() + buffer.size(), value).ptr);
 }
 
-/// The file of a picture or of the mesh that is a shape; empty if it is in error.
+/// The name of the picture or of the mesh that is the shape; empty if the statement has an error.
 std::string_view file_of(const BytecodeEnvironment& environment) {
     return environment.surfaces.empty() ? std::string_view{} : environment.surfaces.front().path;
 }

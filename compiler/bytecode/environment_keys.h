@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The keys of `#sense`: one table, from which the resolver, the dumps, messages, the language server
-// and its documents are made (docs/language.md section 13).
+// The keys of `#sense`: one table, from which the resolver, the dumps, messages, the language
+// server and its documents are made (docs/language.md section 13).
 #pragma once
 
 #include "compiler/bytecode/environment.h"
@@ -27,7 +27,7 @@ enum class EnvironmentKeyForm : std::uint8_t {
 struct EnvironmentKey {
     std::string_view word;
     std::uint32_t kinds = 0;    // bits of the kinds that have the key
-    std::uint32_t required = 0; // bits of the kinds that need it; `size`: not beside a mesh
+    std::uint32_t required = 0; // bits of the kinds that need the key; `size`: except with a mesh
     EnvironmentKeyForm form{};
     // The range of a number, or of each part of a vector.
     float min = 0.0F;

@@ -29,8 +29,8 @@ LSYS_COUNTED_ENUM(AtDepth, Error, Stop);
 LSYS_COUNTED_ENUM(LoadRule, Carried, Own);
 /// Ends of tubes: a low cone, a half ball, or a jagged break.
 LSYS_COUNTED_ENUM(TipShape, Flat, Round, Broken);
-/// The set of turtle commands by module name (docs/language.md section 7). The resolver applies it;
-/// later stages may only print its name.
+/// The set of turtle commands by module name (docs/language.md section 7). The resolver reads the
+/// profile; later stages may only print its name.
 enum class TurtleProfile : std::uint8_t {
 #define LSYS_TURTLE_PROFILE(identifier, ...) identifier,
 #include "compiler/bytecode/turtle_profiles.def"
@@ -71,7 +71,7 @@ using Tropism = std::array<float, 4>;
 struct Pipe {
     float exponent = 0.0F;  // 1 to kMaxPipeExponent; 0: the turtle sets the widths
     float tip_width = 0.0F; // m, diameter
-    float taper = 0.0F;     // 0: a segment has one width; 1: it narrows to that of the next one
+    float taper = 0.0F;     // 0: one width per segment; 1: the tip is as wide as the next segment
 
     [[nodiscard]] bool is_set() const { return exponent != 0.0F; }
     friend bool operator==(const Pipe&, const Pipe&) = default;
@@ -81,8 +81,8 @@ inline constexpr float kMaxPipeExponent = 4.0F;
 
 /// The flare of a stem at the ground, and its buttress roots (docs/language.md section 7.8).
 struct Flare {
-    float factor = 1.0F;     // of the radius at the ground, 1 to kMaxFlare; 1: no flare
-    float height = 0.0F;     // m above 0: where the flare begins
+    float factor = 1.0F;     // radius at the ground / radius without flare, 1 to kMaxFlare
+    float height = 0.0F;     // m, above 0: height up to which the trunk flares
     std::uint32_t roots = 0; // kMinRoots to kMaxRoots; 0: none
 
     friend bool operator==(const Flare&, const Flare&) = default;

@@ -46,7 +46,7 @@ struct TurtleInfo {
         HasNoLength = 256,     // an object that does not move the turtle
     };
 
-    std::string_view name; // in dumps
+    std::string_view name; // name in dumps
     DrawnKind drawn = DrawnKind::Nothing;
     QuickAction quick = QuickAction::None;
     std::uint16_t traits = 0;

@@ -33,7 +33,8 @@ std::uint32_t number(SymbolId id) {
     return static_cast<std::uint32_t>(id);
 }
 
-/// Kind of place that code belongs to. It decides which instructions are allowed.
+/// The place in which a piece of code is used, which decides the instructions that the code may
+/// have.
 enum class CodePlace : std::uint8_t { Global, Axiom, Condition, Locals, Successor };
 
 /// Verifies bytecode in one pass over the tables in the order that bytecode.h describes. A check
@@ -142,7 +143,7 @@ private:
         return count < kNone || fail("{} codes", count);
     }
 
-    /// Whether a sense module can ask this.
+    /// Whether `sense` is a value that a symbol may have.
     [[nodiscard]] bool is_sense(Sense sense) const {
         return asks_environment(sense)
                    ? static_cast<std::size_t>(sense) < bytecode_.environments.size()
@@ -773,7 +774,7 @@ private:
     };
     std::vector<Choice> choices_;
     std::vector<std::uint32_t> set_slots_; // slots with a value, in the order of setting
-    std::vector<bool> is_set_;             // per slot
+    std::vector<bool> is_set_;             // by slot: whether it has a value
     std::vector<bool> draw_is_seen_;       // per random draw of the current word or constant
     std::uint64_t next_pattern_ = 0;
     std::uint64_t next_code_ = 0;

@@ -32,7 +32,8 @@ struct Listing {
 
 /// Advances the walk to generation `generations`. Ends earlier if the lower bound of the modules
 /// exceeds `max_modules`, if all later words are equal, if the next generation would exceed
-/// kMaxListWork, or if it depends on an answer or a sweep.
+/// kMaxListWork, or if the size of the next generation depends on an answer of an environment or on
+/// a sweep.
 Listing follow(const Bytecode& bytecode,
                GrowthWalk& walk,
                std::uint32_t generations,

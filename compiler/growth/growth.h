@@ -38,7 +38,7 @@ struct Count {
 /// Predicted contents of the word of one generation.
 struct GenerationSize {
     Count modules;
-    Count parameters; // stored
+    Count parameters; // stored parameters
     Count segments;   // modules that draw
     Count bytes;      // code width per module, plus 4 per stored parameter
 };
@@ -69,8 +69,8 @@ struct GrowthPrediction {
     SymbolId depends_on = kNoSymbol;
 };
 
-/// Whether growth can be predicted. It cannot with `#decompose`, whose number of passes is unknown,
-/// or with cuts, which depend on the whole branch; predictions are then empty.
+/// Whether growth can be predicted. Growth cannot be predicted with `#decompose`, whose number of
+/// passes is unknown, or with cuts, which depend on the whole branch; predictions are then empty.
 [[nodiscard]] bool is_growth_known(const Bytecode& bytecode);
 
 /// Predicts generations 0 ... generations. Takes time in proportion to the listed generations times
@@ -101,7 +101,7 @@ struct GrowthEnd {
     /// Set if not all requested generations fit. If the axiom is too large, largest_fitting is 0
     /// and at_largest is at_next.
     std::optional<GrowthLimit> limit;
-    /// Set if there is no limit and the word is known to stay the same.
+    /// Set if no limit is reached and some word is known never to change again.
     std::optional<FixedPoint> fixed_point;
 };
 [[nodiscard]] GrowthEnd

@@ -27,8 +27,8 @@ namespace lsys {
 
 enum class ValueId : std::uint32_t {};
 inline constexpr ValueId kNoValue{0xFFFFFFFFu};
-/// Program::values[0]: the literal NaN, which replaces an expression in error. Checks ignore it. No
-/// literal of a valid program has this id.
+/// Program::values[0]: the literal NaN, which replaces an expression in error. Checks do not report
+/// expressions with this value. No literal of a valid program has this id.
 inline constexpr ValueId kPoison{0};
 
 /// A node of an expression: an instruction and its operands. Constants are folded: a node whose
@@ -132,7 +132,7 @@ struct Production {
 /// An axiom. If there are several, a derivation begins with a randomly chosen one.
 struct Axiom {
     ProgramWord word;
-    std::uint32_t draw_position = 0; // as Global::draw_position
+    std::uint32_t draw_position = 0; // index of its first draw, as Global::draw_position
     bool has_weight = false;
     float weight = 1.0F; // NaN if the probability is in error
     SourceSpan weight_span;
@@ -155,13 +155,13 @@ struct Global {
 struct Curve {
     NameId name = kNoName;
     SourceSpan span;
-    std::vector<CurveKnot> points; // with the slopes that set_slopes() computes
+    std::vector<CurveKnot> points; // points, with the slopes that set_slopes() computes
 };
 
 /// The file of a picture, relative to the root file; empty if there is none.
 struct MaterialPictureName {
     std::string path;
-    SourceSpan span; // with the quotes
+    SourceSpan span; // place of the file name with its quotes
 };
 
 /// `#material`: the appearance of a colour index. Keys that are not set keep the built-in look.
@@ -178,10 +178,11 @@ struct ProgramMaterial {
 
 /// `#sense`: an environment that modules `?NAME` ask.
 struct ProgramEnvironment {
-    NameId name = kNoName; // without the `?`
+    NameId name = kNoName; // name without the `?`
     SourceSpan name_span;
-    BytecodeEnvironment values;            // without name and sites
-    std::vector<SourceSpan> surface_spans; // of values.surfaces: file names with quotes, or keys
+    BytecodeEnvironment values; // values of the keys; name and sites are not set
+    /// Places of values.surfaces: file names with quotes, or keys.
+    std::vector<SourceSpan> surface_spans;
 };
 
 /// A constant of the grammar, for dumps and for sliders.
@@ -248,7 +249,7 @@ struct Program {
     std::vector<Production> productions;          // by stage
     std::uint32_t rule_count = 0;                 // rules: productions with equal predecessors
     std::uint32_t context_group_count = 0; // groups: productions of a rule with equal contexts
-    std::vector<Axiom> axioms;             // at least one if `is_valid`
+    std::vector<Axiom> axioms;             // axioms; at least one if `is_valid`
 
     ChunkedVector<ProgramModule> modules;
     ChunkedVector<ValueId> arguments;

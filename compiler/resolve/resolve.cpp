@@ -52,7 +52,7 @@ std::vector<bool> known_names(const Resolution& resolution) {
     return known;
 }
 
-/// The paths of all files, so that a FileId is an index.
+/// The paths of all files, indexed by FileId.
 std::vector<std::string> paths_of(const Resolution& resolution) {
     std::vector<std::string> paths;
     for (const AstFile& file : resolution.ast.files) {

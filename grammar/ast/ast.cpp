@@ -22,13 +22,13 @@ const char* spelling(BinaryOperation operation) {
 
 namespace {
 
-/// End of the name at `begin` in `text`, including its back quotes.
+/// Offset one past the name at `begin` of `text` and past its back quotes, if it has any.
 std::uint32_t name_end(std::string_view text, std::uint32_t begin, std::string_view name) {
     const std::size_t quotes = text.substr(begin).starts_with('`') && name != "`" ? 2 : 0;
     return static_cast<std::uint32_t>(std::min(begin + name.size() + quotes, text.size()));
 }
 
-/// The entry of the name at a place; null if there is none.
+/// The entry of `names` for the name at byte `begin` of `file`; null if there is none.
 const WrittenName*
 find_written(std::span<const WrittenName> names, FileId file, std::uint32_t begin) {
     const auto found = std::lower_bound(names.begin(), names.end(), WrittenName{file, begin, 0});

@@ -32,7 +32,7 @@ enum class ExpressionKind : std::uint8_t {
     Range,    // {left, right}
     Call,     // name, arguments: function call
     Grouping, // (left): parentheses as written
-    Error,    // in place of a syntax error; later checks do not report it
+    Error,    // replaces a syntax error; later checks do not report it
 };
 
 enum class UnaryOperation : std::uint8_t { Negate, Not };
@@ -56,7 +56,8 @@ enum class BinaryOperation : std::uint8_t {
 [[nodiscard]] const char* spelling(UnaryOperation operation);
 [[nodiscard]] const char* spelling(BinaryOperation operation);
 
-/// A range of indices into a list vector of the Ast.
+/// A range of indices into a vector of the Ast that holds lists one after the other, such as
+/// `Ast::expression_lists`.
 struct ListRange {
     std::uint32_t first = 0;
     std::uint32_t count = 0;
@@ -66,7 +67,7 @@ struct Expression {
     ExpressionKind kind = ExpressionKind::Error;
     std::uint8_t operation = 0; // UnaryOperation or BinaryOperation
     FileId file = kNoFile;
-    std::uint32_t begin = 0; // bytes of the expression
+    std::uint32_t begin = 0; // the bytes of the expression are [begin, end)
     std::uint32_t end = 0;
     union {
         float value;       // Number
@@ -77,7 +78,7 @@ struct Expression {
     union {
         ExpressionId right;                     // Binary, Range
         std::uint32_t arguments;                // Call: index into Ast::argument_lists
-        std::uint32_t right_bits = 0xFFFFFFFFu; // initialises the union
+        std::uint32_t right_bits = 0xFFFFFFFFu; // largest member, to initialise the union
     };
 
     [[nodiscard]] SourceSpan span() const { return {file, begin, end}; }
@@ -116,7 +117,7 @@ struct CallNode {
     std::uint32_t name_end = 0; // one past the name
     std::uint32_t open = 0;     // the `(`
     std::uint32_t end = 0;      // one past the `)`
-    ListRange arguments;        // in Ast::expression_lists; empty for `()`
+    ListRange arguments;        // range of Ast::expression_lists; empty for `()`
 };
 
 /// Modules [first, first + count) of Ast::modules, all in one file.
@@ -129,8 +130,8 @@ struct ModuleList {
 /// A module of a list, unpacked.
 struct ModuleView {
     NameId name = kNoName;
-    SourceSpan name_span; // with the back quotes, if any
-    SourceSpan span;      // with the arguments
+    SourceSpan name_span; // place of the name, with its back quotes if any
+    SourceSpan span;      // place of the name with the arguments
     // True for a name in back quotes or spelt differently in its file: never split into several
     // modules.
     bool is_indivisible = false;
@@ -159,8 +160,8 @@ enum class StatementKind : std::uint8_t {
 
 struct Statement {
     StatementKind kind{};
-    std::uint32_t index = 0; // in the vector of its kind
-    SourceSpan span;         // from `#` to one past `;`
+    std::uint32_t index = 0; // index in the vector of its kind
+    SourceSpan span;         // place from `#` to one past `;`
 };
 
 struct GenerationsNode {
@@ -185,7 +186,7 @@ struct ParamNode {
 struct FunctionNode {
     NameId name = kNoName;
     SourceSpan name_span;
-    ListRange formals; // in Ast::expression_lists: names, or expressions written in place of names
+    ListRange formals; // range of Ast::expression_lists: names, or expressions in place of names
     SourceSpan formals_span;
     ExpressionId body = kNoExpression;
 };
@@ -198,7 +199,7 @@ struct CurveNode {
 };
 
 struct ModuleDeclarationNode {
-    ModuleList modules; // as written; the resolver requires exactly one module
+    ModuleList modules; // modules as written; the resolver requires exactly one module
 };
 
 struct ObjectNode {
@@ -210,9 +211,9 @@ struct ObjectNode {
 };
 
 struct IncludeNode {
-    SourceSpan path_span;  // with the quotes
-    std::string path;      // as written
-    FileId file = kNoFile; // kNoFile until it is read
+    SourceSpan path_span;  // place of the path with its quotes
+    std::string path;      // path as written
+    FileId file = kNoFile; // kNoFile until the file is read
 };
 
 /// A word, number or file name after the key of a #set, in a #material or in a #sense.
@@ -227,20 +228,22 @@ struct SetValue {
 struct SetNode {
     NameId key = kNoName;
     SourceSpan key_span;
-    ListRange values; // in Ast::set_values
+    ListRange values; // range of Ast::set_values
 };
 
-/// The index, keys and their values as written; the resolver tells them apart.
+/// The index, the keys and the values of the keys, in one list as written. The resolver decides
+/// which entries are keys.
 struct MaterialNode {
     SourceSpan keyword_span; // `#material`
-    ListRange values;        // in Ast::set_values
+    ListRange values;        // range of Ast::set_values
 };
 
-/// The kind, keys and their values as written; the resolver tells them apart.
+/// The kind, the keys and the values of the keys, in one list as written. The resolver decides
+/// which entries are keys.
 struct SenseNode {
-    NameId name = kNoName; // without `?`
+    NameId name = kNoName; // name without the `?`
     SourceSpan name_span;
-    ListRange values; // in Ast::set_values
+    ListRange values; // range of Ast::set_values
 };
 
 struct IgnoreNode {
@@ -273,7 +276,7 @@ struct LocalNode {
 struct ProductionNode {
     Stage stage = Stage::Rewrite;
     NameId name = kNoName;
-    SourceSpan name_span;   // without the `#`
+    SourceSpan name_span;   // place of the name, without the `#`
     bool has_left = false;  // `<` was written
     bool has_right = false; // `>` was written
     SourceSpan less_span;
@@ -282,7 +285,7 @@ struct ProductionNode {
     ModuleList predecessor;
     ModuleList right;
     ConditionNode condition;
-    ListRange locals; // in Ast::locals
+    ListRange locals; // range of Ast::locals
     ModuleList successor;
 };
 
@@ -362,7 +365,8 @@ public:
     [[nodiscard]] std::uint32_t index() const { return index_; }
     /// Name of the current module.
     [[nodiscard]] NameId name() const;
-    /// Advances to `index`. Precondition: no module before it has a `(`.
+    /// Advances to module `index`. Precondition: no module from the current one to `index` - 1 has
+    /// a `(`.
     void skip_bare(std::uint32_t index) { index_ = index; }
 
 private:

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // AstBuilder: builds the Ast of one file, one node per call of the parser. It reports the mistakes
-// that show only in complete nodes (depth of brackets, chained comparisons, ranges without two
-// values). finish_statement() keeps the nodes of a statement or rolls them back, so the Ast holds
-// whole statements.
+// that can be found only in complete nodes: brackets nested too deep, chained comparisons, ranges
+// without two values. finish_statement() keeps the nodes of a statement or rolls them back, so the
+// Ast holds whole statements.
 #pragma once
 
 #include "grammar/ast/ast.h"
@@ -76,8 +76,8 @@ public:
     [[nodiscard]] ModuleList
     module_arguments(ModuleList list, std::uint32_t count, SourceSpan parentheses);
 
-    /// Removes each `//` at or after `begin` of the scanned text from Ast::slashes; another message
-    /// already explains them.
+    /// Removes each `//` at or after `begin` of the scanned text from Ast::slashes, because another
+    /// message already explains these `//`.
     void remove_slashes(std::uint32_t begin);
 
     // --- statements
@@ -134,19 +134,20 @@ public:
     /// statement.
     void recover();
 
-    /// Ends the current statement: keeps its nodes, or rolls them back and marks the Ast as
-    /// incomplete. Returns whether it was kept.
+    /// Ends the current statement: keeps its nodes, or rolls the nodes back and marks the Ast as
+    /// incomplete. Returns whether the statement was kept.
     bool finish_statement(SourceSpan span, bool keep);
     /// Protects all present nodes from rollbacks, for example the nodes of an included file.
     void set_watermark();
 
 private:
-    /// State of the last name of the current module list, for parentheses after it.
+    /// State of the last name of the current module list. Decides whether parentheses may follow
+    /// it.
     enum class LastName : std::uint8_t {
         None,  // no name yet, or a character that was reported because it is not a module
         Empty, // an empty text in back quotes
         Bare,
-        Called, // with parameters
+        Called, // a module with parameters
     };
     /// Sizes of the Ast without the current statement, to which a rollback returns.
     struct Watermark {
@@ -191,7 +192,7 @@ private:
 
     std::array<NameId, 128> one_character_names_; // kUnset until interned; index: the character
     struct CachedWord {
-        std::uint64_t key = 0; // its characters
+        std::uint64_t key = 0; // the characters of the name
         NameId name = kNoName;
     };
     std::vector<CachedWord> word_cache_; // recent names of up to eight characters
@@ -204,7 +205,7 @@ private:
     bool is_discarded_ = false; // the current statement
     bool has_node_ = false;
     Statement statement_;
-    ProductionNode production_; // the parts parsed so far
+    ProductionNode production_; // the current production; parts not parsed yet are empty
     Watermark watermark_;
 };
 

@@ -68,8 +68,8 @@ void AstBuilder::extend_list(ModuleList& list, SourceSpan span) {
     list.count = static_cast<std::uint32_t>(ast_.modules.size()) - list.first;
 }
 
-/// `text`: the place of the name in the scanned text, with its back quotes. Inline because it runs
-/// for every module; only translated or edited text takes a function call.
+/// `text`: the place of the name in the scanned text, with its back quotes. Inline because the
+/// function runs for every module. Only translated or edited text needs a further function call.
 inline void AstBuilder::push_module(NameId name, TextRange text) {
     if (scanned_.translation != nullptr || scanned_.map != nullptr) {
         push_module_of_edited_text(name, text);

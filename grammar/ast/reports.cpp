@@ -43,7 +43,7 @@ void report_chained_comparison(Diagnostics& diagnostics,
         diagnostics.add(DiagnosticCode::ChainedComparison, span, "comparisons do not chain");
     const SourceSpan middle = ast.expression(inner.right).span();
     const std::string shared(sources.text(middle));
-    // No fix for a random middle value: the two comparisons would draw it twice.
+    // `a < {0, 1} < c` gets no fix: `a < {0, 1} && {0, 1} < c` would draw two numbers.
     if (shared.empty() || shared.find_first_of("{\n") != std::string::npos) {
         diagnostic.help.emplace_back("write both comparisons, as in `a < b && b < c`");
         return;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The scanned text of a file and the map to the file. Typographic characters are reported and
-// replaced before the scan, so that later stages read ASCII; a TextMap maps offsets of the scanned
-// text to offsets of the file.
+// The scanned text of a file, and the map from its offsets to offsets of the file. Typographic
+// characters are reported and replaced before the scan, so that later stages read ASCII; a TextMap
+// maps offsets of the scanned text to offsets of the file.
 #pragma once
 
 #include "grammar/ast/translation.h"
@@ -22,7 +22,8 @@ public:
     /// Replaces the bytes [begin, end) of the source. Precondition: `begin` is not before the end
     /// of the last replacement.
     void replace(std::uint32_t begin, std::uint32_t end, std::string_view replacement);
-    /// Appends the source after the last replacement to text(). Call it once, at the end.
+    /// Appends the source after the last replacement to text(). Call finish() once, after the last
+    /// replacement.
     void finish();
 
     [[nodiscard]] const std::string& text() const { return text_; }
@@ -42,7 +43,7 @@ private:
 
     std::string_view source_;
     std::string text_;
-    std::uint32_t consumed_ = 0; // bytes of source_
+    std::uint32_t consumed_ = 0; // number of bytes of source_ that are in text()
     ChunkedVector<Edit> edits_;
     // Last result of edits_ending_by(), a start for the next search: offsets mostly ascend.
     mutable std::size_t hint_ = 0;
@@ -53,7 +54,7 @@ struct ScannedText {
     FileId file = kNoFile;
     std::string_view text;
     const TextMap* map = nullptr;             // null if the text is the file's own
-    const Translation* translation = nullptr; // for a file of another dialect, instead of a map
+    const Translation* translation = nullptr; // replaces `map` for a file of another dialect
 
     [[nodiscard]] std::uint32_t source_begin(std::uint32_t offset) const {
         if (translation != nullptr) {

@@ -22,7 +22,7 @@ namespace lsys {
 
 template <typename T>
 class ChunkedVector {
-    // Blocks are bytes that become elements when they are set.
+    // Blocks are allocated as bytes; an element begins to exist when a value is stored.
     static_assert(std::is_trivially_copyable_v<T> &&
                   alignof(T) <= __STDCPP_DEFAULT_NEW_ALIGNMENT__);
 

@@ -194,7 +194,7 @@ void Diagnostics::promote_unstored_warnings() {
 std::optional<std::string_view> nearest_name(std::string_view wanted,
                                              const std::vector<std::string_view>& candidates) {
     // A name that differs only in letter case is always chosen. Otherwise a third of the letters of
-    // the shorter name may differ, and none if it has one or two.
+    // the shorter name may differ, and none if the shorter name has one or two letters.
     std::optional<std::string_view> best;
     std::size_t best_distance = std::numeric_limits<std::size_t>::max();
     for (const std::string_view candidate : candidates) {

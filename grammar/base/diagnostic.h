@@ -52,8 +52,8 @@ struct Edit {
 };
 
 /// A repair. It is machine applicable if no other repair is plausible; `lsc check --fix` applies it
-/// under the conditions of runtime/repair/fixes.h. Other repairs are offers, shown as help. The edits
-/// do not overlap and are applied together.
+/// under the conditions of runtime/repair/fixes.h. Other repairs are offers, shown as help. The
+/// edits do not overlap and are applied together.
 struct Fix {
     std::string title;
     std::vector<Edit> edits;
@@ -78,7 +78,7 @@ struct Diagnostic {
     std::vector<std::string> notes;
     std::vector<std::string> help;
     std::vector<Fix> fixes;
-    std::vector<Fact> facts; // in JSON only; the texts state the same facts
+    std::vector<Fact> facts; // shown in JSON only; the texts state the same facts
 };
 
 /// Adds a fix of one edit, which replaces `span`.

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Conversion between numbers and characters by std::from_chars and std::to_chars. No other file
-// calls them for floating-point numbers: if the standard library lacks these overloads (libc++),
-// impl/portable_chars.h gives the same values and the same characters.
+// calls these two functions for floating-point numbers, since some standard libraries lack the
+// overloads (libc++). For those, impl/portable_chars.h gives the same values and the same
+// characters.
 #pragma once
 
 #include <charconv>

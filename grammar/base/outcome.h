@@ -24,20 +24,20 @@ enum class Stop : std::uint8_t {
     Failed,      // the environment: a missing file, an unsuitable option
     Limit,       // a limit of Limits; see the diagnostics
     OutOfMemory, // a failed allocation
-    Cancelled,   // by the host
+    Cancelled,   // ended by Host::cancelled
 };
 
 /// One message of a step, rendered by programs as text, as JSON or in a window.
 struct Message {
     enum class Kind : std::uint8_t {
-        Diagnostics, // with places in `sources`
+        Diagnostics, // diagnostics whose places are in `sources`
         Error,       // failure of the environment
-        Help,        // for the error before it
+        Help,        // advice for the error before the message
         Info,        // about the result
         Detail,      // about the work, for verbose output
     };
     Kind kind = Kind::Diagnostics;
-    std::string text; // for all kinds except Diagnostics
+    std::string text; // empty for Diagnostics
     Diagnostics diagnostics;
     std::shared_ptr<const SourceMap> sources; // files of Diagnostics; null if none has a place
 };
@@ -94,7 +94,7 @@ private:
     Messages messages_;
 };
 
-/// The outcome of a step without a value.
+/// The outcome of a step that computes no value.
 template <>
 class [[nodiscard]] Outcome<void> {
 public:

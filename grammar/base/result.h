@@ -51,7 +51,7 @@ private:
     std::variant<T, Error> state_;
 };
 
-/// The result of an action without a value.
+/// The result of an action that computes no value.
 template <>
 class [[nodiscard]] Result<void> {
 public:

@@ -25,8 +25,8 @@ struct SourceSpan {
     friend bool operator==(const SourceSpan&, const SourceSpan&) = default;
 };
 
-/// The smallest span that covers both spans; `first` if they are in different files; if one has no
-/// file, the other.
+/// The smallest span that covers both spans; `first` if the spans are in different files. If one of
+/// the spans has no file, the other span.
 [[nodiscard]] SourceSpan join(SourceSpan first, SourceSpan last);
 
 /// A line and a column, both from 1. A column is one Unicode code point, or one byte that is not
@@ -70,7 +70,7 @@ private:
     std::string text_;
     bool has_byte_order_mark_ = false;
     std::vector<std::uint32_t> line_begins_;
-    std::vector<Checkpoint> checkpoints_; // ascending
+    std::vector<Checkpoint> checkpoints_; // ascending by offset
 };
 
 /// Maximum size of a file: offsets have 32 bits.

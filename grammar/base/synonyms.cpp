@@ -26,7 +26,8 @@ bool is_same_word(std::string_view a, std::string_view b) {
     });
 }
 
-/// The function that a spelling calls: `mod` for `mod(a, b)`; empty if it calls none.
+/// The function that a spelling calls: `mod` for `mod(a, b)`; empty if the spelling calls no
+/// function.
 std::string_view called_function(std::string_view spelling) {
     const std::size_t open = std::min(spelling.find('('), spelling.size());
     const std::string_view name = spelling.substr(0, open);

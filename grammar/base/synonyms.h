@@ -17,7 +17,7 @@ struct Synonym {
     SynonymKind kind{};
     std::string_view word;     // a function may include its parameters
     std::string_view source;   // where the word is from; may be empty
-    std::string_view spelling; // in .lsys; empty: .lsys has no equivalent
+    std::string_view spelling; // the equivalent in .lsys; empty: there is none
     std::string_view advice;   // replacement or explanation; may be empty
 };
 

@@ -10,7 +10,7 @@ namespace lsys {
 namespace {
 
 struct Signature {
-    std::string_view bytes; // at the beginning of the file
+    std::string_view bytes; // bytes with which such files begin
     std::string_view description;
 };
 constexpr std::array kSignatures{
@@ -39,8 +39,8 @@ NonText other_encoding(std::string_view form) {
     return {std::string(form) + " text", "a grammar is UTF-8 text; save the file in that encoding"};
 }
 
-/// Whether `sample` looks like UTF-16: byte `first` and at least 80 % of every second byte from it
-/// are NUL, and few of the other bytes are.
+/// Whether `sample` looks like UTF-16: byte `first` is NUL, and so are at least 80 % of bytes
+/// `first` + 2, `first` + 4, ...; few of the other bytes are NUL.
 bool has_alternate_nuls(std::string_view sample, std::size_t first) {
     if (sample.size() <= first || sample[first] != '\0') {
         return false;

@@ -74,13 +74,13 @@ DetectedDialect detect_dialect(std::string_view path, std::string_view text) {
         }
     }
     if (is_other_program(text)) {
-        return {Dialect::Lsys, "its content"}; // its front end names the language
+        return {Dialect::Lsys, "its content"}; // the front end of .lsys reports the language
     }
     // If the text fits several dialects, the extension decides.
     DetectedDialect found;
     for (const DialectRow& row : kRows) {
         const bool has_own = has_extension(path, row.extensions);
-        // Formats with extensions of their own have no files `.ls`.
+        // A dialect that has extensions, but not `.ls`, has no files `.ls`.
         const bool has_other = path.ends_with(".ls") && !row.extensions.empty() && !has_own;
         if (row.recognise == nullptr || has_other || (found.dialect && !has_own)) {
             continue;

@@ -27,8 +27,8 @@ enum class Dialect : std::uint8_t {
 struct DialectRow {
     Dialect dialect{};
     std::string_view name;       // value of the option --dialect
-    std::string_view title;      // in messages
-    std::string_view extensions; // with dots, separated by blanks
+    std::string_view title;      // name of the dialect in messages
+    std::string_view extensions; // extensions with dots, separated by blanks
     std::string_view turtle;     // default profile: the `#set turtle` of a translation
     std::string_view page;       // page of the manual, from the root of the sources
 
@@ -39,7 +39,8 @@ struct DialectRow {
     void (*translate)(const DialectRow& row,
                       const ParseContext& context,
                       Translation& out) = nullptr;
-    /// Names of the systems of a file, in order. no_system_names: a file is one unnamed system.
+    /// Names of the systems of a file, in order. The function is no_system_names for dialects in
+    /// which a file is one unnamed system.
     std::vector<std::string> (*systems)(std::string_view text) = nullptr;
 };
 /// All dialects, .lsys first.
@@ -54,7 +55,8 @@ struct DetectedDialect {
 };
 /// Detects the dialect from the extension of `path`; if no dialect has the extension, or if it is
 /// `.l` or `.ls`, which several programs use, from the content of `text`. A `.l` file of unknown
-/// content is L3D. A text of a language that lsc does not read is .lsys, whose front end names it.
+/// content is L3D. A text in a language that lsc does not read is treated as .lsys, whose front end
+/// reports the language.
 [[nodiscard]] DetectedDialect detect_dialect(std::string_view path, std::string_view text);
 
 /// Names of the systems of `text`, in order; none for dialects whose files hold one system.
@@ -62,8 +64,8 @@ struct DetectedDialect {
 /// Whether a file may hold several systems, each with a name.
 [[nodiscard]] bool has_systems(Dialect dialect);
 
-/// Translates the file `root` to .lsys text. Reports mistakes where they stand; after errors the
-/// text is incomplete and not to be used. Precondition: not Dialect::Lsys.
+/// Translates the file `root` to .lsys text. Reports mistakes at their places in the file; after
+/// errors the text is incomplete and must not be used. Precondition: not Dialect::Lsys.
 [[nodiscard]] Translation translate(FileId root, Dialect dialect, const ParseContext& context);
 
 /// Reports a .lsys file that is not text or looks like another language; returns whether it may be

@@ -13,7 +13,7 @@ namespace lsys {
 namespace {
 
 struct Line {
-    std::string_view text; // without blanks at its ends
+    std::string_view text; // the line without blanks at its ends
     std::uint32_t begin = 0;
 };
 
@@ -247,7 +247,8 @@ std::optional<OtherLanguage> recognise_other_language(std::string_view text) {
         return language_at(&lines.front(), std::string(lparser.title), reading_of(lparser));
     }
     for (const DialectRow& row : dialects()) {
-        // Messages of .lsys explain the lines of the book's notation one by one.
+        // Texts in the dialects abop and lpy are parsed as .lsys, whose messages explain their
+        // lines one by one.
         const bool is_explained =
             row.recognise == nullptr || row.dialect == Dialect::Abop || row.dialect == Dialect::Lpy;
         if (!is_explained && !row.recognise(text).empty()) {

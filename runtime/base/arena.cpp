@@ -20,8 +20,8 @@ constexpr std::size_t kMaxHeapArena = std::size_t{16} << 10;
 constexpr std::align_val_t kHeapAlignment{64}; // a cache line
 /// Max bytes of an arena on small pages; larger arenas use huge pages.
 constexpr std::size_t kMaxSmallArena = std::size_t{1} << 20;
-/// Min bytes in use for which a huge page pays off: zeroing it takes as long as zeroing a third of
-/// it in small pages.
+/// Min bytes in use for which a huge page pays off: zeroing a huge page takes as long as zeroing a
+/// third of its bytes in small pages.
 constexpr std::size_t kMinHugePageUse = kHugePage / 3;
 /// Min bytes of address space of a large arena; only pages that are written take memory.
 constexpr std::size_t kLargeReservation = std::size_t{256} << 20;
@@ -115,8 +115,9 @@ bool Arena::reserve(std::size_t bytes) {
     return true;
 }
 
-/// Requests huge pages for the bytes in use; for the last page only if a third of it is in use.
-/// Populates the small pages after the huge pages; pages before byte `before` are already in use.
+/// Requests huge pages for the bytes in use; for the last huge page only if a third of that page is
+/// in use. Populates the small pages after the huge pages; pages before byte `before` are already
+/// in use.
 void Arena::prepare_pages(std::size_t before) {
     if (capacity_ > kMaxSmallArena) {
         const std::size_t rest = max_reserved_ % kHugePage;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Tables are of the first use: 64 powers of two and 65 sines and cosines, computed by the slow
-// functions in about 2 ms.
+// The tables of 64 powers of two and of 65 sines and cosines are computed at the first use, by the
+// functions of slow_functions.h, in about 2 ms.
 #include "runtime/base/exact_functions.h"
 
 #include "runtime/base/slow_functions.h"
@@ -58,7 +58,8 @@ double nearest_whole(double x) {
     return (x + kShift) - kShift;
 }
 
-/// The value rounded, unless an error of up to `error` could change the rounding (Ziv 1991).
+/// `value` rounded to binary64; nullopt if an error of up to `error` could change the rounding (Ziv
+/// 1991).
 std::optional<double> rounded(const DoubleDouble& value, double error) {
     const double up = value.high + (value.low + error);
     const double down = value.high + (value.low - error);
@@ -72,11 +73,11 @@ DoubleDouble double_double(const WideFixedPoint& number) {
                                                               : -lsys::rounded(back - number, 0)};
 }
 
-constexpr std::uint32_t kSteps = 64; // of the tables: pi/256 = 45/64 degrees, and log(2)/64
+constexpr std::uint32_t kSteps = 64; // steps of a table: pi/256 rad = 45/64 degrees, or log(2)/64
 
 struct Tables {
-    std::array<DoubleDouble, kSteps + 1> sines;   // of i * pi/256
-    std::array<DoubleDouble, kSteps + 1> cosines; // of i * pi/256
+    std::array<DoubleDouble, kSteps + 1> sines;   // sines of i * pi/256
+    std::array<DoubleDouble, kSteps + 1> cosines; // cosines of i * pi/256
     std::array<DoubleDouble, kSteps> powers;      // 2^(i/64)
 
     Tables() {
@@ -101,11 +102,11 @@ struct TableAngle {
     std::uint32_t quarter = 0; // 0 to 3
     int step = 0;
     DoubleDouble rest;
-    double error = 0.0; // of `rest`, absolute
+    double error = 0.0; // max absolute error of `rest`
 };
 
 TableAngle angle_of_steps(double steps, DoubleDouble rest, double error) {
-    constexpr std::int32_t kQuarter = 128; // steps
+    constexpr std::int32_t kQuarter = 128; // steps per quarter turn
     const auto whole = static_cast<std::int32_t>(steps);
     const std::int32_t quarter = (whole + kQuarter / 2) >> 7;
     return {static_cast<std::uint32_t>(quarter) & 3U, whole - quarter * kQuarter, rest, error};
@@ -142,9 +143,9 @@ struct TableSineCosine {
 };
 
 /// Sine and cosine of step * pi/256 + rest, with a relative error below 2^-65 besides the error of
-/// `rest`. The sums of small terms are in binary64: of the cosine's, below 2^-15.7, the error is
-/// below 2^-67, of the sine's, below 2^-24.6, 2^-75. A sine of a step that is not 0 is at least half
-/// of the table's.
+/// `rest`. The small terms are added in binary64: those of the cosine are below 2^-15.7 and have an
+/// error below 2^-67; those of the sine are below 2^-24.6 and have an error below 2^-75. If `step`
+/// is not 0, the sine is at least half of the table's sine of that step.
 TableSineCosine sine_cosine_near_step(int step, const DoubleDouble& rest) {
     const Tables& known = tables();
     const auto index = static_cast<std::size_t>(step < 0 ? -step : step);
@@ -206,13 +207,13 @@ slow_sine_cosine(const WideFixedPoint& angle, bool is_negative, std::uint32_t qu
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
-/// 2^exponent. Precondition: a normal number.
+/// 2^exponent. Precondition: 2^exponent is a normal binary64.
 double power_of_two(std::int64_t exponent) {
     return std::bit_cast<double>(static_cast<std::uint64_t>(exponent + 1023) << 52U);
 }
 
-/// Precondition: -708 <= x <= 709. The relative error before rounding is below 2^-66: the sum of
-/// small terms, below 2^-16, is in binary64.
+/// Precondition: -708 <= x <= 709. The relative error before rounding is below 2^-66: only the
+/// small terms, whose sum is below 2^-16, are added in binary64.
 std::optional<double> fast_exp(double x) {
     // log(2)/64 = kHigh + kMiddle + kLow; the products of the first two, of 36 bits each, with the
     // number of steps, of at most 17 bits, are exact.

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Functions whose results are the real value rounded to the nearest binary64, ties to even, on
-// every machine (docs/language.md section 13). First double-double arithmetic with tables (Gal &
-// Bachelis 1991), which is kept if its error cannot change the rounding (Ziv 1991); otherwise, in
-// one of some hundred to two thousand cases, fixed-point arithmetic of 320 bits.
+// every machine (docs/language.md section 13). A function first computes in double-double
+// arithmetic with tables (Gal & Bachelis 1991). If the error of that result could change the
+// rounding (Ziv 1991), which is so in one of a hundred to two thousand cases, the function computes
+// in fixed-point arithmetic of 320 bits instead.
 //
 // Every binary64 is allowed. An infinite angle has no sine or cosine: NaN. NaN gives NaN.
 #pragma once

@@ -84,8 +84,9 @@ struct LatestJob::State {
 
     std::mutex mutex; // guards the members below
     std::condition_variable changed;
-    std::deque<Entry> entries;                    // references to entries stay valid
-    std::optional<JobClock::time_point> deadline; // of the running job, unless its time is up
+    std::deque<Entry> entries; // references to entries stay valid
+    /// Time at which the running job will be cancelled; unset if the job has been cancelled.
+    std::optional<JobClock::time_point> deadline;
     bool stops = false;
     std::thread worker;
     std::thread timer;

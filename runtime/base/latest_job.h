@@ -25,8 +25,8 @@ public:
     ~LatestJob();
 
     /// Cancels the earlier jobs with this key, and runs `job` when all earlier jobs have ended.
-    /// Every job is called exactly once; if it was cancelled before it began, with a flag that is
-    /// true. `max_time` after its begin the job is cancelled.
+    /// Every job is called exactly once; a job that was cancelled before it began gets a
+    /// `cancelled` that is true. A job is cancelled `max_time` after it began.
     void start(const std::string& key, Job job, std::chrono::milliseconds max_time);
     /// Cancels the jobs with this key.
     void cancel(const std::string& key);

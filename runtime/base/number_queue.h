@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// NumberQueue: ranges of numbers that one thread adds and others take one by one. The adding thread
-// can wait until few numbers are left, and add more before the other threads run out of them.
+// NumberQueue: one thread adds ranges of numbers, and other threads take the numbers one by one.
+// The adding thread can wait until few numbers are left, and add more before the other threads run
+// out of them.
 #pragma once
 
 #include <cstdint>

@@ -129,8 +129,9 @@ void append(png_structp png, png_bytep bytes, png_size_t count) {
 
 void ignore_flush(png_structp /*png*/) {}
 
-/// Writes all rows as differences to the row above, into one IDAT: much faster than choosing the
-/// best filter per row, and nearly as small for small noisy pictures. Returns false on failure.
+/// Writes all rows as differences to the row above, into one IDAT: this is much faster than
+/// choosing the best filter per row, and small noisy pictures give files of nearly the same size.
+/// Returns false on failure.
 bool write_rows(png_structp png, png_infop info, const PngSize& size, png_const_bytep rgba) {
     constexpr int kLevel = 2; // higher levels save less than 5 % of the size
     const std::size_t row_bytes = std::size_t{4} * size.columns;
@@ -144,7 +145,8 @@ bool write_rows(png_structp png, png_infop info, const PngSize& size, png_const_
     png_set_filter(png, PNG_FILTER_TYPE_BASE, PNG_FILTER_UP);
     png_set_compression_level(png, kLevel);
     png_set_compression_strategy(png, 0); // the default of zlib
-    // Room for zlib's output even for incompressible bytes, so that it is written as one IDAT.
+    // Make the buffer large enough for zlib's output, even for incompressible bytes, so that libpng
+    // writes the output as one IDAT.
     png_set_compression_buffer_size(png, row_bytes * size.rows / 1000 * 1001 + 1024);
     png_write_info(png, info);
     if (opaque) {

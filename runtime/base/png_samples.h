@@ -18,7 +18,7 @@ namespace lsys {
 struct PngSamples {
     std::uint32_t columns = 0;
     std::uint32_t rows = 0;
-    std::uint32_t channels = 0; // per pixel
+    std::uint32_t channels = 0; // channels per pixel
     std::vector<std::uint8_t> bytes;
 };
 
@@ -31,7 +31,7 @@ enum class PngForm : std::uint8_t {
 struct PngRequest {
     PngForm form = PngForm::Rgba;
     std::uint64_t max_pixels = 0;
-    std::uint64_t max_bytes = 0;  // of the samples and the caller's copy of them
+    std::uint64_t max_bytes = 0;  // max bytes of the samples and of the caller's copy together
     std::uint32_t copy_bytes = 0; // bytes per pixel of the caller's copy
     std::string_view noun;        // names the picture in errors: "map"
 };

@@ -20,7 +20,8 @@ constexpr WideFixedPoint kPi{{0x38D01377, 0x452821E6, 0xEC4E6C89, 0x082EFA98, 0x
 constexpr WideFixedPoint kLog2{{0x6DEBAC98, 0xE7B87620, 0x8BAAFA2B, 0x8A0D175B, 0x7298B62D,
                                 0x40F34326, 0x03F2F6AF, 0xC9E3B398, 0xD1CF79AB, 0xB17217F7,
                                 0x00000000}};
-/// 2/pi after the point, highest word first: enough for 2^1024 and 320 bits of the rest.
+/// The bits of 2/pi after the point, highest word first: enough to reduce an angle of 2^1024 rad
+/// with 320 bits after the point.
 constexpr std::array<std::uint32_t, 48> kTwoByPi{
     0xA2F9836E, 0x4E441529, 0xFC2757D1, 0xF534DDC0, 0xDB629599, 0x3C439041, 0xFE5163AB, 0xDEBBC561,
     0xB7246E3A, 0x424DD2E0, 0x06492EEA, 0x09D1921C, 0xFE1DEB1C, 0xB129A73E, 0xE88235F5, 0x2EBB4484,
@@ -70,7 +71,8 @@ WideFixedPoint small_arc_tangent(const WideFixedPoint& t) {
     return t + fifth / 5 - third / 3 - fifth * square / 7;
 }
 
-/// Arc tangent of t, 2^-62 < t <= 1, from an estimate: atan t = e + atan((t - tan e)/(1 + t tan e)).
+/// Arc tangent of t, 2^-62 < t <= 1, from an estimate: atan t = e + atan((t - tan e)/(1 + t tan
+/// e)).
 WideFixedPoint arc_tangent_of(const WideFixedPoint& t) {
     const WideFixedPoint estimate = WideFixedPoint::from(arc_tangent(rounded(t, 0), 1.0));
     const WideFixedPoint sine = slow_sine(estimate);
@@ -84,13 +86,14 @@ WideFixedPoint arc_tangent_of(const WideFixedPoint& t) {
 } // namespace
 
 ReducedAngle reduce_radians(double angle) {
-    // Payne & Hanek 1983: of angle * 2/pi = m * 2^exponent * 2/pi, with a whole number m, the
-    // multiples of 4 do not matter.
+    // Payne & Hanek 1983: angle * 2/pi = m * 2^exponent * 2/pi, with a whole number m, is needed
+    // modulo 4 only.
     int exponent = 0;
     const double fraction = std::frexp(std::abs(angle), &exponent);
     const auto m = static_cast<std::uint64_t>(std::ldexp(fraction, 53));
     exponent -= 53;
-    // Words of 2/pi whose product is a multiple of 4 are left out; the others begin at `first`.
+    // Skip the words of 2/pi whose product with m * 2^exponent is a multiple of 4; the other words
+    // begin at `first`.
     constexpr int kUsed = 16;
     const int first = ((exponent - 34) >> 5) + 1;
     std::array<std::uint32_t, kUsed + 2> product{}; // least word first

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
 // Sine, cosine, exponential and arc tangent in fixed-point arithmetic with 320 bits after the
-// point, for exact_functions.cpp: slow (about 10 us), and right to 2^-250 of the result. No result
-// is nearer to the middle between two numbers of binary64: for sine, cosine and exponential of one
-// binary64 the nearest are some 2^-120 away (Lefevre & Muller 2001), and none is a middle itself,
-// since these functions are transcendental at algebraic arguments, and by Niven's theorem.
+// point, for exact_functions.cpp: slow (about 10 us), with a relative error below 2^-250. That
+// decides the rounding, since no result is so near to the middle between two neighbouring numbers
+// of binary64: the nearest sines, cosines and exponentials of a binary64 are some 2^-120 away from
+// a middle (Lefevre & Muller 2001). No result is a middle itself, since these functions are
+// transcendental at algebraic arguments, and by Niven's theorem.
 #pragma once
 
 #include "runtime/base/wide_fixed_point.h"
@@ -18,7 +19,7 @@ struct ReducedAngle {
     bool is_negative = false;
     std::uint32_t quarters = 0; // 0 to 3
 };
-/// Reduces an angle in radians of at least 2^-30 and at most 2^1024.
+/// Reduces an angle of 2^-30 to 2^1024 radians.
 [[nodiscard]] ReducedAngle reduce_radians(double angle);
 /// `degrees`: from 0 to 45.
 [[nodiscard]] WideFixedPoint radians_of(double degrees);
@@ -27,7 +28,7 @@ struct ReducedAngle {
 /// angle in radians up to a factor of 1 - 2^-130.
 [[nodiscard]] double slow_small_sine_of_degrees(double degrees);
 
-/// Precondition of both: angle < 1.
+/// Precondition of slow_sine() and slow_cosine(): angle < 1 rad.
 [[nodiscard]] WideFixedPoint slow_sine(const WideFixedPoint& angle);
 [[nodiscard]] WideFixedPoint slow_cosine(const WideFixedPoint& angle);
 /// index * pi / 256.

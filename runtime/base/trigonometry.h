@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Trigonometry from additions, multiplications, divisions and square roots alone. The standard
 // library rounds its functions differently on other processors and systems; the solver of
-// runtime/physics amplifies such differences until they show in the pose.
+// runtime/physics amplifies such differences until the pose of a plant differs visibly.
 #pragma once
 
 #include <cmath>

@@ -135,14 +135,15 @@ WideFixedPoint shifted_right(const WideFixedPoint& number, std::uint32_t bits) {
 
 double rounded(const WideFixedPoint& number, int exponent) {
     constexpr int kPrecision = 53;
-    constexpr int kLeastExponent = -1022; // of a normal binary64
+    constexpr int kLeastExponent = -1022; // least exponent of a normal binary64
     if (number.is_zero()) {
         return 0.0;
     }
     const int top = top_bit(number);
     const int result_exponent = top - WideFixedPoint::kFractionBits + exponent;
-    const int lost = std::max(0, kLeastExponent - result_exponent); // of a subnormal result
-    const int kept = kPrecision - lost; // bits of the result; below 0 it is 0
+    // Bits that a subnormal result lacks.
+    const int lost = std::max(0, kLeastExponent - result_exponent);
+    const int kept = kPrecision - lost; // bits of the result; if negative, the result is 0
     if (kept < 0) {
         return 0.0;
     }

@@ -29,7 +29,7 @@ struct WideFixedPoint {
 };
 
 [[nodiscard]] bool operator<(const WideFixedPoint& a, const WideFixedPoint& b);
-/// Modulo 2^32.
+/// The sum modulo 2^32.
 [[nodiscard]] WideFixedPoint operator+(const WideFixedPoint& a, const WideFixedPoint& b);
 /// Precondition: b <= a.
 [[nodiscard]] WideFixedPoint operator-(const WideFixedPoint& a, const WideFixedPoint& b);

@@ -22,8 +22,8 @@ namespace lsys {
 namespace {
 
 constexpr std::uint32_t kMaxThreads = 1024;
-// Number of polls for the next task before a helper sleeps. They take some tens of microseconds, as
-// long as the serial work between two passes over a word.
+// Number of polls for the next task before a helper sleeps. The polls take some tens of
+// microseconds, as long as the serial work between two passes over a word.
 constexpr int kPolls = 2000;
 
 void pause_a_moment() {

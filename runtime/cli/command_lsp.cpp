@@ -112,8 +112,8 @@ ExitStatus run_command(const LspCommand& /*command*/, const Console& console) {
         return done ? std::move(fixed.changed) : std::map<std::string, std::string>();
     };
     LanguageServer server(std::move(host));
-    // A signal does not end a read of the stream, so a read begins only when there is input; until
-    // then the signal is awaited, too.
+    // A signal does not end a read of the stream. So wait for input or a signal, and begin a read
+    // only when there is input.
     const auto wait = [&console] {
         constexpr int kMilliseconds = 500;
         const bool is_process = console.io().interrupted != nullptr;

@@ -113,7 +113,8 @@ std::string_view accuracy_note(const GrowthPrediction& growth) {
                : "bounds: the productions depend on parameters, neighbours or chance\n";
 }
 
-/// A note on the symbol on which the sizes of the generations depend that are not predicted.
+/// A note that names the symbol whose answer or sweep decides the sizes of later generations, which
+/// are not predicted.
 std::string dependence_note(const Bytecode& bytecode, const GrowthPrediction& growth) {
     const BytecodeSymbol& symbol = bytecode.symbol(growth.depends_on);
     return fmt::format("no further: from generation {} on the counts depend on {} `{}`\n",

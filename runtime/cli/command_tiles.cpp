@@ -12,8 +12,8 @@ namespace lsys::lsc {
 
 namespace {
 
-/// Writes the files of this part in ascending order of their numbers, and last tileset.json of the
-/// root if it belongs to the part.
+/// Writes the files of this part in ascending order of their numbers. The last one is tileset.json
+/// of the root, if it belongs to the part.
 void write_part(TilesetFolder& folder, const TilesCommand& command) {
     folder.make();
     Workers workers(command.run.threads);

@@ -34,7 +34,7 @@ void append_list(const Numbers& numbers, std::string& text) {
     text += ']';
 }
 
-/// Appends the items of a JSON array, one a line.
+/// Appends the items of a JSON array, one per line.
 template <typename Items, typename Append>
 void append_items(std::string_view name,
                   const Items& items,

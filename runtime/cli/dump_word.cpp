@@ -38,7 +38,7 @@ struct Plan {
     std::uint32_t first_age = 0;
     std::uint32_t last_age = 0;
     std::string saved_bytes; // contents of the file of --from; empty: start at the axiom
-    PlantSenses senses;      // for each derivation
+    PlantSenses senses;      // makes the EnvironmentSense of each derivation
 };
 
 Result<SavedState> read_saved(const Plan& plan, const std::string& path, const Bytecode& bytecode) {

@@ -8,8 +8,8 @@
 
 namespace lsys::lsc {
 
-/// Derives, and writes the word, counts and state that `command` asks for. Writes nothing if
-/// a limit or a run-time error ends the derivation.
+/// Derives, and writes the word, the counts and the state that `command` requests. Writes nothing
+/// if a limit or a run-time error ends the derivation.
 [[nodiscard]] ExitStatus
 dump_word(const DumpCommand& command, Grammar& grammar, const Console& console);
 

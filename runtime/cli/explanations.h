@@ -15,7 +15,7 @@ namespace lsys::lsc {
 
 /// An example grammar of an explanation.
 struct Example {
-    bool is_correct = false; // false: it has the mistake
+    bool is_correct = false; // false: the example has the mistake
     bool is_sketch = false;  // too incomplete to be run by the test
     std::string arguments;   // command line of `lsc`; `check` if empty
     /// Names and texts of the grammar, `example.lsys`, and of the files that it needs.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Finds a grammar that includes a file, which shows that the file is only a part of a grammar.
+// Finds a grammar that includes a file. If there is one, the file is only a part of a grammar.
 #pragma once
 
 #include <optional>

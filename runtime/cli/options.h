@@ -103,7 +103,7 @@ struct ForestCommand : ForestFileOptions {
 
 /// The share of one process, if several processes write one tileset (`--part I/N`).
 struct TilePart {
-    std::uint64_t index = 1; // of this process, 1 to `count`
+    std::uint64_t index = 1; // number of this process, 1 to `count`
     std::uint64_t count = 1; // number of processes
 };
 

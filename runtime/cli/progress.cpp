@@ -14,7 +14,7 @@ namespace {
 
 constexpr auto kShowDelay = std::chrono::seconds(1);
 constexpr auto kRedrawInterval = std::chrono::milliseconds(100);
-constexpr std::uint64_t kBarWidth = 24; // characters
+constexpr std::uint64_t kBarWidth = 24; // characters of the bar
 constexpr const char* kClearLine = "\r\x1b[K";
 
 /// A rate with few digits: "830", "12 k", "210 M", "3 G".

@@ -47,9 +47,9 @@ private:
     time_left(std::uint32_t generation, std::uint64_t modules, double seconds) const;
 
     std::vector<double> expected_;
-    std::uint32_t generation_ = 0;      // of the last update
-    std::uint64_t modules_ = 0;         // of the last update
-    std::uint64_t earlier_modules_ = 0; // of all generations before generation_
+    std::uint32_t generation_ = 0;      // generation of the last update
+    std::uint64_t modules_ = 0;         // modules at the last update
+    std::uint64_t earlier_modules_ = 0; // modules of all generations before generation_
     bool drawn_ = false;
 };
 
@@ -64,7 +64,7 @@ public:
 
 private:
     Progress::Clock::time_point begin_ = Progress::Clock::now();
-    std::optional<Progress> bar_; // of the current derivation
+    std::optional<Progress> bar_; // bar of the current derivation
 };
 
 } // namespace lsys::lsc

@@ -25,7 +25,7 @@ namespace lsys::lsc {
 struct TileTotals {
     std::uint64_t files = 0;
     std::uint64_t bytes = 0;
-    std::uint64_t trees = 0; // of the finest level
+    std::uint64_t trees = 0; // number of trees in the tiles of the finest level
 };
 
 /// A source of work: the number of the next file to write, or none when all are taken. Called from
@@ -77,7 +77,7 @@ private:
     /// Files of one kind with consecutive numbers.
     struct Section {
         Kind kind = Kind::Shared;
-        std::uint32_t level = 0;   // of the quadtree; 0 for Shared
+        std::uint32_t level = 0;   // level of the quadtree; 0 for Shared
         std::uint32_t columns = 0; // tiles of a row
         std::uint64_t end = 0;     // one more than the number of its last file
     };

@@ -72,7 +72,7 @@ ProductionId only_unbalanced_production(const Bytecode& bytecode, SymbolKind clo
     ProductionId found = kNoProduction;
     for (std::uint32_t i = 0; i < bytecode.productions.size(); ++i) {
         if (bytecode.productions[i].stage == Stage::Interpret) {
-            break; // these productions come last, and write no stored word
+            break; // #interpret and later stages write no brackets
         }
         if (rewrites_bracket(bytecode, bytecode.productions[i])) {
             return kNoProduction;

@@ -71,7 +71,7 @@ private:
     std::vector<std::int8_t> branch_changes_; // by code, Change::branches
     std::int64_t branches_ = 0;
     std::int64_t polygons_ = 0;
-    std::int64_t cut_ = 0; // open branches from the cut branch inwards; 0: no cut
+    std::int64_t cut_ = 0; // number of open brackets from the cut branch inwards; 0: nothing is cut
     bool has_branch_close_ = false;
     bool has_polygon_close_ = false;
 };

@@ -49,11 +49,11 @@ struct RuntimeError {
     float maximum = 0.0F; // the second argument of BadDistribution
     Opcode opcode = Opcode::Range;     // for BadDistribution
     std::uint32_t global = kNone;      // for OutOfBounds and errors while globals are drawn
-    bool in_condition = false;         // in a condition or weight; false: in an argument
-    bool in_weight = false;            // in a weight; in_condition is then true
+    bool in_condition = false;         // true: in a condition or weight; false: in an argument
+    bool in_weight = false;            // true: in a weight; in_condition is then also true
     std::uint32_t environment = kNone; // for SenseFailed: index in Bytecode::environments, or kNone
     std::string text; // for SenseFailed: the reason, for example "its program has ended"
-    std::string help; // for SenseFailed: what to do about it, or empty
+    std::string help; // for SenseFailed: advice for the author, or empty
 };
 
 struct DerivationEnd;
@@ -67,19 +67,19 @@ public:
     WordSense(const WordSense&) = delete;
     WordSense& operator=(const WordSense&) = delete;
 
-    /// Begins a derivation: makes what its environments hold at the start, such as markers.
-    /// `globals`: the values of Bytecode::globals. Sets `end` if it returns a Stop.
+    /// Begins a derivation: sets up the data that environments keep from word to word, such as
+    /// markers. `globals`: the values of Bytecode::globals. Sets `end` if it returns a Stop.
     [[nodiscard]] virtual std::optional<Stop> begin(std::uint64_t seed,
                                                     std::uint32_t generations,
                                                     std::span<const float> globals,
                                                     DerivationEnd& end) = 0;
-    /// Walks over `word`, a complete word of age `age`, and writes the answers into the first
-    /// parameters of its sense modules. Sets `end` if it returns a Stop; the parameters of the word
-    /// are then unspecified.
+    /// Writes the answers to the sense modules of `word`, a complete word of age `age`, into their
+    /// first parameters. Sets `end` if it returns a Stop; the parameters of the word are then
+    /// unspecified.
     [[nodiscard]] virtual std::optional<Stop>
     sense(Word& word, std::uint32_t age, DerivationEnd& end) = 0;
     /// The data that environments keep from one word to the next, such as markers that are left, as
-    /// bytes for a saved state. Empty if they keep nothing.
+    /// bytes for a saved state. Empty if environments keep no data.
     [[nodiscard]] virtual std::string state() const = 0;
     /// Continues from bytes of state(), after begin(). False: the bytes are not of this program.
     [[nodiscard]] virtual bool restore(std::string_view state) = 0;
@@ -95,8 +95,8 @@ struct DerivationPass {
     std::uint64_t first_draw = 0; // number of the first draw of each module
     const Word* in = nullptr;
     const Word* out = nullptr; // null: the pass is about to begin
-    /// Down, Up: the module at which the sweep ended with an error; kNoFault: none. Modules that it
-    /// had not visited are in `out` as in `in`.
+    /// Down, Up: the module at which the sweep ended with an error; kNoFault: none. Modules that
+    /// the sweep had not visited are equal in `in` and `out`.
     std::uint64_t fault = kNoFault;
     static constexpr std::uint64_t kNoFault = ~std::uint64_t{0};
 };
@@ -118,19 +118,20 @@ struct DeriveOptions {
     std::function<void(std::uint32_t generation, std::uint64_t modules_written)> progress;
     /// Called before and after each pass. Before a pass, each origin in `in` is set to the index of
     /// its module, so the origins in `out` name the modules of `in` that were rewritten. Not called
-    /// for passes that cannot change the word; after a pass with an error only if it is a sweep. Precondition: `origins`; fewer than 2^32 modules.
+    /// for passes that cannot change the word; not called after a pass that ends with an error,
+    /// except a sweep. Precondition: `origins`; fewer than 2^32 modules.
     std::function<void(const DerivationPass& pass)> on_pass;
 };
 
 /// The reason why a derivation ended before its last word, as facts for messages.
 struct DerivationEnd {
     std::optional<Stop> stop; // none: the derivation is complete, or may go on
-    RuntimeError error;       // for Stop::Diagnosed
-    LimitReport limit;        // for Stop::Limit and Stop::OutOfMemory
+    RuntimeError error;       // set with Stop::Diagnosed
+    LimitReport limit;        // set with Stop::Limit and Stop::OutOfMemory
 };
 
-/// One derivation in progress. Holds a reference to the bytecode, which outlives it. Functions that
-/// return a Stop return none on success; end() has the facts.
+/// One derivation in progress. The bytecode must outlive the object. Functions that return a Stop
+/// return none on success; end() has the facts.
 class Derivation {
 public:
     Derivation(const Bytecode& bytecode, DeriveOptions options);

@@ -171,7 +171,7 @@ private:
         return code;
     }
 
-    /// Puts the folded modules into the axiom.
+    /// Replaces the modules of the axiom by their folded codes.
     void fold_axiom(WordTemplate& axiom, const float* arguments) {
         axiom_is_folded_ = axiom.parameter_count != 0;
         for (std::uint32_t i = 0; i < axiom.codes.count; ++i) {

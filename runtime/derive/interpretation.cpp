@@ -13,7 +13,7 @@ namespace lsys {
 
 namespace {
 
-/// Values to which the plan refers.
+/// Values that the plan points to: it stores no copies of them.
 struct PlanArguments {
     PlanArguments(const Bytecode& program, const InterpretInputs& given)
         : bytecode(program), inputs(given) {}

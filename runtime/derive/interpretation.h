@@ -14,7 +14,7 @@
 
 namespace lsys {
 
-/// Values of the derivation of the word, and limits of the interpretation.
+/// Values of the derivation that made the word, and limits of the interpretation.
 struct InterpretInputs {
     std::uint64_t seed = 0;
     std::uint32_t generations = 0; // the age of the word
@@ -24,7 +24,7 @@ struct InterpretInputs {
 
 class Interpretation {
 public:
-    /// Takes modules to draw. Returns false to end the work.
+    /// Receives modules to draw. Returns false to end the interpretation.
     using Sink =
         std::function<bool(std::span<const Code>, std::span<const float>, std::span<const Origin>)>;
 
@@ -36,8 +36,7 @@ public:
     Interpretation(const Interpretation&) = delete;
     Interpretation& operator=(const Interpretation&) = delete;
 
-    /// Interprets the next modules of the derived word. Stop::Cancelled: the sink has ended the
-    /// work.
+    /// Interprets the next modules of the derived word. Stop::Cancelled: the sink returned false.
     [[nodiscard]] virtual std::optional<Stop> feed(std::span<const Code> codes,
                                                    std::span<const float> parameters,
                                                    std::span<const Origin> origins) = 0;

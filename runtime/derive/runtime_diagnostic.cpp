@@ -56,7 +56,7 @@ std::string owner(const RuntimeError& error, const Bytecode& bytecode) {
                        bytecode.productions[static_cast<std::size_t>(error.production)].name);
 }
 
-/// Sets the place of a site, or a note if there is no source.
+/// Points the diagnostic to a site, or adds a note that names the place if there is no source text.
 void place(Diagnostic& diagnostic,
            std::uint32_t site,
            const Bytecode& bytecode,
@@ -127,7 +127,7 @@ void add_facts(Diagnostic& diagnostic, const RuntimeError& error, const Bytecode
     }
     diagnostic.facts.push_back({"generation", std::uint64_t{error.generation}});
     if (error.symbol == kNoSymbol) {
-        return; // an environment that no module asks
+        return; // no module is involved
     }
     diagnostic.facts.push_back({"position", error.position});
     diagnostic.facts.push_back({"module", module_text(error, bytecode)});
@@ -394,7 +394,7 @@ Diagnostic sense_failed(const RuntimeError& error, const Bytecode& bytecode) {
             "asked by `{}`, module {} of generation {} (counted from 0)",
             module_text(error, bytecode), grouped_digits(error.position), error.generation));
     }
-    for (std::size_t begin = 0; begin < error.help.size();) { // what a program wrote has lines
+    for (std::size_t begin = 0; begin < error.help.size();) { // one help per line
         const std::size_t end = std::min(error.help.find('\n', begin), error.help.size());
         if (end > begin) {
             diagnostic.help.push_back(error.help.substr(begin, end - begin));

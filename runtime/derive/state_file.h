@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// State files: derivations saved before their end (`--save-state`, `--from`). A file holds the
-// digest of the program, seed, number of generations, age, word and what the environments of sense
-// modules keep, with magic, versions and a checksum; state_file.cpp shows the layout.
+// State files: derivations saved before their end (`--save-state`, `--from`). A file has the digest
+// of the program, seed, number of generations, age, word, and the data that the environments of
+// sense modules keep, with magic, versions and a checksum; state_file.cpp shows the layout.
 #pragma once
 
 #include "compiler/bytecode/bytecode.h"
@@ -24,7 +24,7 @@ inline constexpr std::uint32_t kStateFileVersion = 3;
 struct StateHeader {
     std::uint64_t program_digest = 0; // digest() of the bytecode
     std::uint64_t seed = 0;
-    std::uint32_t generations = 0; // of the whole derivation
+    std::uint32_t generations = 0; // generations of the whole derivation
     std::uint32_t age = 0;
 };
 
@@ -34,7 +34,7 @@ struct SavedState {
     std::string sense_state; // Derivation::sense_state(), for Derivation::resume()
 };
 
-/// Hands the bytes of a state file to `flush`, in order and in few pieces, without copying the
+/// Passes the bytes of a state file to `flush`, in order and in few pieces, without copying the
 /// word. Returns false as soon as flush does.
 [[nodiscard]] bool write_state(const StateHeader& header,
                                const Word& word,

@@ -21,7 +21,7 @@ namespace {
 
 constexpr std::uint64_t kProgressStride = std::uint64_t{1} << 24;
 
-/// Sends the axiom down the levels, and the modules of the last level to the consumer.
+/// Rewrites the axiom through all levels, and passes the modules of the last level to the consumer.
 template <typename C, typename R>
 class Streamer {
 public:
@@ -72,7 +72,7 @@ private:
         outcome_.end.stop = Stop::Limit;
     }
 
-    /// Hands a block of the last word to the consumer.
+    /// Passes a block of the last word to the consumer.
     bool emit(const LevelBlock<C>& block) {
         const std::uint64_t count = block.codes.size();
         if (count > options_.limits.max_modules - outcome_.modules) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Derivation without a stored word: depth-first expansion of a context-free parallel system, in
-// memory that grows with the number of generations only. Each generation counts its modules, which
-// gives the position of the next one, so draws and results equal those of a stored derivation.
+// memory that grows with the number of generations only. Each generation counts its modules, so the
+// position of its next module is known, and draws and results equal those of a stored derivation.
 #pragma once
 
 #include "runtime/derive/derive.h"

@@ -93,8 +93,9 @@ struct StepTracer::State {
     std::vector<ModuleTrace>
         traces_without_pass;                     // traces of the roots, if the engine makes no pass
     std::vector<std::uint32_t> pass_productions; // productions of the current pass
-    std::size_t first_of_pass = 0;               // in traces
-    /// By place: its trace in the current pass; kNoTrace: it was copied without a trace.
+    std::size_t first_of_pass = 0;               // index in traces
+    /// By place: the index of its trace in the current pass; kNoTrace: the module was copied and
+    /// has no trace.
     std::vector<std::size_t> trace_of_place;
     bool ok = true;
 
@@ -202,7 +203,7 @@ struct StepTracer::State {
         return trace;
     }
 
-    /// Explains the tracked sense modules: what they asked with and what was answered.
+    /// Explains the tracked sense modules: their parameters before and after sensing.
     void explain_answers(const DerivationPass& facts) {
         const TracedWord before(bytecode, *facts.in);
         const TracedWord after(bytecode, *facts.out);
@@ -222,7 +223,7 @@ struct StepTracer::State {
         }
     }
 
-    /// Explains a sweep, whose contexts are the modules that it has written.
+    /// Explains a sweep, whose contexts are modules with the parameters that the sweep has written.
     void explain_sweep(const DerivationPass& facts) {
         const TracedWord before(bytecode, *facts.in);
         const TracedWord after(bytecode, *facts.out);

@@ -38,7 +38,7 @@ module_text(const Bytecode& bytecode, std::string_view name, const std::vector<f
 
 /// A module that a context search visited.
 struct VisitedModule {
-    std::uint64_t position = 0; // in the word read
+    std::uint64_t position = 0; // position in the word that the pass reads
     std::uint32_t item = 0;     // pattern item that the module was compared with
     TracedModule module;
 };
@@ -50,7 +50,8 @@ LSYS_COUNTED_ENUM(ContextEnd,
                   NoBranch,    // there is no branch where the pattern has `[`
                   NotSearched);
 
-/// The search for a context, in its order: from the module outwards.
+/// The search for a context: visited modules in the order of the search, from the traced module
+/// outwards.
 struct ContextTrace {
     ContextEnd end = ContextEnd::NotSearched;
     std::vector<VisitedModule> visited;
@@ -80,7 +81,7 @@ struct TracedRange {
 /// A local value.
 struct TracedLocal {
     std::string name;
-    std::string text; // its expression; for `if`, the chosen side
+    std::string text; // the expression of the local value; for `if`, the chosen side
     float value = 0.0F;
     std::vector<std::string> choices; // conditions of `if` in it: "x > 2 is true"
 };
@@ -106,7 +107,8 @@ LSYS_COUNTED_ENUM(Verdict,
                   NotDrawn,  // it matches, but another production was drawn
                   NotTried); // an earlier production was taken
 
-/// A production for modules of the traced module's name, and why it applies or does not.
+/// A production whose predecessor has the name of the traced module, and the reason why the
+/// production applies or does not.
 struct Attempt {
     ProductionId production = kNoProduction;
     Verdict verdict = Verdict::NotTried;
@@ -168,7 +170,7 @@ struct ModuleTrace {
     std::size_t root = 0;          // index of the start module in StepTracer::begin()
     std::size_t parent = kNoTrace; // the trace that wrote the module, in StepTracer::traces()
     std::uint64_t offset = 0;      // index in ModuleTrace::written of the parent
-    std::uint64_t position = 0;    // in the word read
+    std::uint64_t position = 0;    // position in the word that the pass reads
     TracedModule module;
 
     std::vector<Attempt> attempts; // in file order
@@ -237,8 +239,8 @@ public:
     /// changes nothing.
     void finish();
 
-    /// All traces, each after its parent: of the modules of begin() in each pass, and of modules
-    /// written for them to which productions of later passes may apply.
+    /// All traces, each after its parent: of the modules given to begin(), in each pass, and of
+    /// modules written for these modules, if productions of later passes may apply to them.
     [[nodiscard]] const std::vector<ModuleTrace>& traces() const;
     /// A module of the last word of the step.
     struct Place {

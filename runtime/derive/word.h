@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Word: the derived string, packed. A stream of codes of one width (1, 2 or 4 bytes, little-endian)
-// and a stream of the binary32 parameters that these codes store, in order. Made by derive, read
-// by dumps and by the turtle. Memory comes from arenas, which are reused and not initialised. A
-// word may also keep the origin of each module.
+// and a stream of the binary32 parameters that these codes store, in order. Made by class
+// Derivation, read by dumps and by the turtle. Memory comes from arenas, which are reused and not
+// initialised. A word may also keep the origin of each module.
 #pragma once
 
 #include "compiler/bytecode/bytecode.h"

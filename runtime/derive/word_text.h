@@ -29,11 +29,12 @@ public:
     /// Starts a new word: the next module does not follow the last one printed.
     void begin() { after_identifier_ = false; }
     /// The text before and after a word that is not empty: a back quote if words are printed as one
-    /// text (`names characters`). print() writes it, append() does not.
+    /// text (`names characters`). print() writes these quotes, append() does not.
     [[nodiscard]] std::string_view quote() const { return one_text_ ? "`" : ""; }
     /// Appends the text of `codes`, whose parameters are `parameters`.
     void append(std::span<const Code> codes, std::span<const float> parameters, std::string& out);
-    /// Hands the text of a whole word to `flush` in pieces. Returns false as soon as flush does.
+    /// Passes the text of a whole word to `flush` in pieces. Returns false as soon as `flush`
+    /// returns false.
     [[nodiscard]] bool print(const Word& word, const std::function<bool(std::string_view)>& flush);
 
 private:

@@ -38,7 +38,7 @@ sort_unless(const std::atomic<bool>* cancelled, LargeVector<T>& items, const Bef
     return !is_cancelled();
 }
 
-/// For each vertex the first one at the same place, -0 being 0. Empty when cancelled.
+/// By vertex: the index of the first vertex at the same place; -0 equals 0. Empty when cancelled.
 LargeVector<std::uint32_t> merged_vertices(const std::vector<Vector3>& vertices,
                                            const std::atomic<bool>* cancelled) {
     LargeVector<std::uint32_t> order(vertices.size());
@@ -57,15 +57,16 @@ LargeVector<std::uint32_t> merged_vertices(const std::vector<Vector3>& vertices,
     return merged;
 }
 
-/// A side of a triangle.
+/// A side of a triangle, between the vertices `low` and `high`.
 struct EdgeUse {
-    std::uint32_t low = 0; // vertexes of the edge, in ascending order
+    std::uint32_t low = 0; // the lower index of the two vertices
     std::uint32_t high = 0;
     std::uint32_t triangle = 0;
-    bool upwards = false; // runs from low to high
+    bool upwards = false; // the triangle goes from `low` to `high`
 };
 
-/// By edges, then by triangles. Empty when cancelled.
+/// The sides of all triangles with three different corners, sorted by edge, then by triangle. Empty
+/// when cancelled.
 LargeVector<EdgeUse> sorted_edges(const EnvironmentMesh& mesh, const std::atomic<bool>* cancelled) {
     const LargeVector<std::uint32_t> merged = merged_vertices(mesh.vertices, cancelled);
     LargeVector<EdgeUse> edges;
@@ -113,16 +114,16 @@ bool are_pairs(const LargeVector<EdgeUse>& edges) {
     return !edges.empty();
 }
 
-/// Connected triangles as a union-find forest with parities: whether a triangle faces the side of
-/// its root. The root of a set is its first triangle.
+/// Sets of connected triangles: a union-find forest that also stores, per triangle, whether the
+/// triangle faces the same side as the root of its set. The root is the first triangle of the set.
 class ConnectedTriangles {
 public:
     explicit ConnectedTriangles(std::size_t count) : parent_(count), turned_(count, 0) {
         std::iota(parent_.begin(), parent_.end(), 0U);
     }
 
-    /// Connects two neighbours; `turned`: they face opposite sides. Returns false if they are
-    /// connected already and the other way.
+    /// Connects two neighbours; `turned`: they face opposite sides. Returns false if earlier
+    /// connections imply the contrary of `turned`.
     [[nodiscard]] bool connect(std::uint32_t a, std::uint32_t b, bool turned) {
         const std::uint32_t root_a = find(a);
         const std::uint32_t root_b = find(b);
@@ -136,7 +137,7 @@ public:
         return true;
     }
 
-    /// For each triangle whether it is turned to face the side of its root.
+    /// By triangle: 1 if it must be turned to face the same side as the root of its set.
     [[nodiscard]] std::vector<std::uint8_t> turned() {
         for (std::size_t i = 0; i < parent_.size(); ++i) {
             static_cast<void>(find(static_cast<std::uint32_t>(i)));
@@ -145,7 +146,8 @@ public:
     }
 
 private:
-    /// The root of `triangle`, which becomes its parent.
+    /// The root of the set of `triangle`. Makes the root the parent of all triangles on the path to
+    /// it.
     std::uint32_t find(std::uint32_t triangle) {
         path_.clear();
         while (parent_[triangle] != triangle) {
@@ -162,7 +164,7 @@ private:
     }
 
     std::vector<std::uint32_t> parent_;
-    std::vector<std::uint8_t> turned_; // against the parent; 0 for roots
+    std::vector<std::uint8_t> turned_; // 1: faces the side opposite to its parent's; 0 for roots
     std::vector<std::uint32_t> path_;
 };
 

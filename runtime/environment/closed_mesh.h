@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Whether a mesh is the closed surface that bounds an environment of kind Space, and has an inside
-// for one of kind Solid.
+// Tests whether a mesh is a closed surface. An environment of kind Space needs one around its
+// markers; in one of kind Solid only closed meshes have an inside.
 #pragma once
 
 #include "runtime/environment/environment.h"
@@ -15,14 +15,14 @@ namespace lsys {
 /// corners do not count.
 struct MeshClosure {
     bool closed = false; // each edge belongs to two triangles, and there is a triangle
-    /// Whether the triangles have a common orientation after those in `turned` are turned.
+    /// Whether all triangles face one side once the triangles in `turned` are turned.
     bool orientable = true;
-    /// Closed, but neighbours face opposite sides: 1 for each triangle that is turned to face the
-    /// side of the first triangle that it is connected with. Otherwise empty.
+    /// By triangle of a closed mesh in which some neighbours face opposite sides: 1 if the triangle
+    /// must be turned to face the same side as the first triangle connected to it. Otherwise empty.
     std::vector<std::uint8_t> turned;
 };
 
-/// When `cancelled` became true, the result is that of an open mesh.
+/// If `cancelled` becomes true, returns the result for an open mesh.
 [[nodiscard]] MeshClosure mesh_closure(const EnvironmentMesh& mesh,
                                        const std::atomic<bool>* cancelled = nullptr);
 

@@ -19,8 +19,7 @@ namespace lsys {
 namespace {
 
 /// A tree of places with the exact total of the coordinates below each node, so that a node within
-/// the radius is counted as a whole: a radius around everything takes a step per place, not one per
-/// pair.
+/// the radius is counted as a whole. If the radius covers all places, an answer takes one step.
 class CrowdedPlaces {
 public:
     CrowdedPlaces(std::span<const SensePlace> places, const EnvironmentContext& context)
@@ -48,7 +47,7 @@ public:
     void answer(std::size_t at, double radius_squared, float* answer) const {
         const Vector3 place = tree_.points[at];
         Totals totals{};
-        // The place is in its own sphere: it is counted, then taken out.
+        // total_within() also counts the place itself; subtract it.
         const std::uint64_t others = total_within(place, radius_squared, totals) - 1;
         Vector3 direction{};
         if (others > 0) {
@@ -63,7 +62,7 @@ public:
         write_answer(static_cast<double>(others), direction, answer);
     }
 
-    /// Bytes of the structure for `places` places.
+    /// Bytes of a CrowdedPlaces of `places` places.
     [[nodiscard]] static std::uint64_t bytes(std::size_t places, std::size_t words) {
         return std::uint64_t{places} * (kPointTreeBytes + 8 * words);
     }

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Environment: answers the modules `?NAME` of one `#sense` statement (docs/language.md section 13).
-// It gets all places of a word at once and answers all of them. Places
-// and directions are in metres and in the plant's own axes, +Y up. Answers depend on the places
-// alone, not on their order where the language says so, and never on the number of threads.
+// An environment gets all places of a word at once, and answers all of them. Places and directions
+// are in metres and in the plant's own axes, +Y up. Answers depend only on the places, never on the
+// number of threads. docs/language.md says for which kinds they do not depend on the order of the
+// places.
 //
 // One kind of environment is one file of this folder: shadow.cpp, sky.cpp, space.cpp, crowd.cpp,
 // solid.cpp, map.cpp, program.cpp.
@@ -42,17 +43,19 @@ struct SensedOrgan {
 /// The input of an environment for one word.
 struct SensedWord {
     std::uint32_t generation = 0;        // age of the word
-    std::span<const SensePlace> places;  // of the environment's own modules, in word order
-    std::span<const SensedOrgan> organs; // of the whole word, in word order; for kind Sky
-    std::span<const float> parameters;   // of the modules at `places`, one after the other
+    std::span<const SensePlace> places;  // places of the environment's own modules, in word order
+    std::span<const SensedOrgan> organs; // organs of the whole word, in word order; for kind Sky
+    /// Parameters of the modules at `places`, one after the other.
+    std::span<const float> parameters;
     std::span<const std::uint32_t>
-        first; // of each place: index of its first parameter; and the end
+        first; // by place: index of its first parameter; last: the size of `parameters`
 };
 
 /// A closed or open surface of triangles.
 struct EnvironmentMesh {
     std::vector<Vector3> vertices; // m
-    /// Indexes of vertices, in the order of the file; faces with more than three corners are fans.
+    /// Indexes of vertices, in the order of the file; a face with more than three corners is split
+    /// into a fan of triangles.
     std::vector<std::array<std::uint32_t, 3>> triangles;
 };
 
@@ -78,11 +81,11 @@ struct EnvironmentFailure {
     std::size_t place = 0;       // Diagnosed: index of the place that has no answer
 };
 
-/// Resources of an environment. All outlive it.
+/// Resources of an environment. They must outlive the environment.
 struct EnvironmentContext {
     Workers* workers = nullptr;
     const std::atomic<bool>* cancelled = nullptr;
-    std::uint64_t max_bytes = ~std::uint64_t{0}; // that the environment may hold
+    std::uint64_t max_bytes = ~std::uint64_t{0}; // max bytes that the environment may hold
 };
 
 class Environment {
@@ -92,21 +95,23 @@ public:
     Environment(const Environment&) = delete;
     Environment& operator=(const Environment&) = delete;
 
-    /// Begins a derivation: forgets all that an earlier one has left.
+    /// Begins a derivation: drops data kept from an earlier derivation.
     [[nodiscard]] virtual std::optional<EnvironmentFailure> begin(std::uint64_t /*seed*/) {
         return std::nullopt; // most kinds keep nothing
     }
-    /// Sees all places of the word, then answers: answers[i * size + k] is number k of the answer
-    /// at places[i], where `size` is answer_size() of the kind. Numbers are binary64 until here and
-    /// are rounded once; -0 becomes 0. `answers` has places.size() * size elements; a kind with
-    /// kUnknownAnswer resizes it and sets `sizes` to the number of numbers for each place.
+    /// Computes the answers at all places of the word: answers[i * size + k] is number k of the
+    /// answer at places[i], where `size` is answer_size() of the kind. Numbers are computed in
+    /// binary64 and rounded once to binary32; -0 becomes 0. `answers` has places.size() * size
+    /// elements; a kind with kUnknownAnswer resizes it and sets `sizes` to the number of numbers
+    /// for each place.
     [[nodiscard]] virtual std::optional<EnvironmentFailure> answer(
         const SensedWord& word, std::vector<float>& answers, std::vector<std::uint32_t>& sizes) = 0;
     /// The data that the environment keeps from one word to the next, as bytes for a saved state.
     [[nodiscard]] virtual std::string state() const { return {}; }
-    /// Appends the places of the markers that are left, for dumps and viewers.
+    /// Appends the positions of the markers that no place has killed, for dumps and viewers.
     virtual void append_markers(std::vector<Vector3>& /*markers*/) const {}
-    /// Continues from bytes of state(), after begin(). False: the bytes are not of this environment.
+    /// Continues from bytes of state(), after begin(). False: the bytes are not of this
+    /// environment.
     [[nodiscard]] virtual bool restore(std::string_view state) { return state.empty(); }
 };
 

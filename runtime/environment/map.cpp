@@ -10,8 +10,9 @@ namespace lsys {
 
 namespace {
 
-/// A picture that lies on the plane of x and z. Pixel centres have the values of the pixels, between
-/// them they are interpolated bilinearly, and beyond the border they are those of the border.
+/// A picture that lies on the plane of x and z. The value at the centre of a pixel is that of the
+/// pixel; between centres, values are interpolated bilinearly; beyond the border, they equal those
+/// at the border.
 class MapEnvironment : public Environment {
 public:
     MapEnvironment(const BytecodeEnvironment& declared,
@@ -38,14 +39,15 @@ public:
     }
 
 private:
-    /// A position along one axis of the picture: the pixels around it, and how near to the second.
+    /// A position along one axis of the picture: the two pixels around it, and the fraction of the
+    /// way from the centre of the first to that of the second.
     struct Between {
         std::size_t first = 0;
         std::size_t second = 0;
         double part = 0.0; // 0 at the centre of `first`, 1 at the centre of `second`
     };
 
-    /// `distance`: metres from the middle of the picture; `size`: metres of `pixels` pixels.
+    /// `distance`: from the middle of the picture, m; `size`: width of all `pixels` pixels, m.
     [[nodiscard]] static Between between(double distance, double size, std::uint32_t pixels) {
         const double last = static_cast<double>(pixels - 1);
         const double at = (distance / size + 0.5) * static_cast<double>(pixels) - 0.5;

@@ -7,7 +7,7 @@ namespace lsys {
 
 namespace {
 
-/// The place of a point of a plant that stands as `neighbour` does.
+/// Moves a point of a plant to where the point is if the plant stands at `neighbour`.
 Vector3 moved(const Vector3& point, const Neighbour& neighbour) {
     double x = point[0];
     double z = point[2];

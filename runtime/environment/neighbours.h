@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Neighbours of a plant that senses, for heroes of a forest that grow among other trees
-// (runtime/forest/surroundings.h). A neighbour is a plant of the same grammar that grew alone: at
-// each age it shades with the places and the organs that it had at this age. So neighbours are as
-// tall as the plant itself, from the seedling on.
+// Neighbours: plants that shade a plant that senses, for heroes of a forest that grow among other
+// trees (runtime/forest/surroundings.h). A neighbour is a plant of the same grammar that grew
+// alone. When the sensing plant has age n, the neighbour shades it with the places and organs that
+// the neighbour had at age n, so that both are about equally tall at every age.
 #pragma once
 
 #include "runtime/derive/derive.h"
@@ -19,8 +19,8 @@ struct ShadingWord {
     std::vector<SensedOrgan> organs;
 };
 
-/// A plant that stands beside the one that senses: turned by quarter turns from +X to -Z, then
-/// moved.
+/// A plant beside the sensing plant: turned by `turns` quarter turns from +X to -Z, then moved by
+/// `x` and `z`.
 struct Neighbour {
     std::uint32_t turns = 0;
     double x = 0.0; // m
@@ -28,19 +28,19 @@ struct Neighbour {
 };
 
 struct Neighbours {
-    std::vector<ShadingWord> words; // of one plant, by age
+    std::vector<ShadingWord> words; // words of one plant, by age
     std::vector<Neighbour> plants;  // all of the same shape
 
-    /// Appends what the neighbours show to an environment at an age; nothing if the plant had no
-    /// sense modules at that age.
+    /// Appends the places of the neighbours' sense modules at an age; nothing if the recorded plant
+    /// had no sense modules at that age.
     void append_places(std::uint32_t age,
                        std::size_t environment,
                        std::vector<SensePlace>& places) const;
     void append_organs(std::uint32_t age, std::vector<SensedOrgan>& organs) const;
 };
 
-/// Passes words on to the senses of a plant, and records what casts shade in the words of the
-/// derivation with one seed.
+/// Passes words on to the senses of a plant. In the derivation with the given seed, records the
+/// places and organs of each word that cast shade.
 class RecordingSense final : public WordSense {
 public:
     /// `senses` and `bytecode` outlive the object.

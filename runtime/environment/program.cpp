@@ -38,7 +38,7 @@ void append_array(const char* name, const Numbers& numbers, std::string& text) {
     text += ']';
 }
 
-/// Reads the characters of the line of answers one after the other.
+/// Parses the line with the answers of a program.
 class AnswerReader {
 public:
     explicit AnswerReader(std::string_view text) : text_(text) {}
@@ -104,7 +104,7 @@ private:
     std::size_t at_ = 0;
 };
 
-/// Asks a function of the host.
+/// An environment whose answers come from a function of the host.
 class FunctionEnvironment final : public Environment {
 public:
     explicit FunctionEnvironment(AnswerPlaces answer) : answer_(std::move(answer)) {}
@@ -152,8 +152,9 @@ public:
     std::optional<EnvironmentFailure> answer(const SensedWord& word,
                                              std::vector<float>& answers,
                                              std::vector<std::uint32_t>& sizes) override {
-        constexpr std::uint64_t kLine = std::uint64_t{1} << 20; // bytes of any answer
-        constexpr std::uint64_t kQuery = 4096;                  // and of the answer to a query
+        // Max bytes of a line of answers: kLine, and kQuery more per query.
+        constexpr std::uint64_t kLine = std::uint64_t{1} << 20;
+        constexpr std::uint64_t kQuery = 4096;
         if (word.places.empty()) {
             return std::nullopt;
         }
@@ -214,7 +215,7 @@ std::optional<std::string> read_answers(std::string_view line,
                                         std::vector<std::uint32_t>& sizes) {
     AnswerReader reader(line);
     const auto malformed = [&] {
-        constexpr std::size_t kShown = 60; // characters
+        constexpr std::size_t kShown = 60; // max characters of the line in the message
         return fmt::format("its program answered `{}{}`, not {{\"answers\": [[numbers], ...]}}",
                            line.substr(0, kShown), line.size() > kShown ? "..." : "");
     };

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Environments of kind Program: a program that the user names answers (docs/language.md section
-// 13). Each sensed word is one line of JSON to its standard input,
+// Environments of kind Program, whose answers come from a program that the user names
+// (docs/language.md section 13). Each sensed word is one line of JSON to its standard input,
 //
 //   {"generation": g, "queries": [{"position": [x, y, z], "heading": [..], "up": [..],
 //     "parameters": [..]}, ...]}
@@ -27,10 +27,11 @@ namespace lsys {
 struct ProgramFailure {
     Stop stop = Stop::Diagnosed; // or Cancelled, OutOfMemory
     std::string text;            // "its program has ended with exit status 1"
-    std::string messages;        // the last lines of its standard error
+    std::string messages;        // the last lines of the program's standard error
 };
 
-/// A program that runs, to which lines are sent. Its destructor ends it and all that it started.
+/// A running program that answers lines with lines. The destructor ends the program and all
+/// processes that it started.
 class LineProgram {
 public:
     LineProgram() = default;
@@ -47,8 +48,8 @@ public:
 using StartProgram = std::function<Result<std::unique_ptr<LineProgram>>(
     const std::string& command, double seconds, const std::atomic<bool>* cancelled)>;
 
-/// A function of the host that answers in place of a program. It gets at least one place, and sets
-/// `answers` and `sizes` as Environment::answer() does.
+/// A function of the host that answers in place of a program. The word has at least one place; the
+/// function sets `answers` and `sizes` as Environment::answer() does.
 using AnswerPlaces = std::function<std::optional<EnvironmentFailure>(
     const SensedWord& word, std::vector<float>& answers, std::vector<std::uint32_t>& sizes)>;
 
@@ -57,7 +58,7 @@ struct ProgramCommand {
     StartProgram start;    // empty: this system starts no programs
     std::string command;   // empty: not given
     double seconds = 60.0; // maximum time of an answer
-    AnswerPlaces answer{}; // if set, it answers and no program is started
+    AnswerPlaces answer{}; // if set, this function answers, and no program is started
 };
 
 /// `declared` outlives the result.
@@ -65,15 +66,16 @@ struct ProgramCommand {
                                                         ProgramCommand command,
                                                         const EnvironmentContext& context);
 
-/// The line of the queries.
+/// The line with the queries of a word.
 [[nodiscard]] std::string query_line(const SensedWord& word);
-/// Reads the line of the answers of `count` queries. Returns the reason why it cannot, or nothing.
+/// Reads the answers to `count` queries from `line`. Returns what is wrong with the line, or
+/// nothing.
 [[nodiscard]] std::optional<std::string> read_answers(std::string_view line,
                                                       std::size_t count,
                                                       std::vector<float>& answers,
                                                       std::vector<std::uint32_t>& sizes);
 
-/// The help for an environment without a command.
+/// The help text for an environment that has no command.
 [[nodiscard]] std::string program_help(std::string_view name);
 
 } // namespace lsys

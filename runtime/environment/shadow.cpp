@@ -42,7 +42,7 @@ public:
     }
 
 private:
-    /// Targets and sources of a piece of work: a bound for usual plants.
+    /// Max bytes of the lists of targets and sources of one piece of work, for usual plants.
     static constexpr std::uint64_t kPieceBytes = std::uint64_t{1} << 20;
 
     [[nodiscard]] std::optional<EnvironmentFailure>
@@ -52,8 +52,9 @@ private:
         const auto cell = static_cast<double>(declared_.cell);
         auto failure = tiles.build(places.size(), [&](std::size_t i) {
             const Vector3& at = places[i].position;
-            // The axis of the plant is in the middle of a column. Rounding errors of a height that
-            // is a multiple of the cell do not move it to the voxel below.
+            // The X and Z of the plant's axis are in the middle of a voxel. A place at a height
+            // that is a multiple of the voxel's edge stays in the voxel above that height in spite
+            // of rounding errors.
             return Vector3{std::floor(at[0] / cell + 0.5), std::floor(at[1] / cell + 0x1p-20),
                            std::floor(at[2] / cell + 0.5)};
         });

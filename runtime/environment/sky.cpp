@@ -98,7 +98,7 @@ private:
         return trace(word.places, LeafAreaTable(areas, box, extinction), box, answers);
     }
 
-    /// A grid is faster than a table up to such sizes.
+    /// Below these sizes a grid is faster than a hash table.
     static constexpr std::uint64_t kMinGrid = std::uint64_t{1} << 16; // cells
     static constexpr std::uint64_t kGridCellsPerOrgan = 32;
 
@@ -172,7 +172,7 @@ private:
     EnvironmentContext context_;
     double cell_; // m
     std::vector<SkyDirection> directions_;
-    double weight_ = 0.0; // of all directions
+    double weight_ = 0.0; // sum of the weights of all directions
 };
 
 } // namespace

@@ -6,9 +6,9 @@
 // s = ((a x + b y) + c z) + d and m the square root of (a^2 + b^2) + c^2; the unit vector to it is
 // -(a, b, c) / m where s > 0, (a, b, c) / m where s < 0. The distance to a mesh is the square root
 // of the least squared distance to a triangle with an area (impl/triangle_distance.h); the unit
-// vector is the way to that point, each component divided by the distance. Of surfaces with equal
-// distances the first counts, planes before meshes; squared distances are compared between
-// triangles, of one mesh or of several.
+// vector is the vector to the nearest point, each component divided by the distance. Of surfaces at
+// equal distances the first is taken, planes before meshes. Triangles, of one mesh or of several,
+// are compared by squared distances.
 #include "grammar/base/contract.h"
 #include "runtime/base/out_of_memory.h"
 #include "runtime/environment/environment.h"
@@ -27,7 +27,7 @@ namespace {
 struct SolidPlane {
     Vector3 normal{};    // a, b, c
     double offset = 0.0; // d
-    double length = 1.0; // of `normal`
+    double length = 1.0; // length of `normal`
 };
 
 class SolidEnvironment : public Environment {
@@ -78,10 +78,11 @@ public:
 private:
     std::optional<EnvironmentFailure> answer_all(std::span<const SensePlace> places,
                                                  std::vector<float>& answers) const {
-        // Places next to each other are answered one after the other, because they meet the same
-        // nodes of the trees.
-        constexpr std::size_t kPlaces = 1U << 8;        // of one piece of work
-        constexpr std::size_t kPlacesPerLeaf = 1U << 4; // of the tree that orders places
+        // Places near each other are answered one after the other, because their searches visit the
+        // same nodes of the trees.
+        constexpr std::size_t kPlaces = 1U << 8; // places per piece of work
+        // Places per leaf of the tree that sorts them in space.
+        constexpr std::size_t kPlacesPerLeaf = 1U << 4;
         const std::size_t count = places.size();
         const std::uint64_t bytes = tree_bytes_ + count * sizeof(SplitItem) +
                                     split_node_count(count, kPlacesPerLeaf) * sizeof(SplitNode);
@@ -97,7 +98,8 @@ private:
             }
             const std::size_t begin = piece * kPlaces;
             const std::size_t end = std::min(count, begin + kPlaces);
-            // Read at once: the processor waits for many places at the same time.
+            // Read all positions in one loop, so that the processor waits for several reads at the
+            // same time.
             std::array<Vector3, kPlaces> positions;
             for (std::size_t i = begin; i < end; ++i) {
                 positions[i - begin] = places[order[i].index].position;
@@ -181,7 +183,7 @@ private:
     EnvironmentContext context_;
     std::vector<SolidPlane> planes_;
     std::vector<std::unique_ptr<TriangleTree>> trees_; // one for each mesh, after begin()
-    std::uint64_t tree_bytes_ = 0;                     // of `trees_`
+    std::uint64_t tree_bytes_ = 0;                     // bytes of `trees_`
 };
 
 } // namespace

@@ -3,11 +3,12 @@
 // Prusinkiewicz 2007, "Modeling trees with a space colonization algorithm"; Palubicki et al. 2009,
 // "Self-organizing tree models for image synthesis").
 //
-// The arithmetic, in binary64: with the way w from a place to a marker, the marker is within the
+// The arithmetic, in binary64: with the vector w from a place to a marker, the marker is within the
 // radius if (wx^2 + wy^2) + wz^2 <= radius^2, seen if heading . w >= c |w| where c is the correctly
-// rounded cosine of angle / 2 degrees, and killed if the sum is below kill^2. Equal sums are ties.
-// The mean of the unit vectors w / |w| is their sum, by ascending markers, divided by the number of
-// markers; the answer is the mean divided by its length.
+// rounded cosine of angle / 2 degrees, and killed if wx^2 + wy^2 + wz^2, summed in that order, is
+// below kill^2. Of places at equal squared distances the one with the lowest index gets the marker.
+// The unit vectors w / |w| of a place's markers are summed in the order of the markers and divided
+// by their number; the answer is this mean divided by its length.
 #include "grammar/base/contract.h"
 #include "grammar/base/hash.h"
 #include "runtime/base/out_of_memory.h"
@@ -73,11 +74,13 @@ private:
         return is_cancelled(context_.cancelled) ? Failure(stopped(Stop::Cancelled)) : std::nullopt;
     }
 
-    /// Prepares the mesh of the crown. Returns why it cannot hold markers.
+    /// Moves the crown mesh to its place and builds its tree. Returns a failure if the mesh cannot
+    /// bound markers.
     [[nodiscard]] Failure prepare_crown();
     [[nodiscard]] Failure draw(std::uint64_t seed);
     [[nodiscard]] Failure compete(std::span<const SensePlace> places, std::vector<float>& answers);
-    /// The place of each marker that is left after the places have killed theirs.
+    /// Removes the markers that places kill. Returns the place that each remaining marker belongs
+    /// to.
     [[nodiscard]] LargeVector<std::uint32_t> take_markers(const MarkerSearch& search);
     void write_answers(std::span<const SensePlace> places,
                        const LargeVector<std::uint32_t>& owners,
@@ -90,11 +93,11 @@ private:
     const EnvironmentFiles& files_;
     std::uint32_t number_;
     EnvironmentContext context_;
-    EnvironmentMesh crown_; // moved; of shape Mesh
+    EnvironmentMesh crown_; // mesh of SpaceShape::Mesh, moved to its place
     std::unique_ptr<TriangleTree> crown_tree_;
-    std::optional<MarkerShape> shape_; // after begin()
+    std::optional<MarkerShape> shape_; // set by begin()
     std::uint64_t seed_ = 0;
-    LargeVector<Marker> markers_; // that are left, by ascending index
+    LargeVector<Marker> markers_; // markers that no place has killed, by ascending index
 };
 
 std::optional<EnvironmentFailure> SpaceEnvironment::prepare_crown() {
@@ -132,8 +135,8 @@ std::optional<EnvironmentFailure> SpaceEnvironment::draw(std::uint64_t seed) {
     if (auto failure = prepare_crown()) {
         return failure;
     }
-    // A marker, and while a word is sensed the order of markers in space, and their places twice:
-    // by markers, and sorted by places.
+    // Bytes per marker: the marker, and while a word is sensed its index in spatial order and twice
+    // the index of its place, in the order of markers and sorted by places.
     const std::uint64_t bytes =
         std::uint64_t{declared_.count} * (sizeof(Marker) + 3 * sizeof(std::uint32_t));
     if (bytes > context_.max_bytes) {
@@ -198,7 +201,7 @@ LargeVector<std::uint32_t> SpaceEnvironment::take_markers(const MarkerSearch& se
 void SpaceEnvironment::write_answers(std::span<const SensePlace> places,
                                      const LargeVector<std::uint32_t>& owners,
                                      std::vector<float>& answers) const {
-    // The markers of each place, ascending: a counting sort by places.
+    // Sort the markers by place, ascending for each place, with a counting sort.
     std::vector<std::uint32_t> ends(places.size() + 1, 0);
     for (const std::uint32_t owner : owners) {
         if (owner != kNoPlace) {
@@ -240,7 +243,7 @@ void SpaceEnvironment::write_one(const SensePlace& place,
     write_answer(count, direction, answer);
 }
 
-/// A digest of all that decides which markers are drawn.
+/// A digest of the seed, the shape and all other inputs that decide which markers are drawn.
 std::uint64_t SpaceEnvironment::digest() const {
     const std::array<float, 3>& size = declared_.size;
     const std::array<float, 3>& at = declared_.at;
@@ -296,7 +299,7 @@ bool SpaceEnvironment::restore(std::string_view state) {
     markers.reserve(markers_.size());
     std::copy_if(markers_.begin(), markers_.end(), std::back_inserter(markers),
                  [&](const Marker& marker) { return is_left(marker.index); });
-    if (markers.size() != left) { // markers that never were
+    if (markers.size() != left) { // the state has markers that were never drawn
         return false;
     }
     markers_ = std::move(markers);

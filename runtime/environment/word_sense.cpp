@@ -41,7 +41,8 @@ void append_size(std::uint64_t size, std::string& bytes) {
     }
 }
 
-/// Takes a size off the front of `bytes`; none if they are too few.
+/// Removes a 64-bit little-endian size from the front of `bytes`; nullopt if there are fewer than
+/// eight bytes.
 std::optional<std::uint64_t> take_size(std::string_view& bytes) {
     if (bytes.size() < 8) {
         return std::nullopt;
@@ -56,7 +57,8 @@ std::optional<std::uint64_t> take_size(std::string_view& bytes) {
 
 } // namespace
 
-/// Collects the places of a word, and answers `?P ?H ?U ?R ?L` at once.
+/// Collects the places of a word for its environments, and writes the answers to `?P ?H ?U ?R ?L`
+/// directly.
 class EnvironmentSense::Sink final : public SenseSink {
 public:
     Sink(EnvironmentSense& owner, Word& word)
@@ -94,12 +96,12 @@ public:
 
     /// The first module with an answer that is not finite.
     std::optional<SenseModule> failed;
-    float value = 0.0F; // its answer
+    float value = 0.0F; // the first value of that answer that is not finite
 
 private:
     struct Asked {
         Sense sense = Sense::Nothing;
-        std::uint32_t count = 0; // numbers of the answer that the module has room for
+        std::uint32_t count = 0; // numbers of the answer for which the module has parameters
     };
 
     void write(const SenseModule& module,
@@ -251,7 +253,7 @@ EnvironmentSense::ask(std::size_t index, Word& word, std::uint32_t age, Derivati
     const std::uint32_t size = answer_size(kind);
     std::vector<float> parameters;
     std::vector<std::uint32_t> first;
-    if (kind == EnvironmentKind::Program) { // the others do not read parameters
+    if (kind == EnvironmentKind::Program) { // other kinds do not read parameters
         for (const SenseModule& module : sensed.modules) {
             first.push_back(static_cast<std::uint32_t>(parameters.size()));
             const auto own = word.parameters().subspan(module.first_parameter,
@@ -263,7 +265,7 @@ EnvironmentSense::ask(std::size_t index, Word& word, std::uint32_t age, Derivati
     sensed.sizes.clear();
     sensed.answers.assign(size == kUnknownAnswer ? 0 : sensed.places.size() * size, 0.0F);
     SensedWord asked{age, sensed.places, organs_, parameters, first};
-    std::vector<SensePlace> all_places; // with those of neighbours, which get answers, too
+    std::vector<SensePlace> all_places; // also places of neighbours, whose answers are dropped
     std::vector<SensedOrgan> all_organs;
     if (options_.neighbours != nullptr && kind == EnvironmentKind::Shadow) {
         all_places = sensed.places;
@@ -326,7 +328,7 @@ std::string EnvironmentSense::state() const {
 }
 
 bool EnvironmentSense::restore(std::string_view state) {
-    if (state.empty()) { // nothing is kept
+    if (state.empty()) { // the environments keep no data
         return std::all_of(environments_.begin(), environments_.end(),
                            [](const auto& each) { return each->restore({}); });
     }

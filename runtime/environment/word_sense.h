@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// EnvironmentSense: answers the sense modules of words (docs/language.md section 13). Walks over a
-// word with a SensingTurtle, gives each environment all places of its modules, and writes the
-// answers, and those to `?P ?H ?U ?R ?L`, into the parameters of the word.
+// EnvironmentSense: answers the sense modules of words (docs/language.md section 13). Runs a
+// SensingTurtle over a word, gives each environment all places of its modules, and writes the
+// answers of the environments and the answers to `?P ?H ?U ?R ?L` into the parameters of the word.
 #pragma once
 
 #include "compiler/bytecode/bytecode.h"
@@ -31,18 +31,19 @@ struct SenseOptions {
     std::vector<ProgramCommand> programs;
     /// Lengths and areas of objects; EnvironmentSense sets the other members.
     SensingOptions objects;
-    /// Plants that shade the one that senses (neighbours.h); null: none. Outlives the object.
+    /// Plants that shade the sensing plant (neighbours.h); null: none. Outlives the object.
     const Neighbours* neighbours = nullptr;
-    std::uint32_t threads = 0;                   // 0: as many as the machine has
-    std::uint64_t max_bytes = ~std::uint64_t{0}; // of places, answers and environments
+    std::uint32_t threads = 0; // 0: as many as the machine has
+    /// Max bytes of places, answers and environments together.
+    std::uint64_t max_bytes = ~std::uint64_t{0};
     const std::atomic<bool>* cancelled = nullptr;
 };
 
 /// The places of an environment in a word, and its answers.
 struct SensedEnvironment {
-    std::vector<SenseModule> modules; // in word order
-    std::vector<SensePlace> places;   // of `modules`
-    std::vector<float> answers;       // of `modules`, one after the other
+    std::vector<SenseModule> modules; // sense modules in word order
+    std::vector<SensePlace> places;   // the places of `modules`
+    std::vector<float> answers;       // answers to `modules`, one after the other
     std::vector<std::uint32_t> sizes; // numbers of each answer, if the kind has no fixed number
 };
 
@@ -69,7 +70,7 @@ public:
     [[nodiscard]] const Environment& environment(std::size_t index) const {
         return *environments_[index];
     }
-    [[nodiscard]] std::uint32_t age() const { return age_; } // of the last word that was sensed
+    [[nodiscard]] std::uint32_t age() const { return age_; } // age of the last sensed word
 
 private:
     class Sink;

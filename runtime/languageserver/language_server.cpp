@@ -120,7 +120,7 @@ Json server_capabilities(const EditorFeatures& editor) {
     };
 }
 
-/// The request with an answer that is made on another thread.
+/// The request that is answered on another thread.
 constexpr std::string_view kPlantRequest = "lsys/plant";
 
 /// A host whose functions may be called from two threads at once.
@@ -144,7 +144,7 @@ Host shared_host(Host host) {
 LanguageServerHost with_shared_files(LanguageServerHost host) {
     Host& files = host.project.host;
     files = shared_host(std::move(files));
-    // A grammar that is opened, perhaps a stranger's, starts no program.
+    // Opening a grammar, which may come from a stranger, must not start a program.
     host.project.environments.clear();
     files.environments.clear();
     files.start_program = nullptr;
@@ -162,7 +162,7 @@ bool is_id(const Json& id) {
 } // namespace
 
 struct LanguageServer::State {
-    /// `host` has functions of shared_host().
+    /// Precondition: the functions of `host` come from shared_host().
     explicit State(const LanguageServerHost& host)
         : workspace(host),
           preview(host.project, "lsc " + host.version, [this](const Json& response) {
@@ -177,10 +177,10 @@ struct LanguageServer::State {
     std::vector<std::string> output;
     std::mutex late_mutex; // guards the two members below
     std::function<void(const std::string&)> deliver;
-    std::vector<std::string> late_output; // not delivered
-    PlantPreview preview;                 // last member: its thread uses the others
+    std::vector<std::string> late_output; // texts not delivered yet
+    PlantPreview preview;                 // last member: its thread uses all members above
 
-    /// Paths and texts of an author may hold bytes that are no UTF-8.
+    /// Replaces invalid UTF-8, which paths and texts of an author may contain.
     [[nodiscard]] static std::string text_of(const Json& message) {
         return message.dump(-1, ' ', false, Json::error_handler_t::replace);
     }
@@ -208,7 +208,8 @@ struct LanguageServer::State {
     void change_folders(const Json& params);
     /// Asks the editor to report changes of files that are not open.
     void register_watchers();
-    /// Marks the documents that read the file for a new check; all, if `path` is empty.
+    /// Marks the documents that read the file `path` as dirty; if `path` is empty, marks all
+    /// documents.
     void mark(const std::string& path);
     void publish();
 };
@@ -265,12 +266,12 @@ void LanguageServer::State::open(const Json& params) {
     document.version = item.value("version", std::int64_t{0});
     document.is_lsys = item.value("languageId", std::string()) == "lsys";
     workspace.documents.insert_or_assign(document.path, std::move(document));
-    mark({}); // other documents may include the file, which was missing until now
+    mark({}); // other documents may include this file, which may have been missing
 }
 
 void LanguageServer::State::change(const Json& params) {
     Document& document = workspace.document(params.at("textDocument").at("uri"));
-    std::string text = document.text; // unchanged if a change is malformed
+    std::string text = document.text; // a copy: a malformed change leaves the document unchanged
     for (const Json& change : params.at("contentChanges")) {
         const auto replacement = change.at("text").get<std::string>();
         if (!change.contains("range")) {
@@ -283,7 +284,7 @@ void LanguageServer::State::change(const Json& params) {
             std::max(begin, positions.offset(position_of(change.at("range").at("end"))));
         text.replace(begin, end - begin, replacement);
     }
-    // A file that is no longer included, or included now, is checked differently.
+    // If this document includes other files than before, these files are checked differently.
     const bool includes_same =
         included_files(document.path, document.text) == included_files(document.path, text);
     document.version = params.at("textDocument").value("version", document.version + 1);

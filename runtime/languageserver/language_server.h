@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// LanguageServer: `lsc lsp` without its streams. Takes the JSON texts of messages (LSP 3.17) and
-// returns the JSON texts of its own. Checks grammars by the pipeline. Derives them only for
-// `lsys/plant`, on a thread of its own.
+// LanguageServer: `lsc lsp` without its streams. Takes messages of the editor as JSON texts (LSP
+// 3.17) and returns the server's messages as JSON texts. Checks grammars by the pipeline. Derives
+// them only for `lsys/plant`, on a thread of its own.
 #pragma once
 
 #include "runtime/languageserver/message_reader.h"
@@ -50,13 +50,14 @@ public:
     LanguageServer& operator=(const LanguageServer&) = delete;
     ~LanguageServer();
 
-    /// Handles messages that arrived together: a request that a later one of them cancels is not
-    /// run, and diagnostics are computed once, after the last change. Returns the bodies of the
-    /// responses and notifications to send, in order.
+    /// Handles messages that arrived together: a request that a later message of `messages` cancels
+    /// is not run, and diagnostics are computed once, after the last change. Returns the bodies of
+    /// the responses and notifications to send, in order.
     [[nodiscard]] std::vector<std::string> receive(const std::vector<ReadMessage>& messages);
-    /// Sends responses of `lsys/plant` by `deliver`, which is called on another thread, as soon as
-    /// they are made. With an empty function, cancels the requests that are not answered yet;
-    /// from then on, as at first, receive() waits for these responses and returns them.
+    /// From now on, sends each response of `lsys/plant` with `deliver`, on another thread, as soon
+    /// as the response is made. With an empty `deliver`, cancels the requests that are not answered
+    /// yet; from then on receive() waits for responses of `lsys/plant` and returns them, as it does
+    /// before the first call of deliver_late().
     void deliver_late(std::function<void(const std::string& body)> deliver);
     /// Whether `exit` was received; messages after it are ignored.
     [[nodiscard]] bool has_exited() const;

@@ -45,8 +45,8 @@ std::optional<std::size_t> content_length(std::string_view header) {
     return length;
 }
 
-/// The offset of a header within a line: it follows the rest of a message that was cut. npos if
-/// there is none.
+/// The offset of a header that does not begin a line, because a message that was cut stands before
+/// it; npos if there is none.
 std::size_t header_after_cut(std::string_view bytes) {
     const std::size_t found = bytes.rfind("Content-Length:");
     const bool is_within = found != std::string_view::npos && found > 0 && bytes[found - 1] != '\n';

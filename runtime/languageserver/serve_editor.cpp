@@ -15,7 +15,7 @@ namespace lsys {
 
 namespace {
 
-/// Ends the delivery of late responses, which uses the stream.
+/// The destructor ends the delivery of late responses, which writes to the stream.
 struct LateDelivery {
     explicit LateDelivery(LanguageServer& own_server) : server(own_server) {}
     LateDelivery(const LateDelivery&) = delete;

@@ -29,7 +29,8 @@ public:
     /// The position of the character at `offset`; offsets beyond the text count as its end.
     [[nodiscard]] TextPosition position(std::size_t offset) const;
     /// The offset of a position. A character beyond its line is the end of the line; one within a
-    /// character of several units is the begin of that character; a line beyond the text is the end.
+    /// character of several units is the begin of that character; a line beyond the text is the
+    /// end.
     [[nodiscard]] std::size_t offset(TextPosition position) const;
 
 private:

@@ -9,7 +9,7 @@
 
 namespace lsys::v0 {
 
-// SensePlace of the interface has the layout of the pipeline's.
+// The public SensePlace has the layout of the pipeline's SensePlace.
 static_assert(sizeof(SensePlace) == sizeof(::lsys::SensePlace));
 static_assert(alignof(SensePlace) == alignof(::lsys::SensePlace));
 static_assert(offsetof(SensePlace, position) == offsetof(::lsys::SensePlace, position));

@@ -88,8 +88,8 @@ private:
         }
     }
 
-    /// Finds the known names by which unknown ones are split (docs/language.md section 3.2), and
-    /// the names of constants.
+    /// Finds the names of constants, and the known names of modules, into which unknown names are
+    /// split (docs/language.md section 3.2).
     void find_known() {
         const auto add_all = [&](ModuleList list) {
             for (ModuleCursor cursor(ast_, names_, parsed_.sources, list); !cursor.done();
@@ -162,7 +162,8 @@ private:
         return ends;
     }
 
-    /// `?NAME` names an environment; `?P` and the like are built in.
+    /// Adds a use of `?P`, `?H`, `?U`, `?R` or `?L` as the name of a module, and a use of another
+    /// `?NAME` as the name of an environment.
     void add_sense(std::string_view name, SourceSpan span) {
         if (is_turtle_sense(name)) {
             put(NameKind::Module, name, span, false);

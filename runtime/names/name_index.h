@@ -16,8 +16,8 @@
 
 namespace lsys {
 
-/// The name spaces (docs/language.md section 2.1). Local values count as formals. The name of a sense
-/// module `?NAME` is the environment NAME, without the `?`.
+/// The name spaces (docs/language.md section 2.1). Local values count as formals. The name of a
+/// sense module `?NAME` is the environment NAME, without the `?`.
 enum class NameKind : std::uint8_t { Module, Constant, Formal, Function, Production, Environment };
 
 /// Bytes [begin, end) of a file.
@@ -31,7 +31,7 @@ struct TextPlace {
 };
 
 struct NameUse {
-    TextPlace place; // without back quotes
+    TextPlace place; // place of the name without back quotes
     NameKind kind{};
     std::string name;
     TextPlace scope; // statement of a formal; else empty
@@ -68,7 +68,7 @@ struct ParsedGrammar {
     Diagnostics diagnostics;
     Ast ast;
     std::vector<SourceSpan> statements;
-    bool is_translated = false; // from another dialect: names may be made up
+    bool is_translated = false; // from another dialect: the text may lack some names of the tree
 };
 
 struct NameIndex {

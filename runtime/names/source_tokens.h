@@ -43,7 +43,8 @@ source_tokens(const NameIndex& index, const std::string& path, std::string_view 
 struct ColouredFile {
     std::string path; // as the grammar names it, relative to the same folder as the grammar
     std::vector<SourceToken> tokens;
-    std::vector<SourceSpan> statements; // ascending; also those with syntax errors
+    /// Places of statements, ascending; also of statements with syntax errors.
+    std::vector<SourceSpan> statements;
 };
 
 /// The files of the .lsys grammar `path` with the contents `text`: first the grammar, then the

@@ -59,7 +59,7 @@ using NamedOption = std::pair<std::string, std::string>;
 
 /// An option that the parser of an OptionSet accepts.
 struct OptionHelp {
-    std::string name;       // without dashes
+    std::string name;       // name without dashes
     std::string value_name; // "METRES", "none|capsules|hulls"; empty for a flag
     std::string text;
 };

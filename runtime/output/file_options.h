@@ -42,7 +42,7 @@ struct PlantFileOptions {
     std::optional<ExportCompression> compression; // default: none
     std::optional<BufferPlace> buffers;           // default: embedded
     SurfaceOptions surface;
-    std::string preset; // of presets.def; empty: none
+    std::string preset; // name in presets.def; empty: none
     LengthUnit unit = LengthUnit::Metres;
     PlantPivot pivot = PlantPivot::Origin;
     CollisionKind collision = CollisionKind::None;
@@ -54,10 +54,11 @@ struct PlantFileOptions {
     bool settle = false; // start the motion at rest; without frames a plant is always at rest
     /// Max number of joints of a skin. 0: one per segment that moves. Default: 128.
     std::optional<std::uint32_t> bones;
-    bool wind_data = false;   // add vertex attributes for wind shaders
-    bool loop = false;        // the last frame equals the first
-    bool grow = false;        // the frames show the growth through the generations
-    std::uint32_t frames = 0; // of an animation or of numbered files; 0: a plant that does not move
+    bool wind_data = false; // add vertex attributes for wind shaders
+    bool loop = false;      // the last frame equals the first
+    bool grow = false;      // the frames show the growth through the generations
+    /// Frames of an animation or numbered files; 0: a plant that does not move.
+    std::uint32_t frames = 0;
     float frames_per_second = 24.0F;
     bool stream = false;    // grow the plant without storing its word
     std::uint32_t lods = 0; // number of levels of detail to write; 0: only MeshOptions::level
@@ -76,7 +77,7 @@ enum class ForestPivot : std::uint8_t {
 
 struct ForestFileOptions {
     std::string output;                           // empty: none
-    std::string preset;                           // of presets.def; empty: none
+    std::string preset;                           // name in presets.def; empty: none
     std::optional<ExportCompression> compression; // default: none
     bool expand = false;                          // glTF: one node per instance
     bool bake = false;                            // all triangles as one mesh

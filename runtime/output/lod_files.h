@@ -18,7 +18,7 @@ inline constexpr double kScreenLines = 1080.0;
 
 /// The size of a plant in metres.
 struct PlantExtent {
-    double largest = 0.0; // of width, depth and height
+    double largest = 0.0; // largest of width, depth and height
     double width = 0.0;   // the larger of width and depth
     double height = 0.0;
 };

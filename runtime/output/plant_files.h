@@ -26,7 +26,7 @@ struct ExportTiming {
 /// Results of writing, for statistics.
 struct PlantFileReport {
     ExportTiming timing;
-    Mesh mesh; // of the last frame, or of the finest level
+    Mesh mesh; // mesh of the last frame, or of the finest level
 };
 
 /// The inputs of a plant: the path of its grammar and the compiled grammar.

@@ -46,9 +46,9 @@ is_suitable(const Preset& preset, PresetCommand command, const FormatTraits& for
 [[nodiscard]] std::string
 unsuitable_text(const Preset& preset, PresetCommand command, std::string_view format);
 
-/// The options that a preset adds, as on the command line: `--unit=mm`. Leaves out an option if
-/// `is_given` holds for its name or for a word of PresetOption::unless, or if the format does not
-/// take it. If an option has several rows, the first row that is not left out counts.
+/// The options that a preset adds, as on the command line: `--unit=mm`. Omits an option if
+/// `is_given` is true for its name or for a word of PresetOption::unless, or if the format does not
+/// accept the option. If an option has several rows, the first row that is not omitted counts.
 [[nodiscard]] std::vector<std::string>
 preset_arguments(const Preset& preset,
                  PresetCommand command,

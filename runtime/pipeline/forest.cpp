@@ -202,15 +202,15 @@ Outcome<GroundPictures> make_ground_pictures(const LoadedScene& loaded,
 /// One stage of a species: its heroes with one number of generations, and the mesh files of its
 /// grammar.
 struct GrownStage {
-    std::vector<ForestStage> stages; // one, or one for each case of Surroundings
+    std::vector<ForestStage> stages; // one stage, or one for each case of Surroundings
     std::vector<UserMesh> user_meshes;
-    Settings settings;      // of the grammar
-    SourceSpan height_span; // of `#set height` in the grammar
+    Settings settings;      // settings of the grammar
+    SourceSpan height_span; // place of `#set height` in the grammar
     std::shared_ptr<const SourceMap> sources;
     AxiomPlace axiom;
     bool can_reuse_branches = false; // some branch can be replaced by a recorded one
-    bool is_blind = false; // should sense its surroundings, but asks no environment with shade
-    std::vector<BranchOrigin> origins; // by instance; empty unless grow_stage() is asked for them
+    bool is_blind = false; // the scene wants it to sense neighbours, but no environment reads shade
+    std::vector<BranchOrigin> origins; // by instance; empty for a stage without `origins_of`
 };
 
 /// The origins of the instances, by instance; empty if the cache has no origins.
@@ -681,7 +681,7 @@ double halo_of(const PlacementOptions& options, const Forest& kinds, const TreeS
     for (std::size_t s = 0; s < kinds.species.size(); ++s) {
         scales.push_back(max_scale(options, sizer, static_cast<std::uint16_t>(s)));
     }
-    constexpr double kRounding = 1.0 + 1e-6; // of scales to binary32
+    constexpr double kRounding = 1.0 + 1e-6; // max rounding error of scales in binary32
     return kRounding * reach_of_surroundings(kinds, scales);
 }
 

@@ -28,14 +28,14 @@ namespace lsys {
 
 struct LoadedScene {
     Scene scene;
-    std::shared_ptr<const SourceMap> sources; // of the spans in `scene`
+    std::shared_ptr<const SourceMap> sources; // files of the spans in `scene`
     std::string folder;                       // base of relative paths in the scene
 };
 
 /// Place of the axiom of a grammar, for notes on its plants.
 struct AxiomPlace {
     SourceSpan span;
-    std::shared_ptr<const SourceMap> sources; // of `span`
+    std::shared_ptr<const SourceMap> sources; // file of `span`
     /// Whether the plants are known to be equal or copies of the heroes, or no branch was replaced;
     /// note_variety() then adds no note.
     bool is_noted = false;
@@ -88,8 +88,9 @@ placement_options(const Scene& scene, const Project& project, const GrownForest&
 /// An upper bound of the scale of a tree of a species. Not for Domination, whose trees grow.
 [[nodiscard]] double
 max_scale(const PlacementOptions& options, const TreeSizer& sizer, std::uint16_t species);
-/// Width in m of a border around a part of a forest: trees in it can be neighbours of trees of the
-/// part. 0 if no species of `kinds` senses its surroundings. Not for Domination.
+/// Width in m of a border around a part of a forest, such that all neighbours of trees of the part
+/// are in the part or the border. 0 if no species of `kinds` senses its surroundings. Not for
+/// Domination.
 [[nodiscard]] double
 halo_of(const PlacementOptions& options, const Forest& kinds, const TreeSizer& sizer);
 

@@ -37,7 +37,7 @@ LargeVector<Tree> trees_later(const std::vector<PlacementSpecies>& species,
 
 struct ForestGrowth::State {
     const Scene& scene;
-    const Forest& kinds; // the species of the trees; its trees are not used
+    const Forest& kinds; // defines the species of the trees; its own trees are not used
     const Terrain& terrain;
     PlacementOptions options;
     std::optional<Domination> domination;

@@ -25,7 +25,7 @@ namespace lsys {
 
 /// Displacement of an environment of `#sense`: of its obstacles, its markers or its map.
 struct EnvironmentMove {
-    std::string name;          // without the `?`
+    std::string name;          // name without the `?`
     std::array<float, 3> by{}; // m, in the plant's own axes; finite
 
     friend bool operator==(const EnvironmentMove&, const EnvironmentMove&) = default;
@@ -61,7 +61,8 @@ struct Grammar {
     Names names;
     std::optional<Program> program; // none for a .lsb file or after errors
     Bytecode bytecode;
-    SourceSpan height_span;      // of `height` in `#set height`; kNoFile if missing or a .lsb file
+    /// Place of `height` in `#set height`; kNoFile if missing or a .lsb file.
+    SourceSpan height_span;
     std::string translation;     // .lsys text of a grammar in another dialect
     bool is_module_file = false; // read from a .lsb file; `sources` then has only texts of --set
 };

@@ -8,7 +8,7 @@ GrowthMoment moment_of_frame(std::uint32_t frame, std::uint32_t frames, std::uin
         return {last, 0.0};
     }
     const std::uint64_t steps = std::uint64_t{frames} - 1;
-    const std::uint64_t position = std::uint64_t{last} * frame; // in units of 1 / steps
+    const std::uint64_t position = std::uint64_t{last} * frame; // position in units of 1 / steps
     return {static_cast<std::uint32_t>(position / steps),
             static_cast<double>(position % steps) / static_cast<double>(steps)};
 }

@@ -22,12 +22,12 @@ struct Hero {
     std::uint32_t species = 0;
     std::uint32_t stage = 0;
     std::uint32_t instance = 0; // index in the instances of the stage's cache
-    /// Whether the hero ends at the exits of its instance. Else stand-ins continue there
-    /// (PartSkeletons).
+    /// Whether the hero is drawn only up to the exits of its instance. If false, stand-ins continue
+    /// the hero at the exits (PartSkeletons).
     bool is_alone = false;
-    Skeleton skeleton; // in the coordinates of the cache's heroes
+    Skeleton skeleton; // in the coordinates of the heroes in the cache
     DetailLevels levels;
-    Bounds bounds;            // of level 0
+    Bounds bounds;            // bounds of level 0
     double reach = 0.0;       // m, greatest distance of level 0 from the base of plant or branch
     std::vector<bool> in_use; // by level: whether some tree uses it
     std::vector<Mesh> meshes; // by level; made only for levels in use

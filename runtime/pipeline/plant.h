@@ -28,7 +28,7 @@ struct PlantOptions {
     std::optional<float> height;              // m; unset: the value of #set height
     bool stream = false;                      // draw while deriving, store no word
     bool origins = false;                     // keep the origins of segments and objects
-    bool senses = false;                      // keep what the plant senses last: Plant::sensed
+    bool senses = false;                      // store the last sensed word in Plant::sensed
 };
 
 /// A plant, and the durations of its steps.
@@ -38,9 +38,9 @@ struct Plant {
     std::uint64_t modules = 0;         // number of modules of the derived word
     std::uint32_t generations = 0;
     std::uint64_t seed = 0;
-    double derive_seconds = 0.0; // with PlantOptions::stream includes drawing
+    double derive_seconds = 0.0; // includes drawing with PlantOptions::stream
     double draw_seconds = 0.0;
-    std::shared_ptr<const SensedPlant> sensed{}; // null: not asked for, or it has no senses
+    std::shared_ptr<const SensedPlant> sensed{}; // null: not requested, or no sense modules
 };
 
 /// Options for a derivation of the grammar: generations, seed, limits, threads, cancellation. The

@@ -34,7 +34,7 @@ public:
     pose(const GrowthMoment& moment, const Project& project, Skeleton& out);
     /// The plant without its skeleton: meshes, seed, times, and counts of the last derived word.
     [[nodiscard]] const Plant& plant() const;
-    /// What the words up to the last derived one have sensed; null if the plant has no senses.
+    /// The last sensed word, up to the last derived word; null if the grammar has no sense modules.
     [[nodiscard]] std::shared_ptr<const SensedPlant> sensed() const;
 
 private:

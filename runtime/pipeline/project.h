@@ -71,7 +71,7 @@ struct Host {
 
 /// The program that answers an environment of kind Program: `--environment NAME=COMMAND`.
 struct EnvironmentCommand {
-    std::string name;    // of the environment, without the `?`
+    std::string name;    // name of the environment, without the `?`
     std::string command; // a command line of the shell
 
     friend bool operator==(const EnvironmentCommand&, const EnvironmentCommand&) = default;

@@ -50,7 +50,7 @@ struct SpeciesOverrides {
 };
 
 struct SceneOverrides {
-    GrammarOptions grammar; // for all species; `generations` replaces their stages by one
+    GrammarOptions grammar; // options for all species; `generations` replaces their stages by one
     std::optional<std::uint64_t> key;
     std::optional<std::uint64_t> seed; // seed of the first hero
     std::optional<std::uint32_t> heroes;
@@ -58,7 +58,7 @@ struct SceneOverrides {
     std::optional<std::uint32_t> cache_cap;
     std::optional<float> tolerance;      // CacheOptions::tolerance
     std::optional<float> season;         // SceneSpecies::season
-    std::optional<HeightRange> height;   // for the trees of every species
+    std::optional<HeightRange> height;   // range of heights for the trees of every species
     std::optional<double> variety;       // InstancingGoal::variety
     std::optional<std::uint64_t> memory; // InstancingGoal::max_bytes
     std::optional<PlacementMethod> method;

@@ -16,7 +16,7 @@ namespace {
 
 using Voxel = std::array<double, 3>; // whole numbers
 
-/// Voxels of the places of an environment of kind Shadow, whose columns are around the axes.
+/// Adds the voxels that contain places of an environment of kind Shadow, with their exposure.
 void add_exposures(const SensedEnvironment& sensed, SensedPart& part) {
     std::map<Voxel, double> exposures;
     for (std::size_t i = 0; i < sensed.places.size(); ++i) {
@@ -31,7 +31,8 @@ void add_exposures(const SensedEnvironment& sensed, SensedPart& part) {
     }
 }
 
-/// Voxels of an environment of kind Sky with the areas of their organs.
+/// Adds the voxels of an environment of kind Sky that contain organs, with the total area of these
+/// organs.
 void add_areas(const std::vector<SensedOrgan>& organs, SensedPart& part) {
     std::map<Voxel, double> areas;
     for (const SensedOrgan& organ : organs) {
@@ -47,7 +48,7 @@ void add_areas(const std::vector<SensedOrgan>& organs, SensedPart& part) {
     }
 }
 
-/// The modules that asked, with their answers.
+/// Adds the modules that asked the environment, with their answers.
 void add_modules(const SensedEnvironment& sensed, SensedPart& part) {
     part.answers = sensed.answers;
     const std::uint32_t fixed = answer_size(part.kind);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// SensedPlant: what a plant sensed last: the places that asked, the answers, what the environments
-// held, and its obstacles. For dumps and viewers.
+// SensedPlant: the last word that a plant sensed, for dumps and viewers: places and answers of its
+// sense modules, voxels and markers of the environments, and obstacles.
 #pragma once
 
 #include "grammar/base/outcome.h"
@@ -28,7 +28,7 @@ struct SensedVoxel {
 struct SensedModule {
     std::uint64_t position = 0; // index in the word
     SensePlace place;
-    std::span<const float> answer; // of SensedPart::answers
+    std::span<const float> answer; // a part of SensedPart::answers
 };
 
 struct SensedPart {
@@ -37,28 +37,30 @@ struct SensedPart {
     double cell = 0.0; // edge of a voxel, m; 0: no voxels
     std::vector<SensedModule> modules;
     std::vector<float> answers;
-    std::vector<SensedVoxel> voxels; // that hold a place or an area; by x, y, z
-    std::vector<Vector3> markers;    // that are left; of kind Space
-    // Obstacles, of kind Solid.
+    std::vector<SensedVoxel> voxels; // voxels with a place or a leaf area; sorted by x, y, z
+    std::vector<Vector3> markers;    // markers that are left; kind Space
+    // Obstacles of an environment of kind Solid.
     std::vector<EnvironmentMesh> meshes;
     std::vector<std::array<float, 4>> planes; // EnvironmentSurface::plane
 };
 
 struct SensedPlant {
-    std::uint32_t generation = 0;  // of the last word that was sensed
-    bool has_sensed = false;       // whether any word was
+    std::uint32_t generation = 0;  // age of the last word that was sensed
+    bool has_sensed = false;       // whether any word was sensed
     std::vector<SensedPart> parts; // by index in Bytecode::environments
-    /// Size of the drawn plant as a multiple of the size that sensed: `#set height` scales it.
+    /// Size of the drawn plant / size of the plant while it sensed, since `#set height` scales the
+    /// drawn plant.
     double scale = 1.0;
 };
 
-/// What `senses`, which has sensed words of a derivation with `bytecode`, holds now. `files`: what
-/// the environments read.
+/// The SensedPlant of the word that `senses` has sensed last, in a derivation with `bytecode`.
+/// `files`: the files of the environments.
 [[nodiscard]] SensedPlant sensed_plant_of(const Bytecode& bytecode,
                                           const std::vector<EnvironmentFiles>& files,
                                           const EnvironmentSense& senses);
 
-/// Derives the grammar. Uses `file`, `generations` and `seed` of the options.
+/// Derives the grammar and returns the last word that it sensed. Uses `file`, `generations` and
+/// `seed` of the options.
 [[nodiscard]] Outcome<SensedPlant>
 sense_plant(const PlantOptions& options, const Grammar& grammar, const Project& project);
 

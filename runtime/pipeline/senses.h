@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// PlantSenses: what the sense modules of a grammar need (docs/language.md section 13): the meshes
-// and pictures that its environments name, the sizes of its objects, and the programs that answer.
-// Read once per grammar; each derivation then has senses of its own.
+// PlantSenses: the inputs of the sense modules of a grammar (docs/language.md section 13): the
+// meshes and pictures that its environments name, the sizes of its objects, and the programs that
+// answer. Read once per grammar; each derivation then has an EnvironmentSense of its own.
 #pragma once
 
 #include "grammar/base/outcome.h"
@@ -17,10 +17,10 @@ namespace lsys {
 
 struct PlantSenses {
     std::vector<EnvironmentFiles> files; // by index in Bytecode::environments
-    SenseOptions options;                // without `files`
+    SenseOptions options;                // SenseOptions::files is not set
 
-    /// The senses of a derivation with `bytecode`; null if it has no sense modules. The result uses
-    /// this object and the bytecode.
+    /// Makes the EnvironmentSense of a derivation with `bytecode`; null if the bytecode has no
+    /// sense modules. This object and the bytecode must outlive the result.
     [[nodiscard]] std::unique_ptr<EnvironmentSense> make(const Bytecode& bytecode) const;
 };
 

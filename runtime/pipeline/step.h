@@ -20,7 +20,8 @@ public:
 
     /// Reads a file that the user names, with Host::read_file. The Error names the file.
     [[nodiscard]] Result<std::string> read(const std::string& path, const ReadLimit& limit) const;
-    /// Reads a file that another file names, with Host::read_referenced_file. The Error names the file.
+    /// Reads a file that another file names, with Host::read_referenced_file. The Error names the
+    /// file.
     [[nodiscard]] Result<std::string> read_referenced(const std::string& path,
                                                       const ReadLimit& limit) const;
 

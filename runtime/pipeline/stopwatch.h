@@ -12,7 +12,7 @@ using SteadyClock = std::chrono::steady_clock;
     return std::chrono::duration<double>(SteadyClock::now() - start).count();
 }
 
-/// Measures the time since it was made.
+/// Measures the time since its construction.
 class Stopwatch {
 public:
     [[nodiscard]] double seconds() const { return seconds_since(start_); }

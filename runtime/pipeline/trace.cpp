@@ -128,7 +128,7 @@ private:
         }
     }
 
-    /// The options of one derivation with senses of its own.
+    /// The options of a derivation that uses `senses`.
     static DeriveOptions with_senses(DeriveOptions options, WordSense* senses) {
         options.senses = senses;
         return options;
@@ -521,7 +521,7 @@ private:
     PlantSenses senses_;
     TraceInputs inputs_;
     Trace trace_;
-    std::string sense_state_;              // of the environments, at the traced generation
+    std::string sense_state_;              // state of the environments at the traced generation
     std::vector<TracedModule> next_;       // modules at StepTracer::places()
     std::vector<StoredWord> stored_words_; // by ascending age
     std::uint32_t stride_ = 1;

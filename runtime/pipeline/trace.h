@@ -26,13 +26,13 @@ LSYS_COUNTED_ENUM(TraceScope,
 /// The modules to trace, and how to trace them.
 struct TraceOptions {
     std::string file;                        // path of the grammar, base of files of `#sense`
-    std::optional<std::uint32_t> generation; // of the modules; unset: the value of #n
+    std::optional<std::uint32_t> generation; // generation of the modules; unset: the value of #n
     /// Number of generations of the whole derivation, which steps() returns. Unset: #n, or
     /// `generation` if that is more.
     std::optional<std::uint32_t> generations;
     std::optional<std::uint64_t> seed; // unset: the value of #set seed
     // Exactly one of `position`, `module` and `name` is set.
-    std::optional<std::uint64_t> position; // of the module in the word, from 0
+    std::optional<std::uint64_t> position; // index of the module in the word, from 0
     std::string module;                    // `A(3)`: the first such module
     std::string name;                      // all modules of this name
     std::uint64_t rows = 10;               // max modules of `name`
@@ -43,18 +43,19 @@ struct TraceOptions {
 /// The production that wrote a module, its place in the grammar, and the generation.
 struct TraceOrigin {
     ProductionId production = kNoProduction; // kNoProduction: the axiom
-    std::optional<Site> place;               // of the module in the grammar
-    std::uint32_t generation = 0;            // of the first word with the module
+    std::optional<Site> place;               // place of the module in the grammar
+    std::uint32_t generation = 0;            // age of the first word with the module
 };
 
 /// One step on the way back from a module to the axiom: the step from the word of generation
 /// `generation` to the next word.
 struct AncestorStep {
     std::uint32_t generation = 0;
-    std::uint64_t position = 0;      // of the ancestor in the word
+    std::uint64_t position = 0;      // index of the ancestor in the word
     TracedModule module;             // the ancestor
-    std::uint64_t next_position = 0; // of the followed module in the next word
-    std::uint64_t offset = 0; // of the followed module in the successor of the last of `steps`
+    std::uint64_t next_position = 0; // index of the followed module in the next word
+    /// Index of the followed module in the successor written by the last of `steps`.
+    std::uint64_t offset = 0;
     /// The rewritings that lead from the ancestor to the followed module, in order. Empty if every
     /// pass copied the module.
     std::vector<ModuleTrace> steps;
@@ -79,8 +80,8 @@ struct TracedPlace {
 };
 
 struct Trace {
-    std::uint32_t generation = 0;  // of the modules
-    std::uint32_t generations = 0; // of the derivation: steps()
+    std::uint32_t generation = 0;  // generation of the traced modules
+    std::uint32_t generations = 0; // number of generations of the derivation, which steps() returns
     std::uint64_t seed = 0;
     TraceScope scope = TraceScope::Next;
     std::uint64_t modules = 0;       // number of modules in the word

@@ -10,8 +10,8 @@
 
 namespace lsys::platform {
 
-/// The path of a program in the folders of PATH; empty if there is none, and on Windows and the web,
-/// where no program is run.
+/// The path of a program in the folders of PATH; empty if there is none, and on Windows and the
+/// web, where no program is run.
 [[nodiscard]] std::string find_program(const std::string& name);
 
 /// Runs `arguments`[0], the path of a program, with all `arguments`, and waits for its end. Its
@@ -29,8 +29,8 @@ struct Child {
 };
 
 /// Starts `arguments`[0], the path of a program, with all `arguments`, and returns at once. The
-/// program has a session of its own, so signals of a terminal do not reach it; its standard input is
-/// empty, and its standard output and error are dropped. Returns ENOSYS on systems without it.
+/// program has a session of its own, so signals of a terminal do not reach it; its standard input
+/// is empty, and its standard output and error are dropped. Returns ENOSYS on systems without it.
 [[nodiscard]] Reason start_program(const std::vector<std::string>& arguments, Child& child);
 
 /// Whether the program has ended; then sets `status` to its exit status, or to -1 if a signal ended

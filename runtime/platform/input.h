@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Waiting for standard input, for programs that serve others until they are ended.
+// Waits for standard input, for programs that answer requests until they are ended.
 #pragma once
 
 namespace lsys::platform {

@@ -33,13 +33,14 @@ void release_memory(std::byte* address, std::size_t bytes) noexcept;
 /// is only slower. Precondition: `address` is a multiple of kHugePage.
 void advise_huge_pages(void* address, std::size_t bytes);
 
-/// Gives the pages memory now, if the system can, instead of by a fault of each page when it is
-/// first written. Precondition: `address` and `bytes` are multiples of kPage.
+/// Allocates memory for the pages now, if the system can. Otherwise the first write to each page
+/// causes a page fault, which allocates its memory. Precondition: `address` and `bytes` are
+/// multiples of kPage.
 void populate_pages(void* address, std::size_t bytes);
 
 /// Lets the allocator keep up to 128 MiB of freed memory, and serve blocks of up to 32 MiB from it.
 /// Otherwise work that allocates the same memory again and again, such as each picture of a
-/// software renderer, returns it to the system and pays for the faults of its pages each time. No
+/// software renderer, would return this memory to the system, and cause page faults, each time. No
 /// effect where the allocator has no such settings.
 void keep_freed_memory();
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// ShellProgram: a command line of the shell that runs beside this process and answers lines of text.
+// ShellProgram: a shell command that runs as a child process and answers each line of text with a
+// line.
 #pragma once
 
 #include "runtime/platform/file.h"
@@ -18,16 +19,16 @@ public:
     ShellProgram(const ShellProgram&) = delete;
     ShellProgram& operator=(const ShellProgram&) = delete;
 
-    /// Runs `command` by /bin/sh, in a process group of its own. Returns ENOSYS on systems without
-    /// it. Called at most once.
+    /// Runs `command` by /bin/sh, in a process group of its own. Returns ENOSYS on systems that
+    /// cannot. Call it at most once.
     [[nodiscard]] Reason start(const std::string& command);
 
     enum class Reply : std::uint8_t {
         Line,      // a line, without its end
         Ended,     // the program has ended or has closed its standard output; see exit_text()
-        TimedOut,  // no line within the time
-        TooLong,   // a line of more than the max bytes
-        Cancelled, // by the flag
+        TimedOut,  // no line within `seconds`
+        TooLong,   // a line of more than `max_bytes`
+        Cancelled, // `cancelled` became true
         Failed,    // an error of the system
     };
     /// Writes `line` and a line break to the standard input of the program and waits for a line of
@@ -40,7 +41,7 @@ public:
 
     /// How the program has ended: "exit status 3" or "signal 9"; after Reply::Ended.
     [[nodiscard]] const std::string& exit_text() const { return exit_text_; }
-    /// The last characters of its standard error.
+    /// The last characters that the program wrote to its standard error.
     [[nodiscard]] const std::string& messages() const { return messages_; }
 
 private:
@@ -53,15 +54,15 @@ private:
     void wait_for_exit();
 
     int process_ = 0;  // 0: none
-    int input_ = -1;   // descriptor of our end of its standard input
-    int output_ = -1;  // of its standard output
-    int error_ = -1;   // of its standard error
-    std::string read_; // of its standard output, not yet returned
+    int input_ = -1;   // our end of the program's standard input, a file descriptor
+    int output_ = -1;  // our end of the program's standard output
+    int error_ = -1;   // our end of the program's standard error
+    std::string read_; // bytes of standard output that ask() has not returned yet
     std::string messages_;
     std::string exit_text_;
 };
 
-/// Ends all programs that run, from a signal handler.
+/// Ends all running ShellPrograms. Callable in a signal handler.
 void end_shell_programs() noexcept;
 
 } // namespace lsys::platform

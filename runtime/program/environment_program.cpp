@@ -15,7 +15,7 @@ namespace lsys {
 
 namespace {
 
-/// The last lines of what a program has written, without bytes that a terminal would obey.
+/// The last lines of the output of a program, without control characters.
 std::string last_lines(std::string_view text) {
     constexpr std::size_t kMaxLines = 5;
     constexpr std::string_view kBlank = " \t\r\n";
@@ -39,7 +39,7 @@ public:
     EnvironmentProgram(double seconds, const std::atomic<bool>* cancelled)
         : seconds_(seconds), cancelled_(cancelled) {}
 
-    /// Returns 0 or the reason of the system.
+    /// Returns 0, or the reason for which the system did not start the program.
     int start(const std::string& command) { return program_.start(command); }
 
     std::optional<ProgramFailure>

@@ -202,7 +202,7 @@ Output::Output(Output&& other) noexcept
 
 Output::~Output() {
     if (file_.is_open()) {
-        static_cast<void>(file_.close()); // before its removal, as Windows demands
+        static_cast<void>(file_.close()); // close before the removal, as Windows demands
     }
     if (!temporary_.empty()) {
         platform::remove_file(temporary_.c_str());

@@ -80,11 +80,12 @@ private:
     void unpublish();
 
     const Console* console_;
-    std::string path_;              // as the user gave it
-    std::string target_;            // path_ with symbolic links resolved
-    std::string temporary_;         // in the folder of target_; empty for devices and pipes
+    std::string path_;   // path as the user gave it
+    std::string target_; // path_ with symbolic links resolved
+    /// Temporary path in the folder of target_; empty for devices and pipes.
+    std::string temporary_;
     TemporaryName* slot_ = nullptr; // registration of temporary_
-    platform::File file_;           // not open: standard output, or finished
+    platform::File file_;           // not open if it is standard output or finished
     bool is_finished_ = false;
     bool must_be_new_ = false;
     State state_ = State::Unpublished; // set by commit_all()

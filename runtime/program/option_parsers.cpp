@@ -335,8 +335,8 @@ std::string help_text(const CLI::App& app, const std::string& program) {
             text += c;
         }
     }
-    // For `--fix`, a flag with an optional value, CLI11 shows the default value; show the other
-    // value instead.
+    // For `--fix`, a flag with an optional value, CLI11 shows the default value in the help. Show
+    // the other value instead.
     constexpr std::string_view kFlag = "{certain} ";
     if (const std::size_t at = text.find(kFlag); at != std::string::npos) {
         text.replace(at, kFlag.size(), "[=offered]");

@@ -20,7 +20,7 @@ struct RunOptions {
     /// none.
     std::string stdin_name;
 
-    std::vector<EnvironmentCommand> environments; // of --environment
+    std::vector<EnvironmentCommand> environments; // values of --environment
 
     friend bool operator==(const RunOptions&, const RunOptions&) = default;
 };

@@ -23,8 +23,8 @@ namespace {
 /// Max numbers of items shown, so that the report of a module fits one screen.
 constexpr std::size_t kMaxParts = 12;
 constexpr std::size_t kMaxWritten = 60;
-constexpr std::size_t kMaxLater = 8;   // modules of later passes
-constexpr std::size_t kMaxVisited = 6; // modules that a context search visited
+constexpr std::size_t kMaxLater = 8;   // max modules of later passes
+constexpr std::size_t kMaxVisited = 6; // max modules that a context search visited
 /// Max width of a line that joins shorter lines.
 constexpr std::size_t kMaxListColumns = 96;
 /// Max number of productions with frames. If there are more, each production that does not apply
@@ -604,7 +604,7 @@ private:
         }
     }
 
-    /// What a sense module asks: "the environment `light` (shadow)", "the turtle".
+    /// The target of a sense module's question: "the environment `light` (shadow)", "the turtle".
     [[nodiscard]] std::string asked_text(const TracedModule& asking) const {
         const Sense sense = bytecode_.symbol(asking.symbol).sense;
         if (!asks_environment(sense)) {
@@ -666,7 +666,7 @@ private:
         }
     }
 
-    /// Whether all traces of the list are of the pass of `trace`.
+    /// Whether all traces of the list belong to the same pass as `trace`.
     [[nodiscard]] bool is_only_pass(const std::vector<ModuleTrace>& list,
                                     const ModuleTrace& trace) const {
         return std::none_of(list.begin(), list.end(), [&](const ModuleTrace& other) {

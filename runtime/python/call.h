@@ -78,7 +78,7 @@ void warn(const lsys::Messages& messages);
 /// Blocks the thread if the interpreter has ended or is ending: no thread gets its lock any more,
 /// and the process ends soon.
 void wait_for_end_if_ending();
-/// Blocks the thread for good.
+/// Blocks the thread for ever.
 [[noreturn]] void wait_for_end();
 
 /// Calls `work` with the interpreter's lock (GIL). If a thread requests the lock while the
@@ -114,12 +114,13 @@ private:
     PyThreadState* state_;
 };
 
-/// A thread that does the calls of Python's main thread, one after the other. It is kept between
-/// calls: a new thread would first have to get its memory from the system, about 0.7 ms a call.
+/// A thread that runs the library calls of Python's main thread, one after the other. The thread is
+/// reused, since a new thread first gets its memory from the system, which takes about 0.7 ms per
+/// call.
 class CallThread {
 public:
     CallThread(); // call with the interpreter's lock held
-    /// Waits for the end of its call.
+    /// Waits until the current work has ended.
     ~CallThread();
     CallThread(const CallThread&) = delete;
     CallThread& operator=(const CallThread&) = delete;

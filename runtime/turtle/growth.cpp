@@ -15,7 +15,8 @@ namespace lsys {
 
 namespace {
 
-/// A value in the earlier drawing (0) and in the later drawing (1).
+/// The value of a quantity in the earlier drawing, at index 0, and in the later drawing, at index
+/// 1.
 template <typename T>
 using Ends = std::array<T, 2>;
 
@@ -28,7 +29,7 @@ struct Joint {
 /// The motion of an item, relative to its parent.
 struct Motion {
     Ends<glm::quat> turn;
-    Ends<glm::vec3> offset;            // from the parent's tip, in the parent's frame
+    Ends<glm::vec3> offset;            // vector from the parent's tip, in the parent's frame
     std::uint32_t parent = kNoSegment; // index in State::segments
     bool eases = false;                // grows from size 0 or shrinks to size 0
 };
@@ -38,7 +39,7 @@ struct MovingSegment {
     Ends<float> length{};
     Ends<float> base_radius{};
     Ends<float> tip_radius{};
-    bool is_apart = false; // linked in `after` only, so until then it has a gap to its parent
+    bool is_apart = false; // linked in `after` only: there may be a gap to its parent before time 1
 };
 
 struct MovingObject {
@@ -94,7 +95,8 @@ struct SkeletonGrowth::State {
     LargeVector<MovingSegment> segments; // segments of `after`, then segments that shrink
     LargeVector<MovingObject> objects;
     LargeVector<MovingPolygon> polygons;
-    LargeVector<Ends<glm::vec3>> corners;          // from the parent's tip, in the parent's frame
+    /// Vectors from the parent's tip, in the parent's frame.
+    LargeVector<Ends<glm::vec3>> corners;
     LargeVector<std::uint32_t> shrinking_segments; // indexes in `before`
     LargeVector<std::uint32_t> shrinking_objects;
     LargeVector<std::uint32_t> shrinking_polygons;
@@ -280,8 +282,8 @@ struct SkeletonGrowth::State {
                 const Polygon& old = before.polygons[old_of[i]];
                 set_end(moving.motion, 0, {}, old.frame);
                 for (std::uint32_t k = 0; k < polygon.corner_count; ++k) {
-                    // If the polygon has more corners than the old one, adjacent corners begin at
-                    // the same point.
+                    // If the polygon has more corners than the old one, several adjacent corners
+                    // begin at one old corner.
                     const auto at = static_cast<std::uint32_t>(std::uint64_t{k} * old.corner_count /
                                                                polygon.corner_count);
                     corners[moving.first_corner + k][0] =
@@ -320,7 +322,8 @@ struct SkeletonGrowth::State {
         out.corners = from.corners;
     }
 
-    /// Copies the drawing of `after`, then the shrinking items of `before`; pose() moves them.
+    /// Copies the drawing of `after`, then the shrinking items of `before`. pose() then moves all
+    /// items.
     void copy_fixed(Skeleton& out) const {
         copy_drawing(after, out);
         for (const std::uint32_t index : shrinking_segments) {

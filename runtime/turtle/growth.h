@@ -42,7 +42,7 @@ public:
     /// Derivation::follow(). May throw std::bad_alloc.
     SkeletonGrowth(Skeleton before,
                    Skeleton after,
-                   std::uint32_t generation, // of `after`
+                   std::uint32_t generation, // generation of `after`
                    std::span<const Origin> ancestors);
     ~SkeletonGrowth();
     SkeletonGrowth(SkeletonGrowth&&) noexcept;

@@ -62,8 +62,9 @@ float spring_of(const Segment& segment, double elasticity) {
                           to_double(segment.tip_radius), elasticity);
 }
 
-/// Calls change(segment), and computes the mass and spring of the segment again. Values that differ
-/// from those of the old shape were given by the author and stay.
+/// Calls change(segment), and computes the mass and spring of the segment again. A mass or spring
+/// that differs from the one computed for the old shape was given by the author and stays
+/// unchanged.
 template <typename Change>
 void change_segment(Segment& segment, const StemMaterial& material, const Change& change) {
     const bool mass_follows = segment.mass == mass_of(segment, material.density);
@@ -77,9 +78,9 @@ void change_segment(Segment& segment, const StemMaterial& material, const Change
     }
 }
 
-/// Whether the child `i`, which comes before the child `chosen` of the same parent, continues the
-/// parent rather than `chosen`: a child on the axis of the parent comes first, then the one with
-/// more tips, then the first one.
+/// Whether child `i`, which comes before child `chosen` of the same parent, continues the parent
+/// better than `chosen`. A child on the axis of the parent is better than others, then a child with
+/// more tips, then the earlier child.
 bool continues_better(const Skeleton& skeleton,
                       const std::vector<std::uint32_t>& tips,
                       std::uint32_t i,

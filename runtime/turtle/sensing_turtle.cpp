@@ -14,7 +14,8 @@ namespace lsys {
 
 namespace {
 
-/// Modules between two checks for cancellation; also of a piece that is interpreted.
+/// Modules between two checks for cancellation, and modules per piece of a word that is
+/// interpreted.
 constexpr std::size_t kPiece = std::size_t{1} << 16;
 constexpr std::size_t kMaxText = 1023; // characters of a parameter of L3D
 
@@ -65,8 +66,8 @@ SensingStep step_of(const Action& action, const Bytecode& bytecode) {
     return SensingStep::Other;
 }
 
-/// Whether the sine of a turn has the other sign than that of yaw_right(), pitch_up() or
-/// roll_left().
+/// Whether the operation turns opposite to yaw_right(), pitch_up() or roll_left(), so that its sine
+/// is negated.
 bool turns_back(TurtleOperation operation) {
     return operation == TurtleOperation::YawLeft || operation == TurtleOperation::PitchDown ||
            operation == TurtleOperation::RollRight;
@@ -310,7 +311,7 @@ std::optional<Stop> SensingTurtle::State::walk_interpreted(std::span<const C> co
         reported = 0;
         std::uint64_t stored = 0;
         for (std::size_t i = 0; i < count; ++i) {
-            // Followed modules give their index to all that is written for them.
+            // Modules that productions write for a followed module keep its index as Origin::place.
             origins[i] = {static_cast<std::uint32_t>(i), kFollowed};
             if (bytecode.symbol(bytecode.symbol_of(piece[i])).senses()) {
                 waiting.push_back({i, first_parameter + stored, piece[i]});
@@ -344,7 +345,7 @@ std::optional<Stop> SensingTurtle::State::walk(const Word& word, std::uint32_t w
                           : walk_plain(codes, word.parameters().data());
     });
     if (!stop && pending.is_set && !pending.in_parameter) {
-        static_cast<void>(execute_pending()); // a `]` of L3D without its `[`
+        static_cast<void>(execute_pending()); // sets `stopped` if it fails
     }
     return stop ? stop : stopped;
 }

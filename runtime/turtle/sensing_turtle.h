@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
-// SensingTurtle: walks over a complete word and reports where its sense modules `?NAME` stand, and
-// the organs that cast shade (docs/language.md section 13). Position and frame are in binary64 with
-// sines and cosines that are rounded correctly, so places are equal on every machine; the turtle
-// that draws (turtle.h) is faster and need not be.
+// SensingTurtle: executes the modules of a complete word and reports the pose at each sense module
+// `?NAME`, and the organs that cast shade (docs/language.md section 13). Position and frame are in
+// binary64 with sines and cosines that are rounded correctly, so places are equal on every machine.
+// The turtle that draws (turtle.h) is faster; its results may differ between machines.
 //
-// Turns change two axes: a yaw by a makes H' = cos(a) H + sin(a) R and R' = cos(a) R - sin(a) H, each
-// product and sum rounded; frames are not normalised. Rotations about other axes (tropism, the
-// operations Bend and PointAt) use the formula of Rodrigues for each of H, R, U:
-// v' = (v cos(a) + (k x v) sin(a)) + k ((k . v) (1 - cos(a))). Cuts have no effect.
+// Turns change two axes: a yaw by a makes H' = cos(a) H + sin(a) R and R' = cos(a) R - sin(a) H,
+// each product and sum rounded; frames are not normalised. Rotations about other axes (tropism, the
+// operations Bend and PointAt) use the formula of Rodrigues for each of H, R, U: v' = (v cos(a) +
+// (k x v) sin(a)) + k ((k . v) (1 - cos(a))). Cuts have no effect.
 #pragma once
 
 #include "compiler/bytecode/bytecode.h"
@@ -39,7 +39,7 @@ struct SenseModule {
     Code code = 0;
 };
 
-/// Takes what the turtle meets, in word order.
+/// Receives the sense modules and organs of a word, in word order.
 class SenseSink {
 public:
     virtual ~SenseSink() = default;
@@ -54,14 +54,16 @@ protected:
 };
 
 struct SensingOptions {
-    std::uint64_t seed = 0; // of the draws of `#interpret`
+    std::uint64_t seed = 0; // seed of the draws of `#interpret`
     bool organs = false;    // whether to report organs
     /// Lengths along +Y of the files of MeshFile symbols, by symbol; empty: 1 each.
     std::vector<float> mesh_lengths;
     /// Half the areas of the triangles of the files of MeshFile symbols, by symbol, m^2 at size 1.
     std::vector<double> mesh_areas;
-    double leaf_area = 0.0;                      // of the object LEAF, likewise
-    double flower_area = 0.0;                    // of the object FLOWER, likewise
+    /// Half the area of the triangles of LEAF, m^2 at size 1.
+    double leaf_area = 0.0;
+    /// Half the area of the triangles of FLOWER, m^2 at size 1.
+    double flower_area = 0.0;
     std::uint64_t max_bytes = ~std::uint64_t{0}; // limit of the stack of `[`
     const std::atomic<bool>* cancelled = nullptr;
 };
@@ -74,9 +76,9 @@ public:
     SensingTurtle(const SensingTurtle&) = delete;
     SensingTurtle& operator=(const SensingTurtle&) = delete;
 
-    /// Walks over a word of age `age`, as the productions of `#interpret` rewrite it. A sense module
-    /// that they replace stands where what replaces it begins; those that they write are skipped.
-    /// Stop::Diagnosed: error() is set.
+    /// Executes a word of age `age` after the productions of `#interpret` have rewritten it. If a
+    /// production replaces a sense module, the module is reported where its successor begins. Sense
+    /// modules that productions write are skipped. Stop::Diagnosed: error() is set.
     [[nodiscard]] std::optional<Stop> walk(const Word& word, std::uint32_t age, SenseSink& sink);
     [[nodiscard]] const RuntimeError& error() const;
 

@@ -71,7 +71,7 @@ inline constexpr std::uint32_t kNoPicture = 0xFFFFFFFFu;
 struct Polygon {
     std::uint32_t first_corner = 0;
     std::uint32_t corner_count = 0;
-    glm::quat frame{1.0F, 0.0F, 0.0F, 0.0F}; // of the turtle at `{`
+    glm::quat frame{1.0F, 0.0F, 0.0F, 0.0F}; // frame of the turtle at `{`
     std::uint32_t parent = kNoSegment;
     ItemColour colour = 0;
     std::uint32_t picture = kNoPicture; // index in Skeleton::mesh_files
@@ -80,7 +80,7 @@ struct Polygon {
 
 /// Shapes of tubes that settings add (docs/language.md section 7.8).
 struct TubeShape {
-    Flare flare;         // its height in m, after apply_pipe() and scaling
+    Flare flare;         // height in m once apply_pipe() and scaling are done
     float collar = 0.0F; // width of a branch at its base, relative to its width above; 0: none
     TipShape tips = TipShape::Flat;
 

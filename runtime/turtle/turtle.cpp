@@ -54,7 +54,7 @@ void Turtle::State::run_some(std::span<const C> codes,
     const std::uint64_t first = position;
     const C* const begin = codes.data();
     const bool plain = !has_tropism && !traits.width_is_relative;
-    Pose pose = now.pose; // in registers; now.pose is set before actions that are not quick
+    Pose pose = now.pose; // kept in registers; now.pose is set before actions that are not quick
     for (const C* at = begin; at != begin + codes.size(); ++at) {
         const Action& action = actions[*at];
         const float* const arguments = action.stored != 0 ? parameters : action.arguments.data();
@@ -122,8 +122,8 @@ void Turtle::State::run_some(std::span<const C> codes,
     position = first + codes.size();
 }
 
-/// Walks over words of L3D, whose parameters are characters in parentheses. A command is executed
-/// when its parameter has been read, one or more modules later.
+/// Executes the modules of a word of L3D, whose parameters are characters in parentheses. A command
+/// is executed when its parameter has been read, one or more modules later.
 template <typename C>
 void Turtle::State::run_text(std::span<const C> codes,
                              const float*& parameters,

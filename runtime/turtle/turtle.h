@@ -47,7 +47,7 @@ inline constexpr std::uint32_t kMaxSides = 64;
 
 struct TurtleFault {
     std::uint64_t count = 0;    // occurrences
-    std::uint64_t position = 0; // index of the first module with the fault; 0 at the end of a word
+    std::uint64_t position = 0; // index of the first module at fault; 0 at the end of a word
     Code code = 0;              // code of that module; 0 at the end of a word
 };
 
@@ -82,7 +82,8 @@ struct DrawnCounts {
     friend bool operator==(const DrawnCounts&, const DrawnCounts&) = default;
 };
 
-/// The `[` of a valid branch in the word of an instanced system (docs/language.md section 9).
+/// A `[` that begins a valid branch in the word of an instanced system (docs/language.md section
+/// 9).
 struct BranchStart {
     bool has_instance = false; // whether an instance replaces the branch
     std::uint32_t age = 0;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The contents of a Bytecode, described once. describe() hands every field to a stream, in the
+// The contents of a Bytecode, described once. describe() passes every field to a stream, in the
 // order of a .lsb file; the writer and the reader of module_file.cpp, the digest of bytecode.cpp
 // and the range checks of verify.cpp are streams.
 //
@@ -256,7 +256,7 @@ void describe_material(Stream& stream, Value& material) {
     stream.truth(two_sided);
 }
 
-/// Two programs with other surfaces at the same paths have equal digests.
+/// Two programs whose mesh or picture files differ, but have the same paths, have equal digests.
 template <typename Stream, typename Value>
 void describe_surface(Stream& stream, Value& surface) {
     auto& [path, plane, site] = surface;

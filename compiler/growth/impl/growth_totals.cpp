@@ -122,7 +122,8 @@ private:
     ModuleClasses& classes_;
     std::vector<Bounds> values_; // by class: size of the modules that one module has become
     std::vector<ClassId> all_;
-    std::vector<std::vector<ClassId>> by_rule_; // for sequential rewriting, else empty
+    /// Classes by rule, in sequential rewriting; else empty.
+    std::vector<std::vector<ClassId>> by_rule_;
     std::uint64_t terms_ = 0;
 };
 

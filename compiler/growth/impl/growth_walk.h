@@ -89,7 +89,7 @@ private:
     std::vector<double> expected_;
     std::vector<bool> is_present_;
     std::vector<ClassId> present_;
-    std::vector<Rule> rules_; // for rewriting modes with a pass per rule
+    std::vector<Rule> rules_; // used in rewriting modes with a pass per rule
     std::vector<SequenceRule> sequences_;
     std::unordered_map<std::uint32_t, std::vector<ClassId>> by_symbol_;
     std::uint64_t work_ = 0;

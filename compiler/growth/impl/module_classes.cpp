@@ -16,7 +16,7 @@ namespace {
 
 constexpr std::uint32_t kUnknownBits = 0xFFFFFFFFU; // bits of a NaN; parameters are never NaN
 constexpr std::uint64_t kMaxGridWork = 65'536;      // max points times productions
-constexpr std::size_t kMaxVariableModules = 65'536; // per word
+constexpr std::size_t kMaxVariableModules = 65'536; // max variable modules per word
 
 } // namespace
 
@@ -423,8 +423,8 @@ bool ModuleClasses::is_identity(Code code, std::uint32_t production) const {
     return true;
 }
 
-/// Whether every outcome yields the module itself, and nothing else changes it. More than 16 outcomes
-/// count as a change.
+/// Whether every outcome yields the module itself, and nothing else changes it. More than 16
+/// outcomes count as a change.
 bool ModuleClasses::is_unchanged(const ClassExpansion& expansion, Code code) const {
     constexpr std::uint32_t kMaxOutcomes = 16;
     if (expansion.outcomes.count > kMaxOutcomes || may_change(bytecode_->symbol_of(code), 0)) {

@@ -50,8 +50,8 @@ class ModuleClasses {
 public:
     /// Max number of classes with known values. Further classes have no known values.
     static constexpr std::uint32_t kMaxClassesWithKnownValues = 4096;
-    /// Limit of instructions run plus template codes read; above it new classes have no known
-    /// values.
+    /// Max of instructions run plus template codes read. Once it is reached, new classes have no
+    /// known values.
     static constexpr std::uint64_t kMaxWork = 20'000'000;
 
     /// `bytecode` is verified and outlives this object; `steps` is the number of generations asked
@@ -72,8 +72,8 @@ public:
     /// The outcomes of a class in a word of age `age`. May add classes. The result and its ranges
     /// are valid until the age changes.
     const ClassExpansion& expand(ClassId id, std::uint32_t age);
-    /// Per symbol: the symbols whose parameters an answer or a sweep changes and on which depends
-    /// how modules of the symbol are rewritten; itself or a context.
+    /// Per symbol: the symbols (itself, or symbols in contexts) whose parameters an answer or a
+    /// sweep changes, and whose parameters decide how modules of the symbol are rewritten.
     [[nodiscard]] std::span<const SymbolId> causes(SymbolId symbol) const {
         return causes_[static_cast<std::size_t>(symbol)];
     }

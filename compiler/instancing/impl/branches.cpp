@@ -78,7 +78,8 @@ public:
     }
 
 private:
-    /// The reason why a branch cannot be put in another place: it depends on the whole plant.
+    /// The reason why no branch of the system can be reused in another place: its growth depends on
+    /// the rest of the plant. Nullopt if branches can be reused.
     [[nodiscard]] std::optional<std::string> reason_for_whole_plants() const {
         for (const Symbol& symbol : program_.symbols) {
             if (symbol.sense != Sense::Nothing) {

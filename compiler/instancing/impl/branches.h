@@ -17,7 +17,7 @@ namespace lsys {
 /// A `[...]` of a successor in which, at any depth, some production can rewrite a module.
 struct BranchSite {
     std::uint32_t production = 0;
-    std::uint32_t number = 0;  // within its successor, in text order
+    std::uint32_t number = 0;  // number within its successor, in text order
     std::uint32_t open = 0;    // index of `[` among the modules of the successor
     std::uint32_t close = 0;   // index of `]` among them
     std::uint32_t kind_id = 0; // 1 + index in Branches::kinds
@@ -36,7 +36,7 @@ struct BranchKind {
 };
 
 struct Branches {
-    std::vector<BranchSite> sites; // in file order, an outer branch before its inner ones
+    std::vector<BranchSite> sites; // sites in file order, an outer branch before its inner ones
     std::vector<BranchKind> kinds; // kind of id i at i - 1; id 0 is the axiom
     bool axiom_is_random = false;
 };

@@ -16,7 +16,8 @@ namespace lsys {
 namespace {
 
 constexpr std::size_t kFormBits = 64;
-constexpr std::size_t kPieceBytes = std::size_t{1} << 18; // of the text passed to `put`
+/// Bytes of a piece of text passed to `put`.
+constexpr std::size_t kPieceBytes = std::size_t{1} << 18;
 
 /// The binary64 number nearest to the shortest decimal that reads back as this binary32.
 double as_written(float number) {
@@ -103,7 +104,8 @@ private:
             out_ += rewrites ? fmt::format("#{}.{}", name, form)
                              : fmt::format("{} {}", keyword_of(production.stage), name);
             out_ += " : ";
-            // Systems of whole plants, which have no branch to take, may have contexts.
+            // A production with a context occurs only in a system whose plants are instanced as a
+            // whole.
             out_ += production.has_left ? fmt::format("{} < ", text_of(production.left.span)) : "";
             out_ += text_of(production.predecessor.span);
             out_ +=

@@ -94,7 +94,8 @@ void check_arities(const CheckInput& input, ModuleUse& use, Diagnostics& diagnos
     for (std::uint32_t s = 0; s < program.symbols.size(); ++s) {
         const auto symbol = SymbolId{s};
         const Symbol& row = program.symbols[s];
-        // Without parameters a sense module asks nothing, and is a place that others see.
+        // A sense module without parameters gets no answer; it marks a place that the answers of
+        // other sense modules depend on.
         const bool is_place = row.sense != Sense::Nothing && row.parameter_count == 0;
         if (is_place || !use.reachable.occurs(symbol) || use.first_production[s] != kNone ||
             use.declared[s] || row.kind != SymbolKind::Plain || row.ignored) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Productions and contexts that name the module `%`, which cuts off a branch. Cuts are made before
-// matching, so these patterns never match. In turtle profiles with another meaning of `%` it is an
-// ordinary module, and nothing is reported.
+// matching, so these patterns never match. In turtle profiles in which `%` has another meaning,
+// nothing is reported.
 #include "compiler/lint/impl/lints.h"
 #include "compiler/lint/impl/places.h"
 

@@ -46,8 +46,8 @@ void check_extra_parameters(const CheckInput& input, Diagnostics& diagnostics) {
     if (!program.has_all_statements) {
         return;
     }
-    // By symbol: the turtle command that it gives too many parameters; null if none, or if the
-    // symbol is rewritten or reported.
+    // By symbol: its turtle command, if the symbol has more parameters than the command reads; null
+    // otherwise, and for symbols that are rewritten or have been reported.
     std::vector<const TurtleCommand*> exceeded(program.symbols.size(), nullptr);
     bool any = false;
     for (std::size_t i = 0; i < program.symbols.size(); ++i) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Sense modules to which nothing is ever answered: those that only #interpret writes, which are in
-// no word, and those without parameters where neither a production nor an environment looks at them.
+// Sense modules that never get an answer: those that only #interpret writes, because a word is
+// sensed before it is interpreted; and those without parameters, if no production reads them and
+// their environment does not compute answers from the places of other modules.
 #include "compiler/lint/impl/lints.h"
 #include "compiler/lint/impl/places.h"
 
@@ -75,7 +76,7 @@ private:
         });
     }
 
-    /// Whether the environment answers some places according to others.
+    /// Whether an answer of the environment at one place depends on the other places.
     [[nodiscard]] bool looks_at_places(Sense sense) const {
         if (!asks_environment(sense)) {
             return false;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Lints: checks for likely mistakes, and checks of brackets. One function per topic, each in a file
-// of its own; checks.cpp lists them. In doubt a lint reports nothing: published grammars that work
-// must pass without a warning.
+// of its own; checks.cpp lists them. A lint that is not sure reports nothing: published grammars
+// that work must pass without a warning.
 #pragma once
 
 #include "compiler/lint/checks.h"

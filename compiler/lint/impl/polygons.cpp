@@ -246,8 +246,8 @@ private:
     }
 
     /// Reports a polygon with fewer than three vertices. Without `.` the vertices are the start and
-    /// end of every move (ABOP figure 1.25); in profile `cpfg` they are each `.` and the end of each
-    /// move.
+    /// end of every move (ABOP figure 1.25); in profile `cpfg` they are each `.` and the end of
+    /// each move.
     void check_size(const ProgramWord& word,
                     std::size_t open,
                     std::size_t close,

@@ -56,7 +56,7 @@ Reachable find_reachable(const Program& program) {
     const bool ordered =
         program.settings.rewriting != RewritingMode::Sequential &&
         (program.productions.empty() || program.productions.back().stage == Stage::Rewrite);
-    std::vector<SymbolId> queue; // in order of generations
+    std::vector<SymbolId> queue; // reached symbols, in the order of generations
     const auto reach = [&](const ProgramWord& word, std::uint32_t generation) {
         for_each_symbol(program, word, [&](std::size_t, SymbolId symbol) {
             std::uint32_t& known = result.generation[static_cast<std::size_t>(symbol)];

@@ -17,7 +17,7 @@ namespace lsys {
 
 /// The truth of conditions: row i is production productions[i], column c is point c of the grid.
 struct RuleTable {
-    std::vector<std::uint32_t> productions; // in file order
+    std::vector<std::uint32_t> productions; // indices of productions, in file order
     analysis::ConditionGrid grid;
     std::uint64_t points = 0;
     std::vector<bool> truth; // row-major

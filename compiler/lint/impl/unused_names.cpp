@@ -118,7 +118,8 @@ void check_formals(const CheckInput& input, Diagnostics& diagnostics) {
         }
     }
     for (std::uint32_t s = 0; s < program.symbols.size(); ++s) {
-        // An answer has its numbers in a fixed order, needed or not.
+        // The parameters of a sense module are all numbers of an answer; a production may need only
+        // some.
         if (first[s] == kNone || program.symbols[s].turtle != TurtleOperation::Nothing ||
             program.symbols[s].sense != Sense::Nothing) {
             continue;

@@ -88,7 +88,8 @@ void CodeEmitter::instruction(Opcode opcode, std::uint32_t operand) {
     bytecode_.instructions.push_back(encode(opcode, operand & kMaxOperand));
 }
 
-/// Sets the operand of the If or Else at index `at`, so that it skips to the next instruction.
+/// Sets the operand of the If or Else at index `at`, so that the instruction skips to the next one
+/// to be emitted.
 void CodeEmitter::end_skip(std::size_t at) {
     const std::size_t words = bytecode_.instructions.size() - at - 1;
     overflowed_ = overflowed_ || words > kMaxOperand;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The probable kind of statements that did not parse, from a second look at the text, so that a
-// damaged `#define a 2 2;` does not make every use of `a` an error. Empty unless Ast::incomplete.
+// The statements and names that a text with syntax errors seems to have, found by a simple search
+// of the text, so that a wrong `#define a 2 2;` does not make every use of `a` an error. Empty
+// unless Ast::incomplete.
 #pragma once
 
 #include "compiler/resolve/impl/resolution.h"
@@ -18,8 +19,8 @@ public:
     /// Whether the text has `#keyword`, or a line with the same meaning in another notation
     /// (`axiom: F`, `n = 5`). Precondition: `keyword` is "w" or "n".
     [[nodiscard]] bool has(std::string_view keyword) const;
-    /// Whether `#define NAME`, `#param NAME`, `#function NAME`, `#curve NAME` or `#sense NAME` occurs
-    /// anywhere in the text.
+    /// Whether `#define NAME`, `#param NAME`, `#function NAME`, `#curve NAME` or `#sense NAME`
+    /// occurs anywhere in the text.
     [[nodiscard]] bool defines(std::string_view name) const;
 
 private:

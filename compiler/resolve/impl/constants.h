@@ -26,7 +26,8 @@ class ConstantTable {
 public:
     explicit ConstantTable(Resolution& resolution);
 
-    /// The state at the statement given to visible_until(): Later for a constant defined after it.
+    /// The state at the statement given to visible_until(): Later for a constant defined after that
+    /// statement.
     [[nodiscard]] ConstantState state(NameId name) const;
     /// Makes state() ignore definitions after this statement (index in Ast::statements).
     void visible_until(std::size_t statement) { visible_until_ = statement; }

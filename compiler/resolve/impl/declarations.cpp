@@ -63,7 +63,8 @@ bool DeclarationResolver::check_bare(const ModuleView& module, const char* state
     return false;
 }
 
-/// Sense modules draw nothing, and `#sense` declares them.
+/// Reports a sense module in `statement`, since sense modules draw nothing and only `#sense`
+/// declares them. Returns false after a report.
 bool DeclarationResolver::check_not_sense(const ModuleView& module, const char* statement) {
     const std::string_view name = resolution_.text(module.name);
     if (!is_sense_name(name)) {

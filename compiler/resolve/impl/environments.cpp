@@ -149,7 +149,7 @@ bool EnvironmentResolver::check_name(NameId module, SourceSpan span) {
 void EnvironmentResolver::environment(std::uint32_t index) {
     const SenseNode& node = resolution_.ast.senses[index];
     const auto number = numbers_.find(index);
-    ProgramEnvironment unused; // of a statement whose name is in error
+    ProgramEnvironment unused; // environment of a statement whose name is in error
     unused.name = node.name;
     ProgramEnvironment& environment =
         number == numbers_.end() ? unused : resolution_.program.environments[number->second];

@@ -24,12 +24,13 @@ public:
                         SymbolTable& symbols)
         : resolution_(resolution), expressions_(expressions), symbols_(symbols) {}
 
-    /// Adds the names of all #sense to the SymbolTable. Call before any symbol is made. `#sense` may
-    /// follow the modules that ask it.
+    /// Adds the names of all #sense to the SymbolTable. Call before any symbol is made. `#sense`
+    /// may follow the modules that ask it.
     void declare_all();
     /// Reads the keys of a statement; only constants before it are visible.
     void environment(std::uint32_t index);
-    /// Returns false after reporting a sense module that no #sense declares; true for other modules.
+    /// Returns false after reporting a sense module that no #sense declares; true for other
+    /// modules.
     [[nodiscard]] bool check_name(NameId module, SourceSpan span);
 
 private:
@@ -67,9 +68,10 @@ private:
     ExpressionResolver& expressions_;
     SymbolTable& symbols_;
     Suggestions suggestions_;
-    std::unordered_map<NameId, SourceSpan> first_;             // by name
-    std::unordered_map<std::uint32_t, std::uint32_t> numbers_; // of Ast::senses: the environment
-    std::unordered_map<NameId, bool> declared_;                // by name of the module, with `?`
+    std::unordered_map<NameId, SourceSpan> first_; // by name
+    /// Index of the environment, by index in Ast::senses.
+    std::unordered_map<std::uint32_t, std::uint32_t> numbers_;
+    std::unordered_map<NameId, bool> declared_; // by name of the module, with `?`
 };
 
 } // namespace lsys

@@ -79,8 +79,8 @@ public:
     [[nodiscard]] bool is_constant(NameId name) const {
         return constants_.state(name) != ConstantState::Unknown;
     }
-    /// Whether the definition of an unknown name may have been lost: it stands in a statement with a
-    /// syntax error or in a missing file, or the text is a part of a grammar.
+    /// Whether the definition of an unknown name may have been lost: it stands in a statement with
+    /// a syntax error or in a missing file, or the text is a part of a grammar.
     [[nodiscard]] bool may_be_missing(std::string_view name) const {
         return files_missing_ || attempted_.defines(name) || resolution_.options.part;
     }

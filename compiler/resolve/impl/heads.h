@@ -37,7 +37,7 @@ private:
     const ProductionNode* node_ = nullptr;
     Production* production_ = nullptr;
     std::vector<SourceSpan> open_;  // open brackets of the right context
-    bool bracket_reported_ = false; // for the current pattern
+    bool bracket_reported_ = false; // a bracket of the current pattern has been reported
 };
 
 } // namespace lsys

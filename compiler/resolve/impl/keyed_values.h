@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Keys with values, as #material and #sense have them.
+// The keys of #material and #sense statements, with their values.
 #pragma once
 
 #include "compiler/resolve/impl/resolution.h"
@@ -13,13 +13,13 @@ namespace lsys {
 /// A key and the values behind it, as written.
 struct KeyedValues {
     NameId key = kNoName;
-    SourceSpan span;  // of the key
-    ListRange values; // in Ast::set_values
+    SourceSpan span;  // place of the key
+    ListRange values; // range of Ast::set_values
 };
 
 /// Splits values into keys, each with the values up to the next key. A word is a key, unless
-/// is_value(word, key) says that it is a value of the key before it. Values before the first key
-/// are dropped; Precondition: the caller has reported them.
+/// is_value(word, key) says that it is a value of the key before it. Drops values before the first
+/// key. Precondition: the caller has reported such values.
 template <typename IsValue>
 [[nodiscard]] std::vector<KeyedValues>
 split_keyed_values(const Ast& ast, ListRange range, IsValue is_value) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Productions: head, condition, probability and successor, and the rules and groups they form.
+// Resolves productions: head, condition, probability and successor; and numbers the rules and
+// groups of productions.
 #pragma once
 
 #include "compiler/resolve/impl/constants.h"

@@ -141,8 +141,8 @@ std::vector<NamePart> NameSplitter::split(const Use& whole) {
         if (begin == 0 || work_left_ < length || !use_lengths_.contains(length)) {
             continue;
         }
-        // The last part may be an unknown name that stands alone elsewhere in the file, if it is
-        // not split there.
+        // The last part may also be an unknown name, if the name stands alone elsewhere in the file
+        // and is not split there.
         work_left_ -= length;
         const NameId rest = resolution_.names.find(text.substr(begin));
         if (rest != kNoName && unknown_[index_of(rest)] &&

@@ -21,7 +21,7 @@ constexpr std::size_t kNone = std::string_view::npos;
 constexpr std::string_view kBlanks = " \t\r\n";
 
 struct Key {
-    std::string_view name; // in lower case, blanks as they are
+    std::string_view name; // name in lower case, with blanks as in the file
     AbopKey key;
 };
 constexpr std::array kKeys{
@@ -51,8 +51,8 @@ constexpr std::array kKeys{
     Key{"consider", AbopKey::Consider},
     Key{"#consider", AbopKey::Consider},
 };
-/// The first words of headings and of lists. Of a list, only its rules are read: they name all
-/// symbols.
+/// Words before the `:` or `=` of a heading or a list, as in `variables: A, B`. Only lists of rules
+/// are read, since the rules name all symbols.
 constexpr std::array<std::string_view, 9> kHeadings{
     "variables", "constants", "alphabet", "v", "rules", "rule", "p", "productions", "lsystem"};
 
@@ -206,7 +206,7 @@ private:
         }
         end_statement();
         ++others_;
-        // The axiom may stand alone, before the rules.
+        // A line before the rules may be the axiom, without a keyword.
         const bool may_be_axiom = file_.rules.empty() && words.find_first_of(" \t=:") == kNone;
         (may_be_axiom ? bare_ : unread_).push_back(line);
     }
@@ -286,7 +286,7 @@ private:
             return end != kNone && read_heading(line, name, end, has_arrow);
         }
         if (has_arrow && key->key != AbopKey::Axiom) {
-            return false; // a rule that replaces the symbol
+            return false; // a rule whose label or predecessor has the name of a setting
         }
         if (has_arrow && (key->name == "w" || key->name == "start")) {
             return false;
@@ -301,7 +301,7 @@ private:
         return true;
     }
 
-    /// Reads the settings of a line after its first one.
+    /// Reads the second and later settings of a line.
     void read_more() {
         while (more_.begin != more_.end) {
             SourceSpan rest = std::exchange(more_, SourceSpan{});
@@ -376,8 +376,8 @@ private:
             return true;
         }
         const std::string_view words = text(line);
-        std::size_t begin = end + 1; // of the rule
-        std::size_t part = begin;    // of the part after the last comma
+        std::size_t begin = end + 1; // first byte of the rule
+        std::size_t part = begin;    // first byte after the last comma
         std::size_t depth = 0;
         for (std::size_t at = begin; at <= words.size(); ++at) {
             const char c = at < words.size() ? words[at] : ',';
@@ -590,7 +590,7 @@ private:
     SourceSpan more_;                 // the rest of the line after a setting
     std::vector<SourceSpan> bare_;    // lines of symbols before the first rule
     std::vector<SourceSpan> unread_;  // lines without meaning
-    bool is_unread_reported_ = false; // one such line is reported
+    bool is_unread_reported_ = false; // an unread line has been reported
     std::size_t statements_ = 0;
     std::size_t others_ = 0;
 };

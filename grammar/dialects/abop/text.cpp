@@ -40,7 +40,8 @@ bool is_comment_text(std::string_view text) {
 }
 
 /// The length of the comment at the start of `rest`, the rest of a line; 0 if none begins there.
-/// `is_first`: only blanks stand before it in the line; `is_indented`: at least one blank does.
+/// `is_first`: only blanks stand before `rest` in the line; `is_indented`: at least one blank
+/// stands there.
 std::size_t comment_length(std::string_view rest, bool is_first, bool is_indented, bool has_blank) {
     if (rest.starts_with("//")) {
         const bool is_spaced = rest.size() == 2 || is_blank(rest[2]);
@@ -69,7 +70,7 @@ std::string without_comments(FileId file, std::string_view text, const ParseCont
     blank(0, text.starts_with("\xEF\xBB\xBF") ? 3 : 0);
     bool is_first = true; // no character but blanks in this line so far
     bool is_indented = false;
-    std::size_t end = 0; // of the line
+    std::size_t end = 0; // end of the line
     for (std::size_t at = 0; at < text.size();) {
         const char c = text[at];
         end = at < end ? end : std::min(text.find('\n', at), text.size());

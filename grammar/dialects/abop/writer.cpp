@@ -86,7 +86,7 @@ void AbopWriter::find_long_names() {
 }
 
 std::size_t AbopWriter::long_name_length(std::string_view ahead) const {
-    constexpr std::size_t kMaxLength = 16; // of a name in back quotes
+    constexpr std::size_t kMaxLength = 16; // max bytes of a name in back quotes
     const std::size_t word = word_length(ahead.substr(0, kMaxLength));
     if (word > 2 && ahead[1] == '_' && !file_.is_lpy) { // a subscript: F_l
         std::size_t length = 3;
@@ -185,7 +185,7 @@ bool AbopWriter::check_predecessor(const AbopRule& rule) {
     if (is_one && !is_one_of(file_.text[span.begin], "[]{}.")) {
         return true;
     }
-    // All rules of L-Py with the same head have one message.
+    // Report all rules of L-Py with the same head once.
     if (!reported_head_ || reported_head_->begin != rule.head.begin) {
         reported_head_ = rule.head;
         report(span.begin == span.end ? rule.arrow : span,
@@ -251,13 +251,13 @@ void AbopWriter::write_chance(SourceSpan chance) {
     }
 }
 
-/// Writes how symbols such as `F_l` and `~L` draw.
+/// Writes the `#object` and `#interpret` statements by which symbols such as `F_l` and `~L` draw.
 void AbopWriter::write_drawings() {
     std::size_t index = 0;
     for (const auto& [name, span] : leaves_) {
         out_.put("#object " + name + " LEAF;\n", span);
     }
-    if (sphere_) { // its centre is the position, where objects of .lsys begin
+    if (sphere_) { // its centre is at the turtle; a sphere of .lsys begins at the turtle
         out_.put("#object `sphere` SPHERE;\n#interpret draw" + std::to_string(++index) +
                      " : `@O`(d) : * : " +
                      (file_.is_lpy ? "[f(-d)`sphere`(2*d)];\n" : "[f(-d/2)`sphere`(d)];\n"),
@@ -265,7 +265,7 @@ void AbopWriter::write_drawings() {
     }
     for (const auto& [head, span] : segments_) {
         const std::size_t open = head.find('(');
-        const char forward = head[1]; // after the back quote
+        const char forward = head[1]; // the first character after the back quote
         out_.put("#interpret draw" + std::to_string(++index) + " : " + head + " : * : " + forward +
                      (open == kNone ? std::string() : head.substr(open)) + ";\n",
                  span);
@@ -396,7 +396,8 @@ void AbopWriter::write_arguments(const Symbol& symbol, Place place) {
                                      "`" + symbol.name + "` with other than three parameters");
             return;
         }
-        // L-Py's plants grow along +Z, from up = +X: its x y z are z x y here.
+        // In L-Py, plants grow along +Z and the up vector begins as +X, so coordinates x, y, z of
+        // L-Py are z, x, y of .lsys.
         std::rotate(arguments.begin(), arguments.begin() + 1, arguments.end());
     }
     out_.put("(", symbol.span);
@@ -536,7 +537,7 @@ std::size_t AbopWriter::write_name(SourceSpan expression, std::size_t at) {
         out_.put(name, span);
         return end;
     }
-    // The angle and the number of generations are values of the text, too.
+    // An expression may also name a setting, such as the angle or the number of generations.
     const std::optional<AbopKey> key = abop_key(text(span));
     const AbopSetting* const setting = key ? file_.find(*key) : nullptr;
     if (setting != nullptr && is_value(*key) && depth_ < 2) {

@@ -26,7 +26,7 @@ private:
     enum class Place : std::uint8_t { Word, Pattern, List };
     struct Symbol {
         SourceSpan span;
-        std::string name; // in .lsys, in back quotes where necessary
+        std::string name; // name in .lsys, in back quotes where necessary
         SourceSpan inner; // between the parentheses; empty: there are none
         bool has_arguments = false;
     };
@@ -58,7 +58,7 @@ private:
     [[nodiscard]] bool write_formal(SourceSpan formal, SourceSpan symbol);
 
     [[nodiscard]] bool find_parentheses(SourceSpan expression);
-    /// `is_condition`: a single `=` compares.
+    /// `is_condition`: a single `=` is a comparison.
     void write_expression(SourceSpan expression, bool is_condition);
     [[nodiscard]] std::size_t write_name(SourceSpan expression, std::size_t at);
     [[nodiscard]] std::size_t write_random(SourceSpan name, std::size_t open);
@@ -70,14 +70,14 @@ private:
     std::set<std::string_view> constants_;
     std::set<std::string, std::less<>> long_names_; // symbols of several characters
     std::map<std::string, SourceSpan> leaves_;      // surfaces `~X`
-    std::map<std::string, SourceSpan> segments_;    // heads in .lsys of symbols drawn as F or f
+    std::map<std::string, SourceSpan> segments_;    // name and formals of symbols drawn as F or f
     std::set<std::string> labels_;
-    std::set<std::string, std::less<>> formals_;     // of the rule that is written
-    std::map<std::size_t, Parentheses> parentheses_; // of expressions, by position
+    std::set<std::string, std::less<>> formals_;     // formals of the rule that is being written
+    std::map<std::size_t, Parentheses> parentheses_; // parentheses of expressions, by offset
     std::set<std::size_t> range_ends_;               // `)` of random numbers
     std::optional<SourceSpan> sphere_;               // the first `@O(d)`
     std::optional<SourceSpan> reported_head_;
-    std::uint32_t depth_ = 0; // settings within settings
+    std::uint32_t depth_ = 0; // number of nested settings being written
 };
 
 } // namespace lsys

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 // .rules: the rule lists of Carey's forest generator. A header holds the text fields of the
-// generator's window; each rule is a line `LHS=RHS:ratio`. Rewriting is cyclic, a left side may be
-// several symbols, ratios are normalised.
+// generator's window; each rule is a line `LHS=RHS:ratio`. Rewriting is cyclic: each generation
+// applies the rules of one left side, in turn. A left side may be several symbols. The ratios of a
+// left side are divided by their sum.
 #include "grammar/ast/reports.h"
 #include "grammar/base/characters.h"
 #include "grammar/dialects/carey/parameters.h"
@@ -60,7 +61,7 @@ void write_axiom(const CareyFile& file,
 
 /// Properties of the selection of a rule that depend on the other rules.
 struct RuleSelection {
-    std::size_t number = 0;        // of the rule in its file, from 1
+    std::size_t number = 0;        // number of the rule in its file, from 1
     bool has_alternatives = false; // other rules have the same left side
     /// Condition that is true in the generations in which the rule has its turn. If empty,
     /// `rewriting cyclic` decides.
@@ -86,7 +87,7 @@ void write_choice(const CareyRule& rule,
 }
 
 /// Writes a rule as a production whose left side ends in a module with `parameters` parameters. The
-/// last module of its right side gets them.
+/// last module of the rule's right side gets these parameters.
 void write_production(const CareyRule& rule,
                       const RuleSelection& selection,
                       std::size_t parameters,

@@ -21,7 +21,7 @@ using SymbolForm = std::pair<char32_t, std::size_t>;
 
 struct PlacedModule {
     SymbolForm form;
-    SourceSpan span; // with the parameters
+    SourceSpan span; // place of the module with its parameters
 };
 
 struct RuleWithModules {
@@ -117,7 +117,7 @@ private:
             [](const PlacedModule& a, const PlacedModule& b) { return a.form == b.form; });
     }
 
-    /// Hands the parameters of a module to the last symbol of the rule's right side. Reports and
+    /// Gives the parameters of a module to the last symbol of the rule's right side. Reports and
     /// returns false if that symbol cannot have parameters.
     bool follow(const RuleWithModules& rule, const PlacedModule& module) {
         if (takes_parameters(rule)) {
@@ -171,7 +171,7 @@ private:
     ParseContext quiet_;
     std::vector<RuleWithModules> rules_;
     std::set<SymbolForm> enqueued_;
-    std::vector<PlacedModule> pending_; // modules to follow
+    std::vector<PlacedModule> pending_; // modules whose parameters have not been followed yet
 };
 
 } // namespace

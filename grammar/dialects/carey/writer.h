@@ -31,7 +31,7 @@ private:
 
     const ParseContext& context_;
     Translation& translation_;
-    std::vector<std::string> left_sides_; // without blanks, each once
+    std::vector<std::string> left_sides_; // each left side once, without blanks
 };
 
 } // namespace lsys

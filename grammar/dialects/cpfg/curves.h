@@ -20,7 +20,7 @@ struct CurvePoint {
 
 struct CpfgCurve {
     std::string name;               // empty for a curve in a file of its own
-    std::string file;               // without folder and extension; empty in a set
+    std::string file;               // name of the file without folder and extension; empty in a set
     std::vector<CurvePoint> points; // control polygon; x ascends
 };
 

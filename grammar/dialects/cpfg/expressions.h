@@ -47,7 +47,7 @@ public:
 
     /// Suppresses reports, for statements whose mistakes have been reported.
     void set_quiet(bool quiet) { quiet_ = quiet; }
-    /// Warns once per `what` that lsc leaves it out.
+    /// Warns that lsc ignores `what`, once for each `what`.
     void warn_left_out(SourceSpan span, const std::string& what, const std::string& message);
 
 private:
@@ -121,7 +121,7 @@ private:
     bool binds_draws_ = false;
     bool in_header_ = false;
     bool in_axiom_ = false;
-    bool in_step_ = false; // in a block that runs in each step
+    bool in_step_ = false; // whether the current block runs in each step
     bool has_integer_part_ = false;
     bool has_normal_ = false;
     bool quiet_ = false;

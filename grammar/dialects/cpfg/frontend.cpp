@@ -30,7 +30,7 @@ ForeignId CpfgSession::add(ForeignNode expression) {
     if (depth <= kMaxDepth) {
         return added;
     }
-    if (depth == kMaxDepth + 1) { // once, not for every parent
+    if (depth == kMaxDepth + 1) { // report once, not for every enclosing expression
         report_unsupported(span, "an expression of more than 1000 operations in one another");
     }
     ForeignNode placeholder{.kind = ForeignKind::Number, .text = "0", .span = span, .token = span};

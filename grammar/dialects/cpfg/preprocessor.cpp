@@ -15,7 +15,8 @@ namespace lsys {
 
 namespace {
 
-/// Max bytes of all expanded macros. Only macros that use other macros several times each reach it.
+/// Max bytes of all expanded macros. Only macros that each use another macro several times reach
+/// this limit.
 constexpr std::size_t kMaxExpanded = std::size_t{1} << 24;
 constexpr int kMaxMacroDepth = 64;
 
@@ -258,7 +259,7 @@ private:
             return place >= text.size() || is_blank(text[place]) || text[place] == '\n';
         };
         const bool is_between = at != 0 && !is_space(at - 1) && !is_space(at + 2);
-        constexpr std::string_view kEnds = ";*/"; // of a statement or a comment
+        constexpr std::string_view kEnds = ";*/"; // characters that end a statement or a comment
         if (!is_between || kEnds.find(text[at - 1]) != kEnds.npos || text[at + 2] == '/') {
             return;
         }

@@ -88,7 +88,7 @@ public:
     int nesting = 0; // brackets open in an expression
     // True in the arguments of a module; the `)` that closes them ends Mode::Expression.
     bool in_arguments = false;
-    bool in_label = false; // in the label `Lsystem: 1`
+    bool in_label = false; // whether the scanner is in the label `Lsystem: 1`
 
     /// Consumes the next `length` bytes; returns their span.
     SourceSpan take(std::uint32_t length) {

@@ -52,7 +52,7 @@ void CpfgExpressions::read_header() {
         constant.is_final = constant.is_final || tree_.has_draw(constant.value);
         constant.is_inline |= tree_.has(constant.value, [](const ForeignNode& node) {
             return node.kind == ForeignKind::Call && (node.text == "step" || node.text == "steps");
-        }); // step() and steps() have values in productions only
+        }); // step() and steps() are allowed only in productions
     }
     classify_changed_globals();
     for (const int index : session_.end) {
@@ -62,8 +62,9 @@ void CpfgExpressions::read_header() {
     in_header_ = false;
 }
 
-/// Classifies the variables that the blocks of a step (`StartEach:`, `EndEach:`) assign: incremented
-/// by each step, assigned anew by each step, or unknown. Then writes the calls of these blocks.
+/// Classifies the variables that the blocks of a step (`StartEach:`, `EndEach:`) assign:
+/// incremented by each step, assigned anew by each step, or unknown. Then writes the calls of these
+/// blocks.
 void CpfgExpressions::classify_changed_globals() {
     find_changed_globals(session_.start_each);
     find_changed_globals(session_.end_each);

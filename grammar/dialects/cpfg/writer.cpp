@@ -120,7 +120,7 @@ void CpfgWriter::lower_productions() {
     }
 }
 
-/// Lowers a production after CpfgExpressions::begin().
+/// Translates a production to .lsys. Precondition: CpfgExpressions::begin() was called for it.
 void CpfgWriter::lower(std::size_t index) {
     const CpfgProduction& production = session_.productions[index];
     Lowered& lowered = lowered_[index];
@@ -200,7 +200,7 @@ bool CpfgWriter::can_bind(const std::vector<std::size_t>& members) {
     return true;
 }
 
-/// Lowers the productions anew, with their random numbers as parameters.
+/// Translates the productions again, with their random numbers as parameters.
 void CpfgWriter::bind_group(const std::vector<std::size_t>& members) {
     groups_[members.front()] = members;
     expressions_.set_quiet(true);
@@ -495,7 +495,7 @@ void CpfgWriter::write_successor(std::size_t index, const ForeignWriting& how) {
 }
 
 /// Writes the productions of a module with random conditions or choices: the first production draws
-/// the random numbers, the others choose by them.
+/// the random numbers, and the others are chosen by these numbers.
 void CpfgWriter::write_group(std::size_t index) {
     const std::vector<std::size_t>& members = groups_.at(index);
     const CpfgProduction& first = session_.productions[index];

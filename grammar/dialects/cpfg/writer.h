@@ -28,13 +28,13 @@ public:
     void write(std::string_view turtle);
 
 private:
-    /// A production in .lsys.
+    /// A production translated to .lsys.
     struct Lowered {
         bool is_written = false;
         bool in_group = false;
         ForeignId condition = kNoForeign;
         ForeignId weight = kNoForeign;
-        std::vector<std::vector<ForeignId>> arguments; // per module of the successor
+        std::vector<std::vector<ForeignId>> arguments; // one list per module of the successor
         std::size_t first_local = 0;                   // index of its first local value
         std::size_t end_local = 0;
         std::uint32_t first_draw = 0; // index of its first random number in its group
@@ -101,7 +101,7 @@ private:
     CpfgSession& session_;
     const ParseContext& context_;
     Translation& out_;
-    SourceSpan header_; // for text without a place of its own
+    SourceSpan header_; // place of text that has no place of its own
     CpfgView view_;
     CpfgExpressions expressions_;
     ForeignExpressions& tree_;
@@ -111,7 +111,7 @@ private:
     ForeignId decompose_depth_ = kNoForeign;
     ForeignId interpret_depth_ = kNoForeign;
     std::vector<std::vector<ForeignId>> axiom_; // arguments per module
-    std::vector<Lowered> lowered_;              // per production
+    std::vector<Lowered> lowered_;              // one per production
     // Groups of productions among which a random number chooses; the key is the first production.
     std::map<std::size_t, std::vector<std::size_t>> groups_;
     std::set<Stage> bound_;                        // stages with groups

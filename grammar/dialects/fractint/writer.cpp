@@ -214,8 +214,8 @@ void FractintWriter::write_rule(const Rule& rule, std::size_t number) {
 void FractintWriter::write_text(const FractintLine& line) {
     bool begun = false;
     for (const SourceSpan& text : line.texts) {
-        // The first `=` of `Axiom = F` and `F = FF` is a sign; in an axiom, further `=` are
-        // symbols.
+        // The first `=` of `Axiom = F` and `F = FF` separates the two sides; in an axiom, further
+        // `=` are symbols.
         if (!begun && context_.sources.text(text) == "=") {
             begun = line.kind == FractintLineKind::Axiom;
             continue;

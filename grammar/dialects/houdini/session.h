@@ -15,7 +15,7 @@ namespace lsys {
 
 struct HoudiniModule {
     SourceSpan symbol;
-    SourceSpan parentheses;           // with their contents; empty: none
+    SourceSpan parentheses;           // place of the parentheses with their contents; empty: none
     std::vector<ForeignId> arguments; // omitted ones are ForeignKind::Missing
 };
 

@@ -18,7 +18,7 @@ enum class HoudiniSettingKind : std::uint8_t {
 };
 
 struct HoudiniSettingRow {
-    std::string_view key; // in the form of houdini_key()
+    std::string_view key; // key as houdini_key() returns it
     HoudiniSettingKind kind{};
     std::string_view name; // name of the setting in .lsys
 };

@@ -30,7 +30,7 @@ enum class ForeignKind : std::uint8_t {
     Binary,
     Call,
     // --- only in the other language
-    Text,    // in quotes
+    Text,    // a text in quotes
     Missing, // an omitted argument
     Address, // `&name`
     Choose,  // a ? b : c
@@ -45,7 +45,7 @@ struct ForeignNode {
     ForeignKind kind = ForeignKind::Number;
     std::string text{};
     std::vector<ForeignId> parts{};
-    SourceSpan span{};  // with its parts
+    SourceSpan span{};  // place of the node with its operands
     SourceSpan token{}; // the operator or name
     std::uint32_t index = 0;
     std::uint32_t depth = 1; // set by ForeignExpressions::add()

@@ -14,9 +14,10 @@ namespace lsys {
 
 /// Words of a dialect, for messages about its lines.
 struct DialectWords {
-    std::string_view name;                  // name of the dialect: "cpfg"
-    std::span<const std::string_view> keys; // in lower case, before a `:` or alone
-    std::string_view arrow;                 // between the sides of a rule
+    std::string_view name; // name of the dialect: "cpfg"
+    /// Keywords in lower case, which stand before a `:` or alone.
+    std::span<const std::string_view> keys;
+    std::string_view arrow; // between the sides of a rule
 };
 
 class SyntaxMessage {

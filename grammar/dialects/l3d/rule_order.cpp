@@ -17,8 +17,8 @@ namespace lsys {
 namespace {
 
 constexpr std::size_t kMaxKeys = 256;
-constexpr std::size_t kMaxText = std::size_t{1} << 16; // characters of a word
-constexpr std::size_t kMaxWork = std::size_t{1} << 20; // characters read in one derivation
+constexpr std::size_t kMaxText = std::size_t{1} << 16; // max characters of a word
+constexpr std::size_t kMaxWork = std::size_t{1} << 20; // max characters read in one derivation
 // Number of derivations to compare, each with other choices, if a key has several values.
 constexpr std::uint32_t kChoices = 8;
 
@@ -29,7 +29,7 @@ struct Key {
     std::vector<std::string_view> values;
 };
 
-/// Indices of keys in the order in which a generation replaces them.
+/// Indices of keys, in the order in which a generation applies the rules of the keys.
 using Order = std::vector<std::size_t>;
 
 std::vector<Key> keys_of(const std::vector<L3dRule>& rules, const SourceMap& sources) {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // .ls: the files of Lparser (Laurens Lapre). Recursion depth, basic angle and thickness, the axiom,
-// rules `A=...` of one symbol, and a line `@`; or the same as lines with keywords, `recursion 12`
-// and `rule A = ...`. The turtle is the profile `houdini`, which scales step, width and angle; each
-// command of Lparser becomes modules of this profile.
+// rules `A=...` of one symbol, and a line `@`; or the same values as lines with keywords,
+// `recursion 12` and `rule A = ...`. The turtle is the profile `houdini`, which scales step, width
+// and angle; each command of Lparser becomes modules of this profile.
 //
 // Lparser draws a segment as thick as its length times the thickness. Here the width is that of a
 // segment of the current step, so a command that scales the step scales the width, too.
@@ -279,7 +279,8 @@ private:
         return modules;
     }
 
-    /// `tail`: parameter of the last module, if it has none of its own and is no bracket.
+    /// `tail`: parameter for the last module of the list, if that module has none of its own and is
+    /// no bracket.
     void write_modules(SourceSpan list, std::string_view tail = {}) {
         std::size_t polygons = 0; // open `{`
         read_letter_modules(list, context_, [&](const LetterModule& module) {
@@ -295,7 +296,7 @@ private:
         const std::string_view symbol = text(module.span);
         if (symbol == "(" || symbol == ")") {
             if (has_stray_ && symbol == ")") {
-                return; // its `(` has been reported
+                return; // the stray `(` has been reported
             }
             has_stray_ = true;
             context_.diagnostics.add(DiagnosticCode::ForeignFeature, module.span,
@@ -350,7 +351,8 @@ private:
         }
     }
 
-    /// Writes how commands that are several modules, and that rules replace, draw.
+    /// Writes the `#interpret` productions of the commands that rules replace and that several
+    /// modules draw.
     void write_drawings() {
         std::size_t index = 0;
         for (const auto& [symbol, span] : drawn_) {

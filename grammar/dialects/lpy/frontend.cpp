@@ -65,7 +65,8 @@ public:
         const std::string_view text = file_.text;
         for (std::size_t at = 0; at < text.size() && !has_ended_;) {
             const std::size_t end = std::min(text.find('\n', at), text.size());
-            // The part after this line holds values of L-Py's window.
+            // The text from this line on stores settings of L-Py's user interface, which lsc does
+            // not read.
             if (source_.substr(at, end - at).starts_with("###### INITIALISATION")) {
                 break;
             }
@@ -241,7 +242,8 @@ private:
             const auto condition = value_of(line, key);
             if (condition && condition->ends_with(':')) {
                 const std::string_view test = trimmed(condition->substr(0, condition->size() - 1));
-                // An `if` within another, or after a `produce`, is more than a list of rules.
+                // An `if` within another `if`, or after a `produce`, cannot be written as rules
+                // with conditions.
                 if (!condition_ && is_arithmetic(test) && has_produced_ == (key == "elif ")) {
                     condition_ = span(test);
                     return;
@@ -291,9 +293,9 @@ private:
     bool in_rules_ = false;
     bool has_ended_ = false;
     std::optional<AbopRule> block_;       // the rule whose indented lines follow
-    std::optional<SourceSpan> condition_; // of the next `produce`
+    std::optional<SourceSpan> condition_; // condition of the next `produce`
     bool has_produced_ = false;
-    std::vector<SourceSpan> python_; // lines that are not reported yet
+    std::vector<SourceSpan> python_; // lines of Python that are not reported yet
 };
 
 } // namespace

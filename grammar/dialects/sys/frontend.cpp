@@ -244,7 +244,7 @@ void write_rule(const SysRule& rule,
     translation.put(";\n", {whole.file, whole.end, whole.end});
 }
 
-/// Notes that a rule without parameters is read for its symbol with parameters.
+/// Reports, as a note, that a rule without parameters is applied to its symbol with parameters.
 void note_reading(const SysRule& rule, std::size_t parameters, const ParseContext& context) {
     const std::string symbol(context.sources.text(rule.symbol));
     Diagnostic note =

@@ -73,7 +73,8 @@ LayoutRow measure(std::string_view text, std::size_t begin, std::uint32_t column
     bool has_modules = false;
     bool in_first_module = false;
     bool has_outer_place = false; // the first line can be broken outside of branches
-    // After the first module, pieces on other lines or beyond the last column need no measures.
+    // After the first module, pieces that stand on later lines or beyond the last column need not
+    // be measured.
     const auto is_measured = [&] {
         return has_modules && !in_first_module && (!in_first_line || end_column > kColumns);
     };

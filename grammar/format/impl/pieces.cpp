@@ -194,7 +194,7 @@ BreakClass PieceReader::break_class() const {
         return BreakClass::Fine;
     case Word: // a key
         return shape_ == StatementShape::Keyed && parentheses_ == 0 && index_ > 2 &&
-                       previous_.text != "shape" // whose value is a word
+                       previous_.text != "shape" // the value of `shape` is a word
                    ? BreakClass::Fine
                    : BreakClass::Never;
     default:

@@ -28,7 +28,7 @@ struct Piece {
     bool own_line = false; // the author began a line with this piece
     BreakClass break_class = BreakClass::Never;
     std::uint32_t rank = 0;  // rank among breaks of one class; the lowest is best
-    std::uint32_t depth = 0; // open brackets before the piece, or after it if it is a `]`
+    std::uint32_t depth = 0; // open brackets before the piece; after the piece for a `]`
     bool ends_statement = false;
     bool semicolon_only = false; // the `;` of an empty list
 };

@@ -20,8 +20,8 @@ namespace lsys::lsys_grammar {
 /// A line that does not begin inside a statement or a comment.
 struct FreeLine {
     std::size_t begin = 0;
-    std::size_t end = 0;   // without the line end
-    std::string_view text; // without blanks at its ends
+    std::size_t end = 0;   // end of the line, without its line end
+    std::string_view text; // text of the line without blanks at its ends
 };
 
 /// A copy of the text of a file that is being repaired.

@@ -24,8 +24,8 @@ Token insert_before_value(ParseSession& session);
 /// Whether a `{` would begin the bounds of #param.
 [[nodiscard]] bool begins_bounds(const ScanState& scan);
 
-/// The token of the current `)` or `}`. Nullopt if it closes no bracket; an inserted, empty token
-/// for an inner bracket that must be closed first.
+/// The token of the current `)` or `}`. Nullopt if the character closes no bracket. If an inner
+/// bracket must be closed first, an inserted, empty token that closes this inner bracket.
 std::optional<Token> closing_bracket(ParseSession& session, char character);
 /// The token of the current opening bracket. Reports excessive nesting and skips the statement.
 Token opening_bracket(ParseSession& session, OpenBracket::Kind kind, Token::Kind token);

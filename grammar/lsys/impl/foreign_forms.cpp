@@ -951,7 +951,7 @@ private:
     DraftText& draft_;
     StatementText statement_;
     std::string_view word_;
-    std::size_t body_ = 0; // after `#word`
+    std::size_t body_ = 0; // offset after `#word`
     Keyword keyword_ = Keyword::Label;
 };
 

@@ -115,7 +115,7 @@ void replace_strays(std::string_view valid,
 
 /// Replaces the characters beyond ASCII that the scanner meets, until a scan of the normalized text
 /// meets none: a replacement may change how the text after it is scanned. The scan depends only on
-/// the text, so the parse meets none either.
+/// the text, so the scan during the parse meets no such character either.
 void normalize_source(const ParseContext& context,
                       Diagnostics& diagnostics,
                       NormalizedText& normalized) {

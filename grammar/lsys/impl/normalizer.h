@@ -17,8 +17,8 @@ namespace lsys {
 /// A character beyond ASCII in a place where only ASCII has a meaning.
 struct StrayCharacter {
     std::uint32_t begin = 0; // offset in the source
-    bool in_quotes = false;  // in back quotes: only confusables are replaced
-    bool in_value = false;   // in an expression or a setting, not among modules
+    bool in_quotes = false;  // whether it is in back quotes: only confusables are replaced
+    bool in_value = false;   // whether it is in an expression or a setting, not among modules
 
     friend auto operator<=>(const StrayCharacter&, const StrayCharacter&) = default;
 };

@@ -47,7 +47,7 @@ public:
     bool failed = false;         // the statement has a syntax error and gets no further reports
     bool token_inserted = false; // the last token was inserted
 
-    /// The current match.
+    /// Place of the current match: the text that a rule of the scanner has matched last.
     [[nodiscard]] SourceSpan match() const { return scanned.span(scan.begin, scan.end); }
     [[nodiscard]] std::string_view match_text() const {
         return scanned.text.substr(scan.begin, scan.end - scan.begin);
@@ -63,7 +63,8 @@ public:
 
     /// Whether syntax errors are reported: not after the first one of a statement.
     [[nodiscard]] bool wants_reports() const { return !silent && !failed; }
-    /// Whether to compose a syntax error of `code`; counts it if the list is full.
+    /// Whether the caller should compose and report a syntax error of `code`. If the list of
+    /// diagnostics is full, counts the error and returns false.
     [[nodiscard]] bool wants(DiagnosticCode code) {
         return wants_reports() && (is_independent(code) || !follows_doubtful_error()) &&
                context.diagnostics.admits(code);

@@ -90,7 +90,7 @@ void repair_fences(DraftText& draft) {
         return;
     }
     Fix fix{fences.size() == 1 ? "remove the line" : "remove these lines", {}, false};
-    std::vector<const FreeLine*> prose; // before the first fence and after the last
+    std::vector<const FreeLine*> prose; // lines before the first fence and after the last
     for (const FreeLine& line : lines) {
         const bool is_outside = line.begin < fences.front()->begin ||
                                 (fences.size() > 1 && line.begin > fences.back()->begin);
@@ -384,7 +384,7 @@ std::string lowered(std::string_view text) {
 }
 
 /// The text after `word` and one of `signs`: `6` for `n = 6`. Returns nullopt if the line does not
-/// begin with these.
+/// begin with `word` and a sign.
 std::optional<std::string_view>
 value_after(std::string_view line, std::string_view word, std::string_view signs) {
     if (!lowered(line.substr(0, word.size())).starts_with(word)) {

@@ -92,7 +92,7 @@ struct ScanState {
     bool statement_open = false;     // between `#word` and `;`
     bool part_empty = true;          // the part has no token yet
     bool has_locals = false;         // the statement has Part::Locals
-    bool skipping = false;           // to the `;` of the statement
+    bool skipping = false;           // the scanner skips the text up to the `;` of the statement
     bool sign_explained = false;     // another message explains the `=` after the key
     bool semicolon_inserted = false;
     bool value_before = false;                         // the last token ends a value
@@ -106,7 +106,8 @@ struct ScanState {
     std::uint32_t next_statement = 0; // first character after a missing `;`
     int comment_return = 0;           // start condition after the comment
 
-    // Inside expressions. Right-associative operators (unary, `^`) count as nesting.
+    // Open brackets of the current expression. Right-associative operators (unary ones and `^`)
+    // count as nesting too.
     std::vector<OpenBracket> open;
     std::uint32_t open_braces = 0;
     std::uint32_t chain = 0; // operators `-`, `!` and `^` that wait for operands at this level
@@ -115,7 +116,7 @@ struct ScanState {
     Insertion inserting = Insertion::None;
     SourceSpan pending_span;       // the written `:` or `;` after the inserted tokens
     std::uint32_t control_end = 0; // end of the last control character
-    // Searches in this text, at most kMaxBracketSearches (bracket_search.h).
+    // Count of bracket searches in this text, at most kMaxBracketSearches (bracket_search.h).
     std::uint32_t bracket_searches = 0;
 
     void enter(Part next) {

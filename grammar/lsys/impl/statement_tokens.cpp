@@ -301,7 +301,7 @@ bool report_hash_comment(ParseSession& session, std::string_view text) {
     }
     const std::string_view line = all.substr(scan.begin, all.find('\n', scan.begin) - scan.begin);
     if (line.find_first_of(":;") != std::string_view::npos) {
-        return false; // more likely a statement
+        return false; // a statement is more likely
     }
     if (!session.silent && session.context.diagnostics.admits(DiagnosticCode::UnknownStatement)) {
         const SourceSpan hash = session.scanned.span(scan.begin, scan.begin + 1);

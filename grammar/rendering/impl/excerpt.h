@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // A part of a source line as a terminal shows it: tabs expanded, invisible characters spelt out,
-// with the column of each byte. For the frames of messages; bounded in size for lines of any
-// length.
+// with the column of each byte. Used for the source lines in messages; the size of an excerpt is
+// limited even for very long lines.
 #pragma once
 
 #include "grammar/base/utf8.h"
@@ -23,7 +23,7 @@ struct Excerpt {
         std::uint32_t column = 0;
     };
 
-    std::string text;                   // for printing
+    std::string text;                   // text to print
     std::vector<CharacterPlace> places; // ascending; the last is the end of the excerpt
     std::size_t begin = 0;              // first byte within the line
     std::size_t end = 0;                // one past the last byte

@@ -29,7 +29,7 @@ struct Palette {
 struct Mark {
     SourceSpan span;
     char character = '^';
-    std::string_view text; // after the marks; may be empty
+    std::string_view text; // text to print after the marks; may be empty
     std::string_view colour;
 };
 

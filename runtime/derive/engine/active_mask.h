@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 // ActiveMask: two bits per module, in blocks of 64 modules: whether the module may be rewritten,
-// and whether it stores a parameter. Codes are looked up a vector at a time, so that a module
-// that is certain to be copied costs a fraction of a table lookup. A module that only productions
-// with contexts may rewrite is active only if its neighbours can match one of these contexts.
+// and whether it stores a parameter. Vector instructions look up 32 codes at a time, so that a
+// module that is certain to be copied costs a fraction of a table lookup. A module that only
+// productions with contexts may rewrite is active only if its neighbours can match one of these
+// contexts.
 #pragma once
 
 #include "runtime/derive/engine/contexts.h"
@@ -17,8 +18,8 @@ namespace lsys {
 
 /// Bits of 64 modules, the first in the lowest bit.
 struct ActiveBits {
-    std::uint64_t active = 0; // may be rewritten
-    std::uint64_t stores = 0; // stores a parameter
+    std::uint64_t active = 0; // modules that may be rewritten
+    std::uint64_t stores = 0; // modules that store a parameter
 };
 
 /// std::popcount without the library call that it compiles to for machines without the instruction.

@@ -2,8 +2,8 @@
 // Batches: parameters that need the stack machine, evaluated for 64 modules of a production at
 // once. Each value of the machine is a row of 64 numbers, so an instruction is decoded once per
 // batch and computed with vector instructions. Rows hold the same binary32 values that evaluate()
-// in eval.h computes. The writing pass adds modules and leaves room for their parameters, which are
-// filled in when a batch is full or the pass ends.
+// in eval.h computes. The writing pass adds modules to batches and leaves gaps in the word for
+// their parameters. A batch writes the parameters when it is full or when the pass ends.
 #pragma once
 
 #include "compiler/bytecode/bytecode.h"
@@ -57,7 +57,7 @@ struct BatchModules {
     std::array<float*, kLanes> out; // parameters to write
 };
 
-/// Holds references; each thread has its own.
+/// Refers to the plan and to the inputs of the pass; each thread has its own object.
 class Batches {
 public:
     Batches(const Bytecode& bytecode,

@@ -23,7 +23,8 @@ struct PassKeys {
     bool keeps_age = false; // the written word has age `generation`, not `generation` + 1
 };
 
-/// Holds references: word and keys may change between calls.
+/// Refers to the plan, the keys and the word, all of which outlive the object. Keys and word may
+/// change between calls.
 template <typename C>
 class Chooser {
 public:

@@ -122,7 +122,7 @@ template <typename C>
 void ContextTables::build_right(const C* codes) {
     struct Closed {
         std::uint64_t next;
-        std::uint64_t gap; // after the `]`
+        std::uint64_t gap; // the gap after the `]`
     };
     std::vector<Closed> closed;
     std::uint64_t next = kNowhere;

@@ -11,7 +11,8 @@
 
 namespace lsys {
 
-/// The modules to count: from `begin` to `end`, or until the room is used up.
+/// The modules to count: from `begin` to `end`, or until the modules written would exceed the room
+/// for codes or parameters.
 struct CountRequest {
     ModulePlace begin;
     std::uint64_t end = 0;

@@ -40,7 +40,7 @@ find_match(const Plan& plan, Chooser<C>& chooser, const WordView<C>& word) {
     return std::nullopt;
 }
 
-/// The error TooDeep for the module at `place`, which still matches.
+/// The error TooDeep for the module at `place`, which a production still matches.
 template <typename C>
 [[nodiscard]] RuntimeError too_deep(const Plan& plan,
                                     Chooser<C>& chooser,

@@ -27,7 +27,7 @@ private:
 
     std::uint32_t seed_;
     std::vector<std::uint32_t> alternatives_; // number of productions, by rule
-    GlibcRandom random_;                      // its state at the start of generation next_
+    GlibcRandom random_;                      // state of rand() at the start of generation next_
     std::uint64_t next_ = 0;                  // generation after the last prepared one
     std::vector<std::uint32_t> draws_;        // by rule, in generation next_ - 1
 };

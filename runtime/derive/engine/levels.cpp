@@ -151,7 +151,7 @@ void Levels<C, R>::prune(std::uint64_t index) {
     level.count = kept;
 }
 
-/// Hands a whole block to the level below unchanged.
+/// Moves a whole block to the level below without rewriting it.
 template <typename C, typename R>
 void Levels<C, R>::pass_down(Level& level, Level& below) {
     std::swap(level.codes, below.codes);

@@ -28,9 +28,9 @@ struct LevelSteps {
     std::uint32_t first_age = 0;
     std::uint32_t last_age = 0;
     std::uint32_t depth = 0;           // passes over the word of each age
-    bool checked = false;              // a module that matches after the last pass is an error
+    bool checked = false;              // error if a module still matches after the last pass
     std::uint64_t first_pass_draw = 0; // number of the first draw of the first pass
-    bool prunes = false;               // each generation begins with the cuts of `%` modules
+    bool prunes = false;               // before each generation, `%` modules cut off branches
 
     /// Number of steps, which is also the index of the last level.
     [[nodiscard]] std::uint64_t count() const {
@@ -59,7 +59,7 @@ struct LevelBlock {
     std::span<const C> codes;
     const float* parameters = nullptr;
     const Origin* origins = nullptr;  // null unless LevelOptions::origins
-    std::uint64_t first_position = 0; // in the last word
+    std::uint64_t first_position = 0; // position of the first module in the last word
 };
 
 struct LevelOptions {
@@ -90,7 +90,7 @@ public:
     };
     /// The block of the first level, to be filled; null pointers if the limit on memory is reached.
     [[nodiscard]] Block first_block();
-    /// Sends the `count` modules in the first block down all levels.
+    /// Rewrites the `count` modules in the first block through all levels.
     [[nodiscard]] std::optional<Stop> push(std::uint64_t count);
 
     [[nodiscard]] RuntimeError& error() { return error_; }
@@ -123,7 +123,7 @@ private:
     std::uint64_t last_ = 0; // index of the last level
     WordView<C> view_;       // the block being rewritten
     PassKeys keys_;
-    std::deque<Chooser<C>> choosers_; // for rewriting and for passes; refer to view_ and keys_
+    std::deque<Chooser<C>> choosers_; // one for rewriting, one for passes; refer to view_ and keys_
     std::vector<Level> levels_;
     std::deque<Pruner> pruners_; // by generation, if LevelSteps::prunes
     std::vector<R> records_;

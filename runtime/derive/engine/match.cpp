@@ -84,7 +84,8 @@ bool Matcher<C>::matches_contexts(const BytecodeProduction& production, std::uin
 template <typename C>
 std::uint64_t Matcher<C>::parameters_before(std::uint64_t index, ModulePlace near) const {
     const std::vector<Row>& rows = plan_.rows();
-    // Most contexts are near the module: counting from the module is then faster than the table.
+    // Most context modules are close to `near`. Counting parameters from there is then faster than
+    // a lookup in the table of offsets.
     if (index >= near.index && index - near.index < ContextTables::kOffsetStride) {
         for (; near.index < index; ++near.index) {
             near.parameter += rows[word_.codes[near.index]].stored;

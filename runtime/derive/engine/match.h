@@ -53,7 +53,7 @@ public:
         return row.constants == kNone ? word_.parameters + place.parameter
                                       : plan_.bytecode().constants.data() + row.constants;
     }
-    /// Whether the modules after `index` match the rest of the predecessor.
+    /// Whether the modules after `index` match the predecessor's modules after its first.
     [[nodiscard]] bool matches_predecessor(const BytecodeProduction& production,
                                            std::uint64_t index) const;
     /// Whether the contexts of `production` match around the predecessor at `index`. Stores the

@@ -269,7 +269,7 @@ std::optional<Stop> Passes::write(const WordView<C>& word, Word& out, const Pass
     const bool in_order = workers_.count() == 1 || chunks_.size() == 1 || by_census_;
     C* const codes_end = codes + modules_ + kWordSlack / sizeof(C);
     float* const parameters_end = parameters + parameters_ + kWordSlack / sizeof(float);
-    WriteRequest<C> next; // in order: starts where the previous chunk ended
+    WriteRequest<C> next; // if chunks are written in order: starts where the last one ended
     next.codes = codes;
     next.parameters = parameters;
     Origin* const origins = out.keeps_origins() ? out.origins().data() : nullptr;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Plan: a program prepared for rewriting; every decision that does not depend on the module is made
-// in advance. Made once per run, when the globals are known; updated for each generation if
-// something depends on step(), and for each rule if a pass rewrites one rule only. Read by the
-// passes, by many threads at once.
+// in advance. Made once per derivation, when the values of the globals are known; updated for each
+// generation if a condition, weight or argument depends on step(), and for each rule if a pass
+// rewrites one rule only. Read by the passes, by many threads at once.
 //
 // A row says how modules of a code are rewritten: by one entry, by a random choice among a fixed
 // set, by the first comparison that holds, or by conditions and contexts. An entry is a successor:
@@ -30,7 +30,7 @@
 
 namespace lsys {
 
-/// Max parameters that an entry computes without a loop.
+/// Max parameters of an entry whose terms are stored in the entry itself.
 inline constexpr std::size_t kEntryTerms = 4;
 /// Max parameters of a batched entry.
 inline constexpr std::uint32_t kMaxBatchedParameters = 16;
@@ -48,8 +48,8 @@ struct alignas(64) Entry {
     std::uint32_t candidate = kNone; // kNone: a copy of the module
     std::uint32_t first_place = 0;   // index of the successor in template_codes
     bool general = false;            // parameters need a batch or evaluate()
-    bool reads_own = false;          // terms read the module's parameters
-    bool special = false;            // not written by one wide store of codes and one of terms
+    bool reads_own = false;          // terms read parameters of the rewritten module
+    bool special = false;            // needs more than one wide store of codes and one of terms
     bool batched = false;            // special for its parameters only, which a batch computes
 };
 
@@ -204,7 +204,7 @@ public:
     [[nodiscard]] bool has_batched() const { return has_batched_; }
     /// Whether some batched entry draws random numbers, which takes most of the time of a batch.
     [[nodiscard]] bool has_batched_draws() const { return has_batched_draws_; }
-    /// Room for parameters that the wide loop needs per module.
+    /// Number of parameters per module for which the wide loop needs room.
     [[nodiscard]] std::uint32_t wide_parameters() const { return wide_parameters_; }
     /// Whether terms of an entry may read different parameters.
     [[nodiscard]] bool mixes_inputs() const { return mixes_inputs_; }
@@ -213,8 +213,8 @@ public:
     [[nodiscard]] bool all_fixed() const { return active_.dynamic_rows == 0; }
     [[nodiscard]] bool needs_contexts() const { return active_.needs_contexts; }
     [[nodiscard]] bool reads_contexts() const { return active_.reads_contexts; }
-    /// The max number of modules that a match replaces. It may exceed 1 in leftmost rewriting, and
-    /// in a pass of one rule, where every match replaces this number.
+    /// The max number of modules that a match replaces. This number may exceed 1 in leftmost
+    /// rewriting, and in a pass of one rule, in which every match replaces this number of modules.
     [[nodiscard]] std::uint32_t predecessor_count() const { return active_.predecessor_count; }
     /// Modules replaced by a match whose successor is `entry`.
     [[nodiscard]] std::uint32_t replaced_modules(const Entry& entry) const {
@@ -319,7 +319,7 @@ private:
     TableRange productions_;
     bool families_by_symbol_; // a family holds all productions of its symbol
     std::uint32_t generation_ = 0;
-    std::optional<GlibcRuleDraws> glibc_draws_; // with `random glibc`
+    std::optional<GlibcRuleDraws> glibc_draws_; // set with `random glibc`
 
     std::vector<Row> rows_; // by code
     std::vector<Entry> entries_;

@@ -65,7 +65,7 @@ private:
         std::uint32_t stored = 0;
     };
     std::vector<Kind> kinds_; // by code
-    std::uint64_t depth_ = 0; // open branches from the cut branch inwards; 0: no cut
+    std::uint64_t depth_ = 0; // open brackets since the cut, the cut branch included; 0: no cut
     bool any_ = false;
 };
 

@@ -32,7 +32,7 @@ struct Comparison {
     static constexpr std::uint32_t kGreater = 4;
 
     AffineTerm affine;
-    float bound = 0.0F; // not NaN
+    float bound = 0.0F; // the constant; never NaN
     std::uint32_t accepted = 0;
 };
 

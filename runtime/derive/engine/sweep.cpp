@@ -13,10 +13,10 @@ namespace lsys {
 
 namespace {
 
-/// Modules between two looks at DeriveOptions::cancelled.
+/// Modules between two checks of DeriveOptions::cancelled.
 constexpr std::uint64_t kModulesPerLook = std::uint64_t{1} << 20;
 
-/// A stack whose room is not given back.
+/// A stack that keeps its memory when items are removed.
 template <typename T>
 class Stack {
 public:
@@ -87,9 +87,9 @@ Sweep::make_tables(const Word& word, const Limits& limits, std::uint64_t other_b
     return contexts_.prepare(plan_, word) ? std::nullopt : std::optional(Stop::OutOfMemory);
 }
 
-/// One pass over `word`, whose parameters are `parameters`. Keeps the neighbours that the modules
-/// to be visited next have: for `#down` the next module of the axis and the first modules of the
-/// branches in between, for `#up` the module on the path towards the root.
+/// One pass over `word`, whose parameters are `parameters`. Stores the neighbours of the next
+/// module to be visited: for `#down` the module after it on the axis and the first modules of the
+/// branches in between, for `#up` the module before it on the path to the root.
 template <typename C>
 class Sweep::Run {
 public:
@@ -162,14 +162,14 @@ public:
     }
 
 private:
-    /// The state of a sweep before it entered a branch.
+    /// The fields axis_ and first_branch_ as they were before the sweep entered a branch.
     struct Level {
         SweepNeighbour axis;
         std::size_t first_branch = 0;
     };
 
-    /// At a `[`, from the right: its branch is the first one of the gap before it. A `[` without
-    /// its `]` is a branch that reaches to the end of the word.
+    /// Leaves a branch at its `[`, coming from the right, and adds its first module to branches_ of
+    /// the outer level. A `[` without its `]` is a branch that reaches to the end of the word.
     void leave_branch() {
         const SweepNeighbour first = axis_;
         branches_.cut(first_branch_);
@@ -234,7 +234,8 @@ private:
         return true;
     }
 
-    /// Computes all values before it stores the first, because they may read each other.
+    /// Computes all new parameters before it stores the first, because each may depend on all old
+    /// ones.
     [[nodiscard]] bool write(const SweepCandidate& candidate, float* own) const {
         std::array<float, kMaxSweepParameters> values; // NOLINT: written before they are read
         bool finite = true;
@@ -248,7 +249,7 @@ private:
         return finite;
     }
 
-    /// visit() by the tables of the plan.
+    /// visit() for Kind::General: chooses and evaluates a production as rewriting does.
     [[nodiscard]] bool visit_general(const ModulePlace& place) {
         const Row& row = plan_.row(view_.codes[place.index]);
         std::uint32_t record = 0;
@@ -284,7 +285,7 @@ private:
     const WordView<C>& view_;
     float* parameters_;
     Chooser<C> chooser_;
-    std::vector<float> values_; // of visit_general()
+    std::vector<float> values_; // values computed by visit_general()
     SweepBases bases_{};
     SweepNeighbour axis_;
     Stack<SweepNeighbour> branches_; // of this level: from first_branch_ on, the last first

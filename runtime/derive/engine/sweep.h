@@ -3,9 +3,10 @@
 // one pass over the word (docs/language.md section 13; fast information transfer: Karwowski and
 // Prusinkiewicz 2003). `#down` visits the modules from right to left, so that the right context of
 // a module has the parameters that this sweep gave it; `#up` visits from left to right and reads
-// left contexts. Most productions run as a SweepProgram, whose neighbours the loop has just passed.
-// The others are chosen and evaluated as in rewriting, with the neighbours of ContextTables. A sweep
-// runs on one thread, because each module may depend on the one visited before.
+// left contexts. Most productions run as a SweepProgram, which needs only the neighbours that the
+// sweep has visited just before. The others are chosen and evaluated as in rewriting, with the
+// neighbours that ContextTables find. A sweep runs on one thread, because each module may depend on
+// the one visited before.
 #pragma once
 
 #include "runtime/base/limits.h"
@@ -21,7 +22,7 @@
 
 namespace lsys {
 
-/// Draws of sweeps have numbers of their own, docs/language.md section 6.
+/// Number of the first draw in `#down` sweeps (docs/language.md section 6).
 inline constexpr std::uint64_t kFirstDownDraw = (std::uint64_t{1} << 32) + (std::uint64_t{1} << 30);
 inline constexpr std::uint64_t kFirstUpDraw = kFirstDownDraw + (std::uint64_t{1} << 29);
 

@@ -15,7 +15,7 @@ constexpr std::uint32_t kStepConstant = 0;
 constexpr std::uint32_t kStepsConstant = 1;
 constexpr std::uint32_t kFirstGlobal = 2;
 
-/// A chain being made; no operation: the value is not a chain.
+/// The operations of a chain; empty if the value cannot be computed by a chain.
 using Chain = std::vector<SweepOperation>;
 
 /// Longer chains are left to the stack machine.
@@ -67,7 +67,8 @@ public:
     static Chain steps() { return constant(kStepsConstant); }
     static Chain unary(Opcode opcode, Chain x) {
         if (!x.empty()) {
-            x.push_back({opcode, kConstantBase, kStepConstant}); // its operand is not used
+            // The operation ignores its operand.
+            x.push_back({opcode, kConstantBase, kStepConstant});
         }
         return x;
     }
@@ -139,8 +140,8 @@ SweepProgram::SweepProgram(const Bytecode& bytecode, const PlanInputs& inputs, S
     }
 }
 
-/// Adds the elements of the context, whose formals `compiler` then knows; false if the context has
-/// another form.
+/// Adds the elements of the context, and tells `compiler` where their formals are. Returns false if
+/// the context is anything but branches of at most one module each, followed by at most one module.
 bool SweepProgram::add_contexts(const Bytecode& bytecode,
                                 TableRange pattern,
                                 Compiler& compiler,

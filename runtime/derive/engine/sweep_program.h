@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-// SweepProgram: the productions of a sweep in the form that its loop runs. Productions whose
-// expressions are chains, `((a op b) op c) op d` with formals and constants as operands, and whose
-// context is one module and the branches before it, need neither the stack machine nor tables of
-// neighbours: the loop keeps the neighbours while it passes them. Symbols with other productions
-// have Kind::General.
+// SweepProgram: the productions of a sweep, compiled to the operations that its loop executes.
+// Productions whose expressions are chains, `((a op b) op c) op d` with formals and constants as
+// operands, and whose context is one module and the branches before it, need neither the stack
+// machine nor tables of neighbours: the loop remembers the neighbours as it visits them. Symbols
+// with other productions have Kind::General.
 #pragma once
 
 #include "compiler/bytecode/arithmetic.h"
@@ -45,14 +45,14 @@ struct SweepNeighbour {
 /// An element of a context: the first module of a branch, or the next module of the axis.
 struct SweepContext {
     SymbolId symbol = kNoSymbol; // kNoSymbol: any branch
-    std::uint32_t base = 0;      // in SweepBases
+    std::uint32_t base = 0;      // index in SweepBases
 };
 
 struct SweepCandidate {
     bool has_axis = false; // whether the context has a module of the axis
     SweepContext axis;
     TableRange branches;  // of SweepProgram::branch(), in text order, before the module of the axis
-    TableRange condition; // of operations; count 0: always true
+    TableRange condition; // range of operations; count 0: the condition always holds
     TableRange chains;    // one per parameter
 };
 
@@ -95,7 +95,7 @@ public:
     [[nodiscard]] std::uint64_t held_bytes() const;
 
 private:
-    class Compiler; // of expressions
+    class Compiler; // compiles expressions to chains
 
     [[nodiscard]] float value(TableRange chain, const SweepBases& bases) const {
         const SweepOperation* operation = operations_.data() + chain.first;

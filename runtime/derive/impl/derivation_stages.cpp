@@ -39,7 +39,7 @@ std::optional<Stop> Derivation::State::decompose(std::uint32_t word_age, const W
         const DerivationPass facts{.kind = DerivationPass::Kind::Decompose, .number = done};
         if (const std::optional<Stop> stop = pass(*decompose_passes, keys, facts, current)) {
             end.limit.generation = age;
-            // For the axiom, no word is complete yet.
+            // While the axiom is decomposed, no word is complete yet.
             end.limit.modules = word_age == 0 ? 0 : end.limit.modules;
             return stop;
         }

@@ -51,8 +51,8 @@ struct Derivation::State {
         end.error = std::move(error);
         return Stop::Diagnosed;
     }
-    /// Sets the values reported if the next word does not fit: its number of modules, and the bytes
-    /// held with it.
+    /// Sets the values of the limit report for a next word that does not fit: its number of
+    /// modules, and the bytes that all words would take.
     void report_limit(LimitKind kind, std::uint64_t modules, std::uint64_t bytes) {
         end.limit = {kind, age, word.module_count(), modules, bytes};
     }
@@ -113,7 +113,8 @@ struct Derivation::State {
     [[nodiscard]] std::optional<Stop>
     sweep(Sweep& runner, std::uint32_t word_age, const Word*& current);
     /// Makes `changed` a word with the contents of `current` whose parameters a stage may change:
-    /// `current` itself, unless it is the last complete word or DeriveOptions::on_pass sees both.
+    /// `current` itself, or a copy if `current` is the last complete word or DeriveOptions::on_pass
+    /// gets both words.
     [[nodiscard]] std::optional<Stop> make_changeable(const Word* current, Word*& changed);
     /// Bytes of all plans.
     [[nodiscard]] std::uint64_t plan_bytes() const;

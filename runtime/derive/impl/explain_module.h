@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The decision about one module in one pass, made as docs/language.md sections 5 and 6 describe it:
-// every production for modules of its name, the choice among several, and the successor.
+// Explains the decision about one module in one pass, as docs/language.md sections 5 and 6 describe
+// it: which productions match, which of them is chosen, and the successor.
 #pragma once
 
 #include "compiler/bytecode/bytecode.h"

@@ -187,7 +187,7 @@ struct PrintedNumbers : UnknownDomain<PrintedValue> {
             const char* const sign = opcode == Opcode::Not ? "!" : "-";
             PrintedValue result{number, sign + operand(x, Binding::Unary), Binding::Unary};
             if (opcode == Opcode::Negate && x.binding == Binding::Leaf) {
-                return result; // not a part: its value is shown where it is used
+                return result; // the sign of a leaf is not a part of its own
             }
             return add(std::move(result),
                        sign + (opcode == Opcode::Not ? truth_text(x) : number_text(x.number)),

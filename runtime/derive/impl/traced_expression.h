@@ -26,7 +26,7 @@ struct TracedFrame {
 struct SuccessorTrace {
     std::vector<TracedLocal> locals;
     std::vector<TracedRange> ranges;
-    std::vector<float> arguments; // up to the first fault
+    std::vector<float> arguments; // arguments up to the first fault
     std::string fault;            // describes a value that cannot be used; empty: none
 };
 /// `draws`: the draws of the module; `first_draw`: the draw number of range 0.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // TracedWord: a word as input of a trace. It finds modules by position, and neighbours module by
-// module (docs/language.md section 5). Slow and direct; its only table holds the places of
-// parameters.
+// module (docs/language.md section 5). Written for clarity, not speed; its only table has the
+// number of parameters before every kStride-th module.
 #pragma once
 
 #include "compiler/bytecode/bytecode.h"

@@ -48,7 +48,8 @@ TotalRange::TotalRange(std::span<const SensePlace> places) {
     }
     if (lowest <= highest) {
         lowest_ = lowest;
-        const auto bits = static_cast<std::size_t>(highest - lowest) + 33; // terms and sign
+        // 32 bits for the terms, and a sign.
+        const auto bits = static_cast<std::size_t>(highest - lowest) + 33;
         words_ = (bits + kWordBits - 1) / kWordBits;
     }
 }
@@ -108,7 +109,8 @@ double TotalRange::rounded(const std::uint64_t* total) const {
     if (top == 0) {
         return 0.0;
     }
-    // The upper 64 bits of the number, from its top bit on, and whether a bit below is set.
+    // `upper`: the 64 bits of the number from its top bit on. `below`: whether any lower bit is
+    // set.
     const auto empty = static_cast<std::size_t>(std::countl_zero(magnitude[top - 1]));
     std::uint64_t upper = magnitude[top - 1] << empty;
     bool below = false;

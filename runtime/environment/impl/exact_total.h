@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// TotalRange: exact totals of coordinates as fixed-point numbers. An exact total does not depend on
-// the order of its terms, so parts of it can be summed once and shared.
+// TotalRange: exact sums of coordinates, as fixed-point numbers. An exact sum does not depend on
+// the order of its terms, so the sums of groups of places can be computed once and reused.
 #pragma once
 
 #include "runtime/environment/environment.h"
@@ -12,13 +12,14 @@
 
 namespace lsys {
 
-/// Max words of a total: 2^-1074 to 2^1024, a sign, and 32 bits for the number of terms.
+/// Max 64-bit words of a total: bits from 2^-1074 to 2^1024, a sign, and 32 bits for the number of
+/// terms.
 inline constexpr std::size_t kMaxTotalWords = 34;
 
 /// A total in two's complement, the least word first. Words beyond TotalRange::words() are unused.
 using Total = std::array<std::uint64_t, kMaxTotalWords>;
 
-/// The bits that totals of the coordinates of some places need.
+/// The range of bits that totals of the coordinates of given places need.
 class TotalRange {
 public:
     /// Precondition: all coordinates are finite; fewer than 2^32 places.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Frame: coordinates relative to the middle of some points, in a unit near their extent, so that
-// binary32 is exact enough for bounds of distances.
+// Frame: a coordinate system whose origin is the middle of a set of points and whose unit is about
+// their extent, so that binary32 is exact enough for bounds of distances.
 #pragma once
 
 #include "runtime/environment/impl/vectors.h"
@@ -28,15 +28,16 @@ struct PointBox {
 /// A place in a frame, in binary32.
 struct FramedPlace {
     std::array<float, 3> at{};
-    double margin = 0.0; // above all errors of a distance that is computed from `at` in binary32
-    bool is_bounded = false; // false: no bound counts, because binary32 could overflow
+    double margin = 0.0;     // more than the max error of a distance computed from `at` in binary32
+    bool is_bounded = false; // false: bounds are not used, because binary32 could overflow
 };
 
 class Frame {
 public:
     Frame() = default;
-    /// Coordinates of the box are within -1/2 and 1/2, and so is `length` (m). One of the two is
-    /// not 0. Near the limits of binary64 the scale is 0: no place is bounded then.
+    /// Scales the coordinates of the box, and `length` (m), to at most 1/2. Precondition: the box
+    /// has an extent, or `length` is not 0. Near the limits of binary64 the scale is 0; is_bounded
+    /// is then false for all places.
     explicit Frame(const PointBox& box, double length = 0.0) {
         double extent = length; // half of the longest edge of the box
         for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -52,11 +53,12 @@ public:
         return times(minus(point, origin_), scale_);
     }
     /// With u = 2^-24 and s = 1 + the largest coordinate of the place, the vector from a rounded
-    /// point of the box to the rounded place has an error of 3.5 u s. Its part along an axis has 12
-    /// u s, its length beside the axis 29 u s; if the rounded axis has not the length 1, 12 u s
-    /// more. Together a distance is wrong by 46 u s at most; the margin is 64 u s.
+    /// point of the box to the rounded place has an error of 3.5 u s. Its component along an axis
+    /// has an error of 12 u s, its distance from the axis one of 29 u s, and rounding the axis,
+    /// which changes its length, adds 12 u s. Together a distance is wrong by 46 u s at most; the
+    /// margin is 64 u s.
     [[nodiscard]] FramedPlace framed_place(const Vector3& place) const {
-        constexpr double kLargest = 0x1p50; // whose square is far from overflow
+        constexpr double kLargest = 0x1p50; // the square is far from overflow
         const Vector3 at = framed(place);
         const double size = 1.0 + std::max({std::abs(at[0]), std::abs(at[1]), std::abs(at[2])});
         FramedPlace result;

@@ -71,7 +71,7 @@ LeafAreaTable::LeafAreaTable(std::span<const CellArea> areas,
             entry.key = key;
             entry.value += organ.area;
             if (was_used && level > 0) {
-                break; // its parents are there too
+                break; // the blocks that contain this block are in the table, too
             }
         }
     }

@@ -41,17 +41,18 @@ struct CellArea {
     double area = 0.0; // m^2
 };
 
-/// Answer of a LeafAreaTable for one cell.
+/// The entry of a LeafAreaTable for one cell.
 struct CellContent {
-    double opacity = 0.0; // of light per metre of path
-    /// The cell is in an empty block of 2^empty_bits cells along each axis, aligned to CellBox::low.
+    double opacity = 0.0; // opacity to light, per metre of path
+    /// The cell is in an empty block of 2^empty_bits cells along each axis, aligned to
+    /// CellBox::low.
     std::uint32_t empty_bits = 0;
 };
 
-/// From the area in a cell to its opacity per metre.
+/// Converts the leaf area in a cell to the opacity of the cell per metre of path.
 struct Extinction {
-    double extinction = 0.0; // per leaf area index
-    double volume = 0.0;     // of a cell, m^3
+    double extinction = 0.0; // extinction coefficient per leaf area index
+    double volume = 0.0;     // volume of a cell, m^3
 
     [[nodiscard]] double opacity(double area) const { return extinction * area / volume; }
 };
@@ -68,7 +69,7 @@ public:
         }
         return index;
     }
-    /// From the index of a cell to that of the next one along an axis.
+    /// Difference between the indexes of two cells that are neighbours along an axis.
     [[nodiscard]] std::size_t stride(std::size_t axis) const {
         return axis == 0 ? extents_[1] * extents_[2] : axis == 1 ? extents_[2] : 1;
     }
@@ -81,8 +82,8 @@ private:
     LargeVector<double> opacities_;
 };
 
-/// A hash table of the occupied cells, and of the occupied blocks of 8, 64, 512, ... cells along
-/// each axis up to one block for all.
+/// A hash table of the occupied cells and of the occupied blocks of 8, 64, 512, ... cells along
+/// each axis. The largest block contains all cells.
 class LeafAreaTable {
 public:
     [[nodiscard]] static std::uint64_t bytes_for(std::uint64_t organs, const CellBox& box);
@@ -102,8 +103,9 @@ public:
 
 private:
     static constexpr std::uint32_t kBlockBits = 3;
-    using Steps = std::array<std::uint64_t, 3>; // up to 2^32
-    /// Not zero for any block.
+    /// Cells from CellBox::low along each axis; up to 2^32.
+    using Steps = std::array<std::uint64_t, 3>;
+    /// Identifies a cell or block; never 0, which marks an unused entry.
     struct Key {
         std::uint64_t high = 0;
         std::uint64_t low = 0;
@@ -138,7 +140,7 @@ private:
         hash = (hash ^ (hash >> 29)) * 0xBF58476D1CE4E5B9U;
         return hash >> shift_;
     }
-    /// The entry of `key`, or the unused one where it would stand.
+    /// Index of the entry of `key`, or of the unused entry into which `key` would be put.
     [[nodiscard]] std::size_t index_of(const Key& key) const {
         std::size_t index = slot_of(key);
         while (entries_[index].is_used() && entries_[index].key != key) {
@@ -150,7 +152,7 @@ private:
 
     CellIndex low_;
     std::uint32_t levels_;
-    std::uint32_t shift_ = 0; // from a hash to an index
+    std::uint32_t shift_ = 0; // a hash >> shift_ is an index in entries_
     std::vector<Entry> entries_;
 };
 

@@ -32,7 +32,8 @@ MarkerSearch::MarkerSearch(std::span<const SensePlace> places,
     PointBox box;
     for (const SensePlace& place : places) {
         box.add(place.position);
-        // Turtles do not renormalise headings; the margin of the angle counts on a length below 2.
+        // Turtles do not renormalise headings. The margin of the angle is valid for lengths below
+        // 2.
         compares_headings_ = compares_headings_ && squared_length(place.heading) < 4.0;
     }
     frame_ = Frame(box, std::sqrt(reach.radius_squared));
@@ -45,7 +46,7 @@ MarkerSearch::MarkerSearch(std::span<const SensePlace> places,
     fill_boxes(children, items);
 }
 
-/// Fills a leaf, whose children become indexes of the word.
+/// Fills the lanes of a leaf; its children become indexes of places of the word.
 void MarkerSearch::fill_node(Node& node, std::span<const SplitItem> items) const {
     for (std::size_t lane = 0; lane < node.count; ++lane) {
         const std::uint32_t position = items[node.children[lane]].index;
@@ -72,7 +73,8 @@ void MarkerSearch::fill_boxes(std::span<const WideChild> children,
             box.add(frame_.framed(places_[item.index].position));
         }
         for (std::size_t axis = 0; axis < 3; ++axis) {
-            // Rounded to the nearest: the margin is far above that error.
+            // Rounding to nearest suffices, since FramedPlace::margin is far above the rounding
+            // error.
             node.low[axis][child.lane] = static_cast<float>(box.low[axis]);
             node.high[axis][child.lane] = static_cast<float>(box.high[axis]);
         }
@@ -89,8 +91,8 @@ public:
                                                        : -1.0F) {
         if (search.compares_headings_ && framed_.is_bounded) {
             cosine_ = static_cast<float>(search.reach_.cosine);
-            // With u and s of Frame::framed_place(), the product of heading and way is wrong by
-            // 24 u s, the length times the cosine by 11 u s.
+            // With u and s of Frame::framed_place(), the dot product of heading and `way` has an
+            // error of 24 u s, and |way| times the cosine one of 11 u s.
             angle_margin_ = static_cast<float>(-framed_.margin);
         }
     }
@@ -146,10 +148,11 @@ private:
         return sum;
     }
 
-    /// Lanes of a leaf that may kill the marker, or be near enough and see it.
+    /// Bits of the places of a leaf that may kill the marker, or that may see it and be nearer than
+    /// the nearest place so far.
     [[nodiscard]] std::uint32_t candidates(const Node& node) const {
         Lanes squared{};
-        Lanes towards{}; // heading . way
+        Lanes towards{}; // dot product of heading and `way`
         for (std::size_t axis = 0; axis < 3; ++axis) {
             const Lanes way = framed_.at[axis] - node.low[axis];
             squared += way * way;
@@ -160,7 +163,8 @@ private:
         return ~lane_bits(hidden & (squared > kill_limit_));
     }
 
-    /// Returns whether the place kills the marker.
+    /// Makes the place at `position` the one found if it is nearer and sees the marker. Returns
+    /// whether the place kills the marker.
     [[nodiscard]] bool consider(std::uint32_t position) {
         const Vector3 way = minus(marker_, search_.places_[position].position);
         const double squared = squared_length(way);
@@ -181,8 +185,8 @@ private:
     FramedPlace framed_;
     double nearest_; // squared, m^2
     std::uint32_t found_ = kNoPlace;
-    float limit_;      // squared in the frame: farther places are not nearer
-    float kill_limit_; // squared in the frame: farther places do not kill
+    float limit_;      // squared distance in the frame above which a place cannot be nearest
+    float kill_limit_; // squared distance in the frame above which a place cannot kill
     float cosine_ = -1.0F;
     float angle_margin_ = -std::numeric_limits<float>::infinity();
 };

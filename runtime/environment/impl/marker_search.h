@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
-// MarkerSearch: the place of a word that a marker belongs to. Made by SpaceEnvironment for each
-// word; its header comment (space.cpp) defines the arithmetic. A tree with four children a node:
-// bounds are computed four at once in binary32, and leave out only places that are too far away or
-// look elsewhere by more than all rounding errors.
+// MarkerSearch: finds the place of a word that a marker belongs to. Made by SpaceEnvironment for
+// each word; the comment at the top of space.cpp defines the arithmetic. The places are in a tree
+// with four children per node, whose bounds are computed in binary32, four at once. The search
+// skips only places that are too far away, or look in another direction, by more than all rounding
+// errors.
 #pragma once
 
 #include "runtime/environment/environment.h"
@@ -17,10 +18,10 @@ namespace lsys {
 inline constexpr std::uint32_t kNoPlace = ~std::uint32_t{0};
 inline constexpr std::uint32_t kKilled = kNoPlace - 1;
 
-/// Which markers a place sees and kills.
+/// The distances and the angle that decide which markers a place sees and kills.
 struct MarkerReach {
     double radius_squared = 0.0; // m^2
-    double cosine = -1.0;        // of the half angle of the cone of view
+    double cosine = -1.0;        // cosine of half the opening of the cone of view
     bool sees_all = false;
     double kill_squared = 0.0; // m^2
 };
@@ -33,21 +34,23 @@ public:
                  const MarkerReach& reach,
                  const EnvironmentContext& context);
 
-    /// Without places, or cancelled: nothing can be found.
+    /// Whether the search has no places, or its construction was cancelled. find() must then not be
+    /// called.
     [[nodiscard]] bool empty() const { return nodes_.empty(); }
     /// kKilled if a place is strictly nearer to `marker` than the kill distance. Otherwise the
-    /// index of the nearest place that sees it, the lowest of several; kNoPlace if there is none.
-    /// `hint` is the result for a marker nearby, or kNoPlace: only the time depends on it.
+    /// index of the nearest place that sees the marker, of equally near places the lowest; kNoPlace
+    /// if no place sees it. `hint`: the result for a marker nearby, or kNoPlace; a good hint makes
+    /// the search faster.
     [[nodiscard]] std::uint32_t find(const Vector3& marker, std::uint32_t hint) const;
 
-    /// Bytes over so many places while it is made.
+    /// Max bytes of a search among `places` places while it is constructed.
     [[nodiscard]] static std::uint64_t bytes(std::size_t places);
 
 private:
-    /// Children in coordinates of the frame.
+    /// A node; coordinates are those of frame_.
     struct Node : WideNode {
-        std::array<Lanes, 3> low{};  // of the box of each child; of a leaf: the place
-        std::array<Lanes, 3> high{}; // of a leaf: the heading
+        std::array<Lanes, 3> low{};  // low corner of the box of each child; in a leaf: the place
+        std::array<Lanes, 3> high{}; // high corner of that box; in a leaf: the heading
     };
     class Query;
 

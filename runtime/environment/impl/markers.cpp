@@ -11,10 +11,11 @@ namespace lsys {
 
 namespace {
 
-constexpr std::uint32_t kMarkerGeneration = 0xFFFFFFFDu; // of draws of markers
-constexpr std::uint32_t kCellBits = 5;                   // a grid has 32 cells along each axis
+/// Generation number of the draws of markers.
+constexpr std::uint32_t kMarkerGeneration = 0xFFFFFFFDu;
+constexpr std::uint32_t kCellBits = 5; // a grid has 32 cells along each axis
 
-/// Number of the cell of a marker: the bits of the three indexes in turn.
+/// Morton code of the grid cell of a marker: interleaves the bits of the three cell indexes.
 std::uint32_t cell_of(const Marker& marker) {
     std::uint32_t cell = 0;
     for (std::uint32_t axis = 0; axis < 3; ++axis) {
@@ -88,7 +89,7 @@ std::optional<LargeVector<Marker>> draw_markers(const MarkerShape& shape,
                                                 std::uint32_t count,
                                                 const MarkerKey& key,
                                                 const EnvironmentContext& context) {
-    constexpr std::uint32_t kPieceMarkers = 1U << 10; // of one piece of work
+    constexpr std::uint32_t kPieceMarkers = 1U << 10; // markers per piece of work
     constexpr std::uint32_t kMissing = ~std::uint32_t{0};
     LargeVector<Marker> markers(count);
     const std::uint64_t pieces = (std::uint64_t{count} + kPieceMarkers - 1) / kPieceMarkers;

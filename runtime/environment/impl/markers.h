@@ -22,8 +22,8 @@ struct Marker {
 /// The box and the shape that hold the markers.
 class MarkerShape {
 public:
-    /// All arguments outlive the shape. `crown` is the tree of the mesh, already moved, of shape
-    /// Mesh; null for others.
+    /// All arguments must outlive the shape. `crown`: for SpaceShape::Mesh, the tree of the mesh,
+    /// already moved to its place; else null.
     MarkerShape(const BytecodeEnvironment& declared,
                 const EnvironmentMesh* mesh,
                 const TriangleTree* crown);
@@ -38,14 +38,14 @@ public:
 private:
     SpaceShape shape_;
     const TriangleTree* crown_;
-    Vector3 low_{};    // of the bounding box
+    Vector3 low_{};    // low corner of the bounding box
     Vector3 extent_{}; // high - low
 };
 
 /// Key of the draws of an environment.
 struct MarkerKey {
     std::uint64_t seed = 0;
-    std::uint32_t number = 0; // of the environment
+    std::uint32_t number = 0; // index of the environment in Bytecode::environments
 };
 
 /// Max points that are tried for one marker.

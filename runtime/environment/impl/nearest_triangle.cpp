@@ -34,8 +34,8 @@ void NearestTriangle::find_frame() {
         magnitude = std::max({magnitude, std::abs(box.low[axis]), std::abs(box.high[axis])});
     }
     frame_ = Frame(box);
-    // Nearest points as computed are beside their triangle by some units in the last place of the
-    // largest coordinate; cylinders are larger by far more.
+    // A computed nearest point may lie outside its triangle by some units in the last place of the
+    // largest coordinate. Cylinders are larger than their triangles by far more.
     more_ = 1e-12 * magnitude * frame_.scale();
 }
 
@@ -51,9 +51,10 @@ Vector3 NearestTriangle::axis_of(const WideChild& child) const {
     return is_finite(axis) && axis != Vector3{} ? axis : Vector3{0.0, 1.0, 0.0};
 }
 
-/// A point from which the triangles reach about equally far, beside the axis and along it.
+/// A middle for the cylinder of `child`: about equally far from the outermost corners, both along
+/// the axis and away from it.
 Vector3 NearestTriangle::middle_of(const WideChild& child, const Vector3& axis) const {
-    constexpr std::uint32_t kFew = 16; // triangles that are looked at several times
+    constexpr std::uint32_t kFew = 16; // max triangles for which the middle is improved in rounds
     constexpr int kRounds = 6;
     Vector3 low = framed(triangles_[child.begin].vertices[0]);
     Vector3 high = low;
@@ -71,8 +72,8 @@ Vector3 NearestTriangle::middle_of(const WideChild& child, const Vector3& axis) 
         }
     });
     Vector3 middle = times(plus(low, high), 0.5);
-    // Towards the middle of the least circle around all corners (Badoiu & Clarkson 2003, "Smaller
-    // core-sets for balls").
+    // Move the middle towards the centre of the smallest circle around all corners, seen along the
+    // axis (Badoiu & Clarkson 2003, "Smaller core-sets for balls").
     for (int round = 0; round < kRounds && child.end - child.begin <= kFew; ++round) {
         double farthest = -1.0;
         Vector3 way{};
@@ -99,7 +100,7 @@ Vector3 NearestTriangle::middle_of(const WideChild& child, const Vector3& axis) 
 void NearestTriangle::fill_cylinder(const WideChild& child) {
     Node& node = nodes_[child.node];
     const std::size_t lane = child.lane;
-    if (!(frame_.scale() > 0.0 && more_ < 1.0)) { // no place is bounded
+    if (!(frame_.scale() > 0.0 && more_ < 1.0)) { // bounds will not be used
         return;
     }
     Vector3 axis = axis_of(child);
@@ -107,7 +108,7 @@ void NearestTriangle::fill_cylinder(const WideChild& child) {
     for (std::size_t i = 0; i < 3; ++i) {
         node.axis[i][lane] = static_cast<float>(axis[i]);
         node.middle[i][lane] = static_cast<float>(middle[i]);
-        // The cylinder is that of the rounded numbers.
+        // Compute radius and length for the rounded axis and middle, which the search uses.
         axis[i] = static_cast<double>(node.axis[i][lane]);
         middle[i] = static_cast<double>(node.middle[i][lane]);
     }
@@ -144,8 +145,8 @@ Lanes NearestTriangle::least_squared(const Node& node, const std::array<float, 3
 void NearestTriangle::find(const Vector3& place, NearestPoint& nearest, std::uint32_t& hint) const {
     const FramedPlace framed = frame_.framed_place(place);
     const bool is_bounded = framed.is_bounded && more_ < 1.0;
-    float limit = 0.0F;           // what is farther, squared in the frame, is left out
-    std::uint32_t next_index = 0; // 1 + index of the nearest triangle; 0: of another mesh
+    float limit = 0.0F;           // squared distance in the frame above which nodes are skipped
+    std::uint32_t next_index = 0; // 1 + index of the nearest; 0: in another mesh
     const auto set_limit = [&] {
         const double distance = std::sqrt(nearest.squared) * frame_.scale() + framed.margin;
         limit =

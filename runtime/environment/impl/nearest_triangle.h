@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
 // NearestTriangle: the nearest triangle of a mesh, by a tree with four children a node. Each child
-// is inside a cylinder: a flat one around a piece of a smooth surface tells apart what boxes at
-// nearly the same distance do not. The bounds of four cylinders are computed at once in binary32.
+// has a cylinder around its triangles. A flat cylinder bounds a piece of a smooth surface more
+// tightly than a box, so that fewer nodes have to be searched. The bounds of four cylinders are
+// computed at once in binary32.
 //
-// Answers are those of a loop over all triangles, bit by bit (triangle_distance.h): a triangle is
-// left out only if it is farther than the nearest one by more than all rounding errors.
+// Results have the same bits as those of a loop over all triangles (triangle_distance.h): a
+// triangle is skipped only if it is farther than the nearest one by more than all rounding errors.
 #pragma once
 
 #include "runtime/base/large_vector.h"
@@ -26,7 +27,7 @@ namespace lsys {
 /// A triangle of a mesh, in the order of the leaves of a tree.
 struct LeafTriangle {
     std::array<std::uint32_t, 3> vertices{};
-    std::uint32_t index = 0; // in the file
+    std::uint32_t index = 0; // index of the triangle in the file
 };
 
 inline constexpr std::size_t kTrianglesPerLeaf = kLanes;
@@ -41,16 +42,16 @@ public:
                std::span<const SplitNode> split,
                Workers& workers);
 
-    /// As TriangleTree::find_nearest(). Precondition: build() was called.
+    /// Implements TriangleTree::find_nearest(). Precondition: build() was called.
     void find(const Vector3& place, NearestPoint& nearest, std::uint32_t& hint) const;
 
-    /// Bytes of the tree over so many triangles, at most.
+    /// Max bytes of the tree of `triangles` triangles.
     [[nodiscard]] static std::uint64_t bytes(std::size_t triangles);
 
 private:
-    /// Children in coordinates of the frame.
+    /// A node; coordinates are those of frame_.
     struct Node : WideNode {
-        std::array<Lanes, 3> middle{}; // of the cylinder of each child
+        std::array<Lanes, 3> middle{}; // middle of the cylinder of each child
         std::array<Lanes, 3> axis{};   // unit vector
         Lanes half_length{};
         Lanes radius{};
@@ -67,13 +68,14 @@ private:
         const std::array<std::uint32_t, 3>& corners = triangles_[at].vertices;
         return {vertices_[corners[0]], vertices_[corners[1]], vertices_[corners[2]]};
     }
-    /// Not above the squared distance to each child, apart from the margin.
+    /// Lower bounds of the squared distances to the children, except for errors within
+    /// FramedPlace::margin.
     [[nodiscard]] static Lanes least_squared(const Node& node, const std::array<float, 3>& at);
 
     const std::vector<Vector3>& vertices_;
     std::span<const LeafTriangle> triangles_;
     Frame frame_;
-    double more_ = 0.0;       // by which cylinders are larger than their triangles, in the frame
+    double more_ = 0.0;       // enlargement of the cylinders, in units of the frame
     LargeVector<Node> nodes_; // the root first
 };
 

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 // PointTree: the places of a word in a tree of boxes, for the kinds Space and Crowd. Boxes hold the
 // places exactly, and differences, squares and sums are monotone when rounded, so the bounds below
-// hold for squared distances as binary64 computes them: pruning by them loses no place.
+// hold for squared distances as binary64 computes them: a search that skips nodes by these bounds
+// never misses a place.
 #pragma once
 
 #include "runtime/environment/environment.h"
@@ -17,23 +18,23 @@ namespace lsys {
 
 struct PointTree {
     struct Node {
-        Vector3 low{}; // of the box around its places
+        Vector3 low{}; // low corner of the box around the node's places
         Vector3 high{};
         SplitNode items;
     };
-    LargeVector<Node> nodes;              // in preorder; none without places
+    LargeVector<Node> nodes;              // nodes in preorder; none without places
     LargeVector<Vector3> points;          // by leaves
-    LargeVector<std::uint32_t> positions; // of each point: its index in the word
+    LargeVector<std::uint32_t> positions; // by point: its index in the word
 };
 
-/// Empty when cancelled, or without places.
+/// Makes the tree. The result is empty when cancelled, or without places.
 [[nodiscard]] PointTree make_point_tree(std::span<const SensePlace> places,
                                         const EnvironmentContext& context);
 
 /// Bytes per place of a PointTree while it is built.
 inline constexpr std::size_t kPointTreeBytes = 64;
 
-/// Not above the squared distance from `point` to any place of the node.
+/// A lower bound of the squared distances from `point` to the places of the node, m^2.
 [[nodiscard]] inline double least_squared(const PointTree::Node& node, const Vector3& point) {
     Vector3 apart;
     for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -43,7 +44,7 @@ inline constexpr std::size_t kPointTreeBytes = 64;
     return squared_length(apart);
 }
 
-/// Not below the squared distance from `point` to any place of the node.
+/// An upper bound of the squared distances from `point` to the places of the node, m^2.
 [[nodiscard]] inline double most_squared(const PointTree::Node& node, const Vector3& point) {
     Vector3 apart;
     for (std::size_t axis = 0; axis < 3; ++axis) {

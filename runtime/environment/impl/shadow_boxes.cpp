@@ -11,7 +11,7 @@ std::int64_t signed_of(std::uint32_t difference) {
     return static_cast<std::int32_t>(difference);
 }
 
-/// Lanes are the neighbours at z - 1, z, z + 1.
+/// Lanes 0, 1 and 2 have the counts at z - 1, z and z + 1; middle() returns the count at z.
 std::int64_t middle(Lanes lanes) {
     return signed_of(lanes[1]);
 }
@@ -28,10 +28,10 @@ LayerCounts count_by_tables(const std::array<const SummedAreaTable*, 3>& tables,
                             std::int64_t x,
                             std::int64_t z,
                             std::int64_t layer) {
-    // Index 0 is x - 1, 1 is x, 2 is x + 1.
-    std::array<Lanes, 3> level; // neighbours at the same height
-    std::array<Lanes, 3> sum;   // those above plus those below
-    std::array<Lanes, 3> rise;  // those above minus those below
+    // Indices 0, 1 and 2 are the neighbours at x - 1, x and x + 1.
+    std::array<Lanes, 3> level; // counts at the same height
+    std::array<Lanes, 3> sum;   // counts one voxel above plus counts one voxel below
+    std::array<Lanes, 3> rise;  // counts one voxel above minus counts one voxel below
     for (std::size_t i = 0; i < 3; ++i) {
         const std::int64_t at = x + static_cast<std::int64_t>(i) - 1;
         const Lanes below = tables[0]->squares(at, z, layer);

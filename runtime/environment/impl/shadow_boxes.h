@@ -17,11 +17,11 @@ namespace lsys {
 struct ShadowSource {
     std::int32_t x = 0;
     std::int32_t z = 0;
-    std::int64_t count = 0; // places
+    std::int64_t count = 0; // number of places in the voxel
 };
 
-/// Element (x, z) is the number of places with smaller x and smaller z, modulo 2^32: four reads give
-/// the number in a rectangle, if that is below 2^32.
+/// Element (x, z) is the number of places with smaller x and smaller z, modulo 2^32: four reads
+/// give the number in a rectangle, if that is below 2^32.
 class SummedAreaTable {
 public:
     static constexpr std::size_t kLanes = 4;
@@ -54,8 +54,8 @@ public:
             }
         }
     }
-    /// Numbers in the squares around (x, z - 1), (x, z), (x, z + 1), in the first three lanes.
-    /// `layer` is half of an edge without the middle.
+    /// Numbers of places in the squares around (x, z - 1), (x, z), (x, z + 1), in the first three
+    /// lanes. A square has edges of 2 `layer` + 1 voxels.
     [[nodiscard]] Lanes squares(std::int64_t x, std::int64_t z, std::int64_t layer) const {
         return line(x + layer + 1, z, layer) - line(x - layer, z, layer);
     }
@@ -77,8 +77,9 @@ private:
     std::vector<std::uint8_t> used_; // lines with sources
 };
 
-/// Counts of `layer` for the voxel at (x, z) from the tables of the row that shades it and of the
-/// rows below and above that one. The places of the tables are fewer than 2^29.
+/// Counts of `layer` for the voxel at (x, z), from three tables: of the row below the row that
+/// shades the voxel in this layer, of that row, and of the row above it. The places of the tables
+/// are fewer than 2^29.
 [[nodiscard]] LayerCounts count_by_tables(const std::array<const SummedAreaTable*, 3>& tables,
                                           std::int64_t x,
                                           std::int64_t z,

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The pyramid of shadow below a place (Palubicki et al. 2009, section 4), and the sums over its
-// layers at one voxel. All counts are integers, so that a sum does not depend on their order.
+// layers at one voxel. All counts are integers, so that the order in which they are added does not
+// matter.
 #pragma once
 
 #include "runtime/environment/environment.h"
@@ -13,17 +14,19 @@
 
 namespace lsys {
 
-/// Number of places whose layer covers a voxel, and the differences among its 26 neighbours.
+/// Number of places whose pyramid covers a voxel with a given layer, and differences of this number
+/// between the voxel's 26 neighbours.
 struct LayerCounts {
     std::int64_t own = 0;
-    /// [axis][squared distance - 1]: neighbours at +1 along the axis minus those at -1.
+    /// [axis][squared distance - 1]: sum of the counts of the neighbours at +1 along the axis minus
+    /// sum of those at -1.
     std::array<std::array<std::int64_t, 3>, 3> differences{};
 };
 
 /// Sums over the layers from 0 on.
 struct ShadowSum {
     double shade = 0.0;    // s: shadow at the voxel
-    Vector3 differences{}; // along x, y, z; without the strength
+    Vector3 differences{}; // differences along x, y, z, not yet times the strength
 };
 
 class ShadowLayers {
@@ -33,13 +36,13 @@ public:
         double power = 1.0; // ratio^-layer
         for (std::uint32_t layer = 0; layer <= declared.levels; ++layer) {
             powers_.push_back(power);
-            // An infinite power times zero would be NaN.
+            // Avoid NaN, the product of an infinite power and a strength of 0.
             weights_.push_back(strength_ == 0.0 ? 0.0 : strength_ * power);
             power /= static_cast<double>(declared.ratio);
         }
     }
 
-    /// Layer below a place that it shades last; layer 0 is its own voxel.
+    /// The lowest layer of a pyramid; layer 0 is the voxel of the place itself.
     [[nodiscard]] std::int64_t last() const {
         return static_cast<std::int64_t>(powers_.size()) - 1;
     }
@@ -73,7 +76,8 @@ public:
         if (largest == 0.0) {
             return {std::fmax(0.0, exposure), 0.0, 0.0, 0.0};
         }
-        // A power of two changes no bits, and keeps the squares away from underflow and overflow.
+        // Scale by a power of two, which is exact and keeps the squares away from underflow and
+        // overflow.
         const int exponent = -std::ilogb(largest);
         for (double& component : away) {
             component = std::ldexp(component, exponent);

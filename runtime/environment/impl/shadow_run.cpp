@@ -8,15 +8,15 @@ namespace lsys {
 
 namespace {
 
-constexpr std::int64_t kMaxTablePlaces = std::int64_t{1} << 29; // as count_by_tables() demands
+constexpr std::int64_t kMaxTablePlaces = std::int64_t{1} << 29; // required by count_by_tables()
 constexpr std::int64_t kNoRow = std::numeric_limits<std::int64_t>::max();
 
-/// Counts of the squares of one layer, around three neighbours along an axis, that contain a place
-/// at `distance` voxels from the middle one: combinations over the neighbours.
+/// For the three voxels at -1, 0 and +1 along an axis: whether the square of one layer around each
+/// contains a place at `distance` voxels from the middle voxel, as combinations of 0 and 1.
 struct Covered {
     std::int64_t middle = 0;
-    std::int64_t sides = 0;      // both outer neighbours
-    std::int64_t difference = 0; // the outer neighbour at +1 minus that at -1
+    std::int64_t sides = 0;      // number of outer neighbours that contain the place, 0 to 2
+    std::int64_t difference = 0; // 1 or 0 for the neighbour at +1, minus 1 or 0 for that at -1
 
     Covered(std::int64_t distance, std::int64_t layer) {
         const auto covers = [&](std::int64_t neighbour) -> std::int64_t {
@@ -128,7 +128,7 @@ void ShadowRun::find_neighbours(std::size_t tile) {
     has_cursors_ = true;
 }
 
-/// `x`, `z`: from coordinates of the tile to those of the tables.
+/// `x`, `z`: added to coordinates of the tile to get coordinates of the tables, in voxels.
 void ShadowRun::add_neighbour(std::size_t tile, std::int32_t x, std::int32_t z) {
     if (x + edge_ <= 0 || x >= width_ || z + edge_ <= 0 || z >= depth_) {
         return;
@@ -188,7 +188,8 @@ void ShadowRun::read_sources() {
     }
 }
 
-/// Compares the work of both ways, in cycles measured on one processor.
+/// Whether counting by tables takes less time than counting pairs, by costs in cycles measured on
+/// one processor.
 bool ShadowRun::prefers_tables() const {
     constexpr std::uint64_t kCyclesPerCell = 2;
     constexpr std::uint64_t kCyclesPerLayer = 80;
@@ -221,7 +222,7 @@ void ShadowRun::count_with_tables() {
     empty_table_.build(width, depth, {});
     std::size_t row = 0;     // the first row that is not below y - 1
     std::size_t built = 0;   // tables of the rows before it have been built
-    std::size_t active = 0;  // the first target that row y still shades
+    std::size_t active = 0;  // the first target that row y shades
     std::size_t not_yet = 0; // the first target above row y
     std::int64_t y = targets_.front().y;
     while (active < targets_.size()) {
@@ -241,7 +242,7 @@ void ShadowRun::count_with_tables() {
             y = targets_[active].y;
             continue;
         }
-        if (rows_[row].y == kNoRow) { // no row shades the rest
+        if (rows_[row].y == kNoRow) { // no row shades the other targets
             return;
         }
         if (rows_[row].y > y + 1) {
@@ -281,7 +282,7 @@ void ShadowRun::count_pairs() {
     }
 }
 
-/// The target itself is in one of the rows.
+/// The rows also contain the target itself.
 void ShadowRun::count_pairs_of(std::size_t index, std::size_t first_row, std::size_t end_row) {
     const TileVoxel& target = targets_[index];
     const std::int64_t last = layers_.last();
@@ -297,7 +298,7 @@ void ShadowRun::count_pairs_of(std::size_t index, std::size_t first_row, std::si
             const std::int64_t x = source.x - target.x;
             const std::int64_t z = source.z - target.z;
             const std::int64_t distance = std::max(std::abs(x), std::abs(z));
-            if (distance > height + 2) { // beyond the widest layer of the neighbours
+            if (distance > height + 2) { // farther than the widest layer of the neighbours
                 continue;
             }
             for (std::int64_t rise = -1; rise <= 1; ++rise) {

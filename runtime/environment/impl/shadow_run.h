@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// ShadowRun: the shadow at some voxels of one tile. Where places are dense, squares are counted by
-// summed-area tables; where they are sparse, each pair of places is counted. Both counts are exact.
+// ShadowRun: computes the shadow at some voxels, the targets, of one tile, from the occupied voxels
+// that can shade them, the sources. Where places are dense, places in squares are counted by
+// summed-area tables; where they are sparse, pair by pair. Both counts are exact.
 #pragma once
 
 #include "runtime/environment/impl/shadow_boxes.h"
@@ -14,8 +15,9 @@
 
 namespace lsys {
 
-/// Tiles are at least as wide as a pyramid reaches beyond its voxel and the neighbours of that, so
-/// that the nine tiles around a voxel hold all places that shade it.
+/// Width of a tile as a power of two, in voxels: at least the distance over which a pyramid shades
+/// a voxel or its neighbours, so that a tile and the eight tiles around it contain all places that
+/// shade voxels of the tile.
 [[nodiscard]] std::uint32_t shadow_tile_bits(std::uint32_t levels);
 /// Memory of a run for tables, bytes.
 [[nodiscard]] std::uint64_t shadow_table_bytes(std::uint32_t levels);
@@ -27,8 +29,8 @@ public:
         : tiles_(tiles), layers_(layers), edge_(std::int32_t{1} << tile_bits),
           reach_(static_cast<std::int32_t>(layers.last()) + 1) {}
 
-    /// Voxels `begin` ... `end` - 1 belong to `tile`. Runs of one object are in ascending order. The
-    /// result is valid until the next run.
+    /// Voxels `begin` ... `end` - 1 belong to `tile`. Runs of one object are in ascending order.
+    /// The result is valid until the next run.
     [[nodiscard]] std::span<const ShadowSum>
     evaluate(std::size_t tile, std::size_t begin, std::size_t end);
 
@@ -36,13 +38,13 @@ private:
     /// A row of sources with the same y.
     struct Row {
         std::int64_t y = 0;
-        std::size_t first = 0; // in sources_
+        std::size_t first = 0; // index in sources_
     };
-    /// Voxels of a neighbouring tile that are not read yet.
+    /// A neighbouring tile; its voxels from `next` to `end` are not read yet.
     struct Neighbour {
         std::size_t next = 0;
         std::size_t end = 0;
-        std::int64_t y = 0; // of `next`
+        std::int64_t y = 0; // y of voxel `next`
         std::int32_t x = 0; // offset to coordinates of the tables
         std::int32_t z = 0;
     };
@@ -63,23 +65,24 @@ private:
     const VoxelTiles& tiles_;
     const ShadowLayers& layers_;
     std::int32_t edge_;
-    std::int32_t reach_; // from a voxel to the farthest one that shades it or a neighbour
+    /// Voxels along an axis from a target to the farthest source of it or a neighbour.
+    std::int32_t reach_;
 
     std::vector<TileVoxel> targets_; // sorted by y; x and z count from the corner of the tables
     std::int32_t corner_x_ = 0;      // corner of the tables in coordinates of the tile
     std::int32_t corner_z_ = 0;
-    std::int32_t width_ = 0; // along x
-    std::int32_t depth_ = 0; // along z
+    std::int32_t width_ = 0; // extent of the tables along x, in voxels
+    std::int32_t depth_ = 0; // extent of the tables along z, in voxels
     std::int64_t place_count_ = 0;
     std::vector<ShadowSource> sources_; // in rows of ascending y
-    /// Also one after the last row; its `first` is sources_.size().
+    /// Rows of sources_, and one row more, whose `first` is sources_.size().
     std::vector<Row> rows_;
     std::vector<Neighbour> neighbours_;
     std::array<std::size_t, 3> tile_cursors_{}; // tiles at x - 1, x, x + 1
     bool has_cursors_ = false;
     std::array<SummedAreaTable, 3> tables_;
     SummedAreaTable empty_table_;
-    std::vector<LayerCounts> pair_counts_; // of each layer
+    std::vector<LayerCounts> pair_counts_; // counts by layer
     std::vector<ShadowSum> sums_;
 };
 

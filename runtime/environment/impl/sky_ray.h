@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 // A ray from a place to the sky, from cell to cell (Amanatides & Woo 1987). The ray crosses plane n
-// of an axis at (n cell - place) / direction, always computed anew: so errors do not add up along
-// the ray, and empty cells can be skipped without a change of any bit.
+// of an axis at the distance (n cell - place) / direction. Each distance is computed from n alone,
+// so that errors do not add up along the ray, and skipping empty cells changes no bit of the
+// result.
 #pragma once
 
 #include "runtime/environment/impl/leaf_area.h"
@@ -27,9 +28,9 @@ public:
             return 0.0;
         }
         std::array<double, 3> exits{};
-        std::array<double, 3> planes{}; // the next one of each axis
+        std::array<double, 3> planes{}; // per axis: index of the next plane
         std::array<double, 3> steps{};
-        std::array<std::int64_t, 3> left{}; // cells before the end of the box
+        std::array<std::int64_t, 3> left{}; // per axis: cells to the end of the box
         std::array<std::ptrdiff_t, 3> strides{};
         for (std::size_t axis = 0; axis < 3; ++axis) {
             const bool is_forward = direction_[axis] > 0.0;
@@ -55,7 +56,7 @@ public:
             index += strides[axis];
         }
     }
-    /// The same; skips empty blocks.
+    /// depth() with a table; skips empty blocks.
     [[nodiscard]] double depth(const LeafAreaTable& table, const CellBox& box) {
         if (!enter(box)) {
             return 0.0;
@@ -104,7 +105,8 @@ private:
         }
         return (static_cast<double>(plane) * size_ - place_[axis]) / direction_[axis];
     }
-    /// Metres to the end of the block of 2^bits cells that has the cell.
+    /// Distance in m to the end, along an axis, of the block of 2^bits cells that contains the
+    /// current cell.
     [[nodiscard]] double exit_of(std::size_t axis, std::uint32_t bits, const CellBox& box) const {
         const std::int64_t first = box.low[axis] + (((at_[axis] - box.low[axis]) >> bits) << bits);
         return crossing(axis, direction_[axis] > 0.0 ? first + (std::int64_t{1} << bits) : first);
@@ -117,7 +119,7 @@ private:
         }
         return true;
     }
-    /// Goes to the first cell in the box; false if there is none.
+    /// Moves to the first cell in the box; false if the ray misses the box.
     [[nodiscard]] bool enter(const CellBox& box) {
         double start = 0.0;
         for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -138,7 +140,7 @@ private:
         }
         return is_in(box);
     }
-    /// Goes to the cell after all planes that the ray crosses up to `distance`.
+    /// Moves to the cell that the ray is in at `distance` m.
     void pass_until(double distance) {
         passed_ = std::max(passed_, distance);
         for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -168,7 +170,7 @@ private:
 
     Vector3 place_;
     Vector3 direction_;
-    double size_; // of a cell, m
+    double size_; // edge of a cell, m
     CellIndex at_;
     double passed_ = 0.0; // m
 };

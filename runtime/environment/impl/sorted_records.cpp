@@ -21,7 +21,7 @@ using Counters = std::array<std::size_t, std::size_t{1} << kMaxDigitBits>;
 
 /// A digit of the key.
 struct Digit {
-    bool is_high = false; // of SortRecord::high
+    bool is_high = false; // whether the digit belongs to SortRecord::high
     std::uint32_t shift = 0;
     std::uint32_t bits = 0;
 

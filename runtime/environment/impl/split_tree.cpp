@@ -111,7 +111,8 @@ LargeVector<SplitNode> build_split_tree(LargeVector<SplitItem>& items,
             if (task.end - task.begin <= kSubtreeItems) {
                 builder.split_all(task);
             } else {
-                // A leaf size above kSubtreeItems would leave the children empty, which ends there.
+                // If the leaf size is above kSubtreeItems, split() makes a leaf and leaves the
+                // tasks empty.
                 static_cast<void>(builder.split(task, children[piece][0], children[piece][1]));
             }
         });

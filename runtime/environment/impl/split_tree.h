@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// SplitTree: a balanced binary tree over points of space, the frame of PointTree and TriangleTree.
-// Each node splits its items at the median along the longest axis of their centres. The shape of
-// the tree decides how fast an answer is found, never the answer.
+// SplitTree: a balanced binary tree over points of space, on which PointTree and TriangleTree are
+// based. Each node splits its items at the median along the longest axis of their centres. The
+// shape of the tree decides how fast an answer is found, never the answer.
 #pragma once
 
 #include "runtime/base/large_vector.h"
@@ -24,7 +24,7 @@ struct SplitItem {
 
 /// A node. Nodes are in preorder, so the first child of node i is i + 1.
 struct SplitNode {
-    std::uint32_t begin = 0; // of its items
+    std::uint32_t begin = 0; // items of the node are [begin, end)
     std::uint32_t end = 0;
     std::uint32_t second = 0; // index of the second child; 0 for a leaf
 };
@@ -42,10 +42,11 @@ inline constexpr std::size_t kMaxSplitDepth = 40;
                                                       Workers& workers,
                                                       const std::atomic<bool>* cancelled);
 
-/// The places as items, by their indexes.
+/// One item per place, with the index of the place.
 [[nodiscard]] LargeVector<SplitItem> split_items(std::span<const SensePlace> places);
 
-/// `value` as a centre; values beyond binary32 become its largest.
+/// `value` in binary32, as a coordinate of SplitItem::centre; values beyond the range become the
+/// largest binary32.
 [[nodiscard]] float centre_coordinate(double value);
 
 [[nodiscard]] inline bool is_cancelled(const std::atomic<bool>* cancelled) {

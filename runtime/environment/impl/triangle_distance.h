@@ -17,7 +17,7 @@ struct Triangle {
 };
 
 struct NearestPoint {
-    Vector3 away{};                                           // from the place to the point
+    Vector3 away{};                                           // vector from the place to the point
     double squared = std::numeric_limits<double>::infinity(); // length of `away`, squared
 };
 
@@ -36,8 +36,9 @@ struct NearestPoint {
 /// Each candidate q is moved into the box of the three corners, component by component; its squared
 /// distance is (dx^2 + dy^2) + dz^2 of d = q - p. Products, sums and quotients are rounded one by
 /// one in binary64, in the order of vectors.h. The sides make the result right also for slivers,
-/// whose foot is inexact. Because q is in the box, the distance to a box around the triangle, which
-/// is computed by the same operations, is never above: hierarchies lose no triangle.
+/// whose foot is inexact. Because q is in the box, the distance to a box around the triangle,
+/// computed by the same operations, is never greater, so a bounding volume hierarchy never skips
+/// the nearest triangle.
 [[nodiscard]] inline NearestPoint nearest_point(const Triangle& triangle, const Vector3& place) {
     const auto& [a, b, c] = triangle;
     Vector3 low;

@@ -157,7 +157,7 @@ bool TriangleTree::is_inside(const Vector3& place) const {
     if (!closure_.closed || is_beside(nodes_[0], 0)) {
         return false;
     }
-    // The ray leaves the mesh on the nearer side.
+    // Shoot the ray towards the nearer end of the mesh's box along X, so that it meets fewer nodes.
     const double middle =
         0.5 * (static_cast<double>(nodes_[0].low[0]) + static_cast<double>(nodes_[0].high[0]));
     const bool upwards = place[0] > middle;
@@ -184,13 +184,15 @@ bool TriangleTree::is_inside(const Vector3& place) const {
             crossings += side != 0 ? 1 : 0;
         }
     }
-    // A closed surface with one side only (Klein's bottle) has no winding number: parity decides.
+    // A closed surface with one side only (Klein's bottle) has no winding number: a place is inside
+    // if the number of crossings is odd.
     return closure_.orientable ? winding != 0 : crossings % 2 == 1;
 }
 
 std::uint64_t TriangleTree::bytes(const EnvironmentMesh& mesh) {
-    // First the edges and the order of vertices, then items, nodes and corners.
-    constexpr std::uint64_t kEdgeBytes = 3 * 16 * 3 / 2; // with the space of a merge
+    // The max of two stages: edges and the order of vertices; then items, nodes and corners. Bytes
+    // per triangle, with the buffer of a merge sort.
+    constexpr std::uint64_t kEdgeBytes = 3 * 16 * 3 / 2;
     constexpr std::uint64_t kTurnedBytes = 9;
     constexpr std::uint64_t kTreeBytes =
         sizeof(SplitItem) + sizeof(LeafTriangle) + (sizeof(SplitNode) + sizeof(Node)) / 2;

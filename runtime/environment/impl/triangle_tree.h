@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // TriangleTree: the triangles of a mesh in a tree, for the nearest triangle (nearest_triangle.h)
 // and for the inside of a closed mesh: a bounding volume hierarchy of boxes in binary32, rounded
-// outwards. Answers are those of a loop over all triangles, bit by bit (triangle_distance.h).
+// outwards. Results have the same bits as those of a loop over all triangles (triangle_distance.h).
 #pragma once
 
 #include "runtime/environment/closed_mesh.h"
@@ -38,7 +38,7 @@ public:
 
 private:
     struct Node {
-        std::array<float, 3> low{}; // of the box around its triangles
+        std::array<float, 3> low{}; // low corner of the box around the node's triangles
         std::array<float, 3> high{};
         std::uint32_t begin = 0; // a leaf: its first triangle; else: the second child
         std::uint32_t count = 0; // triangles of a leaf; 0: the first child follows
@@ -51,7 +51,7 @@ private:
 
     const EnvironmentMesh& mesh_;
     MeshClosure closure_;
-    LargeVector<Node> nodes_;             // in preorder
+    LargeVector<Node> nodes_;             // nodes in preorder
     LargeVector<LeafTriangle> triangles_; // by leaves
     NearestTriangle nearest_triangle_;
 };

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Arithmetic on vectors in binary64. Every product and sum is rounded by itself, in the order
-// written here; answers of environments are bits, so the order is part of their definition.
+// written here; the bits of answers are defined, so the order of operations is part of the
+// definition.
 #pragma once
 
 #include "runtime/environment/environment.h"

@@ -46,7 +46,8 @@ std::size_t piece_count(std::size_t count) {
 } // namespace
 
 std::uint64_t VoxelTiles::bytes_for(std::uint64_t places) {
-    // Two arrays of records; the first record of each voxel and the first voxel of each tile.
+    // Bytes of records_ and scratch_, and of first_ and first_voxel_ if each place has a tile of
+    // its own.
     return places * (2 * sizeof(SortRecord) + 2 * sizeof(std::size_t)) + 2 * sizeof(std::size_t);
 }
 
@@ -110,7 +111,8 @@ void VoxelTiles::make_keys() {
         return static_cast<std::uint64_t>(high_[axis] - low_[axis]);
     };
     const std::uint64_t mask = (std::uint64_t{1} << edge_bits_) - 1;
-    // One tile more on each side, so that the neighbours of border tiles have keys of their own.
+    // Add one tile on each side, so that the neighbours of tiles at the border have keys of their
+    // own.
     key_step_ = (extent(2) >> edge_bits_) + 3;
     workers_.for_each(piece_count(records_.size()), [&](std::uint64_t piece) {
         const std::size_t end = std::min(records_.size(), (piece + 1) * kPiece);
@@ -128,7 +130,7 @@ void VoxelTiles::make_keys() {
 void VoxelTiles::find_voxels() {
     first_.clear();
     first_voxel_.clear();
-    first_.reserve(records_.size() + 1); // bytes_for() counts on one block
+    first_.reserve(records_.size() + 1); // bytes_for() assumes that the vector is allocated once
     first_voxel_.reserve(records_.size() + 1);
     for (std::size_t i = 0; i < records_.size(); ++i) {
         const bool is_new_tile = i == 0 || records_[i].high != records_[i - 1].high;

@@ -22,7 +22,7 @@ inline constexpr double kMaxVoxelIndex = 2147483648.0; // 2^31
 
 /// A voxel within its tile.
 struct TileVoxel {
-    std::int64_t y = 0; // from the lowest occupied voxel
+    std::int64_t y = 0; // counted from the lowest occupied voxel
     std::int32_t x = 0; // 0 to edge - 1
     std::int32_t z = 0;
 };
@@ -44,9 +44,9 @@ public:
     [[nodiscard]] std::size_t voxel_count() const { return first_.size() - 1; }
     [[nodiscard]] std::size_t tile_count() const { return first_voxel_.size() - 1; }
     [[nodiscard]] std::size_t first_voxel(std::size_t tile) const { return first_voxel_[tile]; }
-    /// The last tile that begins at or before `voxel`: its own.
+    /// The tile that contains voxel number `voxel`.
     [[nodiscard]] std::size_t tile_of(std::size_t voxel) const;
-    /// Voxels of a tile are sorted by y.
+    /// Position of voxel number `voxel` within its tile. Voxels of a tile are sorted by y.
     [[nodiscard]] TileVoxel voxel(std::size_t voxel) const {
         const std::uint64_t low = records_[first_[voxel]].low;
         const std::uint64_t mask = (std::uint64_t{1} << edge_bits_) - 1;
@@ -84,8 +84,9 @@ private:
     VoxelIndex low_{};  // least index along each axis
     VoxelIndex high_{}; // greatest
     std::uint64_t key_step_ = 0;
-    LargeVector<std::size_t> first_;       // record of each voxel; and the end
-    LargeVector<std::size_t> first_voxel_; // of each tile; and the end
+    /// By voxel: its first record; last: the number of records.
+    LargeVector<std::size_t> first_;
+    LargeVector<std::size_t> first_voxel_; // by tile: its first voxel; last: the number of voxels
 };
 
 } // namespace lsys

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Trees with four children a node, made from the binary nodes of a SplitTree: the bounds of four
-// children are computed at once.
+// Trees with four children per node, made from the binary nodes of a SplitTree, so that the bounds
+// of four children are computed at once.
 #pragma once
 
 #include "runtime/base/large_vector.h"
@@ -18,25 +18,26 @@ namespace lsys {
 /// The base of a node: up to four children.
 struct WideNode {
     std::array<std::uint32_t, kLanes> children{}; // nodes, or items of a leaf
-    std::uint32_t count = 0;                      // of children
+    std::uint32_t count = 0;                      // number of children
     bool is_leaf = false;
 };
 
 /// A child, and the items below it.
 struct WideChild {
-    std::uint32_t node = 0; // its parent
-    std::uint32_t lane = 0; // its number there
+    std::uint32_t node = 0; // index of the parent node
+    std::uint32_t lane = 0; // index of the child in its parent
     std::uint32_t begin = 0;
     std::uint32_t end = 0;
 };
 
-/// A node whose bound is `least`, or an item of a leaf.
+/// An entry of the stack of a search: a node, or an item of a leaf, with the lower bound `least` of
+/// its squared distance.
 struct WideOpen {
     std::uint32_t node = 0;
     float least = 0.0F;
 };
 
-/// Of stacks of traversals: each level leaves three nodes open, and the last one four.
+/// Max entries of the stack of a search: three nodes per level, and four on the last level.
 inline constexpr std::size_t kMaxWideOpen = 3 * kMaxSplitDepth / 2 + 4;
 
 /// Max nodes over `items` items: a node that is not a leaf has at least two children.
@@ -81,7 +82,8 @@ LargeVector<WideChild> make_wide_nodes(std::span<const SplitNode> split, LargeVe
     return children;
 }
 
-/// Puts a child on the stack, above `bottom` in descending order of bounds.
+/// Puts a child on the stack, so that the entries from `bottom` on stay in descending order of
+/// bounds.
 inline void
 open_sorted(std::span<WideOpen> open, std::size_t bottom, std::size_t& count, WideOpen child) {
     std::size_t at = count++;

@@ -41,7 +41,8 @@ public:
         find_formals();
     }
 
-    /// Names of arguments, and numbers of parameters of modules that have several.
+    /// Adds hints with the names of arguments, and with the number of parameters of modules whose
+    /// name occurs with several numbers.
     void add_calls() {
         for (const Statement& statement : ast_.statements) {
             const std::uint32_t i = statement.index;
@@ -63,7 +64,7 @@ public:
         }
     }
 
-    /// Numbers of draws, and the ages from which productions apply.
+    /// Adds hints with the numbers of random draws, and with the ages from which productions apply.
     void add_program(const Program& program, const SourceMap& sources) {
         const std::vector<std::optional<std::uint32_t>> ages = first_ages(program);
         for (std::size_t i = 0; i < program.productions.size(); ++i) {
@@ -221,9 +222,10 @@ private:
     const Ast& ast_;
     Places& at_;
     TurtleProfile profile_;
-    std::map<ModuleKey, std::vector<std::string>> modules_;          // formals
-    std::map<std::string_view, std::set<std::uint32_t>> counts_;     // of parameters, by module
-    std::map<std::string_view, std::vector<std::string>> functions_; // formals
+    std::map<ModuleKey, std::vector<std::string>> modules_; // formals by module
+    /// Numbers of parameters, by module.
+    std::map<std::string_view, std::set<std::uint32_t>> counts_;
+    std::map<std::string_view, std::vector<std::string>> functions_; // formals by function
     std::vector<std::pair<std::pair<std::uint32_t, std::string>, Json>> hints_;
 };
 

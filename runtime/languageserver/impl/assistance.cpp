@@ -267,7 +267,7 @@ std::string sense_text(std::string_view name, std::string_view kind_word) {
                 : std::string();
 }
 
-/// The same for `?P` and the like; empty for other names.
+/// sense_text() for `?P`, `?H`, `?U`, `?R` and `?L`; empty for other names.
 std::string turtle_sense_text(std::string_view name) {
     constexpr std::array<std::string_view, kTurtleSenses.size()> kMeanings{
         "place of the turtle, in metres", "heading of the turtle", "up of the turtle",
@@ -390,7 +390,7 @@ public:
     Completion(Json range, bool takes_snippets)
         : range_(std::move(range)), takes_snippets_(takes_snippets) {}
 
-    /// Returns whether the label is new.
+    /// Adds an item unless there is one with this label. Returns whether it was added.
     bool add(std::string_view label, ItemKind kind, std::string_view detail) {
         if (!added_.emplace(label).second) {
             return false;
@@ -573,7 +573,7 @@ Json named_signature(const std::string& name,
     return signature(fmt::format("{}({})", name, list), list, active);
 }
 
-/// The answer of a sense module as its parameters.
+/// The signature of a sense module: its parameters are the numbers of the answer.
 Json sense_signature(const NameIndex& index, const CursorContext& context) {
     if (is_turtle_sense(context.callee)) {
         return signature(context.callee + "(x, y, z)", "x, y, z", context.argument_index);

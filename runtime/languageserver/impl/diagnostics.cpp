@@ -81,7 +81,7 @@ public:
             out["relatedInformation"] = std::move(related);
         }
         if (is_unnecessary(diagnostic.code)) {
-            out["tags"] = Json::array({1}); // unnecessary: drawn pale
+            out["tags"] = Json::array({1}); // DiagnosticTag.Unnecessary, which editors show faded
         }
         return out;
     }

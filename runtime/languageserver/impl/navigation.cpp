@@ -68,7 +68,7 @@ bool is_shown(const StatementOutline& statement) {
 struct NameAt {
     std::shared_ptr<const NameIndex> index;
     std::vector<std::string> roots;
-    const NameUse* use = nullptr; // in `index`; null: no name
+    const NameUse* use = nullptr; // a use in `index`; null: no name
     std::string path;
 
     /// All uses of the name, definitions too, in ascending order.
@@ -132,7 +132,8 @@ std::string reason_against(const NameAt& at) {
                                           : quoted(use.name) + " is not defined";
 }
 
-/// Whether renaming keeps the meaning: after it, every name has the same role.
+/// Whether renaming keeps the meaning: whether every name has the same kind and scope before and
+/// after it.
 bool is_kept(const NameIndex& before,
              const NameIndex& after,
              const NameUse& renamed,
@@ -228,7 +229,7 @@ Json go_to_definition(Workspace& workspace, const Json& params) {
     if (found.use != nullptr) {
         return locations;
     }
-    // The file of an `#include`.
+    // The name may be the file of an `#include`.
     const std::uint32_t offset = at.offset(found.path, params.at("position"));
     for (const StatementOutline& statement : found.index->statements) {
         if (statement.kind == StatementKind::Include && statement.name_place.path == found.path &&

@@ -27,13 +27,14 @@ namespace {
 constexpr std::uint64_t kMaxModules = 4'000'000;
 constexpr std::uint64_t kMaxTriangles = 1'000'000;
 constexpr double kMaxSeconds = 10.0;
-constexpr std::uint64_t kMaxBytes = std::uint64_t{1} << 30U; // of a word, skeleton or mesh
-constexpr std::uint32_t kCoarsestLevel = 4;                  // of MeshOptions::level
+/// Max bytes of a word, skeleton or mesh.
+constexpr std::uint64_t kMaxBytes = std::uint64_t{1} << 30U;
+constexpr std::uint32_t kCoarsestLevel = 4; // max of MeshOptions::level
 
 /// A request, with all texts that its answer needs.
 struct PlantJob {
     Json answer;     // the members that are known before the plant is grown
-    Grammar grammar; // without errors
+    Grammar grammar; // a grammar without errors
     std::vector<SourceSpan> statements;
     PlantOptions plant;
     std::map<std::string, std::string> uris; // by path
@@ -49,7 +50,7 @@ Json number_of(float value) {
     return std::isfinite(value) ? Json::parse(fmt::format("{}", value)) : Json();
 }
 
-/// A whole number of the parameters from `min` on; `initial` if it is missing.
+/// The parameter `name`, a whole number of at least `min`; `initial` if the parameter is missing.
 std::uint64_t
 whole_number(const Json& params, const char* name, std::uint64_t min, std::uint64_t initial) {
     const Json value = params.value(name, Json(initial));
@@ -116,7 +117,7 @@ std::string text_of(const Messages& messages) {
     return text;
 }
 
-/// The answer without a plant.
+/// Completes `answer` for a request that gives no plant.
 Json failed(Json answer, std::string_view reason, std::string message) {
     answer["plant"] = nullptr;
     answer["reason"] = reason;
@@ -129,7 +130,7 @@ Json stopped(const PlantJob& job, Stop stop, const Messages& messages) {
     return failed(job.answer, is_limit ? "limit" : "grammar", text_of(messages));
 }
 
-/// A file of a grammar, whose places become ranges.
+/// A file of a grammar. Converts places in the file to ranges of LSP.
 class FilePlaces {
 public:
     FilePlaces(const SourceFile& file, std::string uri, PositionEncoding encoding)
@@ -139,7 +140,7 @@ public:
     FilePlaces(const FilePlaces&) = delete;
     FilePlaces& operator=(const FilePlaces&) = delete;
 
-    /// Adds a statement; sort() follows the last one.
+    /// Adds a statement. Call sort() after the last one.
     void add(const SourceSpan& statement) { statements_.push_back(statement); }
     void sort() {
         std::sort(statements_.begin(), statements_.end(),
@@ -164,7 +165,7 @@ public:
 private:
     std::string uri_;
     std::size_t mark_; // bytes of the byte order mark
-    std::string text_; // with the byte order mark
+    std::string text_; // text of the file with its byte order mark
     TextPositions positions_;
     std::vector<SourceSpan> statements_; // do not overlap
 };
@@ -227,7 +228,7 @@ private:
     Json all_ = Json::array();
 };
 
-/// The number of the source of each item (number_items()).
+/// The number of the source of each item, in the order of number_items().
 std::vector<std::uint32_t> sources_of_items(const Skeleton& skeleton, Sources& sources) {
     std::vector<std::uint32_t> numbers;
     for (const LargeVector<Origin>* const origins :

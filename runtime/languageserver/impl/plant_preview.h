@@ -28,7 +28,8 @@ public:
 
     /// Begins to grow the plant of a request, and ends the plants of earlier requests for the same
     /// document, which are answered with RpcError::ServerCancelled. Throws RequestError, and
-    /// exceptions of Json, for invalid parameters; such a request ends no other.
+    /// exceptions of Json, for invalid parameters; a request with invalid parameters ends no other
+    /// request.
     void start(const Json& id, const Json& params, Workspace& workspace);
     /// Cancels the request with this id, if it is not answered yet.
     void cancel(const Json& id);

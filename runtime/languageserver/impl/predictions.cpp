@@ -36,7 +36,8 @@ std::string predicted_length(const CompiledText& compiled) {
 }
 
 std::vector<std::optional<std::uint32_t>> first_ages(const Program& program) {
-    // Per production: its modules, contexts too, each once.
+    // Per production: the symbols of its predecessor and contexts that have not been written yet,
+    // each once.
     std::vector<std::set<std::size_t>> needed(program.productions.size());
     for (std::size_t i = 0; i < program.productions.size(); ++i) {
         const Production& production = program.productions[i];
@@ -57,7 +58,8 @@ std::vector<std::optional<std::uint32_t>> first_ages(const Program& program) {
             }
         }
     });
-    // Age by age: the symbols that are written first in the word of this age and of the next one.
+    // `now` and `next`: the symbols that occur for the first time in the word of this age, and of
+    // the next age.
     std::vector<bool> is_written(program.symbols.size());
     std::vector<std::size_t> now;
     std::vector<std::size_t> next;
@@ -75,7 +77,7 @@ std::vector<std::optional<std::uint32_t>> first_ages(const Program& program) {
     }
     std::vector<std::optional<std::uint32_t>> ages(program.productions.size());
     for (std::uint32_t age = 0; !now.empty(); ++age) {
-        for (std::size_t i = 0; i < now.size(); ++i) { // grows by decomposition
+        for (std::size_t i = 0; i < now.size(); ++i) { // `now` grows by decomposition
             for (const std::uint32_t user : users[now[i]]) {
                 const Production& production = program.productions[user];
                 needed[user].erase(now[i]);

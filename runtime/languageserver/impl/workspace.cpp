@@ -412,7 +412,8 @@ TextPosition position_of(const Json& position) {
             throw RequestError(RpcError::InvalidParams,
                                std::string("`") + name + "` is no whole number from 0");
         }
-        constexpr std::uint64_t kMax = 0x7FFFFFFF; // as in the specification
+        // The largest number that the specification of LSP allows.
+        constexpr std::uint64_t kMax = 0x7FFFFFFF;
         return static_cast<std::uint32_t>(std::min(value.get<std::uint64_t>(), kMax));
     };
     return {number("line"), number("character")};

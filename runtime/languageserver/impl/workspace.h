@@ -46,13 +46,13 @@ struct RequestError : std::runtime_error {
 struct CheckedDocument;
 
 struct Document {
-    std::string uri; // as the editor writes it
+    std::string uri; // URI as the editor writes it
     std::string path;
-    std::string text; // with a byte order mark, if the editor sends one
+    std::string text; // text with a byte order mark, if the editor sends one
     std::int64_t version = 0;
     bool is_lsys = false;         // the editor calls the language `lsys`
     bool is_dirty = true;         // the diagnostics are out of date
-    bool is_published = false;    // the editor has these diagnostics, unless it pulls them
+    bool is_published = false;    // sent, or the editor requests diagnostics itself
     std::set<std::string> inputs; // files read by the last check
     Json diagnostics = Json::array();
     std::shared_ptr<const CheckedDocument> checked; // null: not checked since the last change
@@ -71,9 +71,9 @@ struct EditorFeatures {
     PositionEncoding encoding = PositionEncoding::Utf16;
 };
 
-/// The result of checking a document.
+/// The result of checking a document, and the file that was checked.
 struct CheckedDocument {
-    std::string path; // of the checked file
+    std::string path; // path of the checked file
     GrammarText text;
     CompiledText compiled;
     std::string failure; // why the document could not be checked; empty if it was
@@ -81,8 +81,9 @@ struct CheckedDocument {
 
 /// A parsed grammar with its names.
 struct IndexedGrammar {
-    std::map<std::string, std::optional<std::string>> texts; // that were read; nullopt: failed
-    bool is_lsys = true;                                     // parsed as .lsys
+    /// Texts that were read, by path; nullopt: reading failed.
+    std::map<std::string, std::optional<std::string>> texts;
+    bool is_lsys = true; // parsed as .lsys
     ParsedGrammar parsed;
     NameIndex index;
 };
@@ -164,7 +165,7 @@ public:
 
 private:
     struct File {
-        std::string text;     // with the byte order mark of an open document
+        std::string text;     // text with the byte order mark of an open document
         std::size_t mark = 0; // bytes of the byte order mark
         std::string unmarked; // `text` without the mark
         std::optional<TextPositions> positions;

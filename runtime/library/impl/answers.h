@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Queries and answers of environments that functions of the caller answer.
+// Conversion of queries and answers of environments whose answers come from functions of the
+// caller.
 #pragma once
 
 #include "runtime/environment/environment.h"
@@ -12,7 +13,7 @@
 
 namespace lsys::v0 {
 
-/// The query about the places of a word. It views the word.
+/// The query about the places of a word. The result refers to the data of `word`.
 [[nodiscard]] EnvironmentQuery query_of(const SensedWord& word);
 
 /// Converts the answers to `count` places to those of an Environment. Returns a failure if they are

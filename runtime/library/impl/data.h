@@ -40,7 +40,7 @@ struct Word::Data {
 
 struct Plant::Data {
     ::lsys::Plant plant;
-    Grammar grammar;              // for bending and growth
+    Grammar grammar;              // needed for bending and growth
     ::lsys::PlantOptions options; // options with which the plant was grown
 };
 

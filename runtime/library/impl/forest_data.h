@@ -14,7 +14,8 @@
 
 namespace lsys::v0 {
 
-/// The inputs of a forest, from which files that need other heroes or years grow it again.
+/// The inputs of a forest. Writers of files that need other heroes or years grow the forest again
+/// from these inputs.
 struct ForestSource {
     std::vector<std::string> files;
     SceneOverrides overrides;

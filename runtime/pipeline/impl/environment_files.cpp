@@ -40,7 +40,7 @@ Result<EnvironmentPicture> read_png_greys(std::string_view bytes, std::uint64_t 
     }
     const PngSamples& samples = read.value();
     const bool is_deep = bytes[kBitDepth] == 16;
-    // Shallower samples b are read as multiples of 257.
+    // Samples of at most 8 bits are read as 257 times their value.
     const unsigned unit = is_deep ? 1 : 257;
     const double white = is_deep ? 65535.0 : 255.0;
     EnvironmentPicture picture{samples.columns, samples.rows, {}};
@@ -85,7 +85,7 @@ public:
                       Step& step)
         : folder_(folder), grammar_(grammar), budget_(budget), step_(step) {}
 
-    /// Returns false after an error.
+    /// Reads the files of an environment. Returns false after an error.
     bool read(const BytecodeEnvironment& environment, EnvironmentFiles& files) {
         bool ok = true;
         for (const EnvironmentSurface& surface : environment.surfaces) {
@@ -134,7 +134,7 @@ private:
             return Error{fmt::format("cannot use `{}`: {}", shown_path(path), read.error().message),
                          read.error().kind};
         }
-        Vector3 offset{}; // a shape of markers is moved by its environment
+        Vector3 offset{}; // SpaceEnvironment moves a shape of markers itself
         for (std::size_t axis = 0; axis < offset.size() && !is_shape; ++axis) {
             offset[axis] = static_cast<double>(environment.at[axis]);
         }
@@ -182,7 +182,7 @@ private:
         return {};
     }
 
-    /// Returns whether the step may go on.
+    /// Reports an error about a file. Returns whether the step may continue.
     bool report(const Error& error, const EnvironmentSurface& surface) {
         const bool is_limit = error.kind == ErrorKind::Limit;
         Diagnostic diagnostic = make_diagnostic(is_limit ? DiagnosticCode::LimitReached

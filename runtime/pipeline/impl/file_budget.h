@@ -17,9 +17,9 @@ struct FileBudget {
     std::uint64_t left = 0;                                           // bytes
     std::map<std::string, std::shared_ptr<const Texture>> pictures{}; // by path
 
-    /// Call when `bytes` more are held.
+    /// Call when `bytes` bytes have been allocated.
     void take(std::uint64_t bytes) { left -= std::min(bytes, left); }
-    /// Call when `bytes` are no longer held.
+    /// Call when `bytes` bytes have been freed.
     void give_back(std::uint64_t bytes) { left += bytes; }
 };
 

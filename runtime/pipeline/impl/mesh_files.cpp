@@ -168,7 +168,7 @@ private:
         report(path, text, file, name, Error{std::move(message)});
     }
 
-    /// The pictures of a material. `path` is empty if it has none.
+    /// The pictures of a material. `path`: the first of them; empty if the material has no picture.
     struct FoundPicture {
         std::string path;
         MaterialLibrary* library = nullptr;
@@ -288,7 +288,7 @@ private:
     const std::string& text_;
     FileBudget& budget_;
     UserMesh& mesh_;
-    std::uint64_t held_; // bytes not counted in `budget_`: texts of files, the mesh
+    std::uint64_t held_; // bytes in use that `budget_` does not count: texts of files, the mesh
     FileId obj_ = kNoFile;
     bool reported_unknown_ = false;
     std::vector<MaterialLibrary> libraries_;

@@ -17,9 +17,9 @@
 namespace lsys {
 
 struct MeshFiles {
-    std::vector<UserMesh> meshes; // of symbols with a file, in the order of symbols
-    std::vector<float> lengths;   // along +Y, by index of the symbol; empty if there are no meshes
-    std::shared_ptr<const Looks> looks; // of `#material`; null without any
+    std::vector<UserMesh> meshes; // meshes of the symbols with a file, in the order of symbols
+    std::vector<float> lengths;   // lengths along +Y, by index of the symbol; empty without meshes
+    std::shared_ptr<const Looks> looks; // looks of the `#material`s; null if there are none
 };
 
 /// Reads the mesh files and the pictures of materials, whose paths are absolute or relative to

@@ -15,7 +15,8 @@ void move_environment(const std::array<float, 3>& by, BytecodeEnvironment& envir
         environment.at[axis] += by[axis];
     }
     for (EnvironmentSurface& surface : environment.surfaces) {
-        // a (x - dx) + b (y - dy) + c (z - dz) + d = 0. The plane of a mesh is 0.
+        // The moved plane is a (x - dx) + b (y - dy) + c (z - dz) + d = 0. For a mesh, a, b and c
+        // are 0.
         for (std::size_t axis = 0; axis < by.size(); ++axis) {
             surface.plane[3] -= surface.plane[axis] * by[axis];
         }

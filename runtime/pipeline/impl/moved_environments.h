@@ -8,8 +8,8 @@
 
 namespace lsys {
 
-/// Moves environments of the kinds Solid, Space and Map; the other kinds have no place. `at` of a
-/// Solid, 0 otherwise, is then the displacement of its meshes, which read_environment_files() adds.
+/// Moves environments of the kinds Solid, Space and Map; other kinds have no place. For a Solid,
+/// stores the displacement in `at`; read_environment_files() adds it to the meshes.
 void move_environments(const std::vector<EnvironmentMove>& moves, Bytecode& bytecode);
 
 } // namespace lsys

@@ -21,7 +21,7 @@ namespace lsys {
 
 namespace {
 
-/// Sum of the areas of triangles, in binary64 in their order.
+/// Sum of the areas of triangles, added in binary64 in the order of the triangles.
 double area_of_triangles(std::span<const glm::vec3> places,
                          std::span<const std::uint32_t> indices) {
     double sum = 0.0;
@@ -38,7 +38,8 @@ double area_of_triangles(std::span<const glm::vec3> places,
     return sum;
 }
 
-/// Half the area of the triangles of an object of the library, whose two sides count once.
+/// Half the area of the triangles of an object of the library, since each surface has triangles on
+/// both sides.
 double area_of_object(TurtleOperation kind) {
     double sum = 0.0;
     for (const ShapePart& part : make_shape(kind, 0).parts) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Lengths and areas of objects, for the turtle that senses.
+// Lengths and areas of objects, for SensingTurtle.
 #pragma once
 
 #include "grammar/base/outcome.h"

@@ -14,7 +14,8 @@ namespace lsys {
 
 namespace {
 
-/// Neighbours in the middle of the taken quarters of a case, each turned towards its quarter.
+/// One neighbour in the middle of each taken quarter of a case, `distance` m away and turned
+/// towards its quarter.
 std::vector<Neighbour> neighbours_of(Surroundings surroundings, double distance) {
     // Directions at yaw 0, 90, 180 and 270 degrees: x, z.
     constexpr std::array<std::array<double, 2>, 4> kDirections{

@@ -11,7 +11,7 @@
 
 namespace lsys {
 
-/// Whether the plants ask an environment of a kind that neighbours shade.
+/// Whether the plants ask an environment of a kind in which neighbours cast shade: Shadow or Sky.
 [[nodiscard]] bool senses_shade(const Bytecode& bytecode);
 
 /// Appends a cache for each case, in the order of Surroundings, to `caches`. The neighbours are the

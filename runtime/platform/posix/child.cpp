@@ -76,7 +76,7 @@ Reason run_program(const std::vector<std::string>& arguments,
                    const std::string& messages,
                    const std::atomic<bool>& cancelled,
                    int& status) {
-    constexpr unsigned kWait = 20'000; // microseconds between two looks at the program
+    constexpr unsigned kWait = 20'000; // microseconds between two checks of the program
     pid_t child = 0;
     if (const Reason reason = spawn(arguments, messages, false, child); reason != 0) {
         return reason;

@@ -23,10 +23,11 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr std::size_t kMaxMessages = 4096; // characters that are kept of the standard error
-constexpr int kWait = 50;                  // milliseconds between two looks at the flag
+constexpr std::size_t kMaxMessages = 4096; // max characters of messages_
+constexpr int kWait = 50;                  // milliseconds between two checks of `cancelled`
 
-// Process groups that end_shell_programs() ends; more programs than these are not known to it.
+// Process groups that end_shell_programs() ends. Programs that find no free entry are not ended by
+// it.
 std::array<std::atomic<int>, 256> running{};
 static_assert(std::atomic<int>::is_always_lock_free);
 
@@ -119,8 +120,8 @@ bool may_be_repeated(int reason) {
 
 /// The lines of one call of ask().
 struct ShellProgram::Exchange {
-    std::string out;         // to be written
-    std::size_t written = 0; // bytes of it that are written
+    std::string out;         // bytes to be written
+    std::size_t written = 0; // number of bytes of `out` that have been written
     std::uint64_t max_bytes = 0;
 };
 
@@ -187,7 +188,8 @@ void ShellProgram::end() {
     close_descriptor(error_);
 }
 
-/// Waits a little for a program that has closed its output, so that its exit status is its own.
+/// Waits up to half a second for a program that has closed its output, so that it can exit with its
+/// own status before end() kills it.
 void ShellProgram::wait_for_exit() {
     constexpr int kLooks = 50;
     constexpr unsigned kPause = 10'000; // microseconds
@@ -208,7 +210,7 @@ bool ShellProgram::write_some(Exchange& exchange) {
     if (count > 0) {
         exchange.written += static_cast<std::size_t>(count);
     }
-    if (count < 0 && errno == EPIPE) { // it reads no more, but may still answer
+    if (count < 0 && errno == EPIPE) { // the program reads no more, but may still answer
         close_descriptor(input_);
         exchange.written = exchange.out.size();
     }
@@ -232,8 +234,9 @@ bool ShellProgram::read_some(Exchange& exchange) {
 }
 
 void ShellProgram::read_messages() {
-    std::array<char, 4096> bytes;  // NOLINT(cppcoreguidelines-pro-type-member-init)
-    constexpr int kMaxReads = 256; // of one call, so that a flood of messages does not hold it
+    std::array<char, 4096> bytes; // NOLINT(cppcoreguidelines-pro-type-member-init)
+    // Max reads per call, so that a flood of messages does not block it.
+    constexpr int kMaxReads = 256;
     for (int i = 0; i < kMaxReads && error_ >= 0; ++i) {
         const ssize_t count = ::read(error_, bytes.data(), bytes.size());
         if (count <= 0) {

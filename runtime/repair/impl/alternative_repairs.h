@@ -13,7 +13,7 @@
 namespace lsys::repair {
 
 struct StatementRepair {
-    DiagnosticCode code{};   // of the mistake
+    DiagnosticCode code{};   // code of the mistake
     std::string_view broken; // the statement before the repair
     std::string_view repaired;
     std::uint32_t place = 0;    // byte offset of the first edit in `broken`

@@ -271,8 +271,8 @@ std::set<StatementKey> RepairAttempt::wrong_statements() const {
             const auto before = original_errors_.find(key);
             const bool is_new = before == original_errors_.end() ||
                                 before->second.count({diagnostic.code, diagnostic.message}) == 0;
-            // The parser recovers by reading the original as if it were repaired, so an error that
-            // a wrong repair causes may be in both texts.
+            // The parser also reads the original as if it were repaired. So an error that a wrong
+            // repair causes may be reported for the original, too.
             if ((is_new || subject_.choice == FixChoice::Certain) && is_repaired(key)) {
                 keys.insert(key);
             }

@@ -97,7 +97,7 @@ private:
     bool excludes_all_;
     FixedGrammar fixed_;
     std::map<std::string, EditedFile> files_;
-    std::set<StatementKey> with_syntax_errors_; // in the last round
+    std::set<StatementKey> with_syntax_errors_; // statements with syntax errors in the last round
     std::map<StatementKey, Errors> original_errors_;
     std::map<DiagnosticCode, std::size_t> original_counts_;
     std::map<StatementKey, std::vector<AppliedFix>> applied_;

@@ -62,8 +62,8 @@ std::set<StatementKey> RepairAttempt::ambiguous_statements() const {
     return keys;
 }
 
-/// The codes of the repaired mistakes that the original has once. A mistake that is made again is a
-/// habit of the author and not a slip of the hand.
+/// The codes of which the original has exactly one repaired mistake. A mistake made several times
+/// is a habit of the author, not a typing error.
 std::set<DiagnosticCode> RepairAttempt::codes_of_single_mistakes() const {
     std::map<DiagnosticCode, std::set<std::pair<std::string, std::uint32_t>>> places;
     for (const auto& [key, fixes] : applied_) {
@@ -82,7 +82,8 @@ std::set<DiagnosticCode> RepairAttempt::codes_of_single_mistakes() const {
     return single;
 }
 
-/// Whether the author may have mistyped the sign that a fix added as a character beside it.
+/// Whether a fix added a sign that the author may have typed, wrongly, as a character next to its
+/// place.
 bool RepairAttempt::may_be_mistyped(const AppliedFix& fix) const {
     if (fix.added == '\0' || fix.added == '#') {
         return false; // characters beside a `#` belong to a label, whose spelling changes no word
@@ -111,7 +112,8 @@ bool RepairAttempt::may_be_mistyped(const AppliedFix& fix) const {
     if (end == text.size() || text[end] != fix.added) {
         return true; // another fix has removed the sign
     }
-    // Without blanks that another fix has put before the character: `FF` may be `F;`.
+    // Remove blanks that another fix has put before the character, since `FF` may be a mistyped
+    // `F;`.
     std::string joined(text);
     const std::size_t last = text.find_last_not_of(kWhitespace, begin == 0 ? 0 : begin - 1);
     const std::size_t previous = last == 0 || last == std::string_view::npos

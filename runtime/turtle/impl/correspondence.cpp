@@ -10,7 +10,7 @@ namespace lsys {
 
 namespace {
 
-/// The items of each module of the earlier word, in the order of drawing.
+/// Lists of items, one per module of the earlier word, in the order of drawing.
 class ItemsByModule {
 public:
     /// module_of(i): the module of item i, at most `modules` - 1.
@@ -44,7 +44,7 @@ struct FollowedDrawings {
     const Skeleton& after;
     std::uint32_t generation;
     std::span<const Origin> ancestors;
-    std::size_t modules; // of the earlier word, up to the last with an item or a descendant
+    std::size_t modules; // modules of the earlier word, up to the last with an item or descendant
 
     [[nodiscard]] ItemsByModule old_items(const LargeVector<Origin>& origins) const {
         return {origins.size(), modules, [&](std::size_t i) { return origins[i].place; }};

@@ -24,7 +24,7 @@ bool Turtle::State::forward_with_width(const Action& action, const float* argume
     return fine;
 }
 
-/// Pitch, roll and yaw by the given angles; missing ones are 0.
+/// Pitches, rolls and yaws by the arguments, in degrees; missing arguments are 0.
 void Turtle::State::turn_by(const Action& action, const float* arguments) {
     const auto angle = [&](std::uint8_t index) {
         return half_angle(action.given > index ? static_cast<double>(arguments[index]) : 0.0);
@@ -40,13 +40,13 @@ void Turtle::State::turn_left(double degrees) {
     now.second_heading = std::remainder(now.second_heading - degrees, kFullTurn);
 }
 
-/// Turns clockwise in the plane by floor(n / 2) of the n angles in a full turn, whether or not the
-/// pose is mirrored.
+/// With n the number of angles in a full turn: turns clockwise in the plane by floor(n / 2) of
+/// these angles, whether or not the pose is mirrored.
 void Turtle::State::half_turn_snapped() {
     const double parts = std::round(kFullTurn / static_cast<double>(now.angle));
     const double degrees = std::floor(parts / 2.0) * kFullTurn / parts;
     const Pose& p = now.pose;
-    const bool is_mirrored = 1.0 - 2.0 * (p.qx * p.qx + p.qy * p.qy) < 0.0; // up points back
+    const bool is_mirrored = 1.0 - 2.0 * (p.qx * p.qx + p.qy * p.qy) < 0.0; // up has Z < 0
     turn_left(is_mirrored ? degrees : -degrees);
 }
 

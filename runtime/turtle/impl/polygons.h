@@ -29,7 +29,7 @@ public:
     explicit OpenPolygons(bool corners_are_ends) : corners_are_ends_(corners_are_ends) {}
 
     [[nodiscard]] bool any() const { return !open_.empty(); }
-    /// Precondition of top(), vertex(), corners() and close(): any().
+    /// The polygon begun last. Precondition of top(), vertex(), corners() and close(): any().
     [[nodiscard]] const OpenPolygon& top() const { return open_.back(); }
     /// All open polygons, in the order in which they were begun.
     [[nodiscard]] std::span<const OpenPolygon> all() const { return open_; }
@@ -39,7 +39,7 @@ public:
         polygon.first_on_path = path_.size();
         open_.push_back(polygon);
     }
-    /// Adds the vertex of a `.`.
+    /// Adds the vertex that a `.` places.
     void vertex(const Pose& pose) {
         if (corners_are_ends_) {
             add_to_path(position_of(pose));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The operations of a SensingTurtle that move or turn it, or place organs; their meaning is that of
-// commands.cpp and dialects.cpp.
+// The operations of a SensingTurtle that move or turn the turtle, or place organs. Their effects
+// equal those of the operations in commands.cpp and dialects.cpp.
 #include "grammar/base/contract.h"
 #include "runtime/base/out_of_memory.h"
 #include "runtime/derive/brackets.h"
@@ -39,7 +39,7 @@ void SensingTurtle::State::move(float length, bool adds_corners) {
     }
 }
 
-/// Moves along a segment, which first bends by tropism.
+/// Bends the heading by tropism, then moves by `length` m.
 void SensingTurtle::State::forward(float length, bool adds_corners) {
     if (adds_corners) {
         polygons.begin_step(now.pose.position);
@@ -55,7 +55,7 @@ void SensingTurtle::State::forward(float length, bool adds_corners) {
     }
 }
 
-/// A step along the second heading; the frame stays as it was.
+/// Moves along the second heading; the frame stays unchanged.
 void SensingTurtle::State::secondary(const Action& action,
                                      std::uint8_t given,
                                      const float* arguments) {
@@ -71,7 +71,7 @@ void SensingTurtle::State::secondary(const Action& action,
     now.pose.position = place;
 }
 
-/// Pitch, roll and yaw by the given angles; missing ones are 0.
+/// Pitches, rolls and yaws by the arguments, in degrees; missing arguments are 0.
 void SensingTurtle::State::turn_by(std::uint8_t given, const float* arguments) {
     const auto angle = [&](std::uint8_t index) {
         return turn_of(given > index ? static_cast<double>(arguments[index]) : 0.0);
@@ -89,7 +89,7 @@ void SensingTurtle::State::turn_left(double degrees) {
 void SensingTurtle::State::half_turn_snapped() {
     const double parts = std::round(kFullTurn / static_cast<double>(now.angle));
     const double degrees = std::floor(parts / 2.0) * kFullTurn / parts;
-    turn_left(now.pose.up[2] < 0.0 ? degrees : -degrees); // mirrored if the up axis points back
+    turn_left(now.pose.up[2] < 0.0 ? degrees : -degrees); // mirrored if up has Z < 0
 }
 
 void SensingTurtle::State::set_angle(float angle) {
@@ -313,7 +313,7 @@ bool SensingTurtle::State::execute(const Action& action,
     case TurtleOperation::AddColour:
     case TurtleOperation::SubtractColour:
     case TurtleOperation::SetRgb:
-    case TurtleOperation::Cut: // what it will cut off is walked too
+    case TurtleOperation::Cut: // no effect: the next generation makes the cut
         return true;
     }
     LSYS_CHECK(false, static_cast<int>(action.operation));

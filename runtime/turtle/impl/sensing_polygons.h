@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Open polygons of a SensingTurtle, in binary64; polygons.h is the same for the turtle that draws.
+// Open polygons of a SensingTurtle, in binary64. The turtle that draws has the same class in
+// binary32, in polygons.h.
 #pragma once
 
 #include "runtime/turtle/impl/sensing_pose.h"
@@ -17,7 +18,7 @@ public:
 
     [[nodiscard]] bool any() const { return !open_.empty(); }
     void open() { open_.push_back({vertices_.size(), path_.size()}); }
-    /// The vertex of a `.`.
+    /// Adds the vertex that a `.` places.
     void vertex(const SensingVector& place) {
         if (open_.empty()) {
             return;

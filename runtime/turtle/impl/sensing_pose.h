@@ -14,7 +14,7 @@ namespace lsys {
 
 using SensingVector = std::array<double, 3>;
 
-/// Turns `towards` a second axis: a' = c a + s b, b' = c b - s a.
+/// Turns axis a towards axis b: a' = c a + s b, b' = c b - s a, with cosine c and sine s.
 [[gnu::always_inline]] inline void
 turn_axes(SensingVector& a, SensingVector& b, double sine, double cosine) {
     for (std::size_t i = 0; i < 3; ++i) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The state of a SensingTurtle. The walk over a word is in sensing_turtle.cpp, the operations are in
-// sensing_operations.cpp.
+// The state of a SensingTurtle. The loop over the modules of a word is in sensing_turtle.cpp, the
+// operations are in sensing_operations.cpp.
 #pragma once
 
 #include "runtime/base/exact_functions.h"
@@ -23,7 +23,7 @@ enum class SensingStep : std::uint8_t {
     Yaw, // by a constant angle
     Pitch,
     Roll,
-    Forward, // without tropism
+    Forward, // a move without tropism
     Save,
     Restore,
     Sense,
@@ -36,16 +36,16 @@ struct SensingAction {
     std::uint8_t given = 0;           // number of arguments
     std::uint32_t stored = 0;         // number of parameters in the word
     const float* constants = nullptr; // arguments, if the word stores none
-    ExactSineCosine turn;             // of a constant angle; signed
+    ExactSineCosine turn;             // the constant angle of a turn; signed
 };
 
-/// What `[` saves.
+/// The state that `[` saves.
 struct SensingBrush {
     SensingPose pose;
     float step = 0.0F;           // m, length of an F without argument
     float angle = 0.0F;          // degrees
     float width = 0.0F;          // m, or radius / length (TurtleTraits::width_is_relative)
-    ExactSineCosine turn;        // of `angle`
+    ExactSineCosine turn;        // sine and cosine of `angle`
     double second_heading = 0.0; // degrees from the first heading to the left
 };
 
@@ -62,25 +62,27 @@ struct PendingSensing {
 struct SensingTurtle::State {
     State(const Bytecode& program, SensingOptions wanted);
 
-    /// Returns to the start.
+    /// Puts the turtle at the start, without open branches and polygons.
     void begin();
     std::optional<Stop> walk(const Word& word, std::uint32_t age);
     template <typename C>
     std::optional<Stop> walk_plain(std::span<const C> codes, const float* parameters);
     template <typename C>
     std::optional<Stop> walk_interpreted(std::span<const C> codes, const Word& word);
-    /// Walks over modules. `origins`: of interpreted modules, Origin::place is an index of the
-    /// piece of the word that is interpreted; else null. Returns false after a Stop.
+    /// Executes modules. `origins`: for modules written by `#interpret`; Origin::place is then the
+    /// index of the interpreted module in its piece of the word. Null for modules of the word
+    /// itself. Returns false after a Stop.
     template <typename C>
     bool run(std::span<const C> codes, const float* parameters, const Origin* origins);
     template <typename C>
     bool run_text(std::span<const C> codes, const float* parameters, const Origin* origins);
-    /// Executes an action that is not quick. Returns false after a Stop.
+    /// Executes an action for which run() has no case of its own (SensingStep::Other). Returns
+    /// false after a Stop.
     bool execute(const Action& action, std::uint8_t given, const float* arguments);
     bool take_character(Code code, const float* arguments);
     bool execute_pending();
 
-    /// Reports the sense modules of the piece up to index `index`.
+    /// Reports the waiting sense modules up to index `index` of the piece.
     void report_up_to(std::uint64_t index);
     void forward(float length, bool adds_corners);
     void move(float length, bool adds_corners);
@@ -107,13 +109,13 @@ struct SensingTurtle::State {
     SensingBrush now;
     std::vector<SensingBrush> stack;
     SensingPolygons polygons;
-    std::vector<SenseModule> waiting; // sense modules of the piece that is interpreted
-    std::size_t reported = 0;         // number of them that have been reported
+    std::vector<SenseModule> waiting; // sense modules of the piece being interpreted
+    std::size_t reported = 0;         // number of `waiting` that have been reported
     PendingSensing pending;
     SenseSink* sink = nullptr;
     std::uint32_t age = 0;
-    std::uint64_t position = 0; // index of the current module; in the word that is interpreted
-    Code code = 0;              // of the current module
+    std::uint64_t position = 0;          // index of the current module in the word
+    Code code = 0;                       // code of the current module
     std::uint64_t walked_parameters = 0; // parameters of the modules before the current piece
     std::uint64_t first_of_piece = 0;    // index in the word of the piece that is interpreted
     std::optional<Stop> stopped;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The state of a Turtle while it draws. The walk over a word is in turtle.cpp, the commands are in
-// commands.cpp.
+// The state of a Turtle while it draws. The loop over the modules of a word is in turtle.cpp, the
+// commands are in commands.cpp.
 #pragma once
 
 #include "runtime/base/out_of_memory.h"
@@ -61,7 +61,7 @@ struct PendingCommand {
     std::string text;
 };
 
-/// Brush and pose. The walk copies them separately, because it keeps the pose in registers.
+/// Brush and pose. run_some() copies the two separately, because it keeps the pose in registers.
 struct TurtleState : Brush {
     Pose pose;
 };
@@ -141,7 +141,8 @@ struct Turtle::State {
     bool place_centred(const Action& action, float diameter);
     bool save();
     bool restore();
-    /// Skips a module after a `%` or in a skipped branch; the branch's `]` restores the turtle.
+    /// Skips a module after a `%` or in a skipped branch. The `]` of that branch restores the
+    /// turtle.
     bool skip(const Action& action);
     bool save_branch(const Action& action, const float* arguments);
     [[nodiscard]] TurtlePlace current_place() const;
@@ -207,7 +208,8 @@ struct Turtle::State {
     Code code = 0;              // code of the current module
     Origin origin;              // origin of the current module, if the word has origins
     Origin polygon_origin;      // origin of the `{` of the polygon closed last
-    std::uint64_t cut = 0;      // in a skipped part: 1 + its number of open brackets; else 0
+    /// 1 + open brackets of a part that is skipped; 0: nothing is skipped.
+    std::uint64_t cut = 0;
     bool interprets = false;
     std::unique_ptr<Interpretation> interpretation; // made with the first piece
     std::vector<Code> piece;                        // codes that are interpreted, widened to Code

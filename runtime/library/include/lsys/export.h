@@ -58,9 +58,9 @@ struct OptionHelp {
     std::string text;
 };
 enum class OptionSet : std::uint8_t {
-    Plant,  // of save_plant()
-    Forest, // of save_forest()
-    Scene,  // of ForestOptions::scene
+    Plant,  // options of save_plant()
+    Forest, // options of save_forest()
+    Scene,  // names for ForestOptions::scene
 };
 [[nodiscard]] LSYS_API std::vector<OptionHelp> describe_options(OptionSet set);
 

@@ -24,7 +24,7 @@ namespace lsys::LSYS_INTERFACE {
 /// its species senses its surroundings, also on the lowest three bits of its yaw, which number the
 /// case of its surroundings. 28 bytes.
 struct Tree {
-    Vector3 position; // of the start of the turtle
+    Vector3 position; // position of the turtle at the start
     float yaw = 0.0F; // radians about +Y
     float scale = 1.0F;
     std::uint32_t number = 0; // determines the branches of the tree
@@ -42,7 +42,7 @@ struct Species {
 };
 
 struct ForestOptions {
-    GrammarOptions grammar; // of all species
+    GrammarOptions grammar; // options for the grammars of all species
     /// Options of `lsc forest` that replace values of the scene: {"count", "500"}, {"rho", "0"},
     /// {"placement", "poisson"}. With rho 0 every tree is a whole hero.
     Options scene;
@@ -55,7 +55,7 @@ struct ForestCounts {
     std::uint64_t segments = 0;
     std::uint64_t objects = 0;
     std::uint64_t polygons = 0;
-    std::uint32_t max_branches = 0; // of one tree
+    std::uint32_t max_branches = 0; // max branches of one tree
 };
 
 /// Cheap to copy, immutable, safe to use from several threads at once.

@@ -35,7 +35,7 @@ struct Constant {
     bool is_parameter = false; // a `#param`, with bounds
     bool is_random = false;    // drawn for each seed, so it has no value
     float value = 0.0F;
-    float min = 0.0F; // of a parameter
+    float min = 0.0F; // bounds of a `#param`
     float max = 0.0F;
 };
 

@@ -60,8 +60,8 @@ struct Diagnostic {
 };
 
 enum class MessageStyle : std::uint8_t {
-    Frames,       // with the lines of the source and carets
-    ColourFrames, // for terminals
+    Frames,       // source lines with carets
+    ColourFrames, // Frames with colours, for terminals
     Lines,        // file:line:column: severity: message [code]
     Json,         // one object per line
 };

@@ -86,7 +86,7 @@ inline constexpr std::uint32_t kNoPicture = 0xFFFFFFFFu;
 struct Polygon {
     std::uint32_t first_corner = 0; // index in Plant::corners()
     std::uint32_t corner_count = 0;
-    Quaternion frame; // of the turtle where the polygon begins
+    Quaternion frame; // frame of the turtle where the polygon begins
     std::uint32_t parent = kNoParent;
     Colour colour = 0;
     std::uint32_t picture = kNoPicture; // index in Plant::files()
@@ -119,7 +119,7 @@ struct PlantSize {
 /// A drawn plant. Cheap to copy, immutable, safe to use from several threads at once.
 class LSYS_API Plant {
 public:
-    [[nodiscard]] std::uint64_t modules() const; // of the word
+    [[nodiscard]] std::uint64_t modules() const; // number of modules in the word
     [[nodiscard]] std::uint32_t generations() const;
     [[nodiscard]] std::uint64_t seed() const;
     [[nodiscard]] std::span<const Segment> segments() const;
@@ -151,7 +151,7 @@ enum class MeshMethod : std::uint8_t {
 
 struct MeshOptions {
     MeshMethod method = MeshMethod::Default;
-    std::uint32_t sides = 0; // of all cross-sections; 0: the values of the grammar
+    std::uint32_t sides = 0; // sides of all cross-sections; 0: the values of the grammar
     /// Tubes: max distance in metres of a ring from its circle; rings get the fewest sides within
     /// this distance. 0: rings have the given sides.
     float deviation = 0.0F;
@@ -198,7 +198,7 @@ public:
     [[nodiscard]] std::span<const Vector2> texture_coordinates() const; // may be empty; v goes down
     [[nodiscard]] std::span<const Vector4>
     tangents() const;                                      // may be empty; w: sign of the bitangent
-    [[nodiscard]] std::span<const Colour> colours() const; // of each vertex
+    [[nodiscard]] std::span<const Colour> colours() const; // one colour per vertex
     [[nodiscard]] std::uint64_t index_count() const;       // three for each triangle
     /// Writes the indices [first, first + count), which the mesh stores in a packed form.
     /// Precondition: first + count <= index_count().

@@ -30,7 +30,7 @@ struct Progress {
     std::uint64_t modules = 0; // modules of this generation written so far
 };
 
-/// Where the turtle stands at a module `?NAME`, in the plant's own axes, +Y up.
+/// The pose of the turtle at a module `?NAME`, in the plant's own axes, +Y up.
 struct SensePlace {
     std::array<double, 3> position{}; // m
     std::array<double, 3> heading{};  // unit vector
@@ -39,10 +39,11 @@ struct SensePlace {
 
 /// All modules `?NAME` of one word, in word order. The spans are valid during the call.
 struct EnvironmentQuery {
-    std::uint32_t generation = 0;           // age of the word
-    std::span<const SensePlace> places;     // of the modules; at least one
-    std::span<const float> parameters;      // of the modules, one after the other
-    std::span<const std::uint32_t> offsets; // of each module: index of its first parameter; the end
+    std::uint32_t generation = 0;       // age of the word
+    std::span<const SensePlace> places; // places of the modules; at least one
+    std::span<const float> parameters;  // parameters of the modules, one after the other
+    /// By module: index of its first parameter; last: the size.
+    std::span<const std::uint32_t> offsets;
 };
 
 /// The answers to a query: `size` numbers for each place, in the order of the places. They
@@ -67,13 +68,13 @@ struct Host {
     /// Set to true by another thread to end the call with Status::Cancelled. The library sets it to
     /// true if `progress` or an exception of a callback ends the call. May be null.
     std::atomic<bool>* cancelled = nullptr;
-    /// Answer the environments that `#sense NAME program;` declares, by NAME, in place of the
-    /// programs of `lsc --environment`.
+    /// Functions that answer environments of `#sense NAME program;`, by NAME, in place of programs
+    /// of `lsc --environment`.
     std::map<std::string, EnvironmentFunction> environments;
 };
 
 struct Limits {
-    std::uint64_t max_modules = std::uint64_t{1} << 32; // of one word
+    std::uint64_t max_modules = std::uint64_t{1} << 32; // max modules of one word
     /// Max bytes of one word, skeleton, mesh and file. 0: half of the memory of the machine.
     std::uint64_t max_bytes = 0;
 };
