@@ -103,7 +103,8 @@ std::vector<Card> find_cards(const UserMesh& mesh) {
     constexpr std::size_t kMaxCards = 64;
     constexpr float kTolerance = 1e-3F; // of the size of the mesh
     constexpr float kMinFilled = 0.6F;  // of the box of texture coordinates; a triangle fills 0.5
-    constexpr float kBeyond = 0.01F;    // texture coordinates farther out repeat the picture
+    constexpr float kBeyond = 0.01F;    // texture coordinates this far outside 0 to 1 mean that the
+                                        // picture repeats
     Bounds bounds;
     for (const glm::vec3& position : mesh.positions) {
         bounds.add(position);
@@ -218,7 +219,7 @@ std::vector<glm::vec2> convex_hull(std::vector<glm::vec2>& points) {
             chain.push_back(point);
         }
         if (!chain.empty()) {
-            chain.pop_back(); // the first point of the other chain
+            chain.pop_back(); // the other chain begins with this point
         }
         std::reverse(points.begin(), points.end());
     }

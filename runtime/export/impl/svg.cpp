@@ -65,7 +65,7 @@ private:
     PieceWriter& out_;
     std::map<ObjectKey, std::vector<Outline>> outlines_;
     Bounds bounds_;
-    float side_ = 0.0F; // longer side of the bounds
+    float side_ = 0.0F; // m, longer side of the bounds
 };
 
 const std::vector<Outline>& Drawing::outlines(const PlacedObject& object) {
