@@ -32,10 +32,8 @@ enum class ExportFormat : std::uint8_t {
 enum class ExportPictures : std::uint8_t {
     None,
     Inside, // embedded in the file; readers multiply them by the colour of the material
-    FilesWithNormalMaps, // picture files that contain the colour of the material; normal maps of
-                         // bark
-    FilesWithOpacity,    // as FilesWithNormalMaps, and further picture files with the opacity of
-                         // leaves
+    FilesWithNormalMaps, // pictures with the colour of the material; normal maps of bark
+    FilesWithOpacity,    // as FilesWithNormalMaps, and pictures with the opacity of leaves
 };
 
 /// Axis of a file that points away from the ground. Z: a point (x, y, z) of the mesh is at
@@ -135,8 +133,7 @@ struct ExportInfo {
     std::uint32_t generations = 0;
     std::string generator;                // the program and its version
     LengthUnit unit = LengthUnit::Metres; // another unit only in formats with FormatTraits::units
-    std::string mtl_name;                 // name of the file of write_mtl() beside an OBJ; empty:
-                                          // none
+    std::string mtl_name;                 // name of the file of write_mtl(); empty: none
     /// Prefix of the names of picture files; empty: no picture files, and materials are plain
     /// colours.
     std::string picture_prefix;

@@ -46,8 +46,7 @@ struct MeshDocument {
     nlohmann::ordered_json json;     // buffer 0 is `data`, buffer 1 its fallback
     std::string data;                // the buffer; empty if it is in the file `uri`
     std::uint64_t decoded_bytes = 0; // size of the fallback; 0: no fallback
-    std::string uri;                 // URI of the file with the buffer, percent-encoded, relative
-                                     // to the tile; empty: no file
+    std::string uri;                 // of that file, percent-encoded, relative to the tile
     std::uint64_t file_bytes = 0;    // size of the file `uri`
     std::vector<FilePart> pictures;  // by image: PNG files; empty: the document has the images
 };

@@ -53,8 +53,7 @@ struct Tree {
     std::vector<std::uint32_t> first_child;
     std::vector<std::uint32_t> next_sibling;
     std::vector<std::uint32_t> thickest; // child that continues the segment's axis, else kNoSegment
-    std::vector<std::uint32_t> sizes;    // number of segments in the subtree of each segment,
-                                         // itself included
+    std::vector<std::uint32_t> sizes;    // segments in the subtree of each, itself included
 };
 
 Tree tree_of(const Skeleton& plant) {
@@ -512,8 +511,7 @@ private:
             const std::uint32_t parent = tree_.parents[i];
             const BoneWeights at_parent =
                 parent == kNoSegment ? BoneWeights{{0}, {1.0F}} : bones_.segments[parent][1];
-            if (joint == 0 || along[i] < 0.0) { // bound to one joint: the segment stands still, or
-                                                // is not on the axis
+            if (joint == 0 || along[i] < 0.0) { // bound to one joint: still, or beside the axis
                 bones_.segments[i] = {at_parent, at_parent};
                 continue;
             }

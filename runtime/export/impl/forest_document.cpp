@@ -89,9 +89,7 @@ void ForestDocument::put_nodes(JsonWriter& json) const {
         json.object().member("name", "ground").member("mesh", 0).end(); // never quantised
     }
     std::uint64_t child = 1 + ground + cells;
-    std::vector<bool> written(collisions_.size()); // by instance: whether its shapes have nodes
-                                                   // already; the conditions are those of
-                                                   // for_each_collider()
+    std::vector<bool> written(collisions_.size()); // by instance; see for_each_collider()
     for (const ForestCell& cell : plan_.cells()) {
         json.object().member("name", fmt::format("cell {} {}", cell.x, cell.z));
         json.array("children");

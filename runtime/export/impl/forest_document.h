@@ -48,8 +48,7 @@ struct ForestBlock {
     std::vector<ForestView> attributes;
     ForestView wide_indices;    // 32 bits; count 0: there is no view
     ForestView narrow_indices;  // 16 bits; count 0: there is no view
-    std::size_t first_view = 0; // first view of the attributes; the view of 32-bit indices follows,
-                                // then of 16-bit indices
+    std::size_t first_view = 0; // of the attributes; then the views of wide and of narrow indices
     bool coloured = false;      // has vertex colours
 };
 
@@ -171,8 +170,7 @@ private:
     std::size_t transforms_view_ = 0;      // first view of transforms
     std::size_t first_image_view_ = 0;
     std::size_t first_group_accessor_ = 0;
-    std::uint64_t transforms_offset_ = 0; // offset of the float transforms; if transforms are
-                                          // packed, offset of the images
+    std::uint64_t transforms_offset_ = 0; // of float transforms; if packed, of the images
     std::uint64_t bytes_ = 0;
     std::uint64_t decoded_bytes_ = 0;
 };

@@ -145,8 +145,7 @@ void ForestDocument::add_surface(std::size_t stage,
     }
     GltfForm form = form_of(info_.compression, bounds);
     if (stage == kNoStage) {
-        form.step = 0.0F; // not quantised: trees would float above the ground if its heights were
-                          // rounded
+        form.step = 0.0F; // exact: above rounded ground, trees would float
     } else if (form.step > 0.0F) {
         grids_[stage] = {form.low, form.step};
     }

@@ -101,8 +101,7 @@ private:
     const ForestScene& scene_;
     std::vector<ExportedStage> stages_;
     std::vector<std::uint32_t> first_stage_;   // by species
-    LargeVector<std::uint32_t> tree_of_place_; // numbers of the trees in the order of the plan;
-                                               // empty: the order of the forest
+    LargeVector<std::uint32_t> tree_of_place_; // in the order of the plan; empty: as the forest
     std::vector<ForestCell> cells_;
     std::vector<ForestPiece> pieces_;
     std::vector<ForestGroup> groups_;

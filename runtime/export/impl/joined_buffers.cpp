@@ -18,8 +18,7 @@ namespace lsys {
 
 namespace {
 
-constexpr std::size_t kAlignment = 8; // bytes, of the offsets of views in a file and in its
-                                      // fallback buffer
+constexpr std::size_t kAlignment = 8; // bytes, of views in a file and in its fallback buffer
 
 void align(std::string& bytes) {
     bytes.resize((bytes.size() + kAlignment - 1) / kAlignment * kAlignment, '\0');
@@ -86,8 +85,7 @@ GltfBuffer encode(const JoinedView& joined, std::uint32_t stride, bool is_indice
 
 void join_buffers(std::span<MeshDocument* const> documents, std::string& file) {
     std::map<ItemKind, JoinedView> kinds;
-    std::vector<std::vector<ItemKind>> used(documents.size()); // kinds of the items, by document
-                                                               // and by number of the new view
+    std::vector<std::vector<ItemKind>> used(documents.size()); // by document and its new views
     for (std::size_t i = 0; i < documents.size(); ++i) {
         GltfJson& document = documents[i]->json;
         const std::map<std::size_t, std::string> names = names_of_accessors(document);

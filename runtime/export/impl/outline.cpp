@@ -103,8 +103,7 @@ std::vector<Card> find_cards(const UserMesh& mesh) {
     constexpr std::size_t kMaxCards = 64;
     constexpr float kTolerance = 1e-3F; // of the size of the mesh
     constexpr float kMinFilled = 0.6F;  // of the box of texture coordinates; a triangle fills 0.5
-    constexpr float kBeyond = 0.01F;    // texture coordinates this far outside 0 to 1 mean that the
-                                        // picture repeats
+    constexpr float kBeyond = 0.01F;    // farther outside 0 to 1 the picture repeats
     Bounds bounds;
     for (const glm::vec3& position : mesh.positions) {
         bounds.add(position);

@@ -432,8 +432,7 @@ private:
         for (const List& list : lists_) {
             size += list.text.size();
         }
-        constexpr std::size_t kRest = 4096; // bytes, enough for the names of lists and for the
-                                            // buffers
+        constexpr std::size_t kRest = 4096; // bytes for the names of lists and for buffers
         bytes.reserve(size + kRest);
         bytes += parts_.begin;
         for (std::size_t i = first_root_; i < count_of(GltfList::Nodes); ++i) {
@@ -463,8 +462,7 @@ private:
     std::vector<std::string> required_;
     std::vector<std::uint32_t> rows_;        // of the table of properties, by tree
     std::vector<std::uint32_t> shown_trees_; // by row
-    std::size_t first_root_ = 0;      // number of the first root node of the scene; the nodes after
-                                      // it are roots, too
+    std::size_t first_root_ = 0;      // number of the first root; all later nodes are roots
     std::vector<std::size_t> meshes_; // by group
     std::string data_;                // the buffer of the GLB
 };

@@ -16,8 +16,7 @@ struct UsdaVariants {
     std::string set;                 // name of the variant set
     std::vector<std::string> names;  // of the variants; the first is the selected one
     std::vector<const Mesh*> meshes; // of each variant
-    std::vector<double> coverages;   // of levels of detail: min fraction of the screen, 0 to 1, at
-                                     // which the level is shown
+    std::vector<double> coverages;   // of levels of detail: min fraction of the screen, 0 to 1
     Mesh samples;                    // their distinct materials in use (material_samples.h)
     std::vector<std::vector<std::uint32_t>> materials; // by mesh and part: index in `samples`
 };
