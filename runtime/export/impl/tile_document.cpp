@@ -462,9 +462,9 @@ private:
     std::vector<std::string> required_;
     std::vector<std::uint32_t> rows_;        // of the table of properties, by tree
     std::vector<std::uint32_t> shown_trees_; // by row
-    std::size_t first_root_ = 0;      // number of the first root; all later nodes are roots
-    std::vector<std::size_t> meshes_; // by group
-    std::string data_;                // the buffer of the GLB
+    std::size_t first_root_ = 0;             // number of the first root; all later nodes are roots
+    std::vector<std::size_t> meshes_;        // by group
+    std::string data_;                       // the buffer of the GLB
 };
 
 std::string TileDocument::write() {

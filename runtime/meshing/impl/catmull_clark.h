@@ -87,11 +87,11 @@ private:
     PolygonMesh mesh_;
     Workers& workers_;
     bool closed_ = false;
-    bool quads_ = false;                   // all faces have four corners and are stored in order
-    LargeVector<std::uint32_t> faces_;     // by half-edge; empty if all faces are quads
-    LargeVector<std::uint32_t> twins_;     // by half-edge
-    LargeVector<std::uint32_t> edges_;     // by half-edge
-    LargeVector<std::uint32_t> edge_half_; // a half-edge of each edge
+    bool quads_ = false;                     // all faces have four corners and are stored in order
+    LargeVector<std::uint32_t> faces_;       // by half-edge; empty if all faces are quads
+    LargeVector<std::uint32_t> twins_;       // by half-edge
+    LargeVector<std::uint32_t> edges_;       // by half-edge
+    LargeVector<std::uint32_t> edge_half_;   // a half-edge of each edge
     LargeVector<std::uint32_t> vertex_half_; // a half-edge that begins at each vertex
 };
 

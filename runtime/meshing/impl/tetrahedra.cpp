@@ -482,7 +482,7 @@ private:
     std::atomic<std::uint64_t>& bytes_left_;
     bool overflow_ = false;
     std::vector<std::uint32_t>
-        near_; // numbers of shapes: of an ancestor, then of its descendants
+        near_; // numbers of shapes, stacked: of an ancestor, then of its descendants
     std::vector<Size> probes_;
     std::vector<std::uint32_t> nearest_; // numbers of shapes that may be nearest on an edge
     static constexpr std::size_t kMaxMiddles = 1 << 20;
