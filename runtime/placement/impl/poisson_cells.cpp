@@ -30,7 +30,7 @@ constexpr std::uint32_t kPlaceBits = 4;
 constexpr std::uint32_t kCandidates = 1U << kPlaceBits; // per cell
 constexpr std::uint8_t kRounds = 8;
 constexpr std::int64_t kHalo =
-    2 * kRounds - 1;                // width in cells of the ring around a block that affects the block
+    2 * kRounds - 1;                // width in cells of the ring around a block that affects it
 constexpr std::int64_t kBlock = 64; // cells along each side of a block
 /// Side of a cell divided by the spacing. It exceeds 1 by the max rounding error of two candidates
 /// within 2^13 cells of the origin, so that rivals lie in neighbouring cells.
