@@ -193,7 +193,7 @@ void draw_sun(const SceneLight& own, SceneLight& light) {
 }
 
 void draw_camera(Camera& camera) {
-    // A camera has eight floats and three doubles; `text` is large enough for all of them as text.
+    // A camera has seven floats and an origin of three doubles, whose text fits into `text`.
     static_assert(sizeof(Camera) == 8 * sizeof(float) + 3 * sizeof(double));
     std::array<char, 256> text{};
     std::snprintf(text.data(), text.size(), "%s", to_text(camera).c_str());

@@ -60,7 +60,7 @@ GeoPlace along_geodesic(const GeoPlace& start, double east, double north, double
     double sigma = distance / (kB * a);
     SineCosine at;
     double cos_2m = 0.0;      // cosine of twice the angle from the equator to the middle
-    constexpr int kSteps = 8; // each divides the remaining error by 300
+    constexpr int kSteps = 8; // each makes the correction 300 times smaller
     for (int i = 0; i < kSteps; ++i) {
         at = sine_cosine(sigma);
         cos_2m = sine_cosine(2.0 * sigma_1 + sigma).cosine;
