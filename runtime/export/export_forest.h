@@ -31,7 +31,7 @@ enum class ForestForm : std::uint8_t {
 inline constexpr std::uint64_t kMaxForestNodes = 1'000'000;
 
 struct ForestExportInfo {
-    std::string name;      // of the scene
+    std::string name;      // name of the scene
     std::string generator; // the program and its version
     /// Side in m of the squares of ground whose trees are instanced together; 0: one square.
     float cell = 0.0F;

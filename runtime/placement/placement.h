@@ -19,7 +19,7 @@
 
 namespace lsys {
 
-inline constexpr std::uint64_t kMaxTrees = 10'000'000; // per placement
+inline constexpr std::uint64_t kMaxTrees = 10'000'000; // max trees of a placement
 /// Raised whenever place_trees() returns other trees for the same options; tree files contain it.
 inline constexpr std::uint32_t kTreePlacementVersion = 1;
 inline constexpr std::uint32_t kMaxYears = 10'000;

@@ -199,7 +199,7 @@ private:
     FileEdits file_edits_;
     LineKind shown_lines_ = LineKind::None;
     SenseLook shown_senses_;
-    std::vector<EnvironmentMove> shown_moves_; // as shown, PlantSource::moves
+    std::vector<EnvironmentMove> shown_moves_; // the shown PlantSource::moves
     std::optional<GrabbedObstacle> grabbed_;
     SteadyClock::time_point last_growth_;
     double growth_position_ = 0.0; // generations

@@ -88,7 +88,7 @@ struct LoadedSources {
     std::string file;                         // grammar or scene
     std::vector<std::string> files;           // further grammars of a scene
     std::shared_ptr<const SourceMap> sources; // of a plant; null if it has errors
-    std::shared_ptr<const Messages> messages; // of the load
+    std::shared_ptr<const Messages> messages; // messages of the load
     GrammarOptions options;                   // of a plant
     RunOptions run;
     bool is_forest = false;

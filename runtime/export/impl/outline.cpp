@@ -101,7 +101,7 @@ bool contains(const Card& card, const UserMesh& mesh, const Triangle& corners, f
 /// The cards of a mesh; none if the mesh has parts that are not cards.
 std::vector<Card> find_cards(const UserMesh& mesh) {
     constexpr std::size_t kMaxCards = 64;
-    constexpr float kTolerance = 1e-3F; // of the size of the mesh
+    constexpr float kTolerance = 1e-3F; // fraction of the size of the mesh
     constexpr float kMinFilled = 0.6F;  // of the box of texture coordinates; a triangle fills 0.5
     constexpr float kBeyond = 0.01F;    // farther outside 0 to 1 the picture repeats
     Bounds bounds;

@@ -13,7 +13,7 @@ namespace lsys {
 
 namespace {
 
-constexpr double kPlaceTolerance = 1e-5; // of the size of the plant
+constexpr double kPlaceTolerance = 1e-5; // fraction of the size of the plant
 constexpr double kAngleTolerance = 1e-4; // rad
 
 struct Place {

@@ -455,7 +455,7 @@ private:
     PartTable table_; // the items of the surface, besides the shared ones
     std::vector<Buffer> buffers_;
     std::vector<std::uint32_t> buffer_numbers_; // by number in the table
-    std::vector<std::uint32_t> numbers_;        // of items in their lists, by number in the table
+    std::vector<std::uint32_t> numbers_; // number of an item in its list, by number in the table
     std::array<List, kGltfLists> lists_;
     std::vector<GltfList> order_; // lists in the order of their first items
     std::vector<std::string> used_;

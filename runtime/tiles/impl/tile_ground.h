@@ -29,7 +29,7 @@ struct TileGround {
     const TileGrid& grid;
     const CanopyAtCorner& canopy_at; // empty: the surface is the ground alone
     TileId tile;
-    std::uint32_t cells = 1; // number along a side; with a canopy kCanopyCells
+    std::uint32_t cells = 1; // cells along a side; with a canopy kCanopyCells
     double skirt = 0.0;      // m
 };
 
