@@ -41,15 +41,15 @@ target_compile_options(lsys_warnings INTERFACE
   -Wnon-virtual-dtor -Woverloaded-virtual -Wcast-align -Wformat=2 -Wimplicit-fallthrough
   -Wdouble-promotion
   # These warnings of g++ 12 are false alarms after inlining: overlaps, bounds and unset values in std::string,
-  # std::vector and std::optional. clang and the sanitizers check for real ones.
+  # std::vector and std::optional. clang and the sanitizers find real faults of these kinds.
   $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict -Wno-maybe-uninitialized -Wno-array-bounds>
   $<$<CXX_COMPILER_ID:GNU>:-Wno-stringop-overflow -Wno-stringop-overread>
   $<$<CXX_COMPILER_ID:GNU>:-Wduplicated-cond -Wlogical-op>
   # Some integers have 64 bits on Linux and 32 on Windows, where casts to 32 bits are useless.
   $<$<AND:$<CXX_COMPILER_ID:GNU>,$<NOT:$<BOOL:${WIN32}>>>:-Wuseless-cast>
   $<$<CXX_COMPILER_ID:Clang>:-Wconditional-uninitialized>
-  # With addresses of 32 bits, indexes of 64 bits are converted wherever they meet the standard library; words and
-  # meshes that do not fit in the memory end with an error before.
+  # With addresses of 32 bits, indexes of 64 bits are converted wherever they meet the standard library. Words and
+  # meshes that do not fit in memory cause an error before such a conversion.
   $<$<BOOL:${EMSCRIPTEN}>:-Wno-shorten-64-to-32 -Wno-sign-conversion -Wno-c++11-narrowing>
   $<$<BOOL:${LSYS_WERROR}>:-Werror>)
 
@@ -106,7 +106,7 @@ function(lsys_target_name folder result)
   set(${result} "${name}" PARENT_SCOPE)
 endfunction()
 
-# Sub-folders of runtime/platform with code of other systems than the one that the build is for.
+# Sub-folders of runtime/platform whose code is for systems other than the target of the build.
 if(WIN32)
   set(LSYS_OTHER_SYSTEMS posix linux macos web)
 elseif(EMSCRIPTEN)
@@ -154,7 +154,7 @@ function(lsys_optimise_for_size)
   endforeach()
 endfunction()
 
-# lsys_optimise_files_for_size(FILES...): the same for single files of a library.
+# lsys_optimise_files_for_size(FILES...): compiles single files of a library for size.
 function(lsys_optimise_files_for_size)
   set_source_files_properties(${ARGN} PROPERTIES COMPILE_OPTIONS "$<$<CONFIG:Release>:-Os>" SKIP_PRECOMPILE_HEADERS ON)
 endfunction()

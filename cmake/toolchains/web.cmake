@@ -11,7 +11,8 @@ set(CMAKE_FIND_ROOT_PATH_MODE_LIBRARY ONLY)
 set(CMAKE_FIND_ROOT_PATH_MODE_INCLUDE ONLY)
 set(CMAKE_FIND_ROOT_PATH_MODE_PACKAGE ONLY)
 # Running out of memory throws an exception, which the libraries catch (runtime/README.md, Memory). Exceptions of
-# WebAssembly cost nothing until one is thrown; those that Emscripten makes of JavaScript slow every call.
+# WebAssembly cost nothing until one is thrown; exceptions that Emscripten implements in JavaScript slow down every
+# call.
 set(CMAKE_CXX_FLAGS_INIT "-fwasm-exceptions -include ${CMAKE_CURRENT_LIST_DIR}/libcxx13.h")
 set(CMAKE_EXE_LINKER_FLAGS_INIT
   "-fwasm-exceptions -sALLOW_MEMORY_GROWTH=1 -sMAXIMUM_MEMORY=4GB -sTOTAL_STACK=8MB")

@@ -58,7 +58,7 @@ std::string joined(const Words& words, const Form& form) {
     return text;
 }
 
-/// The text in place of `LIST:FORM`; nothing if one of the two names is unknown.
+/// The text that replaces `LIST:FORM`; nullopt if one of the two names is unknown.
 std::optional<std::string> filled(std::string_view name,
                                   const std::map<std::string, Words>& lists) {
     const std::size_t colon = name.find(':');

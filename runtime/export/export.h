@@ -32,8 +32,8 @@ enum class ExportFormat : std::uint8_t {
 enum class ExportPictures : std::uint8_t {
     None,
     Inside, // embedded in the file; readers multiply them by the colour of the material
-    FilesWithNormalMaps, // files with the colour of the material; relief of bark as normal maps
-    FilesWithOpacity,    // as FilesWithNormalMaps; opacity of leaves in further files
+    FilesWithNormalMaps, // pictures with the colour of the material; normal maps of bark
+    FilesWithOpacity,    // as FilesWithNormalMaps, and pictures with the opacity of leaves
 };
 
 /// Axis of a file that points away from the ground. Z: a point (x, y, z) of the mesh is at
@@ -42,8 +42,8 @@ enum class UpAxis : std::uint8_t { Y, Z };
 
 /// Collision shapes of trunk and boughs for game engines, as nodes of glTF beside the plant.
 enum class CollisionKind : std::uint8_t { None, Capsules, Hulls };
-/// Names by which importers recognise the nodes of collision shapes: `UCP_tree_00`, `UCX_tree_00`;
-/// `tree_00-convcolonly`; `tree_collider_00`.
+/// Names of the nodes of collision shapes, by which importers recognise them. Unreal: `UCP_tree_00`
+/// (capsule), `UCX_tree_00` (hull); Godot: `tree_00-convcolonly`; Unity: `tree_collider_00`.
 enum class CollisionNames : std::uint8_t { Unreal, Godot, Unity };
 
 /// Unit of the lengths in a file. The mesh is already in this unit; formats with a field for units
@@ -59,7 +59,7 @@ class PieceWriter;
 /// A row of formats.def.
 struct FormatTraits {
     std::string_view name;    // value of `--format` and extension of files
-    std::string_view content; // row of the table in README.md
+    std::string_view content; // contents of the format's row in the table of README.md
     bool uses_mesh = true;    // false: drawn from the skeleton, without the mesh
     /// Max size of a mesh in the format.
     std::uint64_t max_vertices = ~std::uint64_t{0};
@@ -87,8 +87,8 @@ struct FormatTraits {
 [[nodiscard]] std::span<const ExportFormat> export_formats();
 /// The format of the path's extension, in upper or lower case; none if it is unknown.
 [[nodiscard]] std::optional<ExportFormat> format_of_path(std::string_view path);
-/// Names of the formats for which `is_listed` returns true, in alphabetical order: "glb, gltf or
-/// usda".
+/// Names of the formats for which `is_listed` returns true, in alphabetical order, with
+/// `conjunction` before the last: "glb, gltf or usda".
 [[nodiscard]] std::string format_names(std::string_view conjunction,
                                        const std::function<bool(const FormatTraits&)>& is_listed);
 
@@ -98,21 +98,21 @@ using ByteSink = std::function<bool(std::string_view)>;
 /// Max count of moving joints of a skin: glTF numbers joints in 16 bits, and joint 0 stands still.
 inline constexpr std::uint32_t kMaxJoints = 65'535;
 
-/// Form of the arrays of a glTF file.
+/// Encoding of the arrays in a glTF file.
 enum class ExportCompression : std::uint8_t {
     None,
     Quantize, // integers of 8 to 16 bits: KHR_mesh_quantization, KHR_texture_transform
     Meshopt,  // quantised, and compressed by EXT_meshopt_compression
 };
 
-/// Subject of a file in messages.
+/// Contents of a file, as messages name them.
 enum class ExportSubject : std::uint8_t { Plant, Forest };
 
-/// A coarser level of detail in a file.
+/// A coarser level of detail in the same file.
 struct CoarserMesh {
     Mesh mesh;
-    /// The level is shown while the bounding box of the plant covers less than this part of the
-    /// screen, 0 to 1.
+    /// The reader shows this level while the bounding box of the plant covers less than this
+    /// fraction of the screen, 0 to 1.
     double coverage = 0.0;
 };
 
@@ -128,20 +128,20 @@ struct PlantVariants {
 struct ExportInfo {
     ExportSubject subject = ExportSubject::Plant;
     std::string grammar;   // name of the grammar
-    std::string name = {}; // of the plant, for nodes and meshes; empty: `plant`
+    std::string name = {}; // name of the plant, for nodes and meshes; empty: `plant`
     std::uint64_t seed = 0;
     std::uint32_t generations = 0;
     std::string generator;                // the program and its version
-    LengthUnit unit = LengthUnit::Metres; // only formats with FormatTraits::units take another
-    std::string mtl_name;                 // the file of write_mtl() beside an OBJ; empty: none
-    /// Prefix of the names of pictures beside the file; empty: no pictures, materials are plain
+    LengthUnit unit = LengthUnit::Metres; // another unit only in formats with FormatTraits::units
+    std::string mtl_name;                 // name of the file of write_mtl(); empty: none
+    /// Prefix of the names of picture files; empty: no picture files, and materials are plain
     /// colours.
     std::string picture_prefix;
-    /// Form of the arrays of vertices and indices, for FormatTraits::compresses.
+    /// Encoding of the arrays of vertices and indices, in formats with FormatTraits::compresses.
     ExportCompression compression = ExportCompression::None;
-    /// Name of the file of write_gltf_buffer() beside a glTF; pictures are then files with
-    /// `picture_prefix`. Empty: the glTF holds its buffer and pictures. For
-    /// FormatTraits::separates.
+    /// Name of the file of write_gltf_buffer() beside a glTF, in formats with
+    /// FormatTraits::separates; pictures are then files whose names begin with `picture_prefix`.
+    /// Empty: the glTF contains its buffer and pictures.
     std::string buffer_name = {};
     bool textures = true;      // pictures for textured materials, where the format has pictures
     std::uint32_t threads = 0; // 0: as many as the machine has
@@ -153,34 +153,37 @@ struct ExportInfo {
     /// Frames with different meshes, in formats with films. Preconditions: the exported mesh is
     /// MeshFilm::mesh; no animation, compression or wind data.
     const MeshFilm* film = nullptr;
-    /// Max count of joints of the skin, 2 to kMaxJoints; makes a skeleton of few joints with smooth
+    /// Max count of joints of the skin, 2 to kMaxJoints; the skin then has few joints with smooth
     /// weights (impl/bones.h). 0: a joint for each segment that moves.
     std::uint32_t max_joints = 0;
-    /// Numbers for shaders that move the plant in wind (impl/wind_data.h), for
-    /// FormatTraits::wind_data. Precondition: Mesh::segments has an item for each vertex.
+    /// Write the vertex attributes with which shaders move the plant in wind (impl/wind_data.h), in
+    /// formats with FormatTraits::wind_data. Precondition: Mesh::segments has an item for each
+    /// vertex.
     bool wind_data = false;
-    /// Write the numbers of Mesh::segments in glTF files, as the attribute `_ITEMS` of two floats;
-    /// -1 for kNoSegment. Precondition: Mesh::segments has an item for each vertex.
+    /// Write the two numbers in Mesh::segments of each vertex to glTF files, as the attribute
+    /// `_ITEMS` of two floats; -1 for kNoSegment. Precondition: Mesh::segments has an item for each
+    /// vertex.
     bool item_numbers = false;
-    UpAxis up = UpAxis::Y; // only formats with FormatTraits::up_axes take another axis
-    /// Write the triangles of two-sided materials a second time, reversed and with reversed
-    /// normals, for readers that draw front faces only; for FormatTraits::back_faces.
+    UpAxis up = UpAxis::Y; // another axis only in formats with FormatTraits::up_axes
+    /// Write the triangles of two-sided materials a second time, with reversed order of corners and
+    /// reversed normals, in formats with FormatTraits::back_faces; for readers that draw front
+    /// faces only.
     bool both_sides = false;
-    /// Collision shapes of the plant at rest, in glTF files.
+    /// Collision shapes of the plant at rest, in formats with FormatTraits::collision.
     CollisionKind collision = CollisionKind::None;
     CollisionNames collision_names = CollisionNames::Unreal;
-    /// Levels of detail after the mesh itself, the finest first, in formats with `lods`; null:
-    /// none. Not together with an animation.
+    /// Levels of detail that follow the mesh itself, the finest first, in formats with
+    /// FormatTraits::lods; null: none. Precondition: no animation.
     const std::vector<CoarserMesh>* coarser = nullptr;
-    /// Other plants in the file, for FormatTraits::variants; null: none. Not together with an
-    /// animation or `coarser`.
+    /// Other plants in the file, in formats with FormatTraits::variants; null: none. Precondition:
+    /// neither an animation nor `coarser`.
     const PlantVariants* variants = nullptr;
 };
 
 /// Writes one file to `sink`. Precondition: indices of the mesh are below its number of vertices.
-/// Stops before the first byte: Failed (nothing to draw, or more than the format can hold), Limit
-/// (a skin of more than kMaxJoints joints). Stops at any byte: Cancelled (by the sink),
-/// OutOfMemory.
+/// Stops before the first byte is written: Failed (nothing to draw, or more than the format can
+/// store), Limit (a skin of more than kMaxJoints joints). Stops after any number of bytes:
+/// Cancelled (by the sink), OutOfMemory.
 Outcome<void> export_mesh(const Mesh& mesh,
                           const Skeleton& skeleton,
                           ExportFormat format,

@@ -31,24 +31,25 @@ enum class ForestForm : std::uint8_t {
 inline constexpr std::uint64_t kMaxForestNodes = 1'000'000;
 
 struct ForestExportInfo {
-    std::string name;      // of the scene
+    std::string name;      // name of the scene
     std::string generator; // the program and its version
     /// Side in m of the squares of ground whose trees are instanced together; 0: one square.
     float cell = 0.0F;
     bool textures = true;       // as ExportInfo::textures
     std::string picture_prefix; // as ExportInfo::picture_prefix
-    /// Form of the arrays of vertices and indices, for FormatTraits::compresses. The ground keeps
-    /// exact positions, and instances their transforms.
+    /// Encoding of the arrays of vertices and indices, in formats with FormatTraits::compresses.
+    /// Positions of the ground stay exact floats; transforms of instances do unless Meshopt is
+    /// selected.
     ExportCompression compression = ExportCompression::None;
     std::uint32_t threads = 0;            // 0: as many as the machine has
     UpAxis up = UpAxis::Y;                // another axis only with FormatTraits::up_axes
     LengthUnit unit = LengthUnit::Metres; // another unit only with FormatTraits::units
-    /// Collision shapes of each hero at rest, named after its mesh; for glTF files whose instances
-    /// are whole trees.
+    /// Collision shapes of each hero at rest, with names that begin with the name of its mesh; only
+    /// in glTF files whose instances are whole trees.
     CollisionKind collision = CollisionKind::None;
     CollisionNames collision_names = CollisionNames::Unreal;
     glm::vec3 pivot{0.0F}; // m, the point of the scene that becomes the origin of the file
-    /// Max size of the buffer for transforms; a smaller one takes more passes over the trees.
+    /// Max bytes of memory for transforms; with fewer bytes, the trees are expanded more often.
     std::uint64_t window_bytes = std::uint64_t{512} << 20;
 };
 
@@ -67,18 +68,18 @@ Outcome<std::vector<PictureFile>> make_forest_picture_files(const ForestScene& s
                                                             ExportFormat format,
                                                             const ForestExportInfo& info);
 
-/// One mesh of all triangles in world coordinates. Parts are in the order of materials: first the
-/// materials of the species, then of the ground. Texture coordinates, tangents and colours are kept
-/// only if every surface has them. Stops: Limit for more than `max_bytes`, checked before the
-/// memory is allocated; Failed for more vertices than 32 bits can number; OutOfMemory.
+/// Makes one mesh of all triangles in world coordinates. Parts are in the order of materials: first
+/// the materials of the species, then those of the ground. Texture coordinates, tangents and
+/// colours are kept only if every surface has them. Stops: Limit for more than `max_bytes`, checked
+/// before the memory is allocated; Failed for more vertices than 32 bits can number; OutOfMemory.
 Outcome<Mesh> bake_forest(const ForestScene& scene, std::uint64_t max_bytes, std::uint32_t threads);
 
 struct ForestStatsOptions {
-    bool different_trees = false; // count distinct shapes, in about 100 bytes per tree
+    bool different_trees = false; // count distinct shapes, which takes about 100 bytes per tree
     std::uint32_t threads = 0;
 };
-/// One JSON object in a line: counts of the forest, its species, their stages and caches, with
-/// hits, misses and recordings by (id, age).
+/// One JSON object in a line: counts of the forest, its species, their stages and instance caches,
+/// with hits, misses and recordings for each branch id and age.
 [[nodiscard]] std::string forest_stats_json(const ForestScene& scene,
                                             const ForestStatsOptions& options);
 

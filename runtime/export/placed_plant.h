@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The place of a plant in a file: its pivot at the origin, lengths in the unit of the file. Used by
-// the command line between drawing and export.
+// The place of a plant in a file: the pivot of the plant is the origin, lengths are in the unit of
+// the file. The command line places a plant after drawing and before export.
 #pragma once
 
 #include "runtime/meshing/mesh.h"

@@ -46,13 +46,13 @@ struct MeshDocument {
     nlohmann::ordered_json json;     // buffer 0 is `data`, buffer 1 its fallback
     std::string data;                // the buffer; empty if it is in the file `uri`
     std::uint64_t decoded_bytes = 0; // size of the fallback; 0: no fallback
-    std::string uri;                 // percent-encoded, relative to the tile; empty: none
+    std::string uri;                 // of that file, percent-encoded, relative to the tile
     std::uint64_t file_bytes = 0;    // size of the file `uri`
     std::vector<FilePart> pictures;  // by image: PNG files; empty: the document has the images
 };
-/// The order in which a compressed document has the triangles and vertices of a mesh with one part.
-/// If all vertices differ, it depends on the triangles alone, so meshes with equal triangles share
-/// it.
+/// The order in which a compressed document stores the triangles and vertices of a mesh with one
+/// part. If all vertices differ, the order depends on the triangles alone, so meshes with equal
+/// triangles share one order.
 struct MeshOrder {
     LargeVector<std::uint32_t> vertices; // numbers in the mesh
     LargeVector<std::byte> indices;      // compressed
@@ -63,12 +63,12 @@ struct MeshOrder {
 /// for ExportFormat::Gltf and `info`. Precondition: the mesh has triangles, a few million at most;
 /// `info` has a `buffer_name`, and no motion, film, levels or variants. Throws std::bad_alloc.
 [[nodiscard]] MeshDocument make_mesh_document(const Mesh& mesh, const ExportInfo& info);
-/// Like the function above, in a third of the time, because the order of the mesh is not computed
-/// again. Precondition: `order` is the order of `mesh`.
+/// Like the function above, but takes the order of the mesh instead of computing it, and so needs a
+/// third of the time. Precondition: `order` is the order of `mesh`.
 [[nodiscard]] MeshDocument
 make_mesh_document(const Mesh& mesh, const ExportInfo& info, const MeshOrder& order);
-/// Stores a picture in the buffer of the document; image `number` then refers to it, not to a file.
-/// Precondition: the buffer is `data`.
+/// Stores a picture in the buffer of the document; image `number` then refers to the buffer, not to
+/// a file. Precondition: the document contains its buffer (`data`).
 void embed_picture(std::size_t number, const std::string& png, MeshDocument& document);
 
 /// Moves the buffers of compressed documents to the end of `file`. Items of one kind, for example
@@ -124,8 +124,8 @@ public:
     void add_instances(std::size_t part, std::vector<TileInstance> instances) {
         groups_.push_back({part, std::move(instances)});
     }
-    /// Moves the whole tile by a matrix that keeps lengths and angles, for coordinates with +Z up.
-    /// The matrix is a part of the file, in binary64.
+    /// Moves the whole tile by a rigid `matrix`, for coordinates with +Z up. The file states the
+    /// matrix in binary64.
     void move(const glm::dmat4& matrix) { matrix_ = matrix; }
     /// The file. Precondition: it has a surface. Call it once.
     [[nodiscard]] std::string write();

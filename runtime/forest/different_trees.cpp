@@ -12,16 +12,16 @@ namespace lsys {
 
 namespace {
 
-/// Moments of the points that an instance draws, in the coordinates of its entry. Weights: half the
-/// length of the segment for an end of a segment, the size for an object, 1 for a corner of a
-/// polygon. The sum over the instances of a tree does not depend on the division of the tree into
-/// instances.
+/// Moments of the points that an instance draws, in the coordinates of its entry. Points and their
+/// weights: both ends of a segment with half its length, the place of an object with its size, each
+/// corner of a polygon with 1. The sum over the instances of a tree does not depend on the division
+/// of the tree into instances.
 struct Moments {
     std::uint64_t items = 0; // segments, objects and corners
     double total_weight = 0.0;
     glm::dvec3 first{0.0};
     std::array<double, 6> second{}; // xx, yy, zz, xy, yz, zx
-    double thickness = 0.0;         // sum of length times radius of segments
+    double thickness = 0.0;         // sum over the segments of length times radius
 
     void add(const glm::dvec3& at, double weight) {
         total_weight += weight;
@@ -66,7 +66,8 @@ Moments moments_of(const InstanceCache& cache, const Instance& instance) {
     return moments;
 }
 
-/// Adds to `tree` the moments `own` of an instance at `branch`, whose scale is 1.
+/// Adds to `tree` the moments `own` of the instance of `branch`, placed as `branch` states.
+/// Precondition: the scale of `branch` is 1.
 void add(Moments& tree, const Moments& own, const BranchInstance& branch) {
     const glm::dmat3 turn = glm::mat3_cast(glm::normalize(glm::dquat(branch.rotation)));
     const glm::dvec3 at(branch.position);
@@ -88,8 +89,7 @@ void add(Moments& tree, const Moments& own, const BranchInstance& branch) {
     }
 }
 
-/// Whether the numbers of items are equal and all moments agree to one part in a million of their
-/// size.
+/// Whether both have the same number of items, and all moments agree to one part in a million.
 bool alike(const Moments& a, const Moments& b) {
     constexpr double kPart = 1e-6;
     const auto near = [](double x, double y, double size) {
@@ -126,7 +126,7 @@ std::uint64_t count_different(std::vector<TreeShape>& shapes) {
     };
     std::sort(shapes.begin(), shapes.end(), before);
     std::uint64_t count = 0;
-    std::vector<std::size_t> near; // indices of distinct shapes that a later shape may equal
+    std::vector<std::size_t> near; // indices of shapes that may equal this or a later one
     for (std::size_t i = 0; i < shapes.size(); ++i) {
         const TreeShape& shape = shapes[i];
         const auto& s = shape.moments.second;
@@ -192,7 +192,7 @@ std::uint64_t count_different_trees(const Forest& forest, std::uint32_t threads)
 }
 
 std::uint64_t count_different_trees(const Forest& forest, std::span<const Tree> trees) {
-    MomentsOfCaches of_caches; // only caches of these trees, since a forest may have many species
+    MomentsOfCaches of_caches; // a forest may have many species; only those of `trees`
     std::vector<TreeShape> shapes;
     for (const Tree& tree : trees) {
         const InstanceCache& cache = forest.cache_of(tree);

@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::uint64_t kTreesPerPiece = 4096;
 
-/// Hash of a branch; sums of hashes distinguish sets of branches.
+/// Hash of a branch. The sum of the hashes of a set of branches identifies the set.
 std::uint64_t digest_of(const Tree& tree, std::uint32_t node, const BranchInstance& branch) {
     const auto bits = [](float a, float b) {
         return std::uint64_t{std::bit_cast<std::uint32_t>(a)} << 32 |

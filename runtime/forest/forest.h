@@ -20,8 +20,8 @@ namespace lsys {
 struct ForestStage {
     std::uint32_t generations = 0;
     InstanceCache cache;
-    /// m, of the plants of scale 1 without neighbours; 0 unless the species senses its
-    /// surroundings.
+    /// Radius in m of the crowns of plants of scale 1 without neighbours; 0 unless the species
+    /// senses its surroundings.
     double crown_radius = 0.0;
 };
 
@@ -43,7 +43,8 @@ struct ForestSpecies {
     [[nodiscard]] const ForestStage& last_stage() const { return stages[stages.size() - cases()]; }
 };
 
-/// Name of a stage among those of its species: "n5", "closed", "n5 closed"; empty if it is alone.
+/// Name that distinguishes a stage from the other stages of its species: "n5", "closed", "n5
+/// closed"; empty if the species has one stage.
 [[nodiscard]] std::string stage_name(const ForestSpecies& species, std::size_t stage);
 
 struct Forest {
@@ -75,7 +76,7 @@ struct Forest {
 
 struct ForestCounts {
     std::uint64_t trees = 0;
-    std::uint64_t branches = 0; // placed instances, the root of each tree included
+    std::uint64_t branches = 0; // number of placed instances, with the root of each tree
     std::uint64_t segments = 0;
     std::uint64_t objects = 0;
     std::uint64_t polygons = 0;
@@ -94,7 +95,8 @@ void for_each_piece(const Forest& forest,
                     const std::function<void(std::uint64_t, std::span<const Tree>)>& visit);
 [[nodiscard]] std::uint64_t piece_count(const Forest& forest);
 
-/// Counts by expanding every tree. Time is linear in the branches, which are not stored.
+/// Counts the branches of all trees by expanding every tree. Time is linear in the number of
+/// branches, which are not stored.
 [[nodiscard]] ForestCounts count_forest(const Forest& forest, std::uint32_t threads);
 
 } // namespace lsys

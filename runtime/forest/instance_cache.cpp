@@ -51,7 +51,7 @@ public:
             ++slot.recorded;
             if (options_.cap != 0 && variants.size() >= options_.cap) {
                 ++slot.dropped;
-                active_.emplace_back(); // not recorded
+                active_.emplace_back(); // a branch that is not recorded
                 return true;
             }
             start(index, branch.place, branch.drawn, branch.origin);
@@ -65,7 +65,7 @@ public:
             }
             return false;
         }
-        // The drawing of this branch belongs to none of the enclosing instances.
+        // None of the enclosing instances contains the drawing of this branch.
         ++slot.misses;
         for (std::size_t i = suspended_; i < active_.size(); ++i) {
             end_range(active_[i], branch.drawn);
@@ -109,8 +109,8 @@ private:
     struct Active {
         std::uint32_t instance = kNone;
         DrawnCounts range_begin;
-        std::size_t suspended_below = 0; // suspended_ to restore, if `suspends`
-        bool suspends = false;           // suspends the enclosing instances
+        std::size_t suspended_below = 0; // if `suspends`: suspended_ before this instance
+        bool suspends = false;           // suspends the enclosing instances while it is recorded
     };
 
     void start(std::uint32_t slot,
@@ -191,7 +191,8 @@ private:
         values.has_vertical = branch.id < options_.depends_on_vertical.size() &&
                               options_.depends_on_vertical[branch.id];
         if (values.has_vertical) {
-            // Elevation of the heading, and roll about it from the rise of the right and up axes.
+            // Elevation of the heading, and roll about the heading from the heights (y) of the
+            // right and up axes.
             const glm::dvec3 heading = place.frame * glm::dvec3(0.0, 1.0, 0.0);
             const glm::dvec3 right = place.frame * glm::dvec3(1.0, 0.0, 0.0);
             const glm::dvec3 up = place.frame * glm::dvec3(0.0, 0.0, 1.0);
@@ -247,7 +248,7 @@ private:
     std::vector<Active> active_;
     std::size_t suspended_ = 0; // number of suspended instances, the first ones in active_
     std::unordered_map<std::string, std::uint32_t> slot_of_key_;
-    // By branch id and index of a value in its key: the absolute value in the first branch, of
+    // By branch id and index of a value in the key: absolute value in the first recorded branch, of
     // which CacheOptions::tolerance is a fraction.
     std::map<std::pair<std::uint32_t, std::uint32_t>, double> scales_;
     std::string key_;
@@ -323,8 +324,8 @@ BranchInstance root_of(const Tree& tree) {
     return root;
 }
 
-/// Chooses a variant of `slot`: number floor(u * variant_count), computed in integers, for
-/// u = draw 0 of block `node`.
+/// Chooses a variant of `slot` by a draw u from 0 to below 1: the variant number floor(u *
+/// variant_count), computed in integers. u is draw 0 of block `node`.
 std::uint32_t
 TreeExpander::choose(const InstanceSlot& slot, std::uint32_t tree, std::uint32_t node) {
     if (node % kBlockRun == 0) {

@@ -23,12 +23,13 @@
 
 namespace lsys {
 
-/// Place where another instance continues, relative to the entry of the instance with the exit.
+/// Place where another instance continues. Coordinates are relative to the entry of the instance
+/// that has the exit.
 struct InstanceExit {
     glm::quat rotation{1.0F, 0.0F, 0.0F, 0.0F};
     glm::vec3 position{};    // m
-    std::uint32_t slot = 0;  // of the instances that can continue here
-    std::uint32_t order = 0; // brackets between entry and exit
+    std::uint32_t slot = 0;  // index of the slot whose instances can continue here
+    std::uint32_t order = 0; // number of brackets between entry and exit
 };
 
 /// A range of the heroes' segments, objects and polygons.
@@ -46,15 +47,15 @@ struct InstanceFork {
 
 struct Instance {
     std::uint32_t slot = 0;       // index in InstanceCache::slots
-    std::uint32_t hero = 0;       // number of the hero that it is a part of
+    std::uint32_t hero = 0;       // number of the hero that contains the instance
     std::uint32_t first_exit = 0; // index in InstanceCache::exits
     std::uint32_t exit_count = 0;
     std::uint32_t first_range = 0; // index in InstanceCache::ranges
     std::uint32_t range_count = 0;
-    DrawnCounts size;                     // sum over its ranges
+    DrawnCounts size;                     // counts of the items in its ranges
     glm::dquat frame{1.0, 0.0, 0.0, 0.0}; // frame of the turtle at the entry, in the skeleton
     glm::dvec3 position{};                // m, position of the entry, in the skeleton
-    std::uint32_t order = 0;              // brackets around the branch in its hero, own included
+    std::uint32_t order = 0;              // brackets around the branch in its hero, with its own
 };
 
 /// The instances of one key, with counts of the recording.
@@ -70,7 +71,7 @@ struct InstanceSlot {
     std::uint64_t dropped = 0;  // branches `@` that were not kept because of CacheOptions::cap
 };
 
-/// The values of a key besides id and age, from the first branch with this key.
+/// The values of a key besides id and age, as recorded for the first branch with this key.
 struct InstanceKey {
     std::vector<float> formals; // formals that the branch uses, by position in the predecessor
     TurtlePlace place;          // position, frame and order are not part of the key
@@ -86,7 +87,7 @@ struct InstanceCache {
     std::vector<std::uint32_t> variants; // indexes of instances, slot by slot
     std::vector<InstanceExit> exits;
     std::vector<DrawnRange> ranges;
-    std::vector<InstanceFork> forks; // places where the skeleton lacks a branch
+    std::vector<InstanceFork> forks; // segments at whose tip the skeleton lacks a branch
     std::vector<InstanceKey> keys;   // by slot; empty unless CacheOptions::keep_keys
     std::uint32_t heroes = 0;
     /// Origin of the `[` of each instance, kNone for whole plants; empty unless
@@ -102,20 +103,20 @@ struct InstanceCache {
 };
 
 struct CacheOptions {
-    std::uint32_t heroes = 10; // at least 1
+    std::uint32_t heroes = 10; // number of heroes, at least 1
     std::uint32_t generations = 0;
-    std::uint64_t seed = 0; // hero k has seed + k
+    std::uint64_t seed = 0; // hero k is derived with the seed `seed` + k
     std::uint32_t cap = 0;  // max instances per key; 0: any number
     /// Rounding step of each value in a key, as a fraction of the first value recorded for the same
     /// branch id at the same position in the key; 0: exact values.
     float tolerance = 0.0F;
-    /// By branch id: whether the drawing of the branch depends on the up direction, which is then
-    /// part of the key.
+    /// By branch id: whether the drawing of the branch depends on the up direction. If so, the key
+    /// contains elevation and roll of the heading.
     std::vector<bool> depends_on_vertical;
     bool keep_keys = false; // fills InstanceCache::keys
     std::uint32_t threads = 0;
     Limits limits;                               // limits of each word
-    std::uint64_t max_bytes = ~std::uint64_t{0}; // limit of the skeleton
+    std::uint64_t max_bytes = ~std::uint64_t{0}; // limit of the bytes of the skeleton
     std::vector<float> mesh_lengths;             // as in TurtleOptions
     WordSense* senses = nullptr;                 // as in DeriveOptions
     std::shared_ptr<const Looks> looks;          // as in TurtleOptions
@@ -126,7 +127,7 @@ struct CacheOptions {
 struct CacheOutcome {
     InstanceCache cache; // empty unless ok()
     DerivationEnd derivation_end;
-    DrawingEnd drawing_end; // with the faults of all heroes
+    DrawingEnd drawing_end; // end of the drawing, with the faults of all heroes
     std::uint32_t hero = 0; // the last hero that was begun
 
     [[nodiscard]] bool ok() const { return !derivation_end.stop && !drawing_end.stop; }
@@ -161,8 +162,8 @@ public:
     /// the same instances as expand().
     template <typename Visit>
     void expand_until(const Tree& tree, Visit&& visit);
-    /// Calls visit(instance) for the instances of expand(), without transforms, in a third of the
-    /// time.
+    /// Calls visit(instance) for the instances of expand(), without computing transforms, which
+    /// takes a third of the time of expand().
     template <typename Visit>
     std::uint32_t expand_instances(const Tree& tree, Visit&& visit);
     /// The first instance of expand(): a whole plant.
@@ -171,7 +172,7 @@ public:
     }
 
 private:
-    static constexpr std::uint32_t kHidden = ~std::uint32_t{0}; // order of instances not visited
+    static constexpr std::uint32_t kHidden = ~std::uint32_t{0}; // order of unvisited instances
 
     struct Pending {
         glm::quat rotation;
@@ -186,7 +187,8 @@ private:
     public:
         [[nodiscard]] bool empty() const { return count_ == 0; }
         T pop() { return items_[--count_]; }
-        /// Adds `count` items, which the caller writes; returns the first one.
+        /// Makes room for `count` items on the stack, which the caller writes; returns the first of
+        /// them.
         T* add(std::size_t count) {
             if (count > items_.size() - count_) {
                 items_.resize(2 * (count_ + count));
@@ -209,7 +211,7 @@ private:
     std::uint64_t key_;
     VisitStack<Pending> pending_;
     VisitStack<std::uint32_t> pending_slots_;      // used by expand_instances()
-    std::array<std::uint32_t, kBlockRun> draws_{}; // draws of the current run of nodes
+    std::array<std::uint32_t, kBlockRun> draws_{}; // random words of the current run of nodes
 };
 
 /// The transform of a tree into the world.
@@ -245,7 +247,8 @@ void TreeExpander::expand_until(const Tree& tree, Visit&& visit) {
         at.rotation = next.rotation;
         at.position = next.position;
         at.order = next.order;
-        // Hidden instances take draws too, because the draws of a tree are numbered in sequence.
+        // Instances that are not visited use up draws too, because the draws of a tree are numbered
+        // in sequence.
         at.instance = choose(cache_.slots[next.slot], tree.number, node++);
         const Instance& instance = cache_.instances[at.instance];
         if (next.order != kHidden && visit(at)) {

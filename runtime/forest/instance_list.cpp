@@ -24,7 +24,7 @@ public:
     }
 
     [[nodiscard]] std::uint64_t count() const { return count_; }
-    /// Number of the first instance of the tree's cache.
+    /// Number of the first instance in the cache of the tree.
     [[nodiscard]] std::uint64_t first_of(const Tree& tree) const {
         return first_[tree.species][forest_.stage_of(tree)];
     }
@@ -36,8 +36,8 @@ private:
     std::uint64_t count_ = 0;
 };
 
-/// Calls visit(tree, its cache, number of the first instance of this cache, expander) for each of
-/// `trees`.
+/// Calls visit(tree, cache, first, expander) for each of `trees`, with the cache of the tree and
+/// the number of the first instance in this cache.
 template <typename Visit>
 void visit_trees(const Forest& forest,
                  const GroupNumbers& numbers,

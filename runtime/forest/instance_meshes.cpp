@@ -32,7 +32,7 @@ Skeleton numbered_heroes(const InstanceCache& cache) {
     return skeleton;
 }
 
-/// Cuts the heroes' boxes where an instance begins, so that no surface belongs to two instances.
+/// Cuts the boxes of the heroes where an instance begins, so that no box belongs to two instances.
 void cut_instances(const InstanceCache& cache, Skeleton& skeleton) {
     for (const Instance& instance : cache.instances) {
         const std::span<const DrawnRange> ranges =
@@ -62,9 +62,9 @@ void cut_instances(const InstanceCache& cache, Skeleton& skeleton) {
     }
 }
 
-/// Triangles of each segment, object and polygon, in the order of the mesh.
+/// The triangles made from each segment, object and polygon, in the order of the mesh.
 struct ItemTriangles {
-    LargeVector<std::uint32_t> first; // by item; last entry: number of triangles
+    LargeVector<std::uint32_t> first; // by item: its first triangle; last entry: count of triangles
     LargeVector<std::uint32_t> triangles;
 };
 
@@ -90,7 +90,7 @@ ItemTriangles find_item_triangles(const Mesh& mesh,
     for (std::uint64_t t = 0; t < count; ++t) {
         result.triangles[result.first[owner(t)]++] = static_cast<std::uint32_t>(t);
     }
-    for (std::uint64_t i = item_count; i > 0; --i) { // restore the start offsets
+    for (std::uint64_t i = item_count; i > 0; --i) { // restore the start offsets, now ends
         result.first[i] = result.first[i - 1];
     }
     result.first[0] = 0;
@@ -106,7 +106,7 @@ public:
           item_triangles_(find_item_triangles(
               mesh, indices_, segments_ + polygons_ + cache.skeleton.objects.size())) {}
 
-    /// Adds the counts of the instance's indices in each part of the mesh.
+    /// Adds the number of indices that the instance has in each part of the mesh to `counts`.
     void count(const Instance& instance, std::span<std::uint64_t> counts) const {
         visit(instance, [&](std::size_t part, std::uint32_t) { counts[part] += 3; });
     }
@@ -151,13 +151,13 @@ private:
 
     const InstanceCache& cache_;
     const Mesh& mesh_;
-    LargeVector<std::uint32_t> indices_; // expanded indices of the mesh
+    LargeVector<std::uint32_t> indices_; // plain indices of the mesh
     std::uint64_t segments_;
     std::uint64_t polygons_;
     ItemTriangles item_triangles_;
 };
 
-/// Replaces the heroes' triangles by the lists of the instances.
+/// Replaces the indices of the heroes' mesh by the lists of indices of all instances.
 std::optional<Stop>
 list_instances(const InstanceCache& cache, const MeshOptions& options, InstanceMeshes& meshes) {
     Mesh& mesh = meshes.mesh;

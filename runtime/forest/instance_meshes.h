@@ -17,12 +17,13 @@
 namespace lsys {
 
 struct InstanceMeshes {
-    /// Surface in the coordinates of the heroes. Indices: the lists of all instances in order.
-    /// Parts: the parts of the first instance by ascending material, then of the next instance.
+    /// Surface in the coordinates of the heroes. Its indices are the lists of all instances in
+    /// order. Its parts are the parts of the first instance by ascending material, then those of
+    /// the next instance, and so on.
     Mesh mesh;
     std::vector<std::uint32_t> first_part; // by instance; last entry: number of parts
 
-    /// Parts with the triangles of an instance; none for an instance that no tree can contain.
+    /// Parts with the triangles of an instance; no parts for an instance that no tree can contain.
     [[nodiscard]] std::span<const MeshPart> parts_of(std::uint32_t instance) const {
         return std::span(mesh.parts)
             .subspan(first_part[instance], first_part[instance + 1] - first_part[instance]);
@@ -43,10 +44,10 @@ struct InstanceMeshes {
 
 /// Makes the surfaces of all instances of a cache. A triangle belongs to all instances that contain
 /// its segment, object or polygon. A segment at whose tip a branch is left out ends as if the
-/// branch were drawn. Drooping leaves and bark noise are the same as on the heroes. Boxes are
-/// joined within an instance; where an instance begins they are cut, and the closed surface of the
-/// branch begins within its parent. MeshOptions::segments is ignored; max_bytes limits the result.
-/// Returns the same Stop as make_mesh().
+/// branch were drawn. Drooping leaves and bark noise are the same as on the heroes. Boxes of one
+/// instance are joined. Boxes are cut where another instance begins: the closed surface of that
+/// instance begins within its parent. MeshOptions::segments is ignored; max_bytes limits the
+/// result. Returns the same Stop as make_mesh().
 [[nodiscard]] std::optional<Stop> make_instance_meshes(const InstanceCache& cache,
                                                        const std::vector<UserMesh>& user_meshes,
                                                        const MeshOptions& options,

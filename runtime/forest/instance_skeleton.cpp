@@ -29,12 +29,12 @@ bool draws_at_entry(const InstanceCache& cache, const Instance& instance) {
     return false;
 }
 
-/// Per slot: whether a segment begins at the entry of its instances. The segment belongs to the
-/// instance itself, or to an instance at an exit that lies at the entry.
+/// By slot: whether a segment begins at the entry of its instances. The segment belongs to the
+/// instance itself, or to an instance at an exit whose place is the entry.
 std::vector<bool> find_slots_with_segments(const InstanceCache& cache) {
     std::vector<bool> begins(cache.slots.size());
-    // Repeats until nothing changes: exits at the entry of their instance form chains, which are
-    // no longer than the depth of brackets.
+    // Repeats until nothing changes: exits whose place is the entry of their instance form chains,
+    // which are no longer than the depth of brackets.
     for (bool changed = true; changed;) {
         changed = false;
         for (std::size_t s = 0; s < cache.slots.size(); ++s) {
@@ -55,8 +55,8 @@ std::vector<bool> find_slots_with_segments(const InstanceCache& cache) {
     return begins;
 }
 
-/// Appends the items of an instance, which are in the coordinates of the heroes, placed at a
-/// branch.
+/// Appends the items of the instance `part`, which are in the coordinates of the heroes, to
+/// `skeleton`, at the place of the branch `at`.
 void append_placed(const Skeleton& part,
                    const BranchInstance& at,
                    const Instance& instance,
@@ -117,7 +117,7 @@ Skeleton skeleton_of(const InstanceCache& cache, const Instance& instance) {
     skeleton.box_segments = cache_skeleton.box_segments;
     skeleton.leaf_droop = cache_skeleton.leaf_droop;
     skeleton.tube_shape = cache_skeleton.tube_shape;
-    // New number of the first segment of each range, by its number in the cache.
+    // By number in the cache of the first segment of each range: new number of this segment.
     std::map<std::uint32_t, std::uint32_t> shifts;
     const auto number_of = [&](std::uint32_t parent) {
         const auto after = shifts.upper_bound(parent);

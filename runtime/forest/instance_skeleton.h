@@ -10,10 +10,11 @@
 namespace lsys {
 
 /// The part of the heroes' skeleton that an instance draws, with segments numbered from 0, in the
-/// coordinates of the heroes. Parents outside of the instance become kNoSegment.
+/// coordinates of the heroes. Segments whose parent is outside of the instance have the parent
+/// kNoSegment.
 [[nodiscard]] Skeleton skeleton_of(const InstanceCache& cache, const Instance& instance);
 
-/// The segments of the heroes at whose tip a segment of a left out branch begins.
+/// The segments of the heroes at whose tip a branch that was left out begins with a segment.
 [[nodiscard]] std::vector<std::uint32_t> forked_segments(const InstanceCache& cache);
 
 /// The stand-in of a slot: its first instance, which PartSkeletons::whole() takes for every
@@ -32,7 +33,7 @@ public:
     /// An instance without the instances at its exits. Segments that begin in another instance get
     /// a closed surface.
     [[nodiscard]] Skeleton alone(std::uint32_t instance) const;
-    /// An instance with stand-ins at its exits, at their exits, and so on.
+    /// An instance with stand-ins at its exits, with stand-ins at the exits of these, and so on.
     [[nodiscard]] Skeleton whole(std::uint32_t instance) const;
 
 private:

@@ -29,14 +29,16 @@ constexpr std::uint32_t kOpenYawGeneration = 0xFFFFFFFCU;
 constexpr std::uint64_t kTreesPerPiece = 4096;
 constexpr double kTurn = 2.0 * std::numbers::pi;
 
-/// From a tree to a neighbour, on the ground. Differences of binary32 are nearly always exact.
+/// Offset on the ground, in m, from a tree to a neighbour. Differences of binary32 numbers are
+/// nearly always exact in binary64.
 struct Offset {
     double x = 0.0;
     double z = 0.0;
-    double square = 0.0; // m2, of the distance
+    double square = 0.0; // m2, square of the distance
     std::uint32_t number = 0;
 
-    /// Order by distance; the last three make it independent of the order of trees.
+    /// Key of an order by distance. The last three members make the order independent of the order
+    /// of trees.
     [[nodiscard]] auto rank() const { return std::tuple(square, number, x, z); }
 };
 
@@ -46,8 +48,8 @@ Offset offset_between(const Tree& from, const Tree& to) {
     return {x, z, x * x + z * z, to.number};
 }
 
-/// The quarter of `to` in the frame whose quarter 0 is centred on `front`. A positive yaw turns +X
-/// towards -Z.
+/// The number of the quarter in which `to` lies, where quarter 0 is centred on `front`. A positive
+/// yaw turns +X towards -Z.
 std::uint32_t quarter_of(const Offset& front, const Offset& to) {
     double along = front.x * to.x + front.z * to.z;
     double across = front.z * to.x - front.x * to.z;
@@ -55,12 +57,12 @@ std::uint32_t quarter_of(const Offset& front, const Offset& to) {
         if (-along <= across && across < along) { // yaw from -45 to below 45 degrees
             return quarter;
         }
-        std::tie(along, across) = std::tuple(across, -along); // a quarter turn back
+        std::tie(along, across) = std::tuple(across, -along); // turned back by 90 degrees
     }
     return kQuarters - 1;
 }
 
-/// The yaw that turns +X to an offset, from -pi to pi.
+/// The yaw in radians, -pi to pi, that turns +X to the direction of an offset.
 double yaw_of(const Offset& to) {
     const double y = 0.0 - to.z;
     return to.x >= 0.0 ? arc_tangent(y, to.x)
@@ -70,7 +72,7 @@ double yaw_of(const Offset& to) {
 /// Trees in square cells of the ground.
 class TreeGrid {
 public:
-    /// `reach`: m, of most queries.
+    /// `reach`: m, of most calls of visit_near(); decides the size of cells.
     TreeGrid(std::span<const Tree> trees, double reach) : trees_(trees) {
         for (const Tree& tree : trees) {
             low_x_ = std::min(low_x_, static_cast<double>(tree.position.x));
@@ -81,7 +83,8 @@ public:
         if (trees.empty()) {
             low_x_ = low_z_ = high_x_ = high_z_ = 0.0;
         }
-        // At most about one cell for each tree, however far apart they stand.
+        // The number of cells is limited to about one for each tree, however far apart the trees
+        // stand.
         const auto count = static_cast<double>(trees.size() + 1);
         const double width = high_x_ - low_x_;
         const double depth = high_z_ - low_z_;
@@ -102,7 +105,8 @@ public:
         }
     }
 
-    /// Calls visit(tree) for all trees of the cells within `reach` of a place.
+    /// Calls visit(tree) for all trees in the cells that a circle of radius `reach` (m) about (x,
+    /// z) touches.
     template <typename Visit>
     void visit_near(double x, double z, double reach, const Visit& visit) const {
         const std::size_t first_column = index(x - reach - low_x_, columns_);
@@ -153,7 +157,8 @@ float open_yaw(const Forest& forest, const Tree& tree) {
     return static_cast<float>(kTurn) * unit_interval(words[0]);
 }
 
-/// The quarters taken by `offsets` in the frame of `front`, as for match_quarters().
+/// The quarters in which `offsets` lie if quarter 0 is centred on `front`, as bits, as for
+/// match_quarters().
 std::uint32_t taken_by(std::span<const Offset> offsets, const Offset& front) {
     std::uint32_t taken = 0;
     for (const Offset& offset : offsets) {
@@ -165,7 +170,7 @@ std::uint32_t taken_by(std::span<const Offset> offsets, const Offset& front) {
     return taken;
 }
 
-/// `offsets`: storage that is reused from tree to tree.
+/// Sets yaw and surroundings of `tree`. `offsets`: memory that is reused from tree to tree.
 void sense_tree(const Forest& forest,
                 const TreeGrid& grid,
                 Tree& tree,

@@ -23,11 +23,11 @@ enum class Surroundings : std::uint8_t { Open, One, Adjacent, Opposite, Three, C
 inline constexpr std::array<std::string_view, kSurroundings> kSurroundingsNames{
     "open", "one", "adjacent", "opposite", "three", "closed"};
 
-/// Distance in crown radii within which a tree takes a quarter of another tree: crowns that are
-/// farther apart do not touch.
+/// Distance, in crown radii of a tree, up to which another tree takes one of its quarters: crowns
+/// that are farther apart do not touch.
 inline constexpr double kNeighbourReach = 2.0;
-/// Distance in crown radii at which the neighbours of heroes stand: the middle of the distances at
-/// which trees take quarters. Shadow is short, so crowns that only touch would hardly shade.
+/// Distance, in crown radii, at which the neighbours of heroes stand while these grow: half of
+/// kNeighbourReach. At kNeighbourReach the crowns would only touch, and hardly shade each other.
 inline constexpr double kNeighbourDistance = 1.0;
 
 /// The quarters that are taken around the heroes of a case: bit q stands for the quarter whose
@@ -36,13 +36,13 @@ inline constexpr double kNeighbourDistance = 1.0;
 
 struct TurnedSurroundings {
     Surroundings surroundings = Surroundings::Open;
-    std::uint32_t turns = 0; // quarter turns that move the quarters of the case to the taken ones
+    std::uint32_t turns = 0; // quarter turns from the quarters of the case to the taken ones
 };
 /// The case of a set of taken quarters, with the fewest turns. Precondition: `taken` < 16.
 [[nodiscard]] TurnedSurroundings match_quarters(std::uint32_t taken);
 
-/// Radius of the crown of a cache's plants in m: the mean over its heroes of a quarter of the
-/// width plus the depth of the box around the hero. 0 if they draw nothing.
+/// Radius in m of the crowns of a cache's plants: the mean over its heroes of (width + depth) / 4
+/// of the box around the hero. 0 if the heroes draw nothing.
 [[nodiscard]] double crown_radius_of(const InstanceCache& cache);
 
 /// Whether a species of the forest senses its surroundings.
@@ -65,7 +65,8 @@ void sense_surroundings(const Forest& forest,
                         std::span<Tree> trees,
                         std::uint32_t threads);
 
-/// Calls sense_surroundings() for all trees of the forest, if a species senses.
+/// Calls sense_surroundings() for all trees of the forest if any of its species senses its
+/// surroundings.
 void sense_surroundings(Forest& forest, std::uint32_t threads);
 
 } // namespace lsys

@@ -15,18 +15,18 @@ struct Tree {
     glm::vec3 position{};     // m, where the turtle starts
     float yaw = 0.0F;         // radians about +Y; see surroundings_of()
     float scale = 1.0F;       // factor of all lengths
-    std::uint32_t number = 0; // number in the forest: seeds the choices of the tree
+    std::uint32_t number = 0; // number in the forest; all choices of the tree are drawn by it
     std::uint16_t species = 0;
-    std::uint16_t age = 0; // years; 0: last stage of its species
+    std::uint16_t age = 0; // years; 0: the tree is at the last stage of its species
 };
-static_assert(sizeof(Tree) == 28); // no padding, to save memory and since bytes are compared
+static_assert(sizeof(Tree) == 28); // no padding: saves memory, and trees are compared as bytes
 
 /// Number of cases of `Surroundings` (surroundings.h).
 inline constexpr std::uint32_t kSurroundings = 6;
 
-/// The surroundings of a tree whose species senses them, below kSurroundings. They are the lowest
-/// three bits of the yaw, which they turn by less than 4e-6 radians: so the records of trees in
-/// memory and in files are the same with and without surroundings.
+/// The surroundings of a tree whose species senses them, below kSurroundings. They are stored in
+/// the lowest three bits of the yaw, which changes the yaw by less than 4e-6 radians. So the
+/// records of trees in memory and in files have the same format with and without surroundings.
 [[nodiscard]] inline std::uint32_t surroundings_of(const Tree& tree) {
     const std::uint32_t bits = std::bit_cast<std::uint32_t>(tree.yaw) & 7U;
     return bits < kSurroundings ? bits : 0;

@@ -11,14 +11,14 @@ namespace lsys {
 
 namespace {
 
-/// Calls visit(slot) for each slot that trees can contain, after the slots at the exits of its
-/// instances.
+/// Calls visit(slot) for each slot that trees can contain, after the calls for the slots at the
+/// exits of its instances.
 template <typename Visit>
 void visit_slots(const InstanceCache& cache, const Visit& visit) {
     struct Open {
         std::uint32_t slot = 0;
         std::uint32_t variant = 0;
-        std::uint32_t exit = 0; // the next exit
+        std::uint32_t exit = 0; // number of the exit to visit next
     };
     std::vector<bool> seen(cache.slots.size());
     std::vector<Open> path;
@@ -95,8 +95,8 @@ TreeBounds tree_bounds(const InstanceCache& cache, std::span<const double> own_r
             }
             reach_of_slot[number] = std::max(reach_of_slot[number], bounds.reach[i]);
         }
-        // Every branch begins at the entry, so no point is farther from another branch of the slot
-        // than from the entry.
+        // Every branch begins at the entry, so the distance of a point from another branch of the
+        // slot is at most its distance from the entry.
         if (slot.variant_count == 1) {
             deviation_of_slot[number] = bounds.deviation[stand_in(cache, slot)];
         } else {

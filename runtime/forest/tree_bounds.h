@@ -14,7 +14,7 @@ namespace lsys {
 /// By slot: whether a tree can contain its instances.
 [[nodiscard]] std::vector<bool> reached_slots(const InstanceCache& cache);
 
-/// Upper bounds for the instances of reached slots, m at scale 1; 0 for others.
+/// Upper bounds in m at scale 1, by instance; 0 for instances of slots that trees cannot contain.
 struct TreeBounds {
     /// By instance: distance from its entry to any point of the instance and of all instances that
     /// may continue it.

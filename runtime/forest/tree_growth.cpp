@@ -12,7 +12,7 @@ Tree scaled(Tree tree, double scale) {
     return tree;
 }
 
-/// Scale at which `before` is as high as `after`.
+/// Scale at which the tree `before` is as high as the tree `after`.
 double scale_of_next(const Tree& before, const Tree& after, const TreeHeight& height_of) {
     const auto scale = static_cast<double>(after.scale);
     if (before.age == after.age) {

@@ -14,8 +14,8 @@ namespace lsys {
 
 namespace {
 
-/// Min height of a tree that is not flat, as a fraction of the largest extent of the instances; as
-/// in scale_to_height().
+/// Min height of a tree that is not flat, as a fraction of the largest extent of the instances. The
+/// same fraction as in scale_to_height().
 constexpr double kMinHeightFraction = 1e-6;
 constexpr std::uint64_t kTreesPerPiece = 1024;
 
@@ -60,7 +60,8 @@ void add_points(const InstanceCache& cache,
     });
 }
 
-/// The up direction of the world in the coordinates of the heroes, for an instance with this pose.
+/// The up direction of the world in the coordinates of the heroes, for an instance that is placed
+/// by `pose`.
 glm::dvec3 up_of(const InstancePose& pose) {
     return glm::conjugate(glm::dquat(pose.rotation)) * glm::dvec3(0.0, 1.0, 0.0);
 }
@@ -86,13 +87,13 @@ private:
     std::vector<std::optional<TreeMeasure>> measures_;
 };
 
-/// A height along `up`, relative to the entry, that every branch of a slot reaches: the min of
-/// rise_of() over its instances. Follows exits to a depth of `depth` instances.
+/// A height along `up`, relative to the entry, that every instance of a slot reaches: the min of
+/// rise_of() over its instances. Follows exits through at most `depth` instances.
 double
 min_rise(const InstanceCache& cache, std::uint32_t slot_number, const glm::dvec3& up, int depth);
 
-/// The height of the highest point of an instance along `up`, relative to its entry, or a lower
-/// bound if it has exits.
+/// The height along `up` of the highest point of an instance with all that grows at its exits,
+/// relative to its entry; a lower bound of this height if it has exits.
 double rise_of(const InstanceCache& cache, std::uint32_t number, const glm::dvec3& up, int depth) {
     const Instance& instance = cache.instances[number];
     const glm::dvec3 hero_up = instance.frame * up;
@@ -121,9 +122,9 @@ min_rise(const InstanceCache& cache, std::uint32_t slot_number, const glm::dvec3
     return least;
 }
 
-/// A lower bound of the heights of the trees with this root.
+/// A lower bound of the heights of the trees whose first instance is `root`.
 double min_height(const InstanceCache& cache, const HeightTable& table, std::uint32_t root) {
-    constexpr int kDepth = 3; // deeper exits raise the bound of few trees, at a high cost
+    constexpr int kDepth = 3; // following more exits raises the bound of few trees, at a high cost
     const Bounds& box = table.boxes[root];
     if (box.empty) {
         return 0.0;
@@ -136,7 +137,7 @@ double min_height(const InstanceCache& cache, const HeightTable& table, std::uin
     return rise_of(cache, root, up, kDepth) - extent.low;
 }
 
-/// Adds to a hash the data on which the heights of trees with exits depend.
+/// Adds to the hash `state` the data on which the heights of trees with exits depend.
 std::uint64_t
 combine_exits(std::uint64_t state, const InstanceCache& cache, const HeightTable& table) {
     if (cache.exits.empty()) {
@@ -237,8 +238,8 @@ std::optional<double> TreeMeasure::height_of(std::uint32_t number) {
     const auto add = [&](const Part& part) {
         add_points(cache_, part.instance, part.up, part.offset, extent);
     };
-    // The parts with the highest and the lowest box come first, so that few other parts have to be
-    // read.
+    // Starts with the parts that have the highest and the lowest box, so that the points of few
+    // other parts have to be read.
     add(*std::max_element(parts_.begin(), parts_.end(),
                           [](const Part& a, const Part& b) { return a.high < b.high; }));
     add(*std::min_element(parts_.begin(), parts_.end(),
@@ -297,7 +298,7 @@ double TreeSizer::max_factor(std::uint16_t species) const {
     }
     const InstanceCache& cache = forest_.species[species].last_stage().cache;
     const HeightTable& table = tables_[species];
-    double factor = 1.0; // the factor of trees that draw nothing
+    double factor = 1.0; // trees that draw nothing keep their scale
     const InstanceSlot& whole = cache.slots[0];
     for (std::uint32_t v = 0; v < whole.variant_count; ++v) {
         const std::uint32_t root = cache.variants[whole.first_variant + v];
@@ -327,7 +328,7 @@ std::uint64_t TreeSizer::digest() const {
 std::optional<std::uint16_t>
 size_trees(std::span<const double> heights, std::uint32_t threads, Forest& forest) {
     const TreeSizer sizer(heights, forest);
-    std::vector<std::optional<std::uint16_t>> flat(pieces_of(forest)); // by piece
+    std::vector<std::optional<std::uint16_t>> flat(pieces_of(forest)); // species, by piece
     Workers workers(threads);
     workers.for_each(flat.size(), [&](std::uint64_t piece) {
         const std::uint64_t begin = piece * kTreesPerPiece;

@@ -33,17 +33,18 @@ public:
     TreeMeasure(const InstanceCache& cache, const HeightTable& table, std::uint64_t key)
         : cache_(cache), table_(table), expander_(cache, key) {}
 
-    /// Height in m of tree `number` from its lowest to its highest point: axes of segments, places
-    /// of objects, corners of polygons. 0: the tree is flat; nullopt: it draws nothing. Reads the
-    /// points of an instance only if its box reaches beyond the known points.
+    /// Height in m of tree `number` from its lowest to its highest point; points are the ends of
+    /// the axes of segments, places of objects and corners of polygons. 0: the tree is flat;
+    /// nullopt: it draws nothing. Reads the points of an instance only if its box reaches beyond
+    /// the points read so far.
     [[nodiscard]] std::optional<double> height_of(std::uint32_t number);
 
 private:
     struct Part {
         std::uint32_t instance = 0;
-        glm::dvec3 up{};     // the height of a point is its product with `up`, plus `offset`
+        glm::dvec3 up{};     // the height of a point is dot(point, up) + offset
         double offset = 0.0; // m
-        double low = 0.0;    // m, lowest and highest height of the box
+        double low = 0.0;    // m, height of the lowest and of the highest point of the box
         double high = 0.0;
     };
 
@@ -77,7 +78,7 @@ public:
 private:
     std::vector<double> heights_;
     const Forest& forest_;
-    std::vector<HeightTable> tables_; // by species, of its last stage; empty if its height is 0
+    std::vector<HeightTable> tables_; // by species, of its last stage; empty: it has no height
 };
 
 /// Gives all trees of a forest their heights, like TreeSizer. Returns the first species with a flat

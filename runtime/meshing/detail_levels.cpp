@@ -22,23 +22,23 @@ namespace lsys {
 
 namespace {
 
-// Ratio of the triangles of a level to those of the next one: usual value and bounds.
+// Ratio of the triangles of a level to those of the next level: usual value, min and max.
 constexpr double kUsualFactor = 2.45;
 constexpr double kRootFactor = 1.5652; // square root of kUsualFactor
 constexpr double kLowFactor = 2.0;
 constexpr double kMaxFactor = 3.0;
 constexpr double kSafeFactor = 1.04; // margin within both bounds, where possible
-// Max ratio for boxes: with one step of subdivision less they have a quarter of the triangles.
+// Max ratio for boxes: a level with one step of subdivision less has a quarter of the triangles.
 constexpr double kMaxFactorOfBoxes = 4.5;
 constexpr std::uint32_t kMaxSideLevel = 8; // max increase of MeshOptions::level
 constexpr int kMaxTries = 24;              // max steps of the search for a number of paths
-constexpr double kEnoughTriangles = 0.96;  // fraction of the wanted triangles that ends the search
+constexpr double kEnoughTriangles = 0.96;  // fraction of the wanted triangles that suffices
 constexpr int kFittingSteps = 12;
 constexpr double kCloseAreas = 0.004; // value of Planner::difference() that ends the fitting
 constexpr double kAreaWeight = 0.1;   // weight of the covered area in Planner::difference()
 constexpr double kMinScale = 0.2;     // min DetailLevel::wood_scale and foliage_scale
 constexpr double kMaxScale = 6.0;
-constexpr double kMaxStep = 1.8;   // max factor of a scale from one try to the next
+constexpr double kMaxStep = 1.8;   // max factor by which a scale changes from one try to the next
 constexpr double kMaxExcess = 3.0; // max excess of an area relative to the wanted one
 constexpr double kMinTint = 0.25;
 constexpr double kMaxTint = 4.0;
@@ -48,21 +48,22 @@ constexpr double kMinCover = 0.25;       // min DetailLevel::cover
 constexpr double kMaxCover = 1.75;
 constexpr double kFirstCover = 0.6;
 constexpr double kCloseCover = 0.005;   // relative error of the area that ends the fitting of cover
-constexpr double kLastTriangles = 45.0; // wanted in the last level, without impostors
-constexpr double kLastCardTriangles = 24.0; // wanted in the last level, with impostors
-// Max triangles of a level that an impostor may follow if the next mesh would look poor.
+constexpr double kLastTriangles = 45.0; // wanted triangles of the last level without impostors
+constexpr double kLastCardTriangles = 24.0; // wanted triangles of the last level with impostors
+// A level with at most this many triangles may be followed by an impostor if the next mesh would
+// look poor.
 constexpr std::uint64_t kMaxBeforePoor = 450;
-// A mesh looks poor if the wood of the plant lies, on average, more pixels than this from the kept
-// wood.
+// A mesh looks poor if wood of the plant is, on average, more than this many pixels away from the
+// wood that the mesh keeps.
 constexpr double kPoorPixels = 0.8;
-constexpr std::uint64_t kMaxBeforeCards = 100; // max triangles of a mesh that only cards may follow
-constexpr std::uint64_t kMinBeforeCards = 20;  // a mesh of at most this many triangles is the last
-constexpr std::uint64_t kMinBeforeFewer = 40;  // cards of at most this many triangles are the last
+constexpr std::uint64_t kMaxBeforeCards = 100; // with fewer triangles only cards follow
+constexpr std::uint64_t kMinBeforeCards = 20;  // max triangles of a mesh that ends the chain
+constexpr std::uint64_t kMinBeforeFewer = 40;  // max triangles of cards that end the chain
 constexpr double kMaxCardTriangles = 400.0;    // max triangles of an impostor
 constexpr double kCloseCount = 0.04; // accepted relative difference from the planned triangles
-// A mesh with at most this multiple of the max triangles of the next level is thinned to the max.
+// A mesh is thinned to the max triangles of the next level if it has at most this multiple of it.
 constexpr double kNearMax = 1.35;
-constexpr int kMaxEqualSteps = 3; // max steps to the last level that all get the same ratio
+constexpr int kMaxEqualSteps = 3; // max number of steps to the last level that get equal ratios
 // Factors of the wanted number of triangles, tried one after the other.
 constexpr std::array<double, 6> kTriangleFactors{1.0, 0.9, 1.1, 0.82, 1.18, 0.72};
 constexpr int kRootSteps = 40; // bisections in Planner::factor_from()
@@ -71,14 +72,14 @@ constexpr int kStraighterTries = 6;
 constexpr int kMaxStraightenings = 48;
 constexpr float kStraightening = 1.15F; // factor of MeshOptions::axis_error per straightening
 constexpr int kRestoringTries = 14;
-constexpr std::uint64_t kMorePaths = 8; // max paths that restore() adds to approach a number
+constexpr std::uint64_t kMorePaths = 8; // max number of paths that restore() adds
 constexpr double kMaxOfPaths = 4000.0;  // max triangles of levels to which restore() adds paths
-constexpr double kFairCount = 0.1;      // as kCloseCount, once restore() has added paths
+constexpr double kFairCount = 0.1;      // kCloseCount of levels to which restore() has added paths
 constexpr float kRestoring = 1.3F;      // factor of MeshOptions::axis_error per try
 constexpr double kMeanErrorPart = 0.3;  // mean error of an axis / MeshOptions::axis_error
 constexpr float kMaxDeviations = 4.0F;  // max MeshOptions::deviation / axis_error
 constexpr double kMinMove = 1e-12; // min product of a step and its effect to update derivatives
-// Max radius of widened wood / DetailLevel::error: the wood is then two pixels wide.
+// Max ratio of the radius of widened wood to DetailLevel::error: the wood is then two pixels wide.
 constexpr float kMaxRadiusErrors = 2.0F;
 
 std::uint64_t triangles_of(const Mesh& mesh) {
@@ -114,7 +115,7 @@ bool has_plain_parts(const Mesh& mesh) {
     return true;
 }
 
-/// Gives materials the colours of a level, which then replace the colours of vertices.
+/// Gives the materials of `mesh` the colours of the level; they replace the colours of vertices.
 void colour_materials(const DetailLevel& level, Mesh& mesh) {
     if ((level.tint == glm::vec3(1.0F) && !level.colour) || !has_plain_parts(mesh)) {
         return;
@@ -126,7 +127,7 @@ void colour_materials(const DetailLevel& level, Mesh& mesh) {
     }
 }
 
-/// Whether a tint changes materials little.
+/// Whether a tint changes the colours of materials little.
 bool is_moderate(const glm::vec3& tint) {
     return std::max({tint.x, tint.y, tint.z}) < kMaxModerateTint &&
            std::min({tint.x, tint.y, tint.z}) > 1.0F / kMaxModerateTint;
@@ -202,7 +203,7 @@ public:
         }
         meter_.emplace(mesh_, foliage_mesh_, frame_, options_.threads);
         areas_ = meter_->measure(mesh_, foliage_mesh_, &third_);
-        // Starts with the coarsest level, because fitting a level needs the unfitted plan of the
+        // Begins with the coarsest level, because fitting a level needs the unfitted plan of the
         // next finer level.
         for (std::size_t k = levels.levels.size(); --k > 0 && !stop_;) {
             DetailLevel& level = levels.levels[k];
@@ -238,9 +239,9 @@ private:
         measure_polygons();
     }
 
-    /// Sets mean_distances_[n], for n kept paths: an estimate of the mean distance in m from all
-    /// wood to the kept wood. The distance of wood of an omitted path counts as a quarter of the
-    /// length of the path.
+    /// Sets mean_distances_[n] to an estimate of the mean distance in m from all wood to the wood
+    /// of the first n paths. The estimated distance of the wood of an omitted path is a quarter of
+    /// the length of this path.
     void measure_paths() {
         std::vector<double> areas(order_.path_count());
         std::vector<double> lengths(order_.path_count());
@@ -259,7 +260,7 @@ private:
         }
     }
 
-    /// Makes mesh_ without the arrays that do not change the number of triangles.
+    /// Makes mesh_ with only those arrays on which the number of triangles depends.
     void count(const Skeleton& skeleton, MeshOptions options) {
         options.texture_coordinates = false;
         options.tangents = false;
@@ -281,8 +282,8 @@ private:
         return triangles_of(mesh_);
     }
 
-    /// Estimated number of triangles of an object or polygon. A polygon with coinciding corners has
-    /// fewer.
+    /// Estimated number of triangles of an object or polygon; too high for polygons with coinciding
+    /// corners.
     double triangles_of_item(std::uint32_t item, const std::vector<FoliageShape>& shapes) const {
         const std::size_t objects = skeleton_.objects.size();
         return item < objects
@@ -348,7 +349,7 @@ private:
                      : meter_->measure(mesh_, foliage_mesh_);
     }
 
-    /// Scales wood and foliage until they cover the same areas as at the finest level, by Broyden's
+    /// Scales wood and foliage until both cover the same areas as at the finest level, by Broyden's
     /// method ("A class of methods for solving nonlinear simultaneous equations", 1965). Returns
     /// the covered areas. `finer`: the next finer level.
     VisibleAreas fit_areas(const DetailLevel& finer, DetailLevel& level) {
@@ -360,8 +361,8 @@ private:
         glm::dvec2 scales(1.0);
         glm::dvec2 step(0.0);
         glm::dvec2 before(0.0);
-        // Inverse Jacobian of the areas by the scales. The first guess: the area of wood is linear
-        // in its scale, the area of foliage quadratic.
+        // Inverse Jacobian of the covered areas with respect to the scales. The first guess: the
+        // area of wood is linear in its scale, the area of foliage quadratic.
         glm::dmat2 inverse(1.0, 0.0, 0.0, 0.5);
         double best = std::numeric_limits<double>::infinity();
         bool third = !is_fixed; // measures a third of the views until the areas are close
@@ -411,10 +412,11 @@ private:
         }
         return result;
     }
-    /// Searches the axis_error with which `tried` has `wanted` triangles. A try that is nearer than
-    /// `min_difference` is stored in `best`, and its difference in `min_difference`.
+    /// Searches the axis_error at which `tried` has `wanted` triangles. If the difference of a try
+    /// from `wanted` is below `min_difference`, stores the try in `best` and its difference in
+    /// `min_difference`.
     void seek_joints(double wanted, double& min_difference, DetailLevel tried, DetailLevel& best) {
-        float low = 0.0F; // an error that leaves too many triangles; `high`: too few
+        float low = 0.0F; // an axis_error with too many triangles; `high`: with too few
         float high = std::numeric_limits<float>::infinity();
         float& error = tried.options.axis_error;
         for (int i = 0; i < kRestoringTries && !stop_; ++i) {
@@ -436,9 +438,10 @@ private:
         }
     }
 
-    /// Brings a level with widened wood back to about the planned number of triangles. Such wood
-    /// has fewer joints, because a thicker branch may deviate more. This function adds joints again
-    /// or, instead of joints, paths and foliage up to the numbers of the level `before`.
+    /// Changes a level with widened wood until it has about the planned number of triangles.
+    /// Widened wood has fewer joints, because a thicker branch may deviate more. This function adds
+    /// joints again; if that does not suffice, it adds paths and foliage, at most as many as the
+    /// level `before` has.
     void restore(const DetailLevel& planned, const DetailLevel& before, DetailLevel& level) {
         level.options.axis_error = planned.options.axis_error;
         level.paths = planned.paths;
@@ -447,8 +450,9 @@ private:
             return;
         }
         const auto wanted = static_cast<double>(planned.triangles);
-        // Equal branches lose a joint at the same error, so the number of triangles jumps and may
-        // miss the wanted number. A few more paths bring it closer.
+        // Branches of equal shape lose a joint at the same axis_error, so the number of triangles
+        // jumps and may miss the wanted number. A few more paths bring it closer to the wanted
+        // number.
         const std::uint64_t max_paths =
             std::min(before.paths, level.paths + std::min(level.paths, kMorePaths));
         double min_difference = std::numeric_limits<double>::infinity();
@@ -521,7 +525,7 @@ private:
         level.triangles = triangles_of(cards);
         level.tint = tint_for(own);
     }
-    /// The factor of colours that gives `now` the mean colour of the finest level.
+    /// The tint that changes the mean colour `now` to the mean colour of the finest level.
     glm::vec3 tint_for(const VisibleAreas& now) const {
         glm::dvec3 tint(1.0);
         const glm::dvec3 wanted = areas_.mean_colour();
@@ -534,8 +538,8 @@ private:
         const glm::dvec3 off = glm::abs(tint - 1.0);
         return std::max({off.x, off.y, off.z}) < kCloseTint ? glm::vec3(1.0F) : glm::vec3(tint);
     }
-    /// Difference of two measures: the difference of the share of wood, which decides the colour,
-    /// plus, with less weight, the difference of the covered area.
+    /// Difference between two measurements: the difference of the fractions of wood, which decide
+    /// the colour, plus, with less weight, the difference of the covered areas.
     static double difference(const VisibleAreas& now, const VisibleAreas& wanted) {
         const double all = std::max(wanted.all(), 1.0);
         return std::abs(now.wood / std::max(now.all(), 1.0) - wanted.wood / all) +
@@ -545,7 +549,7 @@ private:
         return wanted > 0.0 ? std::min(area / wanted - 1.0, kMaxExcess) : 0.0;
     }
 
-    /// The number of triangles of a level as it will be drawn.
+    /// The exact number of triangles of a level.
     std::uint64_t exact_triangles(const DetailLevel& level) {
         if (!level.is_thinned) {
             count(skeleton_, level.options);
@@ -559,7 +563,7 @@ private:
         return triangles_of(mesh_);
     }
 
-    /// Sets the size on screen and the errors of a level with about this many triangles.
+    /// Sets the size on screen and the errors of a level that has about `triangles` triangles.
     void set_error(double triangles, DetailLevel& level) const {
         const auto part =
             static_cast<float>(std::sqrt(std::max(triangles, 1.0) / static_cast<double>(finest_)));
@@ -568,8 +572,8 @@ private:
         level.options.axis_error = level.error;
     }
 
-    /// Whether cards look more like the plant than `level`, which has a few enlarged leaves or
-    /// lacks too many branches.
+    /// Whether an impostor looks more like the plant than `level`, because the level has a few
+    /// enlarged leaves or lacks too many branches.
     bool shows_loss(const DetailLevel& level) const {
         return !order_.foliage.empty() ||
                mean_distances_[level.paths] > kPoorPixels * 2.0 * static_cast<double>(level.error);
@@ -593,8 +597,9 @@ private:
         return level;
     }
 
-    /// The factor, minus 1, by which the ratio of triangles from a level to the next exceeds its
-    /// bounds; 0 within the bounds. `safe`: margin within the bounds.
+    /// Excess, as a factor minus 1, of the ratio of triangles between two consecutive levels over
+    /// its bounds; 0 if the ratio is within the bounds. `safe`: factor by which the bounds are
+    /// narrowed.
     static double
     ratio_excess(const DetailLevel& before, const DetailLevel& next, double safe = 1.0) {
         const double max_factor =
@@ -604,13 +609,14 @@ private:
         return std::max({safe * kLowFactor / factor, safe * factor / max_factor, 1.0}) - 1.0;
     }
 
-    /// The ratio of triangles to the next level with which equal steps lead to the last level.
+    /// The ratio of triangles of consecutive levels with which equal steps lead from `triangles` to
+    /// the last level.
     double factor_from(double triangles) const {
         const double all = triangles / last_;
         int steps = 1;
-        double max_ratio = kMaxFactor; // max ratio of this many steps
+        double max_ratio = kMaxFactor; // max ratio that `steps` steps can reach
         double usual =
-            kUsualFactor * kRootFactor; // above it, one step more is nearer to kUsualFactor
+            kUsualFactor * kRootFactor; // for more, a step more is nearer to kUsualFactor
         while (max_ratio < all || usual < all) {
             ++steps;
             max_ratio *= kMaxFactor;
@@ -649,8 +655,8 @@ private:
             return ratio_excess(before, level) == 0.0;
         };
         if (wood + foliage < min) {
-            // Leaving out joints leaves too few triangles: keep more joints, or all joints and
-            // fewer sides where branches are thin.
+            // Without these joints the level has too few triangles: keep more joints, or keep all
+            // joints and use fewer sides where branches are thin.
             const float error = base.options.axis_error;
             seek(&MeshOptions::axis_error, before.options.axis_error, error, min - foliage,
                  max - foliage, base);
@@ -666,7 +672,7 @@ private:
             }
             wood = static_cast<double>(wood_triangles(base));
             // Both levels have too many triangles, because straight wood loses nearly all joints at
-            // one error. Continue with the level of fewer triangles.
+            // one axis_error. Continue with the level that has fewer triangles.
             const auto sides_by_radius_wood = static_cast<double>(wood_triangles(sides_by_radius));
             if (sides_by_radius_wood < wood) {
                 base = sides_by_radius;
@@ -707,9 +713,9 @@ private:
             make_plain(tubes.options);
             return coarser(tubes);
         }
-        // Items of foliage and branches differ in size, so several numbers of triangles are tried:
-        // the first level within the bounds is taken, else the nearest one. If little has to be
-        // left out, the first number tried is the max.
+        // Items of foliage and branches differ in size, so several wanted numbers of triangles are
+        // tried. The first level within the bounds is taken, else the level nearest to them. If
+        // only a little has to be left out, the first wanted number is the max.
         const double aim = wood + foliage <= kNearMax * max ? max : wanted;
         DetailLevel best = before;
         double min_difference = std::numeric_limits<double>::infinity();
@@ -732,8 +738,9 @@ private:
         return best;
     }
 
-    /// Bisects an option between `low` and `high` until wood has `min` to `max` triangles; larger
-    /// values leave fewer triangles. If no value fits, wood has more than `max`.
+    /// Bisects an option between `low` and `high` until the wood has `min` to `max` triangles.
+    /// Larger values of the option leave fewer triangles. If no value fits, the wood has more than
+    /// `max` triangles.
     void seek(float MeshOptions::*option,
               float low,
               float high,
@@ -790,8 +797,8 @@ private:
         return level;
     }
 
-    /// Leaves out more joints so that more paths stay, while this lowers the mean distance of the
-    /// drawn wood from the plant.
+    /// Leaves out more joints, so that more paths can stay, as long as this lowers the mean
+    /// distance of the drawn wood from the plant's wood.
     void straighten_for_paths(DetailLevel& level, double wanted) {
         const auto cost = [this](const DetailLevel& of) {
             return mean_distances_[of.paths] +
@@ -811,7 +818,8 @@ private:
         }
     }
 
-    /// Sets the largest number of paths, at least one, that have at most `wanted` triangles.
+    /// Sets the number of paths to the largest number, at least one, that has at most `wanted`
+    /// triangles.
     void thin_paths(DetailLevel& level, double wanted) {
         std::uint64_t high = level.paths;
         std::uint64_t high_count = wood_triangles(level);
@@ -821,7 +829,7 @@ private:
         std::uint64_t low = 0;
         std::uint64_t low_count = 0;
         for (int i = 0; i < kMaxTries && high - low > 1 && !stop_; ++i) {
-            // Linear interpolation and bisection by turns.
+            // Alternates linear interpolation and bisection.
             const double slope = (wanted - static_cast<double>(low_count)) /
                                  static_cast<double>(high_count - low_count);
             const auto step = static_cast<std::uint64_t>((i % 2 == 0 ? slope : 0.5) *
@@ -850,7 +858,7 @@ private:
         level.paths = is_high ? high : low;
     }
 
-    /// Omits joints of the last kept path.
+    /// Raises axis_error until the wood has at most `wanted` triangles.
     void straighten(DetailLevel& level, double wanted) {
         auto now = static_cast<double>(wood_triangles(level));
         for (int i = 0; i < kMaxStraightenings && now > wanted && !stop_; ++i) {
@@ -872,15 +880,15 @@ private:
     std::vector<FoliageShape> fine_;
     Mesh mesh_;
     LargeVector<std::uint32_t> numbers_;
-    std::vector<double> mean_distances_; // m, by number of paths; see measure_paths()
-    std::uint64_t most_paths_ = 0;       // number of paths of the level before thinner()
+    std::vector<double> mean_distances_; // m, by number of paths, see measure_paths()
+    std::uint64_t most_paths_ = 0;       // number of paths of the level before thinner() changes it
     std::optional<AreaMeter> meter_;
     VisibleAreas areas_;             // areas of the finest level
     VisibleAreas third_;             // AreaMeter::measure_third() of the finest level
     Bounds frame_;                   // bounds of the finest level
     std::uint64_t finest_ = 0;       // triangles of the finest level
-    double last_ = 1.0;              // triangles wanted at the end of the chain
-    double triangles_per_ear_ = 1.0; // mean; a polygon of n corners has n - 2 ears
+    double last_ = 1.0;              // wanted triangles of the last level of the chain
+    double triangles_per_ear_ = 1.0; // mean over polygons; a polygon of n corners has n - 2 ears
     float extent_ = 0.0F;
     std::optional<Stop> stop_;
 };
@@ -923,7 +931,7 @@ std::optional<Stop> make_impostor(const Skeleton& skeleton,
 }
 
 /// Keeps `count` levels, at least 2: the first, the last, and the levels nearest to equal steps
-/// between them.
+/// between these two.
 void spread_levels(std::size_t count, std::vector<DetailLevel>& levels) {
     if (levels.size() <= count) {
         return;
@@ -935,7 +943,7 @@ void spread_levels(std::size_t count, std::vector<DetailLevel>& levels) {
     levels.resize(count);
 }
 
-/// Whether a level other than the finest is marked.
+/// Whether `which` marks a level other than the finest.
 bool fits_any(const std::vector<bool>& which) {
     return which.size() > 1 && std::find(which.begin() + 1, which.end(), true) != which.end();
 }

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-// DetailLevels: a chain of meshes of one plant, each with a half to a third of the triangles of the
-// one before, down to kMinDetailTriangles. The first steps have fewer sides and joints
-// (MeshOptions::level); coarser levels leave out whole twigs and leaves and enlarge the others; the
-// last levels are crossed cards. A finer level keeps every part that a coarser level keeps. Made
-// from the skeleton at rest; the same levels then fit every pose of this skeleton.
+// DetailLevels: a chain of meshes of one plant. Each has a half to a third of the triangles of the
+// mesh before it; the last has at most kMinDetailTriangles. The first levels have fewer sides and
+// joints (MeshOptions::level); coarser levels leave out whole twigs and leaves and enlarge the
+// others; the last levels are crossed cards. A finer level keeps every part that a coarser level
+// keeps. Made from the skeleton at rest; the levels then fit every pose of this skeleton.
 #pragma once
 
 #include "runtime/meshing/mesh.h"
@@ -37,12 +37,12 @@ struct DetailLevel {
     /// wood and foliage cover the same area of a picture as at level 0.
     float wood_scale = 1.0F;
     float foliage_scale = 1.0F;
-    /// Factor of the linear colours of materials, or of the picture of the impostor, that gives the
-    /// level the mean colour of level 0. 1 unless DetailChain::pictures is set and each part has
-    /// one colour.
+    /// Factor of the linear colours of materials, or of the picture of the impostor, with which the
+    /// level has the mean colour of level 0. 1 if DetailChain::pictures is not set, or if a part
+    /// has several colours.
     glm::vec3 tint{1.0F};
-    /// Colour of all materials before the tint; set if the materials that stay cannot have the mean
-    /// colour of level 0 with a moderate tint.
+    /// Colour of all materials before the tint. Set if no moderate tint gives the materials that
+    /// stay the mean colour of level 0.
     std::optional<glm::vec3> colour = std::nullopt;
     std::uint64_t triangles = 0;
     /// Max size on screen for this level, in pixels of the plant's largest extent. At this size the
@@ -53,18 +53,18 @@ struct DetailLevel {
 
 inline constexpr std::uint32_t kNoDetailLevel = ~std::uint32_t{0};
 
-/// The levels to plan.
+/// Which levels to plan.
 struct DetailChain {
     std::uint32_t last = kMaxDetailLevel; // max number of the last level
     /// For formats with pictures: the chain ends with an impostor, crossed cards with one picture
     /// and its normals, and materials of coarser levels have colours of their own.
     bool pictures = false;
-    /// Levels from this number on, and the last level, get scales and tints, which takes most of
-    /// the time. kNoDetailLevel: no level gets any, and fit_detail_levels() must be called before
-    /// the levels are meshed.
+    /// Levels from this number on, and the last level, get scales and tints; computing these takes
+    /// most of the time. kNoDetailLevel: no level gets any, and fit_detail_levels() must be called
+    /// before the levels are meshed.
     std::uint32_t first_fitted = 0;
-    /// Max number of levels. A longer chain keeps the finest, the coarsest, and others in about
-    /// equal steps between. 1: the finest level only.
+    /// Max number of levels. Of a longer chain the finest level, the coarsest level and levels in
+    /// about equal steps between these two are kept. 1: the finest level only.
     std::uint32_t count = kMaxDetailLevel + 1;
 };
 
@@ -95,8 +95,9 @@ struct DetailLevels {
                                                     DetailLevels& levels);
 
 /// Makes the mesh of one level from `skeleton`, which is the planned skeleton or a pose of it.
-/// Mesh::segments refers to `skeleton`. Takes only the requested arrays, threads and max_bytes from
-/// `options`; the level sets all others. Precondition: number < levels.levels.size().
+/// Mesh::segments refers to `skeleton`. Of `options`, only the requested arrays, `threads` and
+/// `max_bytes` are used; the level sets all other options. Precondition: number <
+/// levels.levels.size().
 [[nodiscard]] std::optional<Stop> make_detail_mesh(const Skeleton& skeleton,
                                                    const std::vector<UserMesh>& user_meshes,
                                                    const DetailLevels& levels,

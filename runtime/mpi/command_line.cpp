@@ -20,7 +20,7 @@ constexpr const char* kHint = "`mpirun -n 4 lsc-mpi tiles SCENE -o FOLDER` write
 
 /// Adds the options of the program; returns its command.
 CLI::App& add_options(CLI::App& app, bool& verbose, lsc::TilesCommand& command) {
-    app.allow_windows_style_options(false); // `/a` is a path
+    app.allow_windows_style_options(false); // an argument such as `/a` is a path, not an option
     app.set_version_flag("--version", kVersion, "Print the version and exit");
     app.add_flag("-v,--verbose", verbose,
                  "With --version: print commit, compiler, libraries and processor too");

@@ -18,7 +18,7 @@ namespace lsys::mpi {
 
 using CommandLine = std::variant<PrintText, UsageError, lsc::TilesCommand>;
 
-/// The command with its options, a text to print, or a usage error.
+/// Returns the command with its options, or a text to print, or a usage error.
 [[nodiscard]] CommandLine parse_command_line(std::span<const std::string> arguments);
 
 /// Calls `visit` with the program and its command, for man pages and completions.

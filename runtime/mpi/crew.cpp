@@ -9,7 +9,7 @@ namespace lsys::mpi {
 
 namespace {
 
-/// Calls `work`; a lack of memory stops the folder.
+/// Calls `work`; if memory runs out, stops the folder.
 template <typename Work>
 void write_or_stop(lsc::TilesetFolder& folder, const Work& work) {
     catch_out_of_memory(work, [&folder] { folder.stop(Error{"out of memory", ErrorKind::Limit}); });

@@ -18,30 +18,34 @@ public:
     /// `threads`: at least 1. The folder must outlive the crew.
     Crew(lsc::TilesetFolder& folder, std::uint32_t threads);
 
-    /// Writes the files that `step` adds, while the calling thread calls `step` until it returns
-    /// false. `step` may wait for a moment by wait(). Call run() once.
+    /// Writes the files that `step` adds. Meanwhile the calling thread calls `step` until it
+    /// returns false. `step` may pause by calling wait(). Call run() once.
     void run(const std::function<bool()>& step);
 
-    /// Adds files begin ... end - 1. Only `step` may call add() and the functions below.
+    /// Adds the files numbered from `begin` to `end` - 1. Only `step` may call add() and the
+    /// functions below.
     void add(std::uint64_t begin, std::uint64_t end) { queue_.add(begin, end); }
-    /// Lets the threads end after the last added file. Do not call add() after close().
+    /// Lets the threads end when they have written the last added file. Do not call add() after
+    /// close().
     void close();
     /// Whether the threads will soon have no file left.
     [[nodiscard]] bool wants_files() const { return !is_closed_ && queue_.left() < low_; }
     /// The number of files to request.
     [[nodiscard]] std::uint64_t wanted() const { return kFilesPerThread * low_; }
-    /// Whether all added files are written, or TilesetFolder::is_stopped() (after an error or an
-    /// interruption) and no thread writes any more. Only after close().
+    /// Whether all added files are written, or the folder has stopped after an error or an
+    /// interruption (TilesetFolder::is_stopped()) and no thread writes any more. Call it only after
+    /// close().
     [[nodiscard]] bool is_finished() const;
-    /// Waits for at most `time`: until few files are left, or for the whole `time` if few are left
-    /// already or after close(). If the system has started no other thread, writes a file instead.
+    /// Waits until few files are left, but at most for `time`. Waits for the whole `time` if few
+    /// files are left already, or after close(). If the system could start no other thread, the
+    /// calling thread writes a file instead of waiting.
     void wait(std::chrono::milliseconds time);
 
 private:
     static constexpr std::uint64_t kFilesPerThread = 16;
 
     lsc::TilesetFolder& folder_;
-    Workers workers_; // the writing threads, and the calling one
+    Workers workers_; // the threads that write, and the calling thread
     NumberQueue queue_;
     std::uint64_t low_; // number of threads; with fewer files left, wants_files() is true
     std::atomic<std::uint32_t> writing_{0};

@@ -41,8 +41,8 @@ public:
     }
 
 private:
-    /// Exchanges messages; returns false when this rank has written all the files that it got, or
-    /// has stopped.
+    /// Exchanges messages. Returns false when this rank has written all files that rank 0 handed
+    /// out to it, or has stopped.
     bool step(lsc::TilesetFolder& folder, Crew& crew) {
         while (const std::optional<Message> message = ranks_.receive()) {
             if (message->kind == MessageKind::Files) {

@@ -22,10 +22,10 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// The state of a rank, as known to rank 0.
+/// State of a rank, as far as rank 0 knows.
 struct RankState {
     lsc::TileTotals totals;
-    lsc::TileTotals reported; // in the last line of progress
+    lsc::TileTotals reported; // totals in the last printed line of progress
     std::string machine;
     std::uint64_t threads = 0; // 0: not known yet
     bool is_done = false;
@@ -60,7 +60,7 @@ public:
         if (status_ == ExitStatus::Ok && forest) {
             report(*forest);
         }
-        console_.io().err << std::flush; // before mpirun notices that ranks end
+        console_.io().err << std::flush; // before the ranks end, which mpirun notices
         for (int rank = 1; rank < ranks_.count(); ++rank) {
             ranks_.send(rank, MessageKind::End, {static_cast<std::uint64_t>(status_)}, "");
         }
@@ -69,8 +69,8 @@ public:
 
 private:
     static constexpr int kProgressSeconds = 10;
-    /// A rank gets at most 1 / kShares of its equal share of the remaining files, so that all ranks
-    /// end at about the same time.
+    /// A request is answered with at most 1 / kShares of the rank's equal share of the remaining
+    /// files, so that all ranks end at about the same time.
     static constexpr std::uint64_t kShares = 4;
 
     void write(const TileForest& forest) {
@@ -89,8 +89,8 @@ private:
         states_[0].totals = folder.totals();
     }
 
-    /// Exchanges messages; returns false when all ranks have ended their work. All files except
-    /// tileset.json are then written, or the job has failed.
+    /// Exchanges messages. Returns false when all ranks have ended their work: then all files
+    /// except tileset.json are written, or the job has failed.
     bool step(lsc::TilesetFolder& folder, Crew& crew) {
         receive_messages(&folder);
         note_failure(folder);
@@ -132,7 +132,7 @@ private:
         }
     }
 
-    /// `folder`: null if this rank writes nothing.
+    /// `folder`: the files that rank 0 writes; null if it writes none.
     void receive_messages(lsc::TilesetFolder* folder) {
         while (const std::optional<Message> message = ranks_.receive()) {
             RankState& state = state_of(message->rank);
@@ -157,14 +157,14 @@ private:
             case MessageKind::Files:
             case MessageKind::Stop:
             case MessageKind::End:
-                break; // not sent to rank 0
+                break; // rank 0 never receives this kind
             }
         }
     }
 
     void answer(const Message& request, lsc::TilesetFolder* folder) {
         if (is_stopping_) {
-            return; // Stop has been sent to the rank
+            return; // the rank gets the message Stop instead
         }
         if (request.numbers[0] != plan_) {
             console_.error(fmt::format("rank {} would write another tileset than rank 0: the "

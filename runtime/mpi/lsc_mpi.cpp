@@ -16,7 +16,7 @@ namespace lsys::mpi {
 
 namespace {
 
-/// Runs the parsed command, or prints the text or the usage error, on rank 0 only.
+/// Runs the parsed command. If there is a text or a usage error instead, prints it on rank 0 only.
 class Dispatch {
 public:
     Dispatch(Ranks& ranks, const Io& io) : ranks_(ranks), io_(io) {}
@@ -69,7 +69,7 @@ int run(std::span<const std::string> arguments, const Io& io) {
     };
     return catch_out_of_memory(run_line, [&] {
         const int status = report_out_of_memory(io);
-        ranks.abort(status); // other ranks wait for messages of this rank
+        ranks.abort(status); // the other ranks would wait for messages of this rank
         return status;
     });
 }

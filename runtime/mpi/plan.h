@@ -15,16 +15,18 @@ namespace lsys::mpi {
 /// Exit status of a job that ends because a rank cannot write its files.
 inline constexpr ExitStatus kRankFailed = ExitStatus::AuthorErrors;
 
-/// Max time between two checks for messages: while a rank waits for an answer, and otherwise.
+/// Max time between two checks for messages: kAnswerTime while a rank waits for an answer, else
+/// kIdleTime.
 inline constexpr std::chrono::milliseconds kAnswerTime{1};
 inline constexpr std::chrono::milliseconds kIdleTime{20};
 
-/// Plans the tileset. Prints the messages, also if memory runs out; returns the exit status.
+/// Plans the tileset into `forest` and prints the messages, also if memory runs out. Returns the
+/// exit status.
 [[nodiscard]] ExitStatus plan_tiles(const lsc::TilesCommand& command,
                                     const Console& console,
                                     std::optional<TileForest>& forest);
 
-/// A hash of the tileset, the same on all ranks that would write the same files.
+/// A hash of the tileset. Ranks that would write the same files have the same hash.
 [[nodiscard]] std::uint64_t hash_of(const TileForest& forest);
 
 } // namespace lsys::mpi

@@ -26,7 +26,7 @@ std::uint32_t count_bits(const std::vector<std::uint64_t>& words) {
 void broadcast(std::string& text) {
     std::uint64_t size = Ranks::leading_number(text.size());
     text.resize(size);
-    // A count of MPI is an int.
+    // MPI counts elements in an `int`.
     constexpr std::uint64_t kMaxBytes = std::uint64_t{1} << 30U;
     for (std::uint64_t at = 0; at < size; at += kMaxBytes) {
         MPI_Bcast(text.data() + at, static_cast<int>(std::min(kMaxBytes, size - at)), MPI_CHAR, 0,

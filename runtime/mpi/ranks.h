@@ -17,7 +17,7 @@ enum class MessageKind : std::uint8_t {
     Request, // member to leader: hash of the plan, number of files wanted, files and bytes written
     Files,   // leader to member: begin and end of the numbers of files; equal if none are left
     Failed,  // member to leader: exit status, 1 if the tileset was planned, else 0; error message
-    Stop,    // leader to member: the job ends early, after an error or an interruption
+    Stop,    // leader to member: the job ends early because of an error or an interruption
     Done, // member to leader, last message: files, bytes and trees written, threads; machine name
     End   // leader to member, after all are done: exit status
 };
@@ -25,7 +25,7 @@ enum class MessageKind : std::uint8_t {
 struct Message {
     using Numbers = std::array<std::uint64_t, 4>;
 
-    int rank = 0; // of the sender
+    int rank = 0; // rank of the sender
     MessageKind kind = MessageKind::Stop;
     Numbers numbers{};
     std::string text;

@@ -12,9 +12,10 @@ struct TilesCommand;
 
 namespace lsys::mpi {
 
-/// Writes the tileset as rank 0; returns the exit status of the job, which all ranks get. All other
-/// ranks must call join_tiles() with an equal command. Precondition: `command.run.threads` is above
-/// 0. `console` prints the messages of the job. Throws std::bad_alloc.
+/// Writes the tileset as rank 0. Returns the exit status of the job, which is the same on all
+/// ranks. All other ranks must call join_tiles() with an equal command. Precondition:
+/// `command.run.threads` is above 0. `console` prints the messages of the job. Throws
+/// std::bad_alloc.
 [[nodiscard]] ExitStatus
 lead_tiles(const lsc::TilesCommand& command, Ranks& ranks, const Console& console);
 /// Takes part in lead_tiles() as a rank other than 0; returns the exit status of the job. Prints

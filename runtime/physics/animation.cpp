@@ -14,7 +14,7 @@ namespace lsys {
 
 namespace {
 
-constexpr double kRestAngle = 1e-6; // rad, tolerance of settle()
+constexpr double kRestAngle = 1e-6; // rad, tolerance for settle()
 constexpr double kMismatch = 1e-3;  // PlantLoop::mismatch at which the motion counts as periodic
 constexpr double kMaxRunIn = 30.0;  // s, or kMinRunInLoops loops if they take longer
 constexpr std::uint32_t kMinRunInLoops = 4;
@@ -24,12 +24,14 @@ float usable_rate(float frames_per_second) {
     return is_valid ? frames_per_second : 24.0F;
 }
 
-/// Sets a time step that divides the time between two frames; restores the options at the end.
+/// Sets a time step of which a whole number fits between two frames; the destructor restores the
+/// options.
 class FrameSteps {
 public:
     FrameSteps(PlantPhysics& physics, float frames_per_second, float gust_period)
         : physics_(physics), before_(physics.options()) {
-        // 1e-3 is subtracted so that a rounding error above a whole number of steps adds no step.
+        // 1e-3 is subtracted, so that a quotient that rounding raised above a whole number adds no
+        // step.
         const float steps = 1.0F / (frames_per_second * before_.time_step) - 1e-3F;
         count_ = steps > 1.0F ? std::ceil(std::min(steps, 1e6F)) : 1.0F;
         PhysicsOptions between = before_;
@@ -76,9 +78,9 @@ glm::dquat frame_of(const SegmentPlace& place) {
     return glm::normalize(glm::dquat(place.frame));
 }
 
-/// Keeps objects and polygons, which move rigidly with their segments, out of the ground. A segment
-/// turns up about its base, with its descendants, if one of its objects is below y = 0 but is above
-/// y = 0 at rest. If turning is not enough, the segment moves up.
+/// Keeps objects and polygons, which move rigidly with their segments, out of the ground (y = 0).
+/// If an object that is above the ground at rest is below it in a frame, its segment turns up about
+/// its base, together with all descendants. If turning is not enough, the segment also moves up.
 class GroundGuard {
 public:
     /// `rest`: the plant at rest. `bound`: the bind pose, relative to which frames move objects.
@@ -115,7 +117,7 @@ public:
         }
     }
 
-    /// Raises segments of a frame. `places`: the poses of all segments.
+    /// Raises segments of a frame out of the ground. `places`: the poses of all segments.
     void raise(const Skeleton& plant, std::span<SegmentPlace> places) const {
         if (arms_.empty()) {
             return;
@@ -143,8 +145,8 @@ public:
 private:
     struct Change {
         bool is_made = false;
-        glm::dvec3 before{0.0};              // base before the change
-        glm::dquat turn{1.0, 0.0, 0.0, 0.0}; // in the axes of the world
+        glm::dvec3 before{0.0};              // base of the segment before it was raised
+        glm::dquat turn{1.0, 0.0, 0.0, 0.0}; // rotation by which it was raised, in world axes
     };
 
     static constexpr float kRounding = 1e-5F; // m, depth of points on the ground due to rounding
@@ -153,7 +155,7 @@ private:
         return object.position + object.size * (object.frame * point);
     }
 
-    /// Outermost points of an object of size 1 (docs/language.md section 7.4): its ends first.
+    /// Outermost points of an object of size 1 (docs/language.md section 7.4); its ends come first.
     static std::vector<glm::vec3> outline_of(TurtleOperation kind) {
         std::vector<glm::vec3> out{glm::vec3(0.0F), glm::vec3(0.0F, 1.0F, 0.0F)};
         const auto add_ring = [&](float radius, float along) {
@@ -195,12 +197,12 @@ private:
 
     static void lift(std::span<const glm::dvec3> arms, SegmentPlace& place, Change& change) {
         constexpr int kPasses = 4;     // turning up one point may sink another
-        constexpr double kNear = 1e-6; // relative to the farthest point's distance from the base
+        constexpr double kNear = 1e-6; // relative to the largest distance of a point from the base
         const glm::dquat frame = frame_of(place);
         const auto base = static_cast<double>(place.base.y);
         double deepest = 0.0;
         for (int pass = 0; pass <= kPasses; ++pass) {
-            glm::dvec3 arm_sum(0.0); // sum of the arms of points in the ground
+            glm::dvec3 arm_sum(0.0); // sum of the arms of points below the ground
             deepest = 0.0;
             double reach = 0.0;
             for (const glm::dvec3& own : arms) {
@@ -266,7 +268,7 @@ glm::dvec3 end_of(const Segment& segment, const SegmentPlace& place) {
     return glm::dvec3(place.base + segment.length * heading(place.frame));
 }
 
-/// Longest side in m of the bounding box of the origin and all ends of segments.
+/// Longest side in m of the bounding box of the origin and of both ends of all segments.
 double size_of(const Skeleton& plant) {
     glm::vec3 low(0.0F);
     glm::vec3 high(0.0F);
@@ -291,8 +293,8 @@ double max_distance(const Skeleton& plant,
     return max_displacement;
 }
 
-/// Moves `places` towards `other` by `share`: rotations of joints relative to their parents are
-/// interpolated, so that segments stay joined.
+/// Moves `places` towards `other` by the fraction `share`. Interpolates the rotations of joints
+/// relative to their parents, so that segments stay joined.
 void blend(const Skeleton& plant,
            std::span<const SegmentPlace> other,
            double share,
@@ -304,7 +306,7 @@ void blend(const Skeleton& plant,
     };
     for (std::uint32_t i = 0; i < places.size(); ++i) {
         const std::uint32_t parent = plant.segments[i].parent;
-        if (parent >= i) { // a root, whose base stands still
+        if (parent >= i) { // a root: its base does not move
             places[i].frame = glm::quat(mixed(frame_of(old[i]), frame_of(other[i])));
             continue;
         }

@@ -9,9 +9,9 @@
 //   motion down. Torque is lever x force as in the thesis.
 // - The weight and the inertia of the crown act on the trunk: all joints are solved together.
 //
-// A step is implicit (impl/joints.cpp), which does not suffice to prove stability: rotations are not
-// linear, and centrifugal terms are explicit. So a step is also checked. Let E be the allowed energy,
-// initially the energy at the start.
+// A step is implicit (impl/joints.cpp). This alone does not prove stability: rotations are not
+// linear, and centrifugal terms are explicit. So the result of a step is also checked. Let E be the
+// allowed energy, initially the energy at the start.
 //   1. Take the solved motion for the whole step, else for a quarter, a sixteenth ... of it: the
 //      first part whose potential energy V (springs and weight) is at most E.
 //   2. If there is none, stand still in this step: V, which is at most E, does not change.
@@ -36,13 +36,13 @@
 // Newton's method, which doubles the number of correct digits per round. settle() leaves out the
 // friction of the ground, and stops where friction would hold the plant.
 //
-// A large plant that falls settles in stages (nested iteration; Trottenberg et al. 2001, section
-// 2.6): first its main branches, with twigs as loads, or a long curve as a chain of rigid pieces
-// (impl/coarse.h), then more and more of the plant. Each stage starts from the pose of the stage
-// before. So most rounds, which find the final direction of branches, are cheap, and few rounds move
-// all bodies. The start of the last stage may have more energy than the plant had before, as the
-// twigs have not moved yet. If the energy is still higher at rest, settle() discards the result and
-// settles without stages, so that the energy does not grow.
+// A large plant that falls is settled in stages (nested iteration; Trottenberg et al. 2001, section
+// 2.6): first its main branches, with point masses in place of twigs, or a long curve as a chain of
+// rigid pieces (impl/coarse.h); then more and more of the plant. Each stage starts from the pose of
+// the stage before it. Thus most rounds, which find the final direction of branches, are cheap, and
+// only few rounds move all bodies. The start of the last stage may have more energy than the plant
+// had before, because the twigs have not moved yet. If the energy is still higher at rest, settle()
+// discards the result and settles without stages, so that the energy never grows.
 #include "runtime/physics/physics.h"
 
 #include "runtime/physics/impl/coarse.h"
@@ -65,41 +65,43 @@ namespace {
 
 constexpr double kDragCoefficient = 1.1; // approximate value of long cylinders and of plates
 constexpr double kFriction = 0.5;        // approximate value of bark on soil
-constexpr int kTrials = 12;              // max number of shares of a step that are tried
+constexpr int kTrials = 12;              // max number of fractions of a step that are tried
 constexpr int kExactTrials = 2;          // replaces kTrials if Forces::exactness > 0
-constexpr double kTrialShare = 0.25;     // factor from one share to the next
+constexpr double kTrialShare = 0.25;     // ratio of a tried fraction to the fraction tried before
 constexpr double kRounding = 1e-12;      // relative to Energies::potential_magnitude
-constexpr double kRestStep = 1e6;        // s, step of settle(), for which inertia is negligible
-// A plant that slides in settle() is at rest when friction with this coefficient, lower than for ice,
-// would stop it: the lost energy and the friction of about the last ten rounds are compared. Each
-// round multiplies the weight of older rounds by kRememberedShare.
+constexpr double kRestStep = 1e6;        // s, step of settle(), so long that inertia is negligible
+// A plant that slides in settle() is at rest when friction with this coefficient, lower than that
+// of ice, would stop it: the energy lost in about the last ten rounds is compared with the work of
+// friction in these rounds. Each round multiplies the weight of older rounds by kRememberedShare.
 constexpr double kRestFriction = 0.03;
 constexpr double kRememberedShare = 0.9;
-// The criterion of rest for a stage of settle() with many bodies, whose main branches already lie on
-// the ground: friction over the last three rounds, with a fifth of kFriction, or half of kFriction
-// in the last stage. A long curve falls into a heap that continues to roll and slide a little;
-// friction would stop this motion.
+// Criterion of rest for a stage of settle() with many bodies, whose main branches already lie on
+// the ground: friction over the last three rounds, with a fifth of kFriction, in the last stage
+// with half of kFriction. A long curve falls into a heap that continues to roll and slide a little;
+// real friction would stop this motion.
 constexpr std::size_t kManyBodies = 10'000;
 constexpr double kStageFriction = 0.1;
 constexpr double kLastStageFriction = 0.25;
 constexpr std::size_t kStageRounds = 3;
-// A plant counts as falling, so that stages pay off, if one of the first kFallingRounds rounds turns
-// a body by kFallingTurn, or if the plant is not at rest after these rounds.
+// A plant counts as falling, so that settling in stages is faster, if one of the first
+// kFallingRounds rounds turns a body by kFallingTurn, or if the plant is not at rest after these
+// rounds.
 constexpr double kFallingTurn = 0.3; // rad
 constexpr std::uint32_t kFallingRounds = 12;
-// Max rounds of a stage other than the last: as many as cost the same as kStageWork rounds of the
-// whole plant, but at most kMaxStageRounds.
+// Max number of rounds of a stage other than the last: as many as take the time of kStageWork
+// rounds of the whole plant, but at most kMaxStageRounds.
 constexpr std::size_t kStageWork = 8;
 constexpr std::size_t kMaxStageRounds = 200;
 
-/// Weight of the upper bounds of the second derivatives in a round of settle(), from 0 to 1:
-/// 1 - Forces::exactness. Lowered after complete steps, raised after a shortened step. If the step
-/// after a lowering was shortened, the next lowering waits for more complete steps.
+/// Weight, 0 to 1, of the upper bounds of the second derivatives in a round of settle(): 1 -
+/// Forces::exactness. It is lowered after complete steps and raised after a shortened step. If the
+/// step after it was lowered is shortened, more complete steps are needed before it is lowered
+/// again.
 class BoundWeight {
 public:
     [[nodiscard]] double value() const { return value_; }
 
-    /// `whole`: whether the last round made a complete step.
+    /// `whole`: whether the step of the last round was complete.
     void update(bool whole) {
         if (whole) {
             patience_ = was_lowered_ ? 1 : patience_;
@@ -117,7 +119,7 @@ public:
     }
 
 private:
-    static constexpr double kMin = 1e-3; // min value other than 0
+    static constexpr double kMin = 1e-3; // min value above 0
     static constexpr int kMaxPatience = 16;
     double value_ = 1.0;
     int whole_steps_ = 0;      // complete steps since the value changed
@@ -125,7 +127,7 @@ private:
     bool was_lowered_ = false; // whether the value was lowered in the last round
 };
 
-/// Compares the energy lost in the last rounds of settle() with the friction of the ground.
+/// Compares the energy lost in the last rounds of settle() with the work of friction on the ground.
 class RecentRounds {
 public:
     /// `is_large_late_stage`: whether this is a stage after the first, with at least kManyBodies
@@ -175,7 +177,7 @@ float not_negative(float value) {
     return std::max(finite_or(value, 0.0F), 0.0F);
 }
 
-/// The options with values out of range corrected.
+/// The options, with values out of range replaced.
 PhysicsOptions usable(PhysicsOptions options) {
     options.gravity = finite_or(options.gravity, 0.0F);
     glm::vec3& wind = options.wind.velocity;
@@ -189,9 +191,10 @@ PhysicsOptions usable(PhysicsOptions options) {
     return options;
 }
 
-/// The rotation at rest of a body whose joint bears only the body, on a parent with rotation
-/// `start`. Force F at arm c bends the joint towards F by an angle x: k x = |c| |F| sin(a - x),
-/// where k is the spring constant and a the angle between c and F. There is one root from 0 to a.
+/// The rotation at rest of a body whose joint bears only this body, on a parent with the rotation
+/// `start`. A force F at the end of the arm c bends the joint towards F by an angle x for which k x
+/// = |c| |F| sin(a - x), where k is the spring constant and a the angle between c and F. There is
+/// one root from 0 to a.
 glm::dquat bent_by_itself(const Body& body, const glm::dquat& start, const Forces& forces) {
     constexpr int kHalvings = 60;
     constexpr int kWindRounds = 40; // the drag depends on the rotation
@@ -220,8 +223,8 @@ glm::dquat bent_by_itself(const Body& body, const glm::dquat& start, const Force
     return turn;
 }
 
-/// A period in s: `own`, or if `period` is positive, `period` / n with n = round(period / own), at
-/// least 1, so that it divides `period`.
+/// A period in s: `own`, or if `period` is positive, the whole fraction of `period` nearest to
+/// `own`: `period` / n with n = round(period / own), at least 1.
 double part_of(double period, double own) {
     return period > 0.0 ? period / std::max(std::round(period / own), 1.0) : own;
 }
@@ -247,7 +250,7 @@ Forces forces_of(const PhysicsOptions& options) {
     return forces;
 }
 
-/// Raises an object, and its far end, out of the ground if they are above the ground at rest.
+/// Raises an object and its far end out of the ground if both are above the ground at rest.
 void lay_on_ground(const PlacedObject& rest, PlacedObject& object) {
     const float length = std::abs(object.size);
     if (rest.position.y < 0.0F) {
@@ -312,12 +315,12 @@ struct PlantPhysics::State {
     }
 
     struct Step {
-        double share = 0.0;       // share of the solved motion that was made
+        double share = 0.0;       // fraction of the solved motion that was carried out
         double turn = 0.0;        // rad, max rotation of the complete solved motion
         double energy_loss = 0.0; // J, decrease of the energy plus the work done by the wind
         double slide = 0.0;       // J, Energies::slide
     };
-    /// Moves the plant to rest under LoadRule::Own, where each joint bears its own segment only:
+    /// Moves the plant to rest under LoadRule::Own, where each joint bears only its own segment:
     /// joint by joint, from the root to the tips.
     void settle_own_loads() {
         const std::vector<Body>& bodies = plant.rest.bodies;
@@ -341,7 +344,7 @@ struct PlantPhysics::State {
         update_energy();
     }
 
-    /// Makes a step; without `keep_velocity` it ends at standstill.
+    /// Makes a step. Without `keep_velocity` the plant stands still at its end.
     Step advance(const Forces& current_forces, bool keep_velocity) {
         solve_spins(plant, current_forces, workers);
         const int trials = current_forces.exactness > 0.0 ? kExactTrials : kTrials;
@@ -382,7 +385,7 @@ struct PlantPhysics::State {
         bool is_last = false;           // no stage follows
         bool stop_falling = false;      // ends with End::Falling if the plant falls
     };
-    /// Makes rounds of settle() and subtracts them from `rounds.left`.
+    /// Makes rounds of settle() and subtracts their number from `rounds.left`.
     End make_rounds(Forces current_forces, double tolerance, Rounds& rounds) {
         BoundWeight bound_weight;
         current_forces.exactness = 0.0;
@@ -391,7 +394,8 @@ struct PlantPhysics::State {
         for (std::uint32_t round = 0; rounds.left > 0; ++round) {
             const Step last_step = advance(current_forces, false);
             --rounds.left;
-            // The first round of a stage is excluded: twigs fall that coarser stages left out.
+            // Excludes the first round of a stage, in which twigs fall that coarser stages left
+            // out.
             if (!(rounds.starts_from_stage && round == 0)) {
                 recent.add(last_step.share, last_step.energy_loss, last_step.slide);
             }
@@ -513,7 +517,7 @@ bool PlantPhysics::settle(double tolerance, std::uint32_t max_rounds) {
 }
 
 std::uint32_t settle_rounds(std::size_t segments) {
-    constexpr std::size_t kWork = 3'000'000; // segments moved
+    constexpr std::size_t kWork = 3'000'000; // max number of moved segments, summed over rounds
     const std::size_t rounds = kWork / std::max(segments, std::size_t{1});
     return static_cast<std::uint32_t>(std::clamp(rounds, std::size_t{30}, std::size_t{10'000}));
 }

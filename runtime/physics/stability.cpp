@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: MIT
-// Linear buckling of spring-joint plants. In absolute rotations w of the bodies the second
-// derivative of the energy at rest is the sum of k |w - w_p|^2 of the joints (k: spring constant,
-// w_p: rotation of the parent) and w . G w of the weight, which has no coupling between bodies (see
-// impl/joints.cpp). G is -m g y about the level axes, where m is the mass of the load of a body and
-// y its height above the base of the body: a load to the side bends a plant but never makes it
-// buckle, a load above can. Elimination from the tips to the root, P = k + G + sum of R of the
-// children, R = k - k P^-1 k, tests whether the sum is positive definite: it is if every P is
-// positive definite (Sylvester). Bisection over the multiple of the weight gives the factor.
+// Linear buckling of spring-joint plants. Let w be the absolute rotation of a body and w_p that of
+// its parent. The second derivative of the energy at rest is the sum of k |w - w_p|^2 for the
+// joints (k: spring constant) and of w . G w for the weight, which has no coupling between bodies
+// (see impl/joints.cpp). G is -m g y about the level axes, where m is the mass of the body and its
+// descendants, and y the height of their centre above the base of the body: a load to the side
+// bends a plant but never makes it buckle, a load above can. Elimination from the tips to the root,
+// P = k + G + sum of R of the children, R = k - k P^-1 k, tests whether the sum is positive
+// definite: it is if every P is positive definite (Sylvester). Bisection over the multiple of the
+// weight finds the factor.
 #include "runtime/physics/stability.h"
 
 #include "runtime/physics/impl/bodies.h"
@@ -27,7 +28,7 @@ constexpr int kHalvings = 60;
 constexpr double kMaxFactor = 1e9;
 constexpr std::uint32_t kRounds = 400; // max rounds of settle() per trial
 
-/// Whether the plant stands under `gravity` in its pose at rest.
+/// Whether the plant, in its pose at rest, does not buckle under `gravity`.
 bool is_stable(const Bodies& plant, double gravity, bool own_load, std::vector<Symmetric>& added) {
     const std::size_t count = plant.bodies.size();
     added.assign(count, Symmetric{});
@@ -46,7 +47,7 @@ bool is_stable(const Bodies& plant, double gravity, bool own_load, std::vector<S
             return false;
         }
         if (body.parent != kNoSegment && !own_load) {
-            // k - k P^-1 k = k P^-1 (P - k), for the spring k and P = `sum`
+            // k - k P^-1 k = k P^-1 (P - k), where k is the spring and P is `sum`.
             const Rows inverted = rows_of(inverse(sum));
             added[body.parent] +=
                 scaled(symmetric_product(inverted, rows_of(without_spring)), body.spring);
@@ -55,7 +56,7 @@ bool is_stable(const Bodies& plant, double gravity, bool own_load, std::vector<S
     return true;
 }
 
-/// Measures the trunk: the segments of order 0 of the first plant.
+/// Measures the trunk: the segments of bracket order 0 of the first plant.
 void measure_trunk(const Skeleton& rest, double gravity, Stability& out) {
     double bending = 0.0; // integral of E I
     double mass = 0.0;

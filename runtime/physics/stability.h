@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Stability: whether a plant bears its own weight, and the stiffness or width that it needs for this.
+// Stability: whether a plant bears its own weight, and the stiffness or width with which it does.
 // For reports and warnings; the simulation does not use it.
 #pragma once
 
@@ -11,7 +11,8 @@
 
 namespace lsys {
 
-/// Min height of a plant under its weight, relative to its height at rest, that counts as standing.
+/// Min ratio of the height of a plant under its weight to its height at rest with which it counts
+/// as standing.
 inline constexpr double kStandingHeight = 0.7;
 
 struct Stability {
@@ -20,18 +21,19 @@ struct Stability {
     /// weight, or if the whole plant hangs; below 1 the plant does not stand.
     double load_factor = 0.0;
     /// Multiple of its weight at which the trunk alone buckles, as a column of constant width:
-    /// 7.837 E I / (w l^3) with mean E I and weight w per length (Greenhill 1881). None for a trunk
-    /// without weight or length, or with LoadRule::Own, because then no joint carries the trunk above.
+    /// 7.837 E I / (w l^3), with the means of E I and of the weight w per length (Greenhill 1881).
+    /// None for a trunk without weight or length, and with LoadRule::Own, because then no joint
+    /// bears the trunk above it.
     std::optional<double> trunk_factor;
     double trunk_length = 0.0; // m
     double trunk_width = 0.0;  // m, mean diameter
 };
-/// Measures the skeleton; trunk values are for the first plant. Each further segment without a parent
-/// begins another plant. Linear time.
+/// Measures the skeleton. Values of the trunk are those of the first plant; each further segment
+/// without a parent begins another plant. Linear time.
 [[nodiscard]] Stability stability_of(const Skeleton& rest, const PhysicsOptions& options);
 
-/// Height of the highest point above the base of the first segment under weight and wind, relative to
-/// this height at rest; 1 for a plant without height. Settles in at most `max_rounds` rounds.
+/// Ratio of two heights of the highest point above the base of the first segment: under weight and
+/// wind, and at rest. 1 for a plant without height. Settles in at most `max_rounds` rounds.
 [[nodiscard]] double
 bent_height(const Skeleton& rest, const PhysicsOptions& options, std::uint32_t max_rounds);
 
@@ -40,9 +42,9 @@ enum class Stiffening : std::uint8_t {
     Widths   // multiplies radii by the factor, springs by its 4th power, masses by its square
 };
 [[nodiscard]] Skeleton stiffened(const Skeleton& rest, Stiffening way, double factor);
-/// The smallest factor, within 20 %, with which the plant stands (kStandingHeight); 1 if it already
-/// stands. nullopt: the plant falls with all factors up to 1e9 (springs) or 1e3 (widths). Each
-/// trial settles a plant.
+/// The smallest factor, to within 20 %, with which the plant stands (kStandingHeight); 1 if it
+/// already stands. nullopt: the plant falls with all factors up to 1e9 (springs) or 1e3 (widths).
+/// For each factor that is tried, a plant is settled.
 [[nodiscard]] std::optional<double>
 standing_factor(const Skeleton& rest, const PhysicsOptions& options, Stiffening way);
 

@@ -9,8 +9,8 @@ namespace lsys {
 
 namespace {
 
-/// Places of PoissonCells in a square whose side is `spacing`, counted in a sample of 128 by 128 such
-/// squares.
+/// Mean number of places of PoissonCells in a square whose side is the spacing, counted in a sample
+/// of 128 by 128 such squares.
 double poisson_places() {
     constexpr double kSide = 128.0;
     PlacementOptions options;

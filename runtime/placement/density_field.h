@@ -24,17 +24,17 @@ public:
 
     /// Places per m2 that the method makes at (x, z), with or without a tree.
     [[nodiscard]] double places_at(double x, double z) const;
-    /// Sets densities[s] to the expected number of trees of species s per m2 at (x, z), for
-    /// PoissonCells to within 1 %.
+    /// Sets densities[s] to the expected number of trees of species s per m2 at (x, z); exact to 1
+    /// % for PoissonCells.
     void trees_at(double x, double z, std::span<double> densities) const;
-    /// The tree `number` of a species as the placement makes it, at the origin.
+    /// The tree `number` of a species as the placement would make it, at the origin.
     [[nodiscard]] Tree tree_of(std::uint32_t number, std::uint16_t species) const;
 
 private:
     const PlacementOptions& options_;
     std::unique_ptr<TreeMaker> maker_;
     std::unique_ptr<GreySampler> grey_; // DensityCells only
-    double places_ = 0.0;               // per m2; for DensityCells, where the map is white
+    double places_ = 0.0;               // per m2; for DensityCells: per white m2 of the map
 };
 
 } // namespace lsys

@@ -23,7 +23,7 @@ namespace {
 
 constexpr std::uint64_t kPiece = 2048;
 constexpr std::uint64_t kPiecesAtOnce = 8; // for each worker
-/// Time in the shade after which a plant without tolerance dies, as a fraction of the time that its
+/// Time in the shade after which a plant with tolerance 0 dies, as a fraction of the time that its
 /// radius took to grow. Larger plants therefore live longer in the shade.
 constexpr float kShadeTolerance = 0.25F;
 constexpr float kLifeSpread = 0.2F; // max deviation from the lifespan, relative to it
@@ -33,8 +33,8 @@ std::uint32_t oldest_age(const SpeciesGrowth& growth) {
     return growth.lifespan + growth.lifespan / 5 + 1;
 }
 
-/// Finds a point of the unit disc among two random points of the bounding square. Returns false if
-/// both points are outside the disc, which happens once in 22 calls.
+/// Takes the first of two random points of the bounding square that lies in the unit disc. Returns
+/// false if both points are outside of the disc, which happens once in 22 calls.
 bool find_in_disc(const PhiloxBlock& words, std::array<double, 2>& point) {
     for (const std::size_t i : {std::size_t{0}, std::size_t{2}}) {
         point = {2.0 * unit(words[i]) - 1.0, 2.0 * unit(words[i + 1]) - 1.0};
@@ -64,7 +64,7 @@ struct Sprout {
     std::uint16_t species = 0;
 };
 
-/// The rules of life of plants and seeds in one year.
+/// The rules by which plants live and spread seeds in one year.
 class Life {
 public:
     Life(const PlacementOptions& options, const Terrain& terrain, std::uint32_t year)
@@ -122,7 +122,7 @@ public:
         return static_cast<std::uint32_t>(growth.seeds + u);
     }
 
-    /// Adds the seeds of this year that sprout.
+    /// Appends the places where the seeds that the plant spreads this year sprout.
     void sow(const ForestPlant& plant, std::vector<Sprout>& sprouts) const {
         const SpeciesGrowth& growth = growth_of(plant);
         const std::uint32_t count = seed_count(plant);
@@ -159,7 +159,7 @@ std::uint64_t piece_count(std::uint64_t plants) {
     return (plants + kPiece - 1) / kPiece;
 }
 
-/// Calls `visit` for each plant of a piece.
+/// Calls `visit` for each plant of piece number `piece`.
 template <typename Visit>
 void for_piece(std::span<ForestPlant> plants, std::uint64_t piece, const Visit& visit) {
     const std::uint64_t end = std::min<std::uint64_t>(plants.size(), (piece + 1) * kPiece);

@@ -33,13 +33,13 @@ class TreeMaker; // runtime/placement/impl/tree_maker.h
 
 class Domination {
 public:
-    /// Starts in year 0 with `options.count` plants in their first year, at uniform places. Uses only
-    /// key, region, species, count and threads of `options`. `terrain` must outlive the result.
-    /// Errors: as place_trees().
+    /// Starts in year 0 with `options.count` plants in their first year, at uniformly distributed
+    /// places. Of `options` it uses only key, region, species, count and threads. `terrain` must
+    /// outlive the result. Errors: as place_trees().
     [[nodiscard]] static Result<Domination> begin(const PlacementOptions& options,
                                                   const Terrain& terrain);
 
-    /// Advances one year: seeds, growth, domination, death. Time is about linear in the number of
+    /// Simulates one year: seeds, growth, domination, death. Time is about linear in the number of
     /// plants. The result is the same for any number of threads. Errors: more than kMaxTrees plants
     /// and seeds, more plant numbers than 32 bits hold, more than kMaxYears years. After an error
     /// the forest is unchanged.
@@ -49,9 +49,9 @@ public:
     /// The living plants by number. The circles of plants that are not dominated do not overlap.
     [[nodiscard]] const LargeVector<ForestPlant>& plants() const { return plants_; }
     /// The living plants as trees, in the same order. The scale of a tree is its random scale times
-    /// its radius / the radius of a plant of the same age and full vigour that was never dominated.
-    /// A plant of year 0 may start at a later stage: its tree is older by the years of the skipped
-    /// stages. Seedlings start at the first stage.
+    /// the ratio of its radius to the radius that a plant of the same age and full vigour has if it
+    /// was never dominated. A plant of year 0 may start at a later stage: the age of its tree is
+    /// then greater by the years of the skipped stages. Seedlings start at the first stage.
     [[nodiscard]] LargeVector<Tree> trees() const;
     [[nodiscard]] const PlacementReport& report() const { return report_; }
 

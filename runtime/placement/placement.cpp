@@ -89,8 +89,8 @@ Result<Placement> place_trees(const PlacementOptions& options, const Terrain& te
     Workers workers(options.threads);
     const TreeMaker maker(options, terrain);
     Placement placement;
-    // The number of trees hardly ever exceeds the expectation by six standard deviations, and
-    // unused capacity takes no memory.
+    // The number of trees exceeds the expectation by six standard deviations hardly ever, and
+    // memory that is reserved but not used costs nothing.
     placement.trees.reserve(static_cast<std::size_t>(
         expected.value() + kDeviations * std::sqrt(expected.value()) + kDeviations));
     if (const Result<void> placed = place_with({options, terrain, maker, workers}, placement);

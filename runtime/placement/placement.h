@@ -19,12 +19,12 @@
 
 namespace lsys {
 
-inline constexpr std::uint64_t kMaxTrees = 10'000'000; // per placement
-/// Rises when place_trees() gives other trees for the same options; part of files of placed trees.
+inline constexpr std::uint64_t kMaxTrees = 10'000'000; // max trees of a placement
+/// Raised whenever place_trees() returns other trees for the same options; tree files contain it.
 inline constexpr std::uint32_t kTreePlacementVersion = 1;
 inline constexpr std::uint32_t kMaxYears = 10'000;
-/// Years per stage for methods other than Domination. Stage s has age 2 s + 1, because age 0 means
-/// the last stage.
+/// Years from one stage to the next, for methods other than Domination. Stage s has age 2 s + 1,
+/// because age 0 means the last stage.
 inline constexpr float kYearsPerStage = 2.0F;
 /// Max years from the first to the last stage of a species, so that ages fit into 16 bits.
 inline constexpr float kMaxStageYears = 40'000.0F;
@@ -42,15 +42,15 @@ enum class PlacementMethod : std::uint8_t {
     DensityCells, // a picture: a place has a tree if its rank is below the grey at the place
 };
 
-/// Upper estimate of the trees of PoissonDisk per square with side `spacing`: random sequential
-/// adsorption of discs whose diameter is the spacing covers 0.547 of the plane (Tanemura 1979),
-/// which makes 0.547 / (pi / 4) discs per square.
+/// Upper estimate of the number of trees of PoissonDisk per square with side `spacing`. Random
+/// sequential adsorption of discs whose diameter is the spacing covers 0.547 of the plane (Tanemura
+/// 1979), which makes 0.547 / (pi / 4) discs per square.
 inline constexpr double kDiskTrees = 0.70;
 
-/// Whether adjacent regions of the method fit together, without gaps or duplicates.
+/// Whether adjacent regions that this method fills fit together, without gaps or duplicates.
 [[nodiscard]] bool is_tileable(PlacementMethod method);
 
-/// The life of a species; used by Domination only.
+/// Growth, spread and death of a species; used by Domination only.
 struct SpeciesGrowth {
     float rate = 0.12F;           // m per year, initial growth of the radius of influence
     float max_radius = 6.0F;      // m, the limit of growth
@@ -59,7 +59,7 @@ struct SpeciesGrowth {
     std::uint32_t lifespan = 300; // years; varies by up to 20 %
     std::uint32_t maturity = 20;  // years, min age to have seeds
     float seeds = 0.5F;           // seeds per year and plant that is not dominated
-    float seed_distance = 20.0F;  // m, max
+    float seed_distance = 20.0F;  // m, max distance of a seed from its plant
 };
 
 /// Stage at which a plant starts: the first stage, or a random stage with equal probabilities.
@@ -69,17 +69,17 @@ struct PlacementSpecies {
     double share = 1.0; // weight among the species that can live at a place
     float min_scale = 1.0F;
     float max_scale = 1.0F;
-    /// m, height of a full-grown tree; 0: unset. If set, a height is drawn instead of a scale and
-    /// stored in Tree::scale, which size_trees() converts.
+    /// Min and max height in m of a full-grown tree; 0: unset. If set, a height is drawn instead of
+    /// a scale and stored in Tree::scale; size_trees() converts this height to a scale.
     float min_height = 0.0F;
     float max_height = 0.0F;
-    float lowest = -std::numeric_limits<float>::infinity();  // m, altitude
-    float highest = std::numeric_limits<float>::infinity();  // m, altitude
-    float steepest = std::numeric_limits<float>::infinity(); // rise over run: 1 is 45 degrees
+    float lowest = -std::numeric_limits<float>::infinity();  // m, min altitude
+    float highest = std::numeric_limits<float>::infinity();  // m, max altitude
+    float steepest = std::numeric_limits<float>::infinity(); // max slope; 1: 45 degrees
     SpeciesGrowth growth;
     std::uint32_t stages = 1; // number of stages of growth; 1: ages do not matter
     StageStart start = StageStart::Random;
-    float years_of_stage = 0.0F; // Domination: above 0 if there are several stages
+    float years_of_stage = 0.0F; // years from one stage to the next; only Domination
 };
 
 struct PlacementOptions {
@@ -91,9 +91,9 @@ struct PlacementOptions {
     double spacing = 0.0;                  // m; PoissonDisk, Jittered, PoissonCells
     double density = 0.0; // places per m2: UniformCells; per white m2: DensityMap, DensityCells
     const GreyMap* density_map = nullptr;
-    std::optional<Region> map_region; // extent of the map, black outside; none: `region`
+    std::optional<Region> map_region; // extent of the map, black outside; unset: `region`
     std::uint32_t years = 0;          // Domination
-    std::uint32_t stages_passed = 0;  // other methods: stages passed since the start
+    std::uint32_t stages_passed = 0;  // other methods: number of stages passed since the start
     std::uint32_t threads = 0;        // 0: as many as the machine has
 };
 
@@ -108,13 +108,15 @@ struct Placement {
     PlacementReport report;
 };
 
-/// The expected number of places in the region, without the limits of altitude and slope of species;
-/// an upper estimate for PoissonDisk and PoissonCells. Errors: an invalid option, with its name.
+/// The expected number of places in the region, regardless of the limits of altitude and slope of
+/// species. An upper estimate for PoissonDisk and PoissonCells. Errors: an invalid option, with its
+/// name.
 [[nodiscard]] Result<double> expected_places(const PlacementOptions& options);
 
-/// Places trees within the region, at terrain.height() of their x and z. Time is linear in the number
-/// of places. Errors: an invalid option, with its name; more than kMaxTrees expected trees, checked
-/// before memory is allocated; a region whose cells have numbers beyond 32 bits.
+/// Places trees within the region, at the altitude terrain.height() of their x and z. Time is
+/// linear in the number of places. Errors: an invalid option, with its name; more than kMaxTrees
+/// expected trees, checked before memory is allocated; a region whose cells have numbers beyond 32
+/// bits.
 [[nodiscard]] Result<Placement> place_trees(const PlacementOptions& options,
                                             const Terrain& terrain);
 

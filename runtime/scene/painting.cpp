@@ -39,7 +39,7 @@ std::string table_text(const Painting& painting, std::span<const std::string> sp
     if (!painting.trees.empty()) {
         text += "trees = [ # species, x, z, yaw in degrees, scale\n";
         for (const PaintedTree& tree : painting.trees) {
-            // Degrees in double precision read back as exactly the same angle.
+            // Degrees in double precision are converted back to exactly the same angle in radians.
             fmt::format_to(std::back_inserter(text), "  [{}, {}, {}, {}, {}],\n",
                            quoted(species[tree.species]), tree.x, tree.z,
                            static_cast<double>(tree.yaw) * 180.0 / std::numbers::pi, tree.scale);
@@ -57,7 +57,7 @@ std::string table_text(const Painting& painting, std::span<const std::string> sp
     return text;
 }
 
-/// The span of `[painted]` in a file: its heading and all its values.
+/// The range of `[painted]` in a file: from its heading to the end of its last value.
 struct TablePlace {
     std::size_t begin = 0;
     std::size_t end = 0;

@@ -59,11 +59,11 @@ struct SceneTerrain {
     SourceSpan span; // place of `[terrain]`; kNoFile if missing
 };
 
-/// Replaces a constant of the grammar, like `-D`.
+/// Value that replaces a constant of the grammar, like the option `-D`.
 struct SceneDefinition {
     std::string name;
     float value = 0.0F;
-    SourceSpan span; // place of the name
+    SourceSpan span; // place of the name of the constant
 };
 
 /// Goal of choose_instancing() (runtime/pipeline/instancing_choice.h).
@@ -76,14 +76,15 @@ struct InstancingGoal {
     friend bool operator==(const InstancingGoal&, const InstancingGoal&) = default;
 };
 
-/// Whether the scene or command line sets a value; choose_instancing() keeps values that are set.
+/// Whether the scene or the command line sets each value; choose_instancing() keeps values that are
+/// set.
 struct ExplicitInstancing {
     bool heroes = false;
     bool rho = false;
     bool cap = false;
 };
 
-/// Light of pictures. Unset values take the defaults of the program that draws.
+/// Light of pictures. Unset values take the defaults of the program that draws the pictures.
 struct SceneLight {
     static constexpr double kMinTurbidity = 2.0;
     static constexpr double kMaxTurbidity = 10.0;
@@ -109,7 +110,8 @@ struct SceneSpecies {
     std::vector<std::pair<std::string, std::string>> settings;
     /// Generations per stage, ascending; empty: one stage with the generations of the grammar.
     std::vector<std::uint32_t> stages;
-    /// Domination: years per stage; 0: one stage, or unset.
+    /// With domination: years from one stage to the next; 0: there is one stage, or the scene does
+    /// not set it.
     float years_of_stage = 0.0F;
     std::optional<StageStart> start; // none: First if domination places the trees, else Random
     float rho = kSceneRho;
@@ -130,9 +132,9 @@ struct Scene {
     Painting painting; // trees that the user has added and erased
     InstancingGoal goal;
     SceneLight light;
-    /// Whether the region is a tile of a forest without borders.
+    /// Whether the region is a tile of a forest that continues beyond the region.
     bool is_tile = false;
-    SceneFile density_map; // DensityMap, DensityCells; spans the region of the terrain
+    SceneFile density_map; // of DensityMap, DensityCells; covers the region of the terrain
     SourceSpan span;       // place of `[placement]`; kNoFile if missing
 };
 
@@ -140,7 +142,8 @@ struct Scene {
 /// `scene.placement`. Call it after the last change of `scene`. With domination, species without
 /// years per stage divide the years evenly among their stages.
 void copy_stages_to_placement(Scene& scene);
-/// Years per stage of species `index`, for ForestSpecies::years_of_stage; 0: one stage.
+/// Years from one stage to the next of species `index`, for ForestSpecies::years_of_stage; 0: one
+/// stage.
 [[nodiscard]] float years_of_stage(const Scene& scene, std::size_t index);
 /// The last point in time of a growing forest: with domination its number of years, else the number
 /// of stages after the first stage, for the species with the most stages.

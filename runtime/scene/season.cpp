@@ -12,8 +12,8 @@ namespace lsys {
 
 namespace {
 
-/// The start of the line after the last key above the tables; without such a key, of the first line
-/// with a table.
+/// Where a new key is inserted: the start of the line after the last key above the tables; without
+/// such a key, the start of the first line with a table.
 std::size_t place_of_new_key(const SceneValue& root, std::string_view text) {
     std::size_t end = 0;
     for (const SceneEntry& entry : root.entries) {

@@ -27,7 +27,7 @@ SunPlace sun_in_direction(const glm::dvec3& to_sun) {
 }
 
 SunPlace sun_at(double day, double hour, double latitude) {
-    constexpr double kTilt = 23.45 * kDegree; // of the axis of the earth
+    constexpr double kTilt = 23.45 * kDegree; // tilt of the axis of the earth
     const double declination = kTilt * std::sin(2.0 * std::numbers::pi * (284.0 + day) / 365.0);
     const double angle = 15.0 * kDegree * (hour - 12.0); // of the sun, from south to west
     const double phi = latitude * kDegree;

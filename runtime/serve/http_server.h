@@ -23,12 +23,12 @@ struct ServerOptions {
 /// responses for at most five seconds. `ready` is called with the address,
 /// "http://127.0.0.1:8080/", when connections are accepted.
 ///
-/// Connections without a request for 10 s, and responses that take longer than 2 minutes, are cut.
-/// Connections beyond the limit are closed at once. A header may have 16 KiB; requests with a body
-/// are refused.
+/// Closes connections without a request for 10 s, connections whose response takes longer than 2
+/// minutes, and new connections beyond `max_connections`. Headers may have 16 KiB; requests with a
+/// body are refused.
 ///
-/// Errors: a bad address, one beyond this machine without `is_public`, a port in use; a build
-/// without a server.
+/// Errors: an invalid address; an address that other machines can reach, without `is_public`; a
+/// port in use; a build without a server.
 [[nodiscard]] Result<void> serve_tiles(TileService& service,
                                        const ServerOptions& options,
                                        const std::function<void(const std::string&)>& ready,

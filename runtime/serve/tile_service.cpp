@@ -19,10 +19,10 @@ namespace lsys {
 namespace {
 
 constexpr std::uint64_t kTagHash = 0x74696C65746167; // initial state of the hash
-constexpr std::uint64_t kEntryBytes = 256;           // memory of an entry besides its bytes
-constexpr std::size_t kMinPackedBytes = 256;         // shorter bodies are sent as they are
+constexpr std::uint64_t kEntryBytes = 256;           // memory of an entry besides its file
+constexpr std::size_t kMinPackedBytes = 256;         // bytes; shorter bodies are not compressed
 
-/// gzip (RFC 1952), the same bytes on every machine with the same zlib.
+/// Compresses by gzip (RFC 1952); yields the same bytes on every machine with the same zlib.
 std::string pack(std::string_view bytes) {
     constexpr int kLevel = 6;
     constexpr int kGzip = 15 + 16; // largest window, gzip header
@@ -48,7 +48,7 @@ std::string pack(std::string_view bytes) {
     return packed;
 }
 
-/// The items of a list of a header field, without blanks around them.
+/// The items of a comma-separated header field, without blanks around them.
 std::vector<std::string_view> items_of(std::string_view list) {
     std::vector<std::string_view> items;
     while (!list.empty()) {
@@ -59,8 +59,8 @@ std::vector<std::string_view> items_of(std::string_view list) {
     return items;
 }
 
-/// Whether Accept-Encoding allows gzip; `*` stands for codings that it does not name
-/// (RFC 9110, 12.5.3).
+/// Whether the field Accept-Encoding allows gzip; `*` stands for all codings that the field does
+/// not name (RFC 9110, 12.5.3).
 bool accepts_gzip(std::string_view accept_encoding) {
     bool others = false;
     for (const std::string_view item : items_of(accept_encoding)) {
@@ -79,7 +79,7 @@ bool accepts_gzip(std::string_view accept_encoding) {
     return others;
 }
 
-/// Whether If-None-Match has the tag, compared weakly (RFC 9110, 8.8.3.2).
+/// Whether the field If-None-Match contains the tag, compared weakly (RFC 9110, 8.8.3.2).
 bool has_tag(std::string_view if_none_match, std::string_view tag) {
     for (std::string_view item : items_of(if_none_match)) {
         if (item.starts_with("W/")) {
@@ -277,7 +277,7 @@ TileResponse TileService::answer(const TileRequest& request) {
     return response;
 }
 
-/// Finds or makes a file; returns false if the forest has no such file.
+/// Finds or makes the file at `path`; returns false if the forest has no such file.
 bool TileService::find(const std::string& path, bool wants_packed, Representation& file) {
     std::shared_ptr<Entry> entry;
     std::optional<MadeFile> made; // none: a shared file
@@ -308,7 +308,7 @@ bool TileService::find(const std::string& path, bool wants_packed, Representatio
             ++counts_.hits;
         }
         file.type = type_of(path);
-        // Meshes and pictures are compressed already.
+        // Files of meshes and pictures are compressed already.
         file.is_packed = wants_packed && entry->body->size() >= kMinPackedBytes &&
                          file.type != "image/png" && file.type != "application/octet-stream";
         if (file.is_packed && entry->packed == nullptr) {
@@ -331,7 +331,7 @@ bool TileService::find(const std::string& path, bool wants_packed, Representatio
     return true;
 }
 
-/// The tile, tileset or subtree with this path, if the forest has it.
+/// The tile, tileset or subtree that `path` names, if the forest has it.
 std::optional<TileService::MadeFile> TileService::made_file(std::string_view path) const {
     TileId tile;
     if (path == TileForest::tileset_path(tile)) {
@@ -345,7 +345,7 @@ std::optional<TileService::MadeFile> TileService::made_file(std::string_view pat
         forest_.has_subtree(tile.level)) {
         return MadeFile{tile, FileKind::Subtree};
     }
-    // The tileset of the root has another path.
+    // The tileset of the root has a different path.
     if (parse_tile_path(path, ".json", tile) && tile.level != 0 && forest_.has_tile(tile) &&
         forest_.has_tileset(tile.level)) {
         return MadeFile{tile, FileKind::Tileset};
@@ -386,7 +386,7 @@ void TileService::keep(const std::string& path,
     const std::lock_guard<std::mutex> lock(mutex_);
     const auto found = cache_.find(path);
     if (found == cache_.end() || found->second.entry != entry) {
-        return; // dropped in the meantime
+        return; // another thread has dropped the entry in the meantime
     }
     used_bytes_ += bytes - found->second.bytes;
     found->second.bytes = bytes;

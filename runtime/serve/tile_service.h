@@ -45,8 +45,8 @@ struct TileCounts {
     /// Upper bounds of the classes of `times`; the last class has none.
     static constexpr std::array<double, 8> kSeconds{0.001, 0.003, 0.01, 0.03, 0.1, 0.3, 1.0, 3.0};
 
-    std::array<std::atomic<std::uint64_t>, 6> responses{}; // by first digit of the status
-    std::atomic<std::uint64_t> bytes{0};                   // of bodies
+    std::array<std::atomic<std::uint64_t>, 6> responses{}; // by first digit of the status code
+    std::atomic<std::uint64_t> bytes{0};                   // number of bytes of the bodies sent
     std::atomic<std::uint64_t> made{0};                    // tiles and tilesets made
     std::atomic<std::uint64_t> hits{0};                    // requests answered from the cache
     std::array<std::atomic<std::uint64_t>, kSeconds.size() + 1> times{}; // files by time to make
@@ -57,8 +57,8 @@ struct TileCounts {
 
 class TileService {
 public:
-    /// `cache_bytes`: limit of the tiles and tilesets kept for later requests. `forest` must outlive
-    /// the service.
+    /// `cache_bytes`: max memory in bytes of the tiles and tilesets kept for later requests.
+    /// `forest` must outlive the service.
     TileService(const TileForest& forest, std::uint64_t cache_bytes);
 
     /// Answers any request. May be called from several threads; a file that two of them ask for is
@@ -67,7 +67,7 @@ public:
     [[nodiscard]] TileCounts& counts() { return counts_; }
 
 private:
-    /// A file, made by the first thread that asks for it.
+    /// A cached file, made by the first thread that requests it.
     struct Entry {
         std::mutex making;
         std::shared_ptr<const std::string> body;   // null: not made yet
@@ -85,7 +85,7 @@ private:
         TileId tile;
         FileKind kind = FileKind::Content;
     };
-    /// A file as it is sent.
+    /// A file in the form in which it is sent.
     struct Representation {
         std::shared_ptr<const std::string> body;
         std::string tag;
@@ -109,7 +109,7 @@ private:
         shared_;               // files that tiles share, and the page
     mutable std::mutex mutex_; // guards the members below
     std::unordered_map<std::string, Cached> cache_;
-    std::list<std::string> uses_; // paths of cache_, the latest first
+    std::list<std::string> uses_; // paths of the files in cache_, the most recently used first
     std::uint64_t used_bytes_ = 0;
 };
 

@@ -34,8 +34,8 @@ public:
     /// stb_perlin_noise3(x, height, z, 0, 0, 0) for x and z from 0 to kPeriod, in lattice cells.
     [[nodiscard]] float at(float x, float z) const;
     /// Adds `amplitude` times the noise, clamped to -1 to 1, at each point of a grid to `sums`,
-    /// which has rows along X. The noise has the same bits as at(), but is computed faster where
-    /// several points of a row are in one lattice cell.
+    /// whose rows run along X. Yields the same bits as at(), but is faster where several points of
+    /// a row lie in one lattice cell.
     void add_grid(const NoiseAxis& x,
                   const NoiseAxis& z,
                   double amplitude,

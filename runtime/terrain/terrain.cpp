@@ -17,10 +17,11 @@ namespace lsys {
 namespace {
 
 constexpr double kPeriod = NoiseLayer::kPeriod; // lattice cells
-/// Fraction of the finest feature over which slopes are measured. Coordinates in the noise are
-/// exact to 2^-17 of a cell, which leaves an error of 1 in 2,000 in this distance.
+/// Distance over which slopes are measured, as a fraction of the size of the finest feature.
+/// Coordinates in the noise are exact to 2^-17 of a cell, which makes this distance uncertain by 1
+/// in 2,000.
 constexpr double kSlopePart = 1.0 / 32.0;
-// In m; about the resolution of binary32 coordinates far from the origin.
+// m, about the resolution of binary32 coordinates far from the origin.
 constexpr double kMinSlopeStep = 0.05;
 /// Generation number of the random draws of terrains; no derivation reaches it.
 constexpr std::uint32_t kTerrainGeneration = 0xFFFFFFFCu;
@@ -110,7 +111,7 @@ Result<Terrain> Terrain::noise(const Region& region, const NoiseOptions& options
         amplitude *= options.gain;
     }
     for (Octave& octave : terrain.octaves_) {
-        octave.amplitude *= 0.5 * options.height / sum; // noise is -1 to 1
+        octave.amplitude *= 0.5 * options.height / sum; // half the height, because noise is -1 to 1
     }
     terrain.base_ = options.base + 0.5 * options.height;
     return terrain;
@@ -173,7 +174,7 @@ float Terrain::height(float x, float z) const {
     return static_cast<float>(exact_height(static_cast<double>(x), static_cast<double>(z)));
 }
 
-/// Adds noise_height() of each point of a grid.
+/// Adds noise_height() at each point of a grid to `sums`.
 void Terrain::add_noise(std::span<const float> x,
                         std::span<const float> z,
                         std::span<double> sums) const {
@@ -239,7 +240,8 @@ double Terrain::mesh_error(double cell) const {
     // |f_xx| + 2 |f_xz| + |f_zz|.
     double error = 0.0;
     for (const Octave& octave : octaves_) {
-        // Upper bound of an eighth of this sum for the noise; measured: 3.14.
+        // Upper bound for the noise of (|f_xx| + 2 |f_xz| + |f_zz|) / 8, with lengths in cells of
+        // the noise; the largest measured value is 3.14.
         constexpr double kNoiseBend = 3.3;
         const double part = cell * octave.frequency;
         error += octave.amplitude * std::min(kNoiseBend * part * part, 2.0);

@@ -41,8 +41,8 @@ enum class HeightFilter : std::uint8_t {
     Bicubic, // Catmull-Rom (Keys 1981, a = -1/2); smooth, may overshoot its samples slightly
 };
 
-/// Black is at altitude `lowest`, white at `highest`. The centres of the outermost pixels are on the
-/// border of the ground, so the ground has columns - 1 by rows - 1 cells.
+/// Altitudes of the map: black is at `lowest`, white at `highest`. The centres of the outermost
+/// pixels are on the border of the ground, so the ground has columns - 1 by rows - 1 cells.
 struct HeightMapOptions {
     double lowest = 0.0;   // m
     double highest = 50.0; // m
@@ -64,7 +64,8 @@ public:
     [[nodiscard]] const Region& region() const { return region_; }
     /// Height in m at (x, z) in m. The same on every machine; finite within kMaxCoordinate.
     [[nodiscard]] float height(float x, float z) const;
-    /// The height() at each point of a grid, with rows along X: much faster than one by one for noise.
+    /// height() at each point of a grid whose rows run along X; for noise much faster than separate
+    /// calls.
     [[nodiscard]] std::vector<float> heights(std::span<const float> x,
                                              std::span<const float> z) const;
     /// A lower and an upper bound of all heights, in m.
@@ -111,7 +112,7 @@ private:
     HeightFilter filter_ = HeightFilter::Bilinear;
 };
 
-inline constexpr std::uint64_t kMaxTerrainCells = std::uint64_t{1} << 24; // 0.9 GB of mesh
+inline constexpr std::uint64_t kMaxTerrainCells = std::uint64_t{1} << 24; // a mesh of 0.9 GB
 
 /// Repeating textures of the ground; a tile is `width` by `depth`. Columns run along X, rows along
 /// Z.

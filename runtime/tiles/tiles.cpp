@@ -38,9 +38,10 @@ namespace lsys {
 namespace {
 
 constexpr const char* kGroundPicture = "pictures/ground.png";
-/// Per species; their crowns are averaged if the placement is on an unbounded grid.
+/// Number of sample trees per species of a placement on an unbounded grid; their crowns are
+/// averaged.
 constexpr std::uint32_t kSampleTrees = 1024;
-/// Mean colour of the ground without a picture, as in make_terrain_mesh().
+/// Mean linear colour of the ground without a picture, as in make_terrain_mesh().
 constexpr glm::dvec3 kGroundColour(0.055, 0.07, 0.025);
 
 } // namespace
@@ -53,7 +54,7 @@ struct TileForest::State {
     TileGrid grid{Region()};
     std::vector<Hero> heroes;  // plants, then branches
     bool has_branches = false; // whether trees are assembled from branches
-    std::vector<std::vector<HeightTable>> height_tables; // with branches: by species and stage
+    std::vector<std::vector<HeightTable>> height_tables; // by species and stage; only with branches
     std::optional<HeroTable> hero_table;
     LevelPlan plan;
     std::optional<TileBoxes> boxes;
@@ -61,20 +62,20 @@ struct TileForest::State {
     PlacementOptions placement;
     std::optional<TreeSizer> sizer;
     std::unique_ptr<TreeSource> source;
-    std::vector<double> max_scales; // by species, of a tree
-    /// By species: kSampleTrees trees of a placement on an unbounded grid.
+    std::vector<double> max_scales; // by species: largest scale of a tree
+    /// By species: kSampleTrees trees; only of a placement on an unbounded grid.
     std::vector<std::vector<Tree>> samples;
     double density = 0.0;        // mean number of trees per m2
-    double places = 0.0;         // expected number; only of a placement on an unbounded grid
-    double largest_extent = 0.0; // m, of a tree, at least its height
+    double places = 0.0;         // expected number; only for an unbounded grid
+    double largest_extent = 0.0; // m, largest extent of a tree, at least its height
 
-    std::unique_ptr<DensityField> field;     // of a placement on an unbounded grid
-    std::optional<CanopyField> field_canopy; // of a placement on an unbounded grid
-    std::vector<Canopy> counted_canopies;    // of other placements, for levels without trees
+    std::unique_ptr<DensityField> field;     // only for a placement on an unbounded grid
+    std::optional<CanopyField> field_canopy; // only for a placement on an unbounded grid
+    std::vector<Canopy> counted_canopies;    // for other placements; levels without trees
     CanopyAtCorner canopy_at;
 
     std::optional<TileParts> parts;
-    /// Numbers of parts by hero and level of detail; none: the hero draws nothing.
+    /// Number of the part, by hero and level of detail; nullopt: the hero draws nothing.
     std::vector<std::vector<std::optional<std::size_t>>> part_numbers;
     std::vector<TileFile> files;
     std::vector<std::string> species_names;
@@ -137,7 +138,8 @@ std::string TileForest::subtree_path(const TileId& root) {
 }
 
 TileExtent TileForest::extent(std::uint32_t level) const {
-    // The ground begins where the square does, so its tiles are the first of each row and column.
+    // The first tiles of each row and column are those with ground, because ground and square begin
+    // at the same corner.
     const auto count = [level](const auto& has_tile_at) {
         std::uint32_t low = 0;
         std::uint32_t high = TileGrid::tiles_across(level);
@@ -167,7 +169,7 @@ std::vector<TileId> TileForest::tiles(std::uint32_t level) const {
     return list;
 }
 
-/// Takes all trees of a scene from the file of trees, or places them.
+/// Sets all trees of a scene: reads them from the tree file, or places them.
 Outcome<void> TileForest::State::place_trees(const Project& project) {
     if (options.tree_file) {
         return read_trees(project);
@@ -192,7 +194,7 @@ Outcome<void> TileForest::State::read_trees(const Project& project) {
     return step.done();
 }
 
-/// Measures a placement that has no expected numbers of trees.
+/// Measures density and scales of a placement of which all trees are placed.
 Outcome<void> TileForest::State::measure_placed_trees(const Project& project) {
     Step step(project);
     if (!step.take(place_trees(project))) {
@@ -206,7 +208,8 @@ Outcome<void> TileForest::State::measure_placed_trees(const Project& project) {
     return step.done();
 }
 
-/// Measures a placement on an unbounded grid, without placing it.
+/// Measures density and scales of a placement on an unbounded grid from samples, without placing
+/// it.
 Outcome<void> TileForest::State::sample_trees(const Project& project) {
     Step step(project);
     if (const Result<void> checked = CellTrees::check(placement, *grown.terrain); !checked) {
@@ -225,7 +228,7 @@ Outcome<void> TileForest::State::sample_trees(const Project& project) {
                                          grown.forest.species[s].name));
         }
     }
-    // Means over the middles of the cells of a grid.
+    // The means are taken over the middles of the cells of a grid.
     constexpr int kSamples = 64; // along each side
     const Region& region = scene.terrain.region;
     std::vector<double> densities(max_scales.size());
@@ -245,14 +248,15 @@ Outcome<void> TileForest::State::sample_trees(const Project& project) {
     return step.done();
 }
 
-/// Adds a message about the places without trees, like placement_note() for a placed forest.
+/// Adds a message about places without trees, as placement_note() returns for a forest whose trees
+/// are all placed.
 void TileForest::State::note_missing_trees(Messages& messages) const {
     if (places == 0.0) {
         messages.add_info("there are hardly any trees: the density map is black nearly all over "
                           "the region");
         return;
     }
-    constexpr double kNoted = 0.005; // smaller shares are within the error of the samples
+    constexpr double kNoted = 0.005; // smaller fractions are within the error of the samples
     const double refused = 1.0 - density * scene.terrain.region.area() / places;
     if (refused > kNoted) {
         messages.add_info(fmt::format("about {:.0f} % of places have no tree: no species can live "
@@ -261,7 +265,8 @@ void TileForest::State::note_missing_trees(Messages& messages) const {
     }
 }
 
-/// Plans the levels of detail of the plants, and of branches if trees are assembled from them.
+/// Plans the levels of detail of the plants and, if trees are assembled from branches, of the
+/// branches.
 Outcome<void> TileForest::State::plan_all_heroes(const Project& project) {
     Step step(project);
     if (!step.take(plan_heroes(grown, options.mesh, project), heroes)) {
@@ -289,7 +294,7 @@ Outcome<void> TileForest::State::plan_all_heroes(const Project& project) {
     return step.done();
 }
 
-/// Bounds of the trees of each stage of a species.
+/// TreeBounds of each stage of a species.
 std::vector<TreeBounds> TileForest::State::bounds_of_stages(std::uint32_t species) const {
     std::vector<TreeBounds> bounds;
     for (std::uint32_t i = 0; i < grown.forest.species[species].stages.size(); ++i) {
@@ -317,7 +322,7 @@ void TileForest::State::plan_levels() {
         const double deviation = of_stage.deviation[hero.instance];
         const double scale = max_scales[hero.species];
         deviations.push_back(hero.is_alone ? 0.0 : deviation);
-        // Coarser levels of detail are larger by at most their error.
+        // The surface of a coarser level of detail exceeds the finest surface by at most its error.
         const double margin = static_cast<double>(hero.levels.levels.back().error);
         if (instance.exit_count > 0 || instance.slot != 0) {
             const double all = scale * (of_stage.reach[hero.instance] + margin);
@@ -372,7 +377,7 @@ Outcome<void> TileForest::State::make_models(const Project& project) {
         return step.end();
     }
     std::vector<std::string> names;
-    std::size_t first = 0; // first plant or first branch of the species and stage
+    std::size_t first = 0; // number of the first plant or branch of this stage
     for (std::size_t i = 0; i < heroes.size(); ++i) {
         const Hero& hero = heroes[i];
         if (hero.species != heroes[first].species || hero.stage != heroes[first].stage ||
@@ -406,7 +411,7 @@ void TileForest::State::make_ground_picture() {
         return;
     }
     ground_colour = glm::dvec3(mean_colour(*grown.ground.colour));
-    Mesh sample; // a triangle, because only materials in use have picture files
+    Mesh sample; // one triangle: only materials in use have picture files
     sample.positions = {{0.0F, 0.0F, 0.0F}, {0.0F, 0.0F, 1.0F}, {1.0F, 0.0F, 0.0F}};
     sample.normals.assign(3, {0.0F, 1.0F, 0.0F});
     sample.texture_coordinates = {{0.0F, 0.0F}, {0.0F, 1.0F}, {1.0F, 0.0F}};
@@ -435,7 +440,7 @@ void TileForest::State::make_canopies() {
     if (plan.first_tree_level == 0) {
         return;
     }
-    std::vector<Crown> crowns; // of the plants, which stand in for their trees
+    std::vector<Crown> crowns; // by hero: crowns of plants, which represent their trees
     for (std::size_t i = 0; i < heroes.size() && is_plant(i); ++i) {
         crowns.push_back(crown_of(heroes[i].meshes[plan.canopy_levels[i]]));
     }
@@ -490,7 +495,7 @@ MeshDocument TileForest::State::ground_of(const TileId& tile, const TileFrame& f
     return document;
 }
 
-/// Returns the number of trees in the tile.
+/// Adds the trees of a tile to the document. Returns their number.
 std::uint64_t TileForest::State::add_trees(const TileId& tile,
                                            const TileFrame& frame,
                                            TileDocument& document) const {
@@ -502,7 +507,8 @@ std::uint64_t TileForest::State::add_trees(const TileId& tile,
         const auto number = static_cast<std::uint32_t>(properties.size());
         properties.push_back(
             {static_cast<float>(height_of(tree)), tree.number, tree.species, tree.age});
-        // Expands the tree at the origin: binary32 is too coarse for places far from the origin.
+        // The tree is expanded at the origin, because binary32 is too coarse for places far from
+        // the origin.
         Tree here = tree;
         here.position = glm::vec3(0.0F);
         const glm::dvec3 place(tree.position);
@@ -512,7 +518,7 @@ std::uint64_t TileForest::State::add_trees(const TileId& tile,
         // middle of the tile.
         const glm::vec3 up = glm::normalize(above - foot);
         const glm::quat tilt =
-            glm::normalize(glm::quat(1.0F + up.y, up.z, 0.0F, -up.x)); // from +Y to `up`
+            glm::normalize(glm::quat(1.0F + up.y, up.z, 0.0F, -up.x)); // rotation from +Y to `up`
         const InstanceCache& cache = grown.forest.cache_of(tree);
         const std::span<const InstanceHeroes> instances = hero_table->instances_of(tree);
         TreeExpander(cache, grown.forest.key).expand_until(here, [&](const BranchInstance& branch) {
@@ -533,7 +539,8 @@ std::uint64_t TileForest::State::add_trees(const TileId& tile,
     return trees.size();
 }
 
-/// Height of a tree in m: of its mesh if trees are whole heroes, else of the axes of its branches.
+/// Height of a tree in m: height of its mesh if trees are whole heroes, else height of the axes of
+/// its branches.
 double TileForest::State::height_of(const Tree& tree) const {
     if (!has_branches) {
         const Bounds& bounds = heroes[hero_table->hero_of(tree)].bounds;
@@ -544,14 +551,15 @@ double TileForest::State::height_of(const Tree& tree) const {
     return static_cast<double>(tree.scale) * measure.height_of(tree.number).value_or(0.0);
 }
 
-/// Whether a hero is a whole plant, not a branch.
+/// Whether a hero is a plant, not a branch.
 bool TileForest::State::is_plant(std::size_t hero) const {
     const Hero& each = heroes[hero];
     const InstanceCache& cache = grown.forest.species[each.species].stages[each.stage].cache;
     return !each.is_alone && cache.instances[each.instance].slot == 0;
 }
 
-/// Some trees, for means: of each species of a placement on a grid, else every n-th placed tree.
+/// Some trees, over which means are computed: sample trees of each species of a placement on an
+/// unbounded grid, else every n-th placed tree.
 std::vector<Tree> TileForest::State::sample_trees() const {
     constexpr std::size_t kTrees = 64; // of each species, or about 4 * kTrees of all placed trees
     std::vector<Tree> trees;

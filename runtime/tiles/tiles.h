@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 // TileForest: a forest as 3D Tiles 1.1 (OGC 22-025r4), a quadtree over the ground of the scene.
-// Near tiles hold the ground and the trees as instances: of whole heroes with rho 0, else of
-// branches. Coarser tiles hold fewer triangles per tree, and heroes that stand in for trees. Tiles
-// with too many trees hold one surface of ground and crowns. Meshes of heroes are in files that all
-// tiles share. A tile and a tileset depend only on the scene and their place, so they can be made
-// in any order, by any process. Made by make_tile_forest(); used by `lsc tiles`.
+// Near tiles have the ground, and the trees as instances: instances of whole heroes if rho is 0,
+// else of branches. Coarser tiles have fewer triangles per tree, and show heroes in place of trees.
+// Tiles with too many trees have one surface of ground and crowns. Files that all tiles share
+// contain the meshes of heroes. A tile and a tileset depend only on the scene and their place, so
+// they can be made in any order, by any process. Made by make_tile_forest(); used by `lsc tiles`.
 #pragma once
 
 #include "grammar/base/outcome.h"
@@ -39,28 +39,29 @@ inline constexpr float kTileError = 0.05F; // m
 inline constexpr std::uint64_t kMaxTileTrees = 16'384;
 
 struct TileOptions {
-    /// Place of the scene's origin at altitude 0; +X points east and -Z north. None: the tileset has
-    /// coordinates of its own.
+    /// Place on the Earth of the scene's origin at altitude 0; +X points east and -Z north.
+    /// nullopt: the tileset has coordinates of its own.
     std::optional<GeoPlace> origin;
-    std::uint64_t triangles = kTileTriangles; // max per tile with the mean number of trees
-    float error = kTileError;                 // m, of the trees of the nearest tiles
-    /// Implicit tiling: subtree files list the tiles, and contents have the coordinates of the root.
+    std::uint64_t triangles = kTileTriangles; // max of a tile with the mean number of trees
+    float error = kTileError;                 // m, max error of the trees in the nearest tiles
+    /// Use implicit tiling: subtree files list the tiles, and contents have the coordinates of the
+    /// root.
     bool implicit = false;
-    /// Whether to place all trees at once and keep them, up to kMaxKeptTrees, which is faster if all
-    /// tiles are made. The tiles are the same.
+    /// Place all trees at once and keep them in memory, unless the forest has more than
+    /// kMaxKeptTrees places. Faster if all tiles are made; the tiles are the same.
     bool keep_trees = false;
-    /// A file of the trees of the scene (tree_file.h); none: the scene is placed. Must live until
-    /// make_tile_forest() returns.
+    /// Contents of a tree file of the scene (tree_file.h); nullopt: the trees of the scene are
+    /// placed. The bytes must stay valid until make_tile_forest() returns.
     std::optional<std::string_view> tree_file;
     MeshOptions mesh;
     std::string generator; // the program and its version
 };
 
-/// Max trees kept by TileOptions::keep_trees; they take 160 MB.
+/// Max number of trees that TileOptions::keep_trees keeps; they take 160 MB.
 inline constexpr double kMaxKeptTrees = 4e6;
 
-/// A square of the quadtree. Level 0 is the whole square of the scene; column and row run along +X
-/// and +Z.
+/// A square of the quadtree. The tile of level 0 is the whole square of the scene; columns are
+/// numbered along +X and rows along +Z.
 struct TileId {
     std::uint32_t level = 0;
     std::uint32_t column = 0;
@@ -73,16 +74,16 @@ struct TileId {
 struct TileLevel {
     double side = 0.0;           // m
     double error = 0.0;          // m, upper bound of the distance between its tiles and the forest;
-                                 // without content the side of the ground
-    bool has_content = true;     // else its tiles show nothing, and clients go on to the next level
-    bool has_trees = false;      // single trees, else one surface of ground and crowns
-    double trees = 0.0;          // mean number in a tile
-    std::uint64_t triangles = 0; // mean number per tree
+                                 // the side of the ground if the level has no content
+    bool has_content = true;     // if false, clients go on to the next finer level
+    bool has_trees = false;      // whether tiles show single trees, not a canopy
+    double trees = 0.0;          // mean number of trees in a tile
+    std::uint64_t triangles = 0; // mean number of triangles per tree
 };
 
 /// A file that tiles refer to: meshes or a picture.
 struct TileFile {
-    std::string path; // relative to the folder of the tileset, with `/`
+    std::string path; // relative to the folder of the tileset; separator `/`
     std::string bytes;
 };
 
@@ -105,35 +106,35 @@ public:
     TileForest& operator=(TileForest&& other) noexcept;
     ~TileForest();
 
-    /// From the root to the finest level.
+    /// The levels from the root to the finest level.
     [[nodiscard]] const std::vector<TileLevel>& levels() const;
     /// The files that tiles share.
     [[nodiscard]] const std::vector<TileFile>& files() const;
-    /// Whether the forest has this tile. Any numbers are allowed.
+    /// Whether the forest has this tile. `tile` may have any numbers.
     [[nodiscard]] bool has_tile(const TileId& tile) const;
-    /// The columns and rows of a level that have tiles. Precondition: the level exists.
+    /// The numbers of columns and rows of a level that have tiles. Precondition: the level exists.
     [[nodiscard]] TileExtent extent(std::uint32_t level) const;
-    /// The tiles of a level, row by row.
+    /// The tiles of a level, listed row by row.
     [[nodiscard]] std::vector<TileId> tiles(std::uint32_t level) const;
-    /// Makes a tile. Precondition: has_tile(), and its level has content. May be called from several
-    /// threads. Throws std::bad_alloc.
+    /// Makes the content of a tile. Precondition: has_tile(tile), and its level has content. May be
+    /// called from several threads. Throws std::bad_alloc.
     [[nodiscard]] TileContent content(const TileId& tile) const;
-    /// Makes the tileset of the tiles below `root`: a JSON document that lists them and names the
-    /// tilesets below them. The tileset of level 0 also lists `root`. Precondition: has_tile() and
-    /// has_tileset(). May be called from several threads.
+    /// Makes the tileset of the tiles below `root`: a JSON document that lists these tiles and
+    /// refers to the tilesets below them. The tileset of level 0 also lists `root`. Precondition:
+    /// has_tile(root) and has_tileset(root.level). May be called from several threads.
     [[nodiscard]] std::string tileset(const TileId& root) const;
-    /// Whether tiles of the level have a tileset. With implicit tiling only level 0 has one.
+    /// Whether tiles of a level have tilesets. With implicit tiling only level 0 has one.
     [[nodiscard]] bool has_tileset(std::uint32_t level) const;
-    /// Makes the subtree file of `root` and of the tiles below it. Precondition: has_tile() and
-    /// has_subtree(). May be called from several threads.
+    /// Makes the subtree file that lists `root` and the tiles below it. Precondition:
+    /// has_tile(root) and has_subtree(root.level). May be called from several threads.
     [[nodiscard]] std::string subtree(const TileId& root) const;
-    /// Whether tiles of the level have a subtree file. False without implicit tiling.
+    /// Whether tiles of a level have subtree files; always false without implicit tiling.
     [[nodiscard]] bool has_subtree(std::uint32_t level) const;
-    /// The path of the content of a tile, "3/5/2.glb", and that of its tileset, "4/7/1.json" or
-    /// "tileset.json".
+    /// The path of the content of a tile, such as "3/5/2.glb", and the path of its tileset, such as
+    /// "4/7/1.json" or "tileset.json".
     [[nodiscard]] static std::string content_path(const TileId& tile);
     [[nodiscard]] static std::string tileset_path(const TileId& root);
-    /// The path of a subtree file, "5/9/17.subtree".
+    /// The path of a subtree file, such as "5/9/17.subtree".
     [[nodiscard]] static std::string subtree_path(const TileId& root);
 
 private:
@@ -144,8 +145,8 @@ private:
     std::unique_ptr<State> state_;
 };
 
-/// Whether the trees of a scene can be placed tile by tile: its placement is on an unbounded grid,
-/// and no tree is painted or erased.
+/// Whether the trees of a scene can be placed tile by tile: the placement of the scene is on an
+/// unbounded grid, and no tree is painted or erased.
 [[nodiscard]] bool is_placed_by_tile(const Scene& scene);
 
 /// Grows the heroes of a scene, plans its tiles, and makes the files that they share. The trees of

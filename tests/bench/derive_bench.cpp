@@ -3,8 +3,8 @@
 // measures whole runs of `lsc`, in one run on one machine. Prints two tables, and with
 // --benchmark_out=FILE writes the JSON of Google Benchmark. Asserts nothing about time.
 //
-// "cold" is the first derivation of a process: memory comes fresh from the system. "warm" derives
-// again and reuses the memory of the previous derivation.
+// "cold" is the first derivation of a process, whose memory comes fresh from the system. "warm" is
+// a second derivation, which reuses the memory of the first.
 #include "runtime/derive/derive.h"
 #include "runtime/derive/fold_reached.h"
 #include "tests/bench/limits.h"
@@ -46,12 +46,12 @@ struct Workload {
     const char* name;
     std::string grammar;
     std::uint32_t generations;
-    std::size_t capacity; // modules that fit into the buffers of the limit program
+    std::size_t capacity; // number of modules for which the buffers have room
     LimitProgram limit;
 };
 
-/// W1 to W6 and W8; W3 and W5 again with local values and if(); W7 twice: with one draw for both
-/// parameters, as a local value, and with one draw for each parameter.
+/// Systems W1 to W6 and W8; W3 and W5 also with local values and if(). W7 twice: with one draw for
+/// both parameters, as a local value, and with one draw for each parameter.
 std::vector<Workload> workloads() {
     using namespace lsys::bench;
     using Pages = const FreshPages&;
@@ -142,7 +142,7 @@ double peak_bytes() {
     return static_cast<double>(usage.ru_maxrss) * 1024.0;
 }
 
-/// Measurements of one derivation in a process of its own.
+/// Measured values of one derivation in a process of its own.
 struct Run {
     double seconds = 0.0;
     double modules = 0.0;
@@ -163,7 +163,7 @@ lsys::DeriveOptions options_for(const Workload& workload, std::uint32_t threads)
     return options;
 }
 
-/// The folded bytecode, which `lsc` derives; the time of folding counts as part of the derivation.
+/// The folded bytecode, which `lsc` derives. The time of folding counts as time of the derivation.
 lsys::Bytecode folded(const lsys::Bytecode& bytecode, const Workload& workload) {
     return lsys::fold_reached(bytecode, 0, workload.generations).value_or(bytecode);
 }
@@ -271,8 +271,9 @@ void add_lsc(const std::string& self, const Workload& workload, std::uint32_t th
 struct WholeRun {
     std::string name;
     std::string grammar;
-    std::string arguments; // % stands for the file
-    // Bytes that the run writes, for the throughput in the table; 0: the table shows no throughput.
+    std::string arguments; // of `lsc`; % is replaced by the file
+    // Number of bytes that the run writes, from which the table computes the throughput; 0: the
+    // table shows none.
     double bytes = 0.0;
 };
 

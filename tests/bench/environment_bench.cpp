@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Measures environments that sense places, markers and meshes: the median of some runs for each case,
-// with one thread and with as many as the first argument says (2 without). Asserts nothing about
-// time.
+// Measures environments that sense places, markers and meshes. Prints the median of several runs
+// for each case, with one thread and with the number of threads in the first argument (2 without an
+// argument). Asserts nothing about time.
 #include "runtime/environment/environment.h"
 #include "tests/bench/measure.h"
 #include "tests/runtime/environment/solids.h"
@@ -23,7 +23,7 @@ using namespace lsys;
 
 constexpr int kRuns = 9;
 
-/// `count` places in a cube with edges of `edge` metres, all headings upwards.
+/// `count` places in a cube with edges of `edge` metres; all headings point up.
 std::vector<SensePlace> places_in_cube(std::size_t count, double edge) {
     std::mt19937 engine(1);
     std::vector<SensePlace> places(count);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Time and memory of forests, to compare with Kenwood, Gain & Marais 2014: 1,000,000 distinct trees
-// in 4.5 s and 350 MB. Places 10^4 to 10^7 trees and expands the list of branches of each;
-// writes files of 10,000 trees. Usage: forest_bench [THREADS]. Asserts nothing.
+// Measures time and memory of forests, to compare them with Kenwood, Gain & Marais 2014: 1,000,000
+// distinct trees in 4.5 s and 350 MB. Places 10^4 to 10^7 trees, expands each tree into its list of
+// branches, and writes files of 10,000 trees. Usage: forest_bench [THREADS]. Asserts nothing.
 #include "compiler/compile.h"
 #include "compiler/instancing/instance.h"
 #include "grammar/lsys/parse.h"
@@ -27,7 +27,7 @@ using bench::fail;
 using bench::median;
 using bench::seconds;
 
-/// Time limit in s: larger forests are skipped after a forest that takes longer.
+/// Time limit in s: after a forest that takes longer, larger forests are skipped.
 constexpr double kMaxSeconds = 4.0;
 
 struct Kind {
@@ -99,7 +99,7 @@ ForestStage stage_of(const Kind& kind) {
     return stage;
 }
 
-/// Place, yaw and scale of each tree, drawn from one block of random numbers.
+/// Sets place, yaw and scale of each tree, which are drawn from one block of random numbers.
 void place(Forest& forest, std::uint32_t count) {
     forest.trees.clear();
     forest.trees.resize(count);

@@ -44,7 +44,7 @@ namespace {
 
 constexpr std::size_t kTemplateBytes = 32;
 
-/// The successor of every code, padded so that a copy of fixed length writes it.
+/// The successor of every code. Successors are padded, so that copies have a fixed length.
 struct Templates {
     alignas(32) std::uint8_t text[256][kTemplateBytes]{};
     std::uint8_t length[256]{};
@@ -255,7 +255,7 @@ struct TurtleFrame {
     Vector up{0.0F, 0.0F, 1.0F};
 };
 
-/// Interprets the word with a turtle; calls draw(frame, end) for every F.
+/// Reads the word as a turtle does; calls draw(frame, end) for every F.
 template <typename Draw>
 void walk(const std::uint8_t* word, std::size_t count, float degrees, Draw draw) {
     const float angle = degrees * 3.14159265358979F / 180.0F;
@@ -368,7 +368,7 @@ bool shadow_limit(const std::vector<double>& positions,
         kMaxVoxels) {
         return false;
     }
-    // Rows of y; in each, lines of x.
+    // In rows along y; each row has lines along x.
     std::vector<std::uint32_t> sums(extents[0] * extents[1] * extents[2], 0);
     const auto at = [&](std::int32_t x, std::int32_t y, std::int32_t z) -> std::uint32_t& {
         return sums[(static_cast<std::size_t>(y) * extents[0] + static_cast<std::size_t>(x)) *

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Hand-written programs, each for one L-system: an upper bound of the speed that a general program
-// can reach on the machine. Each derives into the buffers of the caller and returns the number of
-// modules. tests/README.md names the systems W1 to W7.
+// Hand-written programs, each for one L-system. Their speed is an upper bound of the speed that a
+// general program can reach on the machine. Each program derives into buffers of the caller and
+// returns the number of modules. tests/README.md explains the names W1 to W8 of the systems.
 #pragma once
 
 #include <cstddef>
@@ -12,8 +12,8 @@ namespace lsys::bench {
 
 enum class PageSize : std::uint8_t { Small, Huge };
 
-/// Anonymous memory whose pages have not been touched yet; released by the destructor.
-/// PageSize::Huge: the kernel is advised to use huge pages.
+/// Anonymous memory whose pages have not been touched yet; the destructor frees it. With
+/// PageSize::Huge, the kernel is advised to use huge pages.
 class FreshPages {
 public:
     FreshPages(std::size_t bytes, PageSize size);
@@ -30,8 +30,8 @@ private:
     std::size_t bytes_;
 };
 
-/// Context-free systems of one-byte modules without parameters: `successors[c]` is null if the
-/// module is copied.
+/// A context-free system of one-byte modules without parameters. `successors[c]` is null if the
+/// module `c` is copied.
 struct PlainSystem {
     const char* axiom;
     const char* successors[256];
@@ -50,7 +50,7 @@ derive_plain(const PlainSystem& system, int generations, std::uint8_t* a, std::u
 /// Derives W4; draws random numbers by a cheap hash instead of Philox.
 [[nodiscard]] std::size_t derive_w4(int generations, std::uint8_t* a, std::uint8_t* b);
 /// Derives W7 from `count` modules; draws random numbers by a cheap hash instead of Philox.
-/// `shared`: one number for both parameters, else one for each.
+/// `shared`: both parameters get the same random number, else each gets its own.
 [[nodiscard]] std::size_t derive_w7(int generations,
                                     std::size_t count,
                                     bool shared,
@@ -61,21 +61,22 @@ derive_plain(const PlainSystem& system, int generations, std::uint8_t* a, std::u
 /// Derives W6 from `count` modules; returns the index of the only `b`.
 [[nodiscard]] std::size_t
 derive_w6(int generations, std::size_t count, std::uint8_t* a, std::uint8_t* b);
-/// Sweeps W8 from `count` modules with the parameter 0; returns the parameter of the first module
-/// of the down sweep of the last generation.
+/// Derives W8, whose two sweeps begin with `count` modules with the parameter 0. Returns the
+/// parameter of the first module after the down sweep of the last generation.
 [[nodiscard]] std::size_t derive_w8(int generations, std::size_t count, float* parameters);
 
-/// Turtles in a plane over a word of F + - [ ] with one angle. Each writes vertices to `out` and
-/// returns their number. Per segment, turtle_lines() writes 2 vertices of 3 floats, turtle_tubes()
-/// 2 rings of 8 vertices of 6 floats (position, normal).
+/// Turtles in a plane that read a word of F + - [ ] with one angle. Each writes vertices to `out`
+/// and returns their number. Per segment, turtle_lines() writes 2 vertices of 3 floats, and
+/// turtle_tubes() writes 2 rings of 8 vertices of 6 floats (position, normal).
 [[nodiscard]] std::size_t
 turtle_lines(const std::uint8_t* word, std::size_t count, float degrees, float* out);
 [[nodiscard]] std::size_t
 turtle_tubes(const std::uint8_t* word, std::size_t count, float degrees, float* out);
 
-/// Exposure of kind Shadow with 8 levels, strength 0.2 and ratio 2, without directions: a grid of all
-/// voxels of the bounding box, and one summed-area table per row. `positions`: x, y, z of each place,
-/// m. Returns false if the grid has more than 2^26 voxels.
+/// Computes the exposure of an environment of kind Shadow with 8 levels, strength 0.2 and ratio 2,
+/// without directions: with a grid of all voxels of the bounding box, and a summed-area table per
+/// row. `positions`: x, y, z of each place in m. Returns false if the grid has more than 2^26
+/// voxels.
 [[nodiscard]] bool
 shadow_limit(const std::vector<double>& positions, double cell, std::vector<float>& exposures);
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Shared helpers of the benchmarks: time, medians, and grammars compiled from text. A mistake in a
-// grammar ends the program.
+// Shared helpers of the benchmarks: measurement of time, medians, and compilation of grammars from
+// text. A mistake in a grammar ends the program.
 #pragma once
 
 #include "compiler/bytecode/bytecode.h"
@@ -11,7 +11,7 @@
 
 namespace lsys::bench {
 
-/// Wall time of `work`, s.
+/// Wall time in s that `work` takes.
 [[nodiscard]] double seconds(const std::function<void()>& work);
 /// Precondition: `values` is not empty.
 [[nodiscard]] double median(std::vector<double> values);

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 // Compares turtles and tubes with hand-written programs for the same words (tests/bench/limits.h),
-// in one run on one machine. Values are million vertices per second, the best of some runs; each
-// run gets fresh memory from the system and frees it after the measurement. `lines` are the
-// segments of a skeleton, two vertices each; `tubes` have eight sides, positions and normals. The
-// time of tubes includes skeleton and mesh; one thread or two make the mesh. GLB is the export of
-// the same mesh to memory that is discarded. Asserts nothing.
+// in one run on one machine. Values are millions of vertices per second, the best of several runs;
+// each run gets fresh memory from the system and frees it after the measurement. `lines` are the
+// segments of a skeleton, with two vertices each; `tubes` have eight sides, positions and normals.
+// The time of tubes includes skeleton and mesh; one or two threads make the mesh. GLB exports the
+// same mesh to a sink that discards the bytes. Asserts nothing.
 #include "runtime/derive/derive.h"
 #include "runtime/export/export.h"
 #include "runtime/meshing/mesh.h"
@@ -33,8 +33,9 @@ using bench::seconds;
 
 constexpr int kRuns = 7;
 
-/// Minimum over some runs of `run`, which returns its time in s. Not the median: if a virtual machine
-/// gives free memory back to its host, some runs get pages that take twenty times as long.
+/// The min time of several calls of `run`, each of which returns its time in s. Not the median: if
+/// a virtual machine has given free memory back to its host, some runs get pages that take twenty
+/// times as long.
 double least_of(const std::function<double()>& run) {
     double min_time = run();
     for (int i = 1; i < kRuns; ++i) {
@@ -52,7 +53,7 @@ struct Plant {
 };
 
 void measure_plant(const Plant& plant) {
-    // Derives the word by the hand-written program of limits.h.
+    // The hand-written program of limits.h derives the word.
     constexpr std::size_t kRoom = std::size_t{64} << 20;
     const FreshPages a(kRoom, PageSize::Huge);
     const FreshPages b(kRoom, PageSize::Huge);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Latencies of the language server, `lsc lsp`, as an editor sees them: from the first byte of a
-// message to the last byte of the answer, through pipes. Prints a table of medians, with the limit
-// of the time from a key to the diagnostics. Asserts nothing about time.
+// Measures latencies of the language server, `lsc lsp`, as an editor sees them: the time from the
+// first byte of a message to the last byte of the answer, through pipes. Prints a table of medians,
+// and the limit for the time from a key press to the diagnostics. Asserts nothing about time.
 // Usage: server_bench [RUNS]
 #include "tests/bench/measure.h"
 
@@ -135,7 +135,8 @@ void print_row(const std::string& name, std::vector<double>& times, const char* 
     fmt::print("  {:<28} {:>9.2f} ms {}\n", name, lsys::bench::median(times) * 1000.0, limit);
 }
 
-/// Measures a text: a key in its middle, then requests after a key, as an editor sends them.
+/// Measures a text as an editor sends it: a key press in the middle of the text, then requests
+/// after a key press.
 void measure(const char* title, const std::string& text, const char* limit, int runs) {
     Server server;
     const Json document{{"uri", kUri}};
@@ -144,7 +145,7 @@ void measure(const char* title, const std::string& text, const char* limit, int 
                     {{"uri", kUri}, {"languageId", "lsys"}, {"version", 1}, {"text", text}}}});
     static_cast<void>(server.read_message());
     const auto lines = static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n'));
-    const std::size_t line = lines / 8 * 4; // begins a `#define`
+    const std::size_t line = lines / 8 * 4; // number of a line that begins a `#define`
     int version = 1;
     const auto press_key = [&] {
         const bool adds = version % 2 == 1;

@@ -60,7 +60,7 @@ int main(int argc, char** argv) {
     for (int i = -1; i < runs; ++i) {
         for (Program& program : programs) {
             const double spent = lsys::bench::seconds([&] { run(program); });
-            if (i >= 0) { // the first run fills the caches of files
+            if (i >= 0) { // the first run only fills the file caches
                 program.times.push_back(spent);
             }
         }

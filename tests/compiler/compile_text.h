@@ -49,7 +49,7 @@ struct Compiled {
         }
         return nullptr;
     }
-    /// The text under the span of the first diagnostic with this code.
+    /// The text that the span of the first diagnostic with this code covers.
     [[nodiscard]] std::string at(DiagnosticCode code) const {
         const Diagnostic* found = find(code);
         return found == nullptr ? "nothing" : std::string(sources.text(found->span));
@@ -61,7 +61,7 @@ struct Compiled {
     [[nodiscard]] std::string dump() const {
         return outcome.program ? dump_program(*outcome.program, names) : "no program";
     }
-    /// The root file after the first fix of the first diagnostic with this code.
+    /// The root file after the first fix of the first diagnostic with this code is applied.
     [[nodiscard]] std::string fixed(DiagnosticCode code) const {
         const Diagnostic* found = find(code);
         std::string text(sources.file(FileId{0}).text());
@@ -78,8 +78,8 @@ struct Compiled {
     }
 };
 
-/// Compiles files["main.lsys"], which may include the other files. Without `options.generations`
-/// there are 4 generations, so that the grammar needs no `#n`.
+/// Compiles files["main.lsys"], which may include the other files. If `options.generations` is not
+/// set, there are 4 generations, so that the grammar needs no `#n`.
 inline Compiled compile_files(const std::map<std::string, std::string>& files,
                               CompileOptions options) {
     Compiled compiled;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A small Bytecode that uses every table except those of curves and materials: the result of
-// lowering
+// A small Bytecode that uses every table except those of curves and materials. It is the result of
+// lowering this grammar:
 //   #define s {1, 2};
 //   #ignore : f;
 //   #w : A(s) f(0.5) f(0.5);

@@ -23,7 +23,7 @@ CompiledText compile_text(std::string text, lsys::Dialect dialect, std::string_v
         file, dialect, {sources, names, diagnostics, no_files, false, system}, &made.translation);
     lsys::CompileOutcome outcome =
         lsys::compile(std::move(ast), names, sources, lsys::CompileOptions{}, diagnostics);
-    // Rendering asserts that every place of a message is in its file.
+    // Rendering asserts that every place in a message is within its file.
     diagnostics.sort_by_place();
     for (const lsys::MessageFormat format :
          {lsys::MessageFormat::Human, lsys::MessageFormat::Json}) {

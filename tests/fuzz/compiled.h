@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Compilation of a text for the fuzz targets; no files are read.
+// Compiles texts for the fuzz targets; reads no files.
 #pragma once
 
 #include "compiler/compile.h"
@@ -19,6 +19,6 @@ struct CompiledText {
 [[nodiscard]] CompiledText
 compile_text(std::string text, lsys::Dialect dialect, std::string_view system);
 
-/// The word after up to four generations as text, derived within small limits; without a word, the
-/// reason.
+/// Derives up to four generations within small limits. Returns the word as text, or, if there is no
+/// word, the reason.
 [[nodiscard]] std::string derived_text(const lsys::Bytecode& bytecode);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Derives words from texts with characters beyond ASCII. A few characters are inserted into the text,
-// at places that depend on the text alone: typographic characters, letters, invisible characters and
-// damaged UTF-8. If a text compiles, its formatted form compiles too.
+// Derives words from texts with characters beyond ASCII. Inserts a few characters into the text, at
+// places that depend on the text alone: typographic characters, letters, invisible characters and
+// damaged UTF-8. If a text compiles, its formatted form must compile, too.
 #include "grammar/base/source.h"
 #include "grammar/format/format.h"
 #include "tests/fuzz/compiled.h"
@@ -78,7 +78,7 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
         put_characters(changed, choices);
         try_text(changed);
     }
-    // Also try a short part of the text alone, where each inserted character matters.
+    // Also tries a short part of the text by itself, in which each inserted character matters.
     std::string statement = text.substr(choices.below(text.size() + 1), 1 + choices.below(40));
     put_characters(statement, choices);
     try_text(statement);

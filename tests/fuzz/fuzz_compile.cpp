@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Text to word: for any bytes, the compiler returns diagnostics or bytecode that verifies, and the
-// bytecode derives under small limits.
+// Compiles any bytes: the compiler must return diagnostics, or bytecode that verifies and can be
+// derived within small limits.
 #include "compiler/bytecode/verify.h"
 #include "compiler/compile.h"
 #include "grammar/lsys/parse.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Text of every other dialect to word. Either there is an error, or the output of `lsc import`
+// Derives texts in every other dialect. Either there is an error, or the output of `lsc import`
 // compiles and derives the same word.
 #include "grammar/dialects/cpfg/curves.h"
 #include "grammar/format/format.h"

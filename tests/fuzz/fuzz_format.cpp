@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Text to text: for every text that parses, formatting is idempotent, and its output parses.
+// Formats texts: for every text that parses, formatting is idempotent, and the formatted text
+// parses.
 #include "grammar/format/format.h"
 
 #include <cstdlib>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Bytes to word: a .lsb is refused, or it verifies and derives under small limits. The checksum is
-// corrected first, so that the other checks of reader and verifier are reached.
+// Reads any bytes as a .lsb file: it is refused, or it verifies and can be derived within small
+// limits. The checksum is corrected first, so that the other checks of reader and verifier are
+// reached.
 #include "compiler/bytecode/disassemble.h"
 #include "compiler/bytecode/module_file.h"
 #include "tests/fuzz/small_derivation.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Requests to the tile server: the first line is the target, the second the method, the others are
-// header fields. Every response must have an expected status, and ranges must lie within their
-// file.
+// Sends requests to the tile server: the first line of the input is the target, the second the
+// method, all others are header fields. Every response must have an expected status, and a range
+// must lie within its file.
 #include "runtime/serve/tile_service.h"
 #include "tests/support/tile_forest.h"
 

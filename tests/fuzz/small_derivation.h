@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A derivation of up to four generations within small limits, for the fuzz targets. Files that
-// environments name are not read: a tetrahedron stands in for each mesh, one pixel for each picture.
+// Derives up to four generations within small limits, for the fuzz targets. Files that environments
+// name are not read: each mesh is a tetrahedron, each picture has one pixel.
 #pragma once
 
 #include "runtime/derive/derive.h"
@@ -13,12 +13,12 @@
 
 class SmallDerivation {
 public:
-    /// `bytecode` outlives the object.
+    /// `bytecode` must outlive the object.
     explicit SmallDerivation(const lsys::Bytecode& bytecode)
         : files_(files_of(bytecode)), senses_(bytecode, sense_options(files_)),
           options_(options_of(bytecode, senses_)), derivation_(bytecode, options_) {}
 
-    /// Derives all generations, or until a Stop.
+    /// Derives all generations. Returns a Stop if the derivation ends early.
     [[nodiscard]] std::optional<lsys::Stop> run() {
         const std::optional<lsys::Stop> stop = derivation_.start();
         return stop ? stop : derivation_.run_to(options_.generations);

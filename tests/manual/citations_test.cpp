@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Citations of documents in sources, scripts and documents: `docs/language.md section 5` names an
-// existing file and one of its sections.
+// Checks citations of documents in sources, scripts and documents: `docs/language.md section 5`
+// must name an existing file and one of its sections.
 #include "tests/manual/markdown.h"
 #include "tests/support/lsc_run.h"
 
@@ -33,7 +33,8 @@ struct Citation {
     std::vector<std::string> sections;
 };
 
-/// Offset of the next word after blanks, line ends and the signs that begin comment lines.
+/// Offset of the next word. Blanks, line ends, and the characters that begin comment lines are
+/// skipped.
 std::size_t next_word(std::string_view text, std::size_t at) {
     return std::min(text.find_first_not_of(" \t\r\n/#*|`", at), text.size());
 }
@@ -51,7 +52,7 @@ std::string number_at(std::string_view text, std::size_t& at) {
     return number;
 }
 
-/// `section 5`, `sections 4 to 6`, `sections 6 and 9`: returns the numbers.
+/// The numbers in `section 5`, `sections 4 to 6`, or `sections 6 and 9`.
 std::vector<std::string> sections_after(std::string_view text, std::size_t at) {
     at = next_word(text, at);
     if (text.substr(at, 7) != "section") {
@@ -103,7 +104,8 @@ std::vector<Citation> citations_in(std::string_view text) {
     return found;
 }
 
-/// Numbers of the headings of a document: `5` of `## 5. Matching`, `5.1` of `### 5.1 Productions`.
+/// Numbers of the headings of a document, such as `5` of `## 5. Matching` and `5.1` of `### 5.1
+/// Productions`.
 std::set<std::string> sections_of(const std::filesystem::path& document) {
     std::set<std::string> numbers;
     for (const Heading& heading : headings_of(read_text(document))) {
@@ -140,7 +142,7 @@ std::vector<std::filesystem::path> all_sources() {
     return sources;
 }
 
-/// Path of the document that a file cites; empty if it does not exist.
+/// Path of the document that `source` cites as `path`; empty if there is no such document.
 std::filesystem::path cited(const std::filesystem::path& source, const std::string& path) {
     for (const std::filesystem::path& folder : {source_root(), source.parent_path()}) {
         if (std::filesystem::exists(folder / path)) {

@@ -101,7 +101,7 @@ std::vector<SessionStep> steps_of(const std::vector<std::string>& lines) {
 
 bool matches_output(const std::vector<std::string>& expected,
                     const std::vector<std::string>& output) {
-    // reached[k]: the lines of `expected` so far match the first k lines of the output.
+    // reached[k]: whether the lines of `expected` so far match the first k lines of the output.
     std::vector<bool> reached(output.size() + 1);
     reached[0] = true;
     for (const std::string& line : expected) {
@@ -171,7 +171,7 @@ std::string Session::finish() const {
                               "; show it by `$ echo $?`";
 }
 
-/// Runs `cat`: writes a missing file; an existing one must have the shown text.
+/// Runs `cat`. Writes the file if it is missing; an existing file must have the text that is shown.
 std::string Session::show_file(const SessionStep& step, const std::string& name) const {
     const std::filesystem::path path = folder_ / name;
     if (!std::filesystem::exists(path)) {

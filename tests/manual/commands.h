@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Commands in documents: parsed as by a shell, run in-process.
+// Commands in documents: read as a shell reads them, and run in-process.
 #pragma once
 
 #include <filesystem>
@@ -9,8 +9,8 @@
 
 namespace lsys::tests {
 
-/// The words of a command line: '...' and "..." keep blanks; a word that begins with # begins a
-/// comment.
+/// The words of a command line. Quotes '...' and "..." keep blanks; a word that begins with #
+/// begins a comment.
 [[nodiscard]] std::vector<std::string> words_of(std::string_view command);
 
 /// A command of a `console` block and its output.
@@ -19,24 +19,25 @@ struct SessionStep {
     std::string command;
     std::vector<std::string> output;
 };
-/// Lines that begin with "$ " are commands; a line that ends with \ continues on the next.
+/// The steps of a `console` block. Lines that begin with "$ " are commands; a line that ends with \
+/// continues on the next line.
 [[nodiscard]] std::vector<SessionStep> steps_of(const std::vector<std::string>& lines);
 
-/// The shell of a document: the commands of the document run one after the other in a folder that
+/// The shell of a document. Commands of the document run one after the other in a folder that
 /// contains the `samples` of the project.
 class Session {
 public:
     explicit Session(std::filesystem::path folder);
-    /// Runs a command. Returns a message that begins with the command, or empty if its output is as
-    /// expected.
+    /// Runs a command. Returns an empty text if the output is as expected, else a message that
+    /// begins with the command.
     [[nodiscard]] std::string run(const SessionStep& step);
-    /// Call after the last command. Returns a message if the last command failed and no `$ echo $?`
-    /// followed it, else an empty text.
+    /// Call it after the last command. If the last command failed and no `$ echo $?` followed,
+    /// returns a message, else an empty text.
     [[nodiscard]] std::string finish() const;
 
     struct Result {
         int status = 0;
-        std::string output; // both streams, in the order in which they are written
+        std::string output; // both streams, in the order of writing
     };
     /// Runs lsc in the folder.
     [[nodiscard]] Result result_of(const std::vector<std::string>& arguments) const;
@@ -47,15 +48,16 @@ private:
                                       const std::vector<std::string>& arguments);
 
     std::filesystem::path folder_;
-    int status_ = 0; // of the last command
+    int status_ = 0; // exit status of the last command
     std::string last_;
 };
 
-/// Checks the options of `lsc ...` or `lsview ...` without running it. Returns a message; empty for
-/// correct options and for other programs.
+/// Checks the options of `lsc ...` or `lsview ...` without running the program. Returns a message;
+/// empty if the options are correct, or for other programs.
 [[nodiscard]] std::string check_options(const std::vector<std::string>& words);
 
-/// Whether `expected` of a document matches `output`; a line `...` matches any lines.
+/// Whether `output` is as a document expects. A line `...` in `expected` matches any number of
+/// lines.
 [[nodiscard]] bool matches_output(const std::vector<std::string>& expected,
                                   const std::vector<std::string>& output);
 

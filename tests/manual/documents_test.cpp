@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// docs/documents.md: every feature of the documents has a row, and its commands print the output
-// given after them.
+// Checks docs/documents.md: every feature of the documents has a row, and the commands in the row
+// print the output that is shown after them.
 #include "tests/manual/commands.h"
 #include "tests/manual/markdown.h"
 #include "tests/support/lsc_run.h"
@@ -46,8 +46,8 @@ struct ShownCommand {
     std::string expected; // part of the output; may be empty
 };
 
-/// Commands are code that begins with `lsc` or `lsview`; code after an arrow is the expected
-/// output.
+/// The commands in a table cell. A command is code that begins with `lsc` or `lsview`; code after
+/// an arrow is its expected output.
 std::vector<ShownCommand> commands_of(const std::string& cell) {
     static const std::regex code("(``.*?``|`[^`]*`)(?: → (``.*?``|`[^`]*`))?");
     const auto text_of = [](std::string span) {
@@ -93,7 +93,7 @@ TEST_CASE("the commands in the table of the documents print the output stated th
     Session session(folder.path());
     for (const Fence& fence : fences_of(document)) {
         for (const SessionStep& step : steps_of(fence.lines)) {
-            CHECK(session.run(step).empty()); // the blocks write the grammars of the page
+            CHECK(session.run(step).empty()); // the blocks write the grammars of the commands
         }
     }
     std::size_t count = 0;

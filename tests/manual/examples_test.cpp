@@ -32,7 +32,7 @@ void check_example(const Fence& fence, const Fence* output, const ScratchFolder&
     if (output != nullptr) {
         CHECK(run.out == output->text());
     }
-    // The example is formatted as by `lsc fmt`.
+    // The example must be formatted as by `lsc fmt`.
     CHECK(run_lsc({"fmt", "--check", file}, "").status == 0);
 }
 
@@ -42,7 +42,7 @@ TEST_CASE("the examples of the documents print the output stated there") {
     const ScratchFolder folder;
     std::size_t count = 0;
     for (const std::filesystem::path& document : all_documents()) {
-        if (document == "grammar/explanations.md") { // tests/explanations tests it
+        if (document == "grammar/explanations.md") { // tested by tests/explanations
             continue;
         }
         const std::vector<Fence> fences = fences_of(read_text(source_root() / document));

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Links of documents: the files, folders and headings that they name exist. Lines of prose in
-// README.md, CONTRIBUTING.md, CHANGELOG.md and docs/ are short enough to be read in any editor.
+// Checks links of documents: the files, folders and headings to which they lead must exist. Checks
+// that lines of prose in README.md, CONTRIBUTING.md, CHANGELOG.md and docs/ are short enough to be
+// read in any editor.
 #include "tests/manual/markdown.h"
 #include "tests/support/lsc_run.h"
 

@@ -22,7 +22,7 @@ std::vector<std::string> lines_of(std::string_view document) {
     return lines;
 }
 
-/// For each line, whether it is within a fence; the lines with ``` count.
+/// For each line, whether it belongs to a fence; the lines with ``` do.
 std::vector<bool> fenced(const std::vector<std::string>& lines) {
     std::vector<bool> is_code(lines.size());
     bool open = false;
@@ -34,7 +34,7 @@ std::vector<bool> fenced(const std::vector<std::string>& lines) {
     return is_code;
 }
 
-/// The line with its code, `...`, replaced by blanks.
+/// The line, with code (`...`) replaced by blanks.
 std::string without_code(std::string_view line) {
     std::string text(line);
     for (std::size_t at = text.find('`'); at != std::string::npos; at = text.find('`', at)) {

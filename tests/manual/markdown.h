@@ -18,7 +18,7 @@ namespace lsys::tests {
 
 /// A block between two lines ```.
 struct Fence {
-    std::size_t line = 0; // of its first ```, from 1
+    std::size_t line = 0; // number of its first line ```, from 1
     std::string info;     // text after the ```: "lsys check", "console"
     std::vector<std::string> lines;
 

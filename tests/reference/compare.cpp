@@ -72,8 +72,8 @@ std::string first_difference(const std::string& expected, const std::string& fou
     return "only the ends of lines differ\n";
 }
 
-// Whether a word may be an axiom: it is not empty, its brackets match, and no polygon is in
-// another.
+// Whether a word can be an axiom: it is not empty, its brackets match, and no polygon lies within
+// another polygon.
 bool can_be_an_axiom(const Word& word) {
     int branches = 0;
     int polygons = 0;
@@ -87,7 +87,7 @@ bool can_be_an_axiom(const Word& word) {
     return !word.empty() && polygons == 0;
 }
 
-// One case in one folder, run in several ways.
+// Compares one case, whose files are in one folder, in several ways.
 class Comparison {
 public:
     explicit Comparison(const Case& test_case)
@@ -110,7 +110,7 @@ private:
         return arguments;
     }
 
-    // Runs lsc; checks the exit status and standard output.
+    // Runs lsc. Checks its exit status and standard output.
     bool lsc_prints(const std::vector<std::string>& arguments, int status, const std::string& out) {
         const Run run = run_lsc(arguments);
         if (run.status == status && run.out == out) {
@@ -144,8 +144,8 @@ private:
                continues_alike() && origins_alike() && printed_word_parses();
     }
 
-    // Checks the origins of all modules, derived with one thread and two threads, streamed, from
-    // bytecode, and from a saved state.
+    // Checks the origins of all modules in derivations with one thread and with two threads,
+    // streamed, from bytecode, and from a saved state.
     bool origins_alike() {
         const std::filesystem::path& folder = folder_.path();
         const std::string all = all_origins(test_case_, derivation_, folder, 0, std::nullopt);
@@ -193,8 +193,8 @@ private:
         return dump;
     }
 
-    // Checks a run that must fail: the message names production, generation and place, and no wrong
-    // word is printed.
+    // Checks a run that must fail: the message names production, generation and place, and the
+    // output contains no wrong word.
     bool stops_alike() {
         const RunError& error = *derivation_.error;
         const std::vector<std::string> arguments = command("dump", {"--all"});
@@ -229,7 +229,8 @@ private:
         return lsc_prints(compile, 0, "") && lsc_prints(compiled_dump({"--all"}), 0, expected_);
     }
 
-    // Checks a derivation in two runs: half of the generations, a saved state, then the rest.
+    // Checks a derivation in two runs: the first half of the generations, a saved state, then the
+    // second half.
     bool continues_alike() {
         const std::uint32_t half = derivation_.generations / 2;
         const std::string state = (folder_.path() / "half.state").string();
@@ -245,8 +246,8 @@ private:
     // "What is printed parses again as the axiom of the same file."
     bool printed_word_parses() {
         const Word& word = derivation_.words[derivation_.words.size() / 2];
-        // An axiom is decomposed, so a word whose decomposition stopped at the depth limit would be
-        // decomposed further; a sweep would change its parameters again.
+        // An axiom is decomposed. If decomposition stopped at the depth limit, the word would be
+        // decomposed further; and a sweep would change its parameters again.
         const bool settled = !setting(test_case_.grammar, "decompose_depth") && !sweeps();
         if (!settled || !can_be_an_axiom(word)) {
             return true;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Compares `lsc` with the oracle: writes the files of a case into a temporary folder, runs the
-// program in-process and compares every generation as text.
+// Compares `lsc` with the oracle: writes the files of a case into a temporary folder, runs `lsc`
+// in-process, and compares every generation as text.
 
 #pragma once
 
@@ -19,7 +19,7 @@ struct Run {
     std::string err;
 };
 
-// `lsc ARGUMENTS...`
+// Runs `lsc ARGUMENTS...` in-process.
 Run run_lsc(const std::vector<std::string>& arguments);
 
 // A temporary folder, removed by the destructor.
@@ -31,30 +31,30 @@ public:
     TemporaryFolder& operator=(const TemporaryFolder&) = delete;
 
     [[nodiscard]] const std::filesystem::path& path() const { return path_; }
-    // Writes the files of a grammar; the result is the path of the first.
+    // Writes the files of a grammar. Returns the path of the first file.
     std::string write(const Grammar& grammar, std::uint64_t layout_seed) const;
 
 private:
     std::filesystem::path path_;
 };
 
-// The command-line options for a request.
+// The options of `lsc` with the same effect as a request.
 std::vector<std::string> options_of(const Request& request);
 
-// Expected output of `dump --all`: a generation per line.
+// The expected output of `dump --all`: one generation per line.
 std::string all_generations(const Grammar& grammar, const Derivation& derivation);
 
-// Expected output of `dump --all --origins` from generation `first` on, for the files in `folder`.
-// `saved`: generation of a saved state, at most `first`; this state is the origin of all
-// modules written up to this generation.
+// The expected output of `dump --all --origins`, from generation `first` on, for the files in
+// `folder`. `saved`: generation of a saved state, at most `first`. The saved state is the origin of
+// all modules that were written up to this generation.
 std::string all_origins(const Case& test_case,
                         const Derivation& derivation,
                         const std::filesystem::path& folder,
                         std::uint32_t first,
                         std::optional<std::uint32_t> saved);
 
-// Derives `test_case` with the oracle and in several ways with `lsc`. Returns an empty text if all
-// agree, else a message: the command, the grammar and the first difference.
+// Derives `test_case` with the oracle, and in several ways with `lsc`. Returns an empty text if all
+// words agree; else a message with the command, the grammar and the first difference.
 std::string difference(const Case& test_case);
 
 } // namespace lsys::reference

@@ -59,8 +59,8 @@ TEST_CASE("random grammars 751 to 1000 are derived as by the oracle") {
     compare_seeds(751, 1000);
 }
 
-// Seeds whose first draw u falls between a running sum of the weights in binary32 and the same sum
-// in binary64, on a running sum, or on the smallest or largest possible u.
+// Seeds whose first draw u is a special number: between a running sum of the weights in binary32
+// and the same sum in binary64, equal to a running sum, or the smallest or largest possible u.
 TEST_CASE("choices at the edge of a weight") {
     struct Edge {
         std::vector<float> weights;
@@ -90,8 +90,8 @@ TEST_CASE("choices at the edge of a weight") {
     }
 }
 
-// Section 4: a production that no module matches causes no error, unlike a successor that is
-// applied and a condition that is tested.
+// Section 4: a production that matches no module causes no error; a successor that is applied and a
+// condition that is tested do.
 TEST_CASE("a value that is never finite is an error only where it is computed") {
     Grammar grammar;
     add_axiom(grammar, letters("A"));
@@ -129,7 +129,8 @@ TEST_CASE("polygons are checked along the word") {
     CHECK(difference(one_step(letter_system("A}", {"A=%{"}), 0)) == "");
 }
 
-// Compares more grammars than a run of all tests: LSYS_RANDOM_GRAMMARS is `FIRST-LAST`.
+// Compares the grammars of a range of seeds, `FIRST-LAST` in LSYS_RANDOM_GRAMMARS. Not part of a
+// run of all tests.
 TEST_CASE("random grammars of a range are derived as by the oracle", "[.]") {
     const char* const range_text = std::getenv("LSYS_RANDOM_GRAMMARS");
     unsigned long long first = 1001;

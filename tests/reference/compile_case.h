@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A random grammar as bytecode, compiled in memory.
+// Compiles a random grammar to bytecode in memory.
 #pragma once
 
 #include "compiler/bytecode/bytecode.h"
@@ -10,7 +10,7 @@
 
 namespace lsys::reference {
 
-// Appends the compiler's messages to `messages`.
+// Compiles a case. Appends the messages of the compiler to `messages`.
 std::optional<Bytecode> compile_case(const Case& test_case, std::string& messages);
 
 } // namespace lsys::reference

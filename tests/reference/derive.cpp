@@ -20,7 +20,7 @@ constexpr std::uint64_t kFirstDecomposeDraw = std::uint64_t{1} << 32;
 constexpr std::uint64_t kFirstDownDraw = kFirstDecomposeDraw + (std::uint64_t{1} << 30);
 constexpr std::uint64_t kFirstUpDraw = kFirstDownDraw + (std::uint64_t{1} << 29);
 
-// A production with its group and rule (section 5).
+// A production, and its group and rule (section 5).
 struct Entry {
     const Production* production = nullptr;
     std::string group;
@@ -51,14 +51,14 @@ struct Stop {
     RunError error;
 };
 
-// Input of a pass, which rewrites `word` of age `age` once. A generation is one pass, or several in
-// sequential rewriting and #decompose.
+// Input of a pass, which rewrites `word`, of age `age`, once. A generation is one pass; with
+// sequential rewriting and #decompose it is several passes.
 struct PassInput {
     const System& system;
     const Word& word;
     std::uint32_t age = 0;
-    // Sequential rewriting: 4096 times the index of the rule; #decompose: 2^32 + 4096 times the
-    // index of the pass; sweeps: kFirstDownDraw, kFirstUpDraw.
+    // Number of the first draw. Sequential rewriting: 4096 times the index of the rule. #decompose:
+    // 2^32 + 4096 times the index of the pass. Sweeps: kFirstDownDraw and kFirstUpDraw.
     std::uint64_t first_draw = 0;
     std::optional<std::size_t> only_rule; // the only rule of this pass; empty: all rules
     Stage stage = Stage::Rewrite;
@@ -177,7 +177,7 @@ Choice choose(const PassInput& pass, std::size_t position) {
     return candidates[taken];
 }
 
-// Appends the successor to `out`; its ranges are numbered in the order of their closing braces.
+// Appends the successor to `out`. Ranges in it are numbered in the order of their closing braces.
 void rewrite(const PassInput& pass, const Choice& choice, std::size_t position, Word& out) {
     const System& system = pass.system;
     const Production& production = *choice.production;
@@ -211,8 +211,8 @@ void rewrite(const PassInput& pass, const Choice& choice, std::size_t position, 
     }
 }
 
-// Rewrites the word once from left to right, as in leftmost rewriting. In parallel rewriting a
-// predecessor is one module, so that this is also the step that rewrites all modules at once.
+// Rewrites the word once from left to right, as leftmost rewriting does. In parallel rewriting a
+// predecessor is one module, so that this also rewrites all modules at once.
 Word run_pass(const PassInput& pass, Derivation& derivation) {
     Word out;
     std::size_t position = 0;
@@ -255,8 +255,8 @@ Word without_cuts(const System& system, const Word& word) {
     return out;
 }
 
-// Applies passes of #decompose to the word of an age, until none applies or the depth limit is
-// reached.
+// Applies passes of #decompose to the word of an age, until no production applies or the depth
+// limit is reached.
 Word decomposed(const System& system, Word word, std::uint32_t age, Derivation& derivation) {
     for (std::uint32_t i = 0; i < system.decompose_depth; ++i) {
         PassInput pass{system,          word, age, kFirstDecomposeDraw + kDrawsOfARule * i, {},
@@ -289,8 +289,8 @@ void sweep(
     }
 }
 
-// Makes the word of an age complete: decomposition, then the down sweep, then the up sweep. Sensing,
-// which comes before the sweeps, would have its place here.
+// Completes the word of an age: by decomposition, then the down sweep, then the up sweep. Sensing
+// belongs before the sweeps; the oracle does not implement it.
 Word completed(const System& system, const Word& word, std::uint32_t age, Derivation& derivation) {
     Word complete = decomposed(system, word, age, derivation);
     sweep(system, Stage::Down, complete, age, derivation);
@@ -321,7 +321,7 @@ Word next_word(const System& system,
     return run_pass(PassInput{system, word, age, 0, std::nullopt}, derivation);
 }
 
-// Gives constants and axiom their values, in the order of the text.
+// Gives constants and axiom their values, in the order in which the text defines them.
 class Start {
 public:
     Start(const Grammar& grammar, const Request& request, System& system)
@@ -378,7 +378,7 @@ private:
                    statement.kind == StatementKind::Param) {
             system_.constants[statement.name] = value_of(statement);
         } else if (statement.kind == StatementKind::Function) {
-            // The body will be evaluated with all constants, also later ones. Later constants
+            // The body is evaluated with all constants, including those that follow it. These
             // change nothing, because no constant is defined twice.
             system_.functions[statement.name] = {statement.names, statement.expr, {}};
         } else if (statement.kind == StatementKind::Curve) {
@@ -449,7 +449,8 @@ private:
         return rules.size() - 1;
     }
 
-    // A random range uses up its draw index even if -D replaces the expression that contains it.
+    // A random range uses up its draw number even if -D replaces the expression that contains the
+    // range.
     float value_of(const Statement& statement) {
         for (const auto& [name, number] : request_.definitions) {
             if (name == statement.name) {
@@ -499,7 +500,7 @@ std::optional<RunError>
 unmatched_bracket(const System& system, const Word& word, std::uint32_t age) {
     std::uint64_t open = 0;
     std::uint64_t polygons = 0;
-    std::uint64_t cut = 0; // open branches from the cut branch on; 0 outside of a removed part
+    std::uint64_t cut = 0; // open branches since the cut; 0 outside of a removed part
     for (std::size_t i = 0; i < word.size(); ++i) {
         const std::string& name = word[i].name;
         const bool removed = cut > 0;

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 // The oracle: derives a grammar by following sections 4 to 6 of the language reference sentence by
-// sentence. A word is a vector of modules with their names as text; every step looks at every
-// production for every module. Slow on purpose: the runtime is tested against it, so it must be
-// evident rather than fast, and it shares nothing with the compiler or the runtime.
+// sentence. A word is a vector of modules with their names as text; every step tries every
+// production for every module. The oracle is slow on purpose: the runtime is tested against it, so
+// it must be evidently correct rather than fast, and it shares no code with the compiler or the
+// runtime.
 
 #pragma once
 
@@ -18,17 +19,17 @@
 
 namespace lsys::reference {
 
-// The place in the grammar, the production and the generation that a module of a word comes from.
+// Where a module of a word comes from: a place in the grammar, a production and a generation.
 struct Origin {
-    const ModuleUse* written = nullptr; // in the axiom or in a successor of the grammar
-    std::string production;             // the label; empty: the axiom
-    std::uint32_t generation = 0;       // of the first word that holds the module
+    const ModuleUse* written = nullptr; // module of the axiom or of a successor
+    std::string production;             // label of the production; empty: the axiom
+    std::uint32_t generation = 0;       // of the first word that contains the module
 };
 
 struct Module {
     std::string name;
     std::vector<float> values;
-    Origin origin = {}; // not compared by ==
+    Origin origin = {}; // == does not compare origins
 
     bool operator==(const Module& other) const {
         return name == other.name && values == other.values;
@@ -46,32 +47,32 @@ struct Request {
 };
 
 enum class Failure {
-    NotFinite,        // a parameter or a condition
-    BadRange,         // min > max, bounds or width not finite, a distribution out of its bounds
-    BadWeight,        // negative, not finite, or with a sum that is not finite
-    UnmatchedBracket, // a `]` without its `[` in the last word
-    UnmatchedPolygon  // a `}` without its `{` in the last word
+    NotFinite,        // the value of a parameter or of a condition
+    BadRange,         // min > max, bounds or width not finite, arguments out of bounds
+    BadWeight,        // weight: negative, not finite, or with an infinite sum
+    UnmatchedBracket, // the last word has a `]` without its `[`
+    UnmatchedPolygon  // the last word has a `}` without its `{`
 };
 
 struct RunError {
     Failure failure = Failure::NotFinite;
     std::string production;     // empty for an unmatched bracket and for errors before generation 0
-    std::uint64_t position = 0; // in the word that is read; an unmatched bracket: in the last word
-    std::uint32_t generation = 0; // the age of that word
+    std::uint64_t position = 0; // in the word that is rewritten; unmatched bracket: in the last
+    std::uint32_t generation = 0; // age of this word
     Module module;                // the first module that the production rewrites
 };
 
 struct Derivation {
     std::vector<Word> words;       // generation 0 first
-    std::optional<RunError> error; // `words` has the words before the error
+    std::optional<RunError> error; // `words` has all words before it
     bool too_large = false;        // the next word has more than max_modules modules
     std::map<std::string, std::uint64_t> applications; // by label of the production
     std::map<std::string, float> constants;
-    std::uint32_t generations = 0; // requested number
+    std::uint32_t generations = 0; // number of generations that were requested
     std::uint64_t seed = 0;
 };
 
-// Preconditions: the grammar is legal, and every definition names a #define or #param.
+// Precondition: the grammar is legal, and each definition names a #define or #param.
 Derivation derive(const Grammar& grammar, const Request& request);
 
 } // namespace lsys::reference

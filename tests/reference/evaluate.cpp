@@ -106,8 +106,8 @@ bool draws(const Expr& expr) {
 
 namespace {
 
-// The quantile `p` of the standard normal distribution, by bisection: the error function is in the
-// standard library, its inverse is not.
+// The quantile `p` of the standard normal distribution, by bisection, because the standard library
+// has the error function, but not its inverse.
 long double inverse_normal(long double p) {
     long double below = -10;
     long double above = 10;
@@ -124,7 +124,7 @@ long double log_choose(long double n, long double k) {
     return std::lgamma(n + 1) - std::lgamma(k + 1) - std::lgamma(n - k + 1);
 }
 
-// The least k below `end` for which the sum of probability(0) to probability(k) exceeds u; `end` if
+// The smallest k below `end` for which probability(0) + ... + probability(k) exceeds u; `end` if
 // there is none.
 template <typename Probability>
 float least_exceeding(float u, int end, Probability probability) {
@@ -310,8 +310,8 @@ std::size_t ranges_in(const Expr& expr) {
     return count;
 }
 
-// Draws the random numbers of an expression that is not evaluated, because later draws are numbered
-// after them.
+// Draws the random numbers of an expression that is not evaluated, because the numbers of later
+// draws follow theirs.
 void skip_ranges(const Expr& expr, const Environment& environment) {
     for (std::size_t i = ranges_in(expr); i > 0; --i) {
         environment.draw();
@@ -397,7 +397,8 @@ float evaluate(const Expr& expr, const Environment& environment) {
         skip_ranges(expr.parts[1], environment);
         return evaluate(expr.parts[2], environment);
     }
-    // Every operand is evaluated, also those of && and ||, because its ranges draw numbers.
+    // Every operand is evaluated, even the second operand of && and ||, because ranges in it draw
+    // numbers.
     std::vector<float> operands;
     for (const Expr& part : expr.parts) {
         operands.push_back(evaluate(part, environment));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The arithmetic of section 4 of the language reference, one operation at a time. Every value is a
-// binary32; the functions that are not `+ - * / sqrt` are computed in binary64 and rounded once.
+// The arithmetic of section 4 of the language reference, one operation at a time. Every value is
+// binary32. Functions other than `+ - * / sqrt` are computed in binary64 and rounded once.
 
 #pragma once
 
@@ -15,7 +15,7 @@
 
 namespace lsys::reference {
 
-// A function of the grammar: an expression of its formals, or a curve through points.
+// A function of the grammar: an expression with formals, or a curve through points.
 struct UserFunction {
     std::vector<std::string> formals; // empty: a curve
     Expr body;
@@ -24,26 +24,27 @@ struct UserFunction {
 
 using Functions = std::map<std::string, UserFunction>;
 
-// The meanings of the names in an expression, and the source of its random numbers.
+// Values of the names in an expression, and the source of its random numbers.
 struct Environment {
     const std::map<std::string, float>* constants = nullptr;
     const Functions* functions = nullptr;
-    std::map<std::string, float> formals; // hide constants
+    std::map<std::string, float> formals; // a formal hides a constant of the same name
     float step = 0;
     float steps = 0;
-    // Called once for every range and distribution, in the order of closing braces and parentheses.
+    // Returns a random number. Called once for each range and distribution, in the order of their
+    // closing braces and parentheses.
     std::function<float()> draw;
 };
 
-// Thrown for a range whose bounds are not finite, in the wrong order, or too far apart, and for a
-// distribution whose arguments are outside their bounds.
+// Thrown for a range whose bounds are not finite, in the wrong order or too far apart, and for a
+// distribution with an argument outside of its bounds.
 struct BadRange {};
 
-// Whether an expression itself draws a random number, in addition to those of its operands: it is a
+// Whether an expression draws a random number itself, not only in its operands: whether it is a
 // range or a distribution.
 bool draws(const Expr& expr);
 
-// The value of `expr`. Precondition: every name in it has a meaning.
+// The value of `expr`. Precondition: `environment` has every name in it.
 float evaluate(const Expr& expr, const Environment& environment);
 
 // The monotone cubic through the points (Fritsch and Carlson 1980).
@@ -52,10 +53,10 @@ float curve_value(const std::vector<std::pair<float, float>>& points, float t);
 // `min + (max - min) * u`, kept below max.
 float range_value(float min, float max, float u);
 
-// The value that the draw `u` of normal, poisson or binomial yields.
+// The value of the distribution `name` (normal, poisson or binomial) for the random number `u`.
 float distribution_value(const std::string& name, const std::vector<float>& arguments, float u);
 
-// The value of a unary or binary operator, or of a function, for the given operands.
+// The value of an operator or a function with the given operands.
 float apply_operator(const std::string& name, const std::vector<float>& operands);
 float apply_function(const std::string& name, const std::vector<float>& operands);
 

@@ -236,8 +236,8 @@ private:
         }
     }
 
-    // Finds groups of which several productions with `~` were applied, or one with `~` and one
-    // without.
+    // Finds groups in which several productions with `~` were applied, or one production with `~`
+    // and one without.
     void groups() {
         std::map<std::string, std::vector<const Production*>> groups;
         for (const Statement* statement : statements_in_order(test_case_.grammar)) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The features of the language that a generated case exercises: a feature of a production counts
-// only if the production was applied. generator_test.cpp checks that every feature is frequent
+// Lists the features of the language that a generated case uses. A feature of a production counts
+// only if the production was applied. generator_test.cpp checks that cases use every feature often
 // enough.
 
 #pragma once
@@ -16,7 +16,7 @@ namespace lsys::reference {
 
 std::set<std::string> features_of(const Case& test_case, const Derivation& derivation);
 
-// All names that `features_of` can give.
+// All names that features_of() may return.
 const std::vector<std::string>& feature_names();
 
 } // namespace lsys::reference

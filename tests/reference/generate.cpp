@@ -12,8 +12,8 @@ namespace lsys::reference {
 
 namespace {
 
-// Sets the number of generations in -n if the case has -n, else in #n. Beside -n, #n gets a random
-// number.
+// Sets the number of generations: in -n if the case has -n, else in #n. If the case has both, #n
+// gets a random number.
 void set_generations(Case& test_case, std::uint32_t generations, Random& random) {
     const bool by_request = test_case.request.generations.has_value();
     if (by_request) {
@@ -40,7 +40,7 @@ struct Sized {
     double score = -1;
 };
 
-// A score of the features that a case exercises; rare features count more.
+// A score of the features that a case uses; rare features count more.
 double score_of(const Case& test_case, const Derivation& derivation) {
     static const std::set<std::string> kRare = {"context []",
                                                 "context [ ]",
@@ -69,7 +69,7 @@ double score_of(const Case& test_case, const Derivation& derivation) {
 }
 
 // Chooses the number of generations, at most `max_generations`, so that words have at most `cap`
-// modules and an error occurs only if `keep_error`.
+// modules, and so that an error occurs only if `keep_error` is true.
 Sized size_up(Case test_case,
               std::size_t cap,
               std::uint32_t max_generations,

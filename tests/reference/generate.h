@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Random grammars with all features of the language, one for every test seed. They are legal, their
-// words stay small, and most of their productions are applied. A few grammars end in a run-time
-// error.
+// Makes a random grammar for each test seed; together they use all features of the language. The
+// grammars are legal, their words stay small, and most of their productions are applied. A few
+// grammars end with a run-time error.
 
 #pragma once
 
@@ -16,7 +16,7 @@
 
 namespace lsys::reference {
 
-// A grammar and the command line to derive it with.
+// A grammar, and the options with which it is derived.
 struct Case {
     Grammar grammar;
     Request request; // max_modules has no limit

@@ -70,8 +70,8 @@ Expr ExpressionMaker::legal(const Expr& expr, const Scope& scope) {
     if (divides && is_constant(expr.parts[1], scope) && constant_value(expr.parts[1]) == 0) {
         return literal();
     }
-    // A call of a function that does not use its parameters is a constant for the compiler, so
-    // bounds with such a call may be illegal.
+    // A call of a function that does not use its parameters is a constant for the compiler, so that
+    // bounds with such a call could be illegal.
     const bool is_clear = std::none_of(expr.parts.begin(), expr.parts.end(),
                                        [&](const Expr& part) { return calls_user(part); });
     if (draws(expr) && !is_clear) {
@@ -109,8 +109,8 @@ Expr ExpressionMaker::legal(const Expr& expr, const Scope& scope) {
     return expr;
 }
 
-// A decimal number so close to the middle of two binary32 numbers that rounding to binary64 first
-// gives the wrong one.
+// A decimal number that is so close to the middle between two binary32 numbers that rounding it to
+// binary64 first gives the wrong one of the two.
 Expr ExpressionMaker::double_rounding_literal() {
     const auto mantissa = static_cast<float>(random_.below(1U << 23U));
     const float below = 1 + mantissa * 0x1p-23F;
@@ -186,7 +186,8 @@ Expr ExpressionMaker::leaf(const Scope& scope) {
 }
 
 Expr ExpressionMaker::range_of(const Scope& scope, int depth) {
-    // Ranges whose width is exact, but where min + draw * width is rounded to max for many draws.
+    // Ranges whose width is exact, but for which min + draw * width is rounded to max for many
+    // draws.
     static const std::vector<std::pair<float, float>> kNarrow = {{16777215.0F, 16777216.0F},
                                                                  {1.0F, 1.0000001F},
                                                                  {-1.0F, -0.99999994F},

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Random legal expressions of section 4 of the language reference: constant parts are finite, no
-// divisor is a constant zero, constant ranges have their bounds in order.
+// Makes random legal expressions of section 4 of the language reference: constant parts are finite,
+// no divisor is a constant zero, and the bounds of constant ranges are in order.
 
 #pragma once
 
@@ -22,17 +22,17 @@ Expr binary(const std::string& text, Expr left, Expr right);
 Expr call(const std::string& text, std::vector<Expr> arguments);
 Expr range(Expr low, Expr high);
 
-// Names and functions that an expression at a place may use.
+// The names and functions that an expression may use where it stands.
 struct Scope {
     std::vector<std::string> formals;
-    bool in_production = false;    // step() and steps() are allowed
+    bool in_production = false;    // step() and steps() may be used
     std::size_t range_percent = 0; // percentage of arguments with a range
     bool drawn_constants = true;   // constants with a random value may be used
 };
 
-// The constants defined so far.
+// The constants that the grammar has defined so far.
 struct Constants {
-    std::map<std::string, float> values; // drawn constants have an arbitrary value here
+    std::map<std::string, float> values; // a drawn constant has an arbitrary value here
     std::set<std::string> drawn;
     Functions functions; // their bodies use no drawn constants
 };
@@ -42,24 +42,24 @@ public:
     ExpressionMaker(Random& random, const Constants& constants)
         : random_(random), constants_(constants) {}
 
-    Expr argument(const Scope& scope);  // of a module
-    Expr condition(const Scope& scope); // often about the formals
+    Expr argument(const Scope& scope);  // an argument of a module
+    Expr condition(const Scope& scope); // a condition, often about the formals
     Expr local(const Scope& scope);     // a local value, never a constant
     Expr any(const Scope& scope, int depth);
     Expr literal();
 
-    // Whether the value is the same at every use: no formals, no draws.
+    // Whether the expression has the same value at every use: it has no formals and draws nothing.
     [[nodiscard]] bool is_constant(const Expr& expr, const Scope& scope) const;
     [[nodiscard]] float constant_value(const Expr& expr) const;
 
 private:
-    // Whether a function of the grammar is called.
+    // Whether the expression calls a function of the grammar.
     [[nodiscard]] bool calls_user(const Expr& expr) const;
     Expr leaf(const Scope& scope);
     Expr double_rounding_literal();
     Expr range_of(const Scope& scope, int depth);
     Expr comparison(const Scope& scope);
-    // `expr` if it is legal, given that its parts are, else a literal.
+    // Returns `expr` if it is legal, else a literal. Precondition: the parts of `expr` are legal.
     Expr legal(const Expr& expr, const Scope& scope);
 
     Random& random_;

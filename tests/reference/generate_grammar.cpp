@@ -19,7 +19,7 @@ std::string to_text(std::uint64_t value) {
     return std::to_string(value);
 }
 
-// Makes a grammar from a seed and an attempt, always the same one.
+// Makes a grammar from a seed and an attempt. The same seed and attempt give the same grammar.
 class Maker {
 public:
     Maker(std::uint64_t seed, std::uint32_t attempt)
@@ -35,7 +35,7 @@ public:
     }
 
 private:
-    // One file, or several that include each other as a tree.
+    // Makes one file, or several files that include each other as a tree.
     void make_files() {
         const int count = random_.percent(60) ? 1 : random_.between(2, 4);
         static const std::vector<std::string> kFolders = {"", "", "parts/", "parts/deep/", "more/"};
@@ -55,7 +55,7 @@ private:
                            [&](const File& file) { return file.letters == letters; });
     }
 
-    // Chooses the kinds of the statements, in the order of the whole text.
+    // Chooses the kinds of the statements, in the order of the text with all includes.
     std::vector<StatementKind> choose_kinds() {
         std::vector<std::pair<int, StatementKind>> keys;
         const auto add = [&](StatementKind kind, int from, int to, int low, int high) {
@@ -91,12 +91,12 @@ private:
         return kinds;
     }
 
-    // Spreads the statements, in order, over the files and puts the #include statements between
+    // Distributes the statements, in order, over the files, and puts #include statements between
     // them.
     void place(const std::vector<StatementKind>& kinds) {
         std::vector<File>& files = case_.grammar.files;
-        // Files in the order of visits: a file is visited when entered and after each of its
-        // #include.
+        // Files in the order in which reading visits them: a file is visited when it is entered,
+        // and again after each #include in it.
         std::vector<std::size_t> order;
         walk(0, order);
         std::vector<std::size_t> cuts; // count of statements before each visit but the first
@@ -295,8 +295,8 @@ private:
         }
     }
 
-    // Chooses the value by -D, if any, when the constant is defined, because later statements use
-    // it.
+    // Chooses the value that -D sets, if any, when the constant is defined, because later
+    // statements use this value.
     void define(const Statement& statement) {
         ExpressionMaker expressions(random_, constants_);
         const Scope scope;
@@ -356,7 +356,7 @@ private:
         add_statement(statement, file);
     }
 
-    // Replaces the placeholders of bundles by their productions, repairs their probabilities, adds
+    // Replaces the placeholders of bundles by productions, repairs their probabilities, and adds
     // settings and the declarations that prevent names from being split.
     void finish() {
         expand_bundles();
@@ -392,7 +392,7 @@ private:
         }
     }
 
-    // Moves some groups to `#decompose`, if they are legal there.
+    // Moves some groups to `#decompose`, if this is legal.
     void decompose_some() {
         std::set<std::string> chosen;
         for (File& file : case_.grammar.files) {
@@ -476,7 +476,7 @@ private:
         }
     }
 
-    // Writes the ignored names as a `#consider` of all other names; returns false if that is not
+    // Replaces `#ignore` by a `#consider` of all other names; returns false if this is not
     // possible.
     bool add_considered() {
         std::set<std::string> names;
@@ -550,8 +550,8 @@ private:
         }
     }
 
-    // Moves productions with contexts forward, because productions without contexts before them
-    // would often match first.
+    // Moves productions with contexts to the front, because productions without contexts before
+    // them would often match first.
     void put_contexts_first(File& file) {
         if (random_.percent(25)) {
             return;
@@ -560,7 +560,8 @@ private:
             return statement.kind == StatementKind::Production;
         };
         auto begin = file.statements.begin();
-        // Move within runs of productions only, so that no constant comes after its use.
+        // Moves productions only within runs of productions, so that no constant is used before it
+        // is defined.
         while (begin != file.statements.end()) {
             begin = std::find_if(begin, file.statements.end(), is_production);
             const auto end = std::find_if_not(begin, file.statements.end(), is_production);
@@ -571,7 +572,8 @@ private:
         }
     }
 
-    // Exchanges some neighbouring productions, so that groups and rules are interleaved.
+    // Exchanges some neighbouring productions, so that productions of different groups and rules
+    // alternate.
     void mix_bundles(File& file) {
         if (!random_.percent(40)) {
             return;
@@ -652,7 +654,7 @@ private:
             const std::vector<std::string>& other = random_.pick(kOthers);
             add_setting(other[0], other[1], any_file());
         }
-        // A case without #n needs -n. generate() replaces the 0.
+        // A case without #n needs -n. The 0 is replaced by generate().
         if (!has_generations_ || random_.percent(20)) {
             case_.request.generations = 0;
         }
@@ -683,7 +685,7 @@ private:
     std::map<const Statement*, std::vector<Production>> bundles_;
     std::set<std::string> decided_; // groups for which #decompose was chosen or rejected
     bool has_generations_ = false;
-    std::vector<float> axiom_shares_; // probabilities of the next axioms, if there are several
+    std::vector<float> axiom_shares_; // probabilities of the next axioms if there are several
 };
 
 } // namespace

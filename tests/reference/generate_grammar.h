@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The statements of a random grammar: files that include each other, settings, constants, axiom and
-// productions. generate.h chooses the number of generations.
+// Makes the statements of a random grammar: files that include each other, settings, constants,
+// axiom and productions. generate.h chooses the number of generations.
 
 #pragma once
 
@@ -10,7 +10,7 @@
 
 namespace lsys::reference {
 
-// The same seed and attempt give the same case.
+// Makes a case. The same seed and the same attempt give the same case.
 Case make_case(std::uint64_t seed, std::uint32_t attempt);
 
 } // namespace lsys::reference

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The plan of a random grammar: its modules, its features and their frequencies.
+// Plans a random grammar: its modules, its features and their frequencies.
 
 #pragma once
 
@@ -11,7 +11,7 @@
 
 namespace lsys::reference {
 
-// A kind of module: its name and its number of parameters.
+// A kind of module: name and number of parameters.
 struct Species {
     std::string name;
     std::size_t count = 0; // number of parameters
@@ -28,19 +28,19 @@ struct Plan {
     std::size_t context_percent = 0;
     std::size_t condition_percent = 0;
     std::size_t stochastic_percent = 0;
-    std::size_t range_percent = 0; // of the arguments of successors
-    std::size_t local_percent = 0; // of the productions
+    std::size_t range_percent = 0; // percentage of arguments of successors that have a range
+    std::size_t local_percent = 0; // percentage of productions with local values
     std::vector<Species> species;  // all modules of the grammar
     std::vector<Species> active;   // modules that productions rewrite
     std::vector<std::string> ignored;
 };
 
-// Whether a file can contain modules of that name: with `names letters`, identifiers have one
-// letter.
+// Whether a file can contain modules with this name. In a file with `names letters` (`letters`),
+// identifiers have one letter.
 bool fits(const std::string& name, bool letters);
 
-// `letters_files`, `words_files`: whether the grammar has files of that kind. At least one active
-// species fits into every file.
+// `letters_files`, `words_files`: whether the grammar has files with and without `#set names
+// letters`. Every file can contain at least one active species.
 Plan make_plan(bool letters_files, bool words_files, Random& random);
 
 } // namespace lsys::reference

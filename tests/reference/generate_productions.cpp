@@ -18,7 +18,8 @@ bool can_be_rewritten(const std::string& name) {
     return std::string("[]{}").find(name) == std::string::npos;
 }
 
-// A random place of `length` adjacent modules in `skeleton`; nullopt if there is none.
+// Index of `length` adjacent modules at a random place in `skeleton`; nullopt if there is no such
+// place.
 std::optional<std::size_t> place_in(const Skeleton& skeleton, std::size_t length, Random& random) {
     std::vector<std::size_t> places;
     for (std::size_t i = 0; i + length <= skeleton.size(); ++i) {
@@ -27,7 +28,7 @@ std::optional<std::size_t> place_in(const Skeleton& skeleton, std::size_t length
                         [](const Species& one) { return can_be_rewritten(one.name); })) {
             places.push_back(i);
             if (i + length < skeleton.size() && skeleton[i + length].name == "[") {
-                // More likely, because a context with branches fits here.
+                // Added three more times, because contexts with branches fit here.
                 places.insert(places.end(), 3, i);
             }
         }
@@ -42,13 +43,13 @@ ModulePattern pattern_of(const Species& species) {
     return {species.name, std::vector<std::string>(species.count)};
 }
 
-// The last modules of the path that leads to `place`.
+// The last modules on the path that leads to `place`, as a left context.
 Pattern cut_left(const Skeleton& skeleton,
                  std::size_t place,
                  int length,
                  const std::vector<std::string>& ignored) {
     Pattern pattern;
-    int finished = 0; // depth of branches beside the path
+    int finished = 0; // depth within branches that are not on the path
     for (std::size_t i = place; i-- > 0 && static_cast<int>(pattern.size()) < length;) {
         if (skeleton[i].name == "]") {
             ++finished;
@@ -61,14 +62,14 @@ Pattern cut_left(const Skeleton& skeleton,
     return pattern;
 }
 
-// Some modules of the axis from `place` on, with some of its branches.
+// Some modules of the axis from `place` on, with some of its branches, as a right context.
 Pattern cut_right(const Skeleton& skeleton,
                   std::size_t place,
                   int length,
                   const std::vector<std::string>& ignored,
                   Random& random) {
     Pattern pattern;
-    /// A branch was skipped: a pattern with the branch right after it would not match.
+    /// Whether a branch was skipped: a pattern with a branch directly after it would not match.
     bool skipped = false;
     std::size_t i = place;
     for (int taken = 0; taken < length && i < skeleton.size() && skeleton[i].name != "]"; ++i) {
@@ -224,7 +225,7 @@ std::vector<ModuleUse> ProductionMaker::modules(int length, const Scope& scope, 
         list.insert(list.begin() + at, {random_.percent(60) ? "[" : "]", {}});
     }
     if (plan_.open_polygons && random_.percent(30)) {
-        // Begins a polygon, ends one, or ends one and begins another.
+        // Inserts modules that begin a polygon, end one, or end one and begin another.
         const auto at = static_cast<std::ptrdiff_t>(random_.below(list.size() + 1));
         const std::size_t way = random_.below(4);
         if (way != 1) {
@@ -258,9 +259,10 @@ Expr ProductionMaker::probability(float value, const std::vector<std::string>& f
     }
 }
 
-// A weight that depends on the module: 0 for some modules, rarely negative.
+// A weight that depends on the module: 0 for some modules, and negative for few.
 Expr ProductionMaker::weight(const Scope& scope) {
-    // An expression that the compiler cannot find to be the constant 0, which is an error.
+    // An expression that the compiler does not recognise as the constant 0, which would be an
+    // error.
     Expr any = scope.formals.empty() || random_.percent(20) ? call("step", {})
                                                             : name(random_.pick(scope.formals));
     if (random_.percent(60)) {
@@ -305,7 +307,8 @@ std::vector<float> ProductionMaker::shares(int count) {
     return values;
 }
 
-// Predecessor and contexts, cut from a stored skeleton or made of random species.
+// Makes predecessor and contexts: cuts them from a stored skeleton, or makes them of random
+// species.
 Production ProductionMaker::shape(bool letters) {
     Production shape;
     const bool allows_several_modules = plan_.rewriting != "parallel";
@@ -342,7 +345,8 @@ std::vector<Production> ProductionMaker::bundle(bool letters) {
     return bundle_of(shape(letters), letters);
 }
 
-// `#down` has no left contexts, `#up` no right ones, and most modules have parameters to change.
+// A bundle of `#down` has no left contexts and one of `#up` no right contexts. Most modules in it
+// have parameters to change.
 std::vector<Production> ProductionMaker::sweep_bundle(Stage stage, bool letters) {
     Production shape;
     for (int tries = 0; tries < 20; ++tries) {
@@ -359,7 +363,8 @@ std::vector<Production> ProductionMaker::sweep_bundle(Stage stage, bool letters)
     return bundle_of(shape, letters);
 }
 
-// Modules in place of the predecessor; in a sweep the same module with other parameters.
+// Makes the modules that replace the predecessor; in a sweep, the same module with other
+// parameters.
 std::vector<ModuleUse>
 ProductionMaker::successor(const Production& production, const Scope& scope, bool letters) {
     static const std::vector<int> kLengths = {0, 1, 1, 1, 2, 2, 2, 2, 3, 3, 3, 3, 4, 4, 5, 8};
@@ -369,7 +374,7 @@ ProductionMaker::successor(const Production& production, const Scope& scope, boo
     const ModulePattern& swept = production.predecessor[0];
     ModuleUse use{swept.name, {}};
     for (const std::string& formal : swept.formals) {
-        // Most values say something about a neighbour, in a way that seldom grows without bound.
+        // Most values depend on a neighbour, in a way that seldom makes them grow without bound.
         const std::string& other = random_.pick(scope.formals);
         const Expr sum = random_.percent(50) ? binary("+", name(formal), name(other))
                                              : call("max", {name(formal), name(other)});

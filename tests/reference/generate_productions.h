@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Random productions, and modules of successors and of the axiom. A bundle is a list of productions
-// with one predecessor and one pair of contexts, whose conditions and probabilities are legal
+// Makes random productions, and the modules of successors and of the axiom. A bundle is a list of
+// productions with the same predecessor and contexts; their conditions and probabilities are legal
 // together.
 
 #pragma once
@@ -15,7 +15,7 @@
 
 namespace lsys::reference {
 
-// The names of a successor or axiom without arguments, brackets among them.
+// The names of a successor or axiom without arguments; its brackets are included.
 using Skeleton = std::vector<Species>;
 
 class ProductionMaker {
@@ -30,9 +30,10 @@ public:
     std::vector<Production> sweep_bundle(Stage stage, bool letters);
 
     std::vector<ModuleUse> modules(int length, const Scope& scope, bool letters);
-    // Probabilities whose sum is nearly 1; with `weights any`, arbitrary weights.
+    // Probabilities whose sum is nearly 1; arbitrary weights if the grammar has `weights any`.
     std::vector<float> shares(int count);
-    // An expression with the value `value`. `formals` hide constants, so it must not name them.
+    // An expression with the value `value`. It must not name constants that are hidden by
+    // `formals`.
     Expr probability(float value, const std::vector<std::string>& formals);
 
 private:
@@ -45,7 +46,7 @@ private:
     std::vector<ModuleUse>
     successor(const Production& production, const Scope& scope, bool letters);
     Pattern context(int length, bool brackets, int depth, bool letters);
-    // Gives the modules of `pattern` names for their parameters, each only once in `used`.
+    // Names the parameters of the modules in `pattern`; each name in `used` is used only once.
     void name_formals(Pattern& pattern, std::vector<std::string>& used);
     std::string name_local(const std::vector<std::string>& used);
     Expr weight(const Scope& scope);
@@ -54,9 +55,10 @@ private:
     const Plan& plan_;
     ExpressionMaker expressions_;
     const Constants& constants_;
-    // Index of the next active species, so that productions rewrite each of them.
+    // Index of the species that the next production rewrites; each active species gets its turn.
     std::size_t turn_ = 0;
-    // Skeletons from which successors are often made and contexts are cut, so that contexts match.
+    // Skeletons from which successors are often made, and from which contexts are cut, so that
+    // contexts match words.
     std::vector<Skeleton> skeletons_;
     std::vector<Skeleton> skeletons_of_letters_;
 };

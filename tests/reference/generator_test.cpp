@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Checks that the random grammars exercise every feature.
+// Checks that random grammars use every feature often enough.
 
 #include "tests/reference/features.h"
 #include "tests/reference/generate.h"

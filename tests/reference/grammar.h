@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // A grammar as plain data, statement by statement. The generator of random grammars and
-// hand-written tests make it, the oracle (derive.h) reads it and the printer (print.h) writes it as
-// text. It shares no code with the compiler, so that both cannot have the same mistake. Order
-// matters everywhere: statements stand in the order of the text, and a file that is included stands
-// where its #include stands.
+// hand-written tests make it, the oracle (derive.h) reads it, and the printer (print.h) writes it
+// as text. It shares no code with the compiler, so that both cannot have the same mistake. The
+// order of all lists matters: statements are in the order of the text, and a file that is included
+// stands where its #include stands.
 
 #pragma once
 
@@ -18,8 +18,8 @@ namespace lsys::reference {
 
 enum class ExprKind { Number, Name, Unary, Binary, Call, Range };
 
-// An expression as a tree. `text` is the name, the operator ("-", "&&"), or the function; for a
-// number it is the spelling to print, or empty if any spelling of `number` is right.
+// An expression as a tree. `text` is the name, the operator ("-", "&&") or the function. For a
+// number it is the spelling to print; if it is empty, any spelling of `number` may be printed.
 struct Expr {
     ExprKind kind = ExprKind::Number;
     float number = 0;
@@ -33,7 +33,7 @@ struct ModuleUse {
     std::vector<Expr> arguments;
 };
 
-// A module of a predecessor or of a context. Brackets of a right context are modules too.
+// A module of a predecessor or of a context. The brackets of a right context are modules, too.
 struct ModulePattern {
     std::string name;
     std::vector<std::string> formals;
@@ -94,23 +94,23 @@ struct File {
     std::vector<Statement> statements;
 };
 
-// files[0] is the one given to the compiler.
+// files[0] is the file that the compiler is called with.
 struct Grammar {
     std::vector<File> files;
 };
 
-// All statements but IncludeFile in the order in which they take effect.
+// All statements except IncludeFile, in the order in which they take effect.
 std::vector<const Statement*> statements_in_order(const Grammar& grammar);
 
 // The value of `#set key`, if the grammar has one.
 std::optional<std::string> setting(const Grammar& grammar, const std::string& key);
 
-// `left < predecessor > right` with names and numbers of parameters only. Productions for which
-// this text is the same form a group (docs/language.md section 5).
+// The text `left < predecessor > right`, with names and numbers of parameters only. Productions
+// with equal texts form a group (docs/language.md section 5).
 std::string group_of(const Production& production);
 
-// The predecessor with names and numbers of parameters only. Productions for which this text is
-// the same form a rule (docs/language.md section 5).
+// The text of the predecessor, with names and numbers of parameters only. Productions with equal
+// texts form a rule (docs/language.md section 5).
 std::string rule_of(const Production& production);
 
 } // namespace lsys::reference

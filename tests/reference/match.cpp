@@ -15,8 +15,8 @@ bool agrees(const ModulePattern& pattern, const Module& module, Bindings& bindin
     return true;
 }
 
-// The position just after the branch that the `[` at `at` opens; the end of the word if nothing
-// closes it.
+// The position just after the branch that begins with the `[` at `at`; the end of the word if no
+// `]` closes it.
 std::size_t after_branch(const Word& word, std::size_t at) {
     std::size_t depth = 0;
     for (; at < word.size(); ++at) {
@@ -55,7 +55,7 @@ bool matches_left(const Pattern& pattern,
                   std::size_t position,
                   const std::set<std::string>& ignored,
                   Bindings& bindings) {
-    std::size_t end = position; // word[end - 1] is the next module on the way to the root
+    std::size_t end = position; // word[end - 1] is the next module towards the root
     for (std::size_t i = pattern.size(); i-- > 0;) {
         while (true) {
             if (end == 0) {
@@ -97,7 +97,7 @@ std::size_t closing(const Pattern& pattern, std::size_t open) {
     }
 }
 
-// Matches pattern[first, last) along the axis from `at` on.
+// Matches pattern[first] to pattern[last - 1] along the axis, from the position `at` on.
 bool matches_axis(const Pattern& pattern,
                   std::size_t first,
                   std::size_t last,
@@ -145,7 +145,7 @@ bool matches_around(const Production& production,
     if (word.size() - position < length) {
         return false;
     }
-    for (std::size_t i = 0; i < length; ++i) { // neighbours: nothing is skipped between them
+    for (std::size_t i = 0; i < length; ++i) { // neighbours: none may be skipped
         if (!agrees(production.predecessor[i], word[position + i], bindings)) {
             return false;
         }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Matching of predecessors and contexts over branches: section 5 of the language reference.
+// Matches predecessors and contexts over branches, as section 5 of the language reference says.
 
 #pragma once
 
@@ -15,8 +15,8 @@ namespace lsys::reference {
 
 using Bindings = std::map<std::string, float>;
 
-// Whether predecessor and contexts of `production` have the names and numbers of parameters of the
-// word around `position`. The values found are added to `bindings`.
+// Whether predecessor and contexts of `production` match the names and numbers of parameters in the
+// word around `position`. Adds the values of the formals to `bindings`.
 bool matches_around(const Production& production,
                     const Word& word,
                     std::size_t position,

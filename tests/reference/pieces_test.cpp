@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Derives random grammars with every way to split a derivation: threads, chunks of a few modules,
-// streaming. The words of the oracle are so small that `lsc` itself never splits them.
+// Derives random grammars with all ways of dividing a derivation: threads, chunks of a few modules,
+// streaming. The words of the oracle are so small that `lsc` itself never divides them.
 
 #include "runtime/base/random.h"
 #include "runtime/derive/derive.h"
@@ -19,7 +19,7 @@ namespace lsys::reference {
 
 namespace {
 
-/// `count` modules with random codes, most of them `usual`, so that runs of equal codes occur.
+/// A word of `count` modules with random codes. Most codes are `usual`, so that equal codes adjoin.
 lsys::Word
 random_word(const Bytecode& bytecode, std::uint64_t seed, std::uint64_t count, Code usual) {
     std::vector<Code> codes;

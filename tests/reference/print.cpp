@@ -24,7 +24,7 @@ bool is_wordy(char c) {
            c == '.';
 }
 
-// Turns statements into tokens and tokens into text, for one file.
+// Turns statements into tokens, and tokens into text, for one file.
 class FilePrinter {
 public:
     FilePrinter(const Grammar& grammar, const File& file, const JoinedNames* joined, Random* random)
@@ -283,7 +283,7 @@ private:
         add_modules(production.successor);
     }
 
-    // `path` relative to the folder of this file.
+    // `path`, relative to the folder of this file.
     [[nodiscard]] std::string relative_path(std::string path) const {
         std::string folder = file_.path.substr(0, file_.path.rfind('/') + 1);
         std::string up;
@@ -329,9 +329,10 @@ private:
         }
     }
 
-    // Whether the scanner would read the tokens as one if no blank stood between them.
+    // Whether the scanner would read both tokens as one if no blank were between them.
     [[nodiscard]] bool merge(const Token& previous, const Token& token) const {
-        // A lone `.` is the module, never part of a number, so it merges with nothing.
+        // A single `.` is always the module, never part of a number, so it never merges with
+        // another token.
         if (previous.text == "." || token.text == ".") {
             return false;
         }
@@ -355,7 +356,8 @@ private:
         }
     }
 
-    // `before`: the text before the module. A byte order mark is no part of the first line.
+    // Adds the place of a module. `before`: the text before the module. A byte order mark does not
+    // count as part of the first line.
     void add_place(const ModuleUse* module, const std::string& before) {
         const std::size_t line_end = before.rfind('\n');
         const std::size_t first = line_end == std::string::npos ? 0 : line_end + 1;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Random numbers of the generator and the printer of random grammars: consecutive Philox words, so
+// Random numbers for the generator and the printer of random grammars: consecutive Philox words, so
 // that a seed gives the same grammar with every standard library and on every machine.
 
 #pragma once
@@ -15,7 +15,8 @@ namespace lsys::reference {
 
 class Random {
 public:
-    // `stream`: separates the random numbers of one seed for different purposes.
+    // `stream`: number of the purpose; random numbers for different purposes are independent,
+    // although the seed is the same.
     Random(std::uint64_t seed, std::uint32_t stream) : seed_(seed), stream_(stream) {}
 
     std::uint32_t word() {
@@ -24,10 +25,10 @@ public:
         return philox4x32_10({count_++, stream_, 0x6C737973, 0}, key)[0];
     }
 
-    // 0 to bound - 1. Precondition: bound > 0. The small bias does not matter here.
+    // A number from 0 to bound - 1. Precondition: bound > 0. The small bias does not matter here.
     std::size_t below(std::size_t bound) { return word() % bound; }
 
-    // `low` to `high`, both included.
+    // A number from `low` to `high`, both included.
     int between(int low, int high) {
         return low + static_cast<int>(below(static_cast<std::size_t>(high - low + 1)));
     }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Checks the oracle against independent results: published vectors, words derived by hand in the
-// literature, and counts by other programs.
+// Checks the oracle against independent results: published random numbers, words derived by hand in
+// the literature, and counts of other programs.
 
 #include "tests/reference/build.h"
 #include "tests/reference/derive.h"
@@ -367,7 +367,7 @@ TEST_CASE("in sequential rewriting a rule has draws of its own") {
     add_production(grammar, production("a", {{"A", {}}}, {module("X", {unit, range(unit, unit)})}));
     add_production(grammar, production("b", {{"B", {}}}, {module("Y", {unit})}));
     Grammar plain = grammar;
-    // An upper bound is drawn before its range; 1 + {0, 1} keeps it above the lower bound.
+    // The upper bound is drawn before its range is; 1 + {0, 1} keeps it above the lower bound.
     plain.files[0].statements[2].production.successor[0].arguments[1] =
         range(number(0), binary("+", number(1), unit));
     const Word word = derive_for(plain, 1, 9).words[1];

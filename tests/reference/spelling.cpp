@@ -244,7 +244,8 @@ std::vector<JoinedNames::List> JoinedNames::lists_of(const File& file) {
     return lists;
 }
 
-// The number of ways to split `text` into two or more names that occur, joined names included.
+// The number of ways to split `text` into two or more names that occur in the grammar; joined names
+// count as occurring.
 std::size_t JoinedNames::ways(const std::string& text) const {
     // count[i]: ways to split the first i characters.
     std::vector<std::size_t> count(text.size() + 1, 0);
@@ -261,8 +262,8 @@ std::size_t JoinedNames::ways(const std::string& text) const {
     return count[text.size()];
 }
 
-// Whether `text` can be another joined name: it and all joined names so far are then read in one
-// way only.
+// Whether `text` may become a joined name: with it, all joined names so far can be read in one way
+// only.
 bool JoinedNames::is_safe(const std::string& text) {
     if (names_.count(text) != 0) {
         return false;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Spelling of the parts of a grammar: names, numbers, expressions, and joined names. The printer
-// (print.h) puts blanks and comments between the tokens made here.
+// Spells the parts of a grammar: names, numbers, expressions, and joined names. The printer
+// (print.h) puts blanks and comments between these tokens.
 
 #pragma once
 
@@ -14,33 +14,34 @@
 
 namespace lsys::reference {
 
-// [A-Za-z_][A-Za-z0-9_]*
+// Whether `name` has the form [A-Za-z_][A-Za-z0-9_]*.
 bool is_identifier(const std::string& name);
 
-// One of the characters that are module names without back quotes.
+// Whether `name` is one of the characters that are names of modules without back quotes.
 bool is_symbol(const std::string& name);
 
-// A decimal number that rounds to `value`: with `random` one of many, else the shortest.
-// Precondition: value is finite and not negative.
+// A decimal number that rounds to `value`: with `random` one of many spellings, else the shortest.
+// Precondition: `value` is finite and not negative.
 std::string spell_number(float value, Random* random);
 
-// Appends the tokens of `expr`, with the parentheses that precedence requires and, with `random`,
-// some more.
+// Appends the tokens of `expr`, with the parentheses that precedence requires; with `random` also
+// some that it does not require.
 void spell_expression(const Expr& expr, Random* random, std::vector<std::string>& tokens);
 
-// Chooses the modules that are joined with the next one of their list, as `AS(1)` for `A S(1)`:
-// only where section 3 of the language reference reads the name split in exactly that way. A name
-// counts as a possible part if it occurs anywhere, so that the reading stays the same under every
-// interpretation of "elsewhere in the file".
+// Chooses the modules that are printed without a blank before the next module of their list, as
+// `AS(1)` for `A S(1)`. A module is chosen only if section 3 of the language reference splits the
+// joined name in exactly this way. A name counts as a possible part if it occurs anywhere in the
+// grammar, so that the result is the same under every interpretation of "elsewhere in the file".
 class JoinedNames {
 public:
     JoinedNames(const Grammar& grammar, Random& random);
 
-    // Whether module `index` of `list` (the axiom, a successor, a context or the names of an
-    // #ignore, by its address) is printed without a blank before module index + 1.
+    // Whether module `index` of `list` is printed without a blank before module `index` + 1.
+    // `list`: address of the axiom, a successor, a context, or the names of an #ignore.
     [[nodiscard]] bool joined(const void* list, std::size_t index) const;
 
-    // Names that are printed alone but would be read split; empty for a correct grammar.
+    // Names that are printed with blanks around them but would be split; empty for a correct
+    // grammar.
     [[nodiscard]] std::set<std::string> ambiguous_names() const;
 
 private:
@@ -63,8 +64,8 @@ private:
     join_at(const List& list, std::size_t first, std::size_t last, std::set<std::string>& used);
 
     std::set<std::string> known_;
-    std::set<std::string> names_; // all names that occur
-    std::set<std::string> texts_; // of joined names
+    std::set<std::string> names_; // all names in the grammar
+    std::set<std::string> texts_; // texts of joined names
     std::map<const void*, std::set<std::size_t>> joined_;
 };
 

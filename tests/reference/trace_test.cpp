@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Traces of all modules of random grammars: each successor must equal the modules that the runtime
-// wrote.
+// Traces all modules of random grammars: the successor in each trace must equal the modules that
+// the runtime has written.
 #include "runtime/derive/derive.h"
 #include "runtime/derive/trace.h"
 #include "tests/reference/compile_case.h"
@@ -48,8 +48,8 @@ void count(const StepTracer& tracer, Seen& seen) {
     }
 }
 
-/// Traces all modules of a word through one step or its interpretation. Returns false if the
-/// runtime reports an error.
+/// Traces all modules of a word in one step, or in its interpretation. Returns false if the runtime
+/// reports an error.
 bool check_step(const Bytecode& bytecode,
                 DeriveOptions options,
                 const lsys::Derivation& from,
@@ -67,10 +67,11 @@ bool check_step(const Bytecode& bytecode,
     const std::optional<Stop> stop = interprets ? stepping.interpret() : stepping.step();
     tracer.finish();
     if (stop == Stop::Limit) {
-        return false; // an interpretation that grows without end
+        return false; // the interpretation grows without end
     }
     if (stop) {
-        // The runtime reports the first failing module of a pass; its trace must fail too.
+        // The runtime reports the first module of a pass that fails; the trace of this module must
+        // fail, too.
         const bool is_found =
             std::any_of(tracer.traces().begin(), tracer.traces().end(), [&](const auto& trace) {
                 return trace.fate == Fate::Failed && trace.position == stepping.error().position;

@@ -15,8 +15,8 @@
 
 namespace lsys::test {
 
-/// Adds a copy of `like` with this frame, at the tip of `parent` or, without a parent, at the
-/// origin.
+/// Adds a copy of `like` with the frame `frame`, at the tip of `parent`; without a parent at the
+/// origin. Returns its index.
 inline std::uint32_t
 add_segment(Skeleton& plant, std::uint32_t parent, const glm::quat& frame, const Segment& like) {
     Segment segment = like;
@@ -39,7 +39,7 @@ inline Segment rod(float length, float radius, float spring, float mass) {
     return segment;
 }
 
-/// The frame whose heading leans by `angle` (radians) from +Y to +X.
+/// The frame whose heading is turned from +Y towards +X by `angle` (radians).
 inline glm::quat leaning(float angle) {
     return glm::angleAxis(-angle, glm::vec3(0.0F, 0.0F, 1.0F));
 }
@@ -50,7 +50,7 @@ inline double uniform(std::mt19937& numbers, double low, double high) {
 inline std::uint32_t below(std::mt19937& numbers, std::uint32_t end) {
     return static_cast<std::uint32_t>(numbers() % end);
 }
-/// A random power of ten between 10^low and 10^high.
+/// A random power of ten from 10^low to 10^high.
 inline float power(std::mt19937& numbers, double low, double high) {
     return static_cast<float>(std::pow(10.0, uniform(numbers, low, high)));
 }
@@ -61,8 +61,8 @@ inline glm::quat any_frame(std::mt19937& numbers) {
                                     static_cast<float>(uniform(numbers, 0.01, 1.0))));
 }
 
-/// A plant of `count` segments with branches. Lengths, radii, masses and springs are between
-/// 10^-range and 10^range. Some segments do not begin at the end of their parent.
+/// A branched plant of `count` segments. Lengths, radii, masses and springs are from 10^-range to
+/// 10^range. Some segments do not begin at the tip of their parent.
 inline Skeleton random_plant(std::mt19937& numbers, std::uint32_t count, double range) {
     Skeleton plant;
     for (std::uint32_t i = 0; i < count; ++i) {
@@ -133,7 +133,7 @@ inline Skeleton tree(std::uint32_t depth, std::uint32_t segments_per_axis) {
     return plant;
 }
 
-/// The frame of a segment relative to its parent's; its own frame without a parent.
+/// The frame of a segment relative to the frame of its parent; without a parent, the frame itself.
 inline glm::quat local_frame(const Skeleton& skeleton, std::uint32_t segment) {
     const Segment& own = skeleton.segments[segment];
     return own.parent == kNoSegment
@@ -141,10 +141,10 @@ inline glm::quat local_frame(const Skeleton& skeleton, std::uint32_t segment) {
                : glm::conjugate(skeleton.segments[own.parent].frame) * own.frame;
 }
 
-/// Energy of springs and weight, J, computed from the two poses alone.
+/// Energy in J of springs and weight, computed only from the pose at rest and a bent pose.
 struct Potential {
     double energy = 0.0;
-    double terms = 0.0; // sum of the magnitudes of the terms, the scale of rounding errors
+    double terms = 0.0; // sum of the magnitudes of all terms, to bound rounding errors
 };
 inline Potential potential(const Skeleton& rest, const Skeleton& bent, double gravity) {
     Potential sum;
@@ -174,7 +174,7 @@ inline Potential potential(const Skeleton& rest, const Skeleton& bent, double gr
     return sum;
 }
 
-/// The bytes of all fields that a pose changes.
+/// The bytes of all members that poses change.
 inline std::string place_bytes(const Skeleton& plant) {
     std::string bytes;
     const auto add = [&](const auto& value) {

@@ -100,7 +100,7 @@ public:
         : formals_(scope.formals), globals_(scope.globals), draws_(scope.draws),
           uses_steps_(scope.uses_steps) {}
 
-    /// The instructions; a constant is a single Literal.
+    /// The instructions of an expression; a constant is a single Literal.
     Instructions run(const std::string& text) {
         Reader reader(text);
         Instructions code = binary(reader, 0);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Parser of the short texts of BytecodeBuilder: modules, productions, and expressions compiled to
-// instructions. A mistake in a text ends the test program.
+// Parser of the short texts that BytecodeBuilder takes: modules, productions, and expressions,
+// which it compiles to instructions. A mistake in a text ends the test program.
 #pragma once
 
 #include "compiler/bytecode/bytecode.h"
@@ -31,7 +31,8 @@ struct ProductionText {
     std::optional<float> weight;
     std::string successor;
 };
-/// Reads "p : A(x) < B > C [ D ] : x > 0 ~ 0.5 : F(x, {1, 2}) B".
+/// Reads a production, such as "p : A(x) < B > C [ D ] : x > 0
+/// 0.5 : F(x, {1, 2}) B".
 [[nodiscard]] ProductionText read_production(const std::string& text);
 
 /// The name of a formal parameter without blanks.
@@ -40,18 +41,19 @@ struct ProductionText {
 using Instructions = std::vector<std::uint32_t>;
 using NameTable = std::map<std::string, std::uint32_t>;
 
-/// The names in scope of an expression. Compiling the expression adds its draws to `draws` and sets
-/// `uses_steps` if it calls steps().
+/// The names that an expression may use. Compiling the expression adds its number of draws to
+/// `draws`, and sets `uses_steps` if the expression calls steps().
 struct ExpressionScope {
     const NameTable& formals;
     const NameTable& globals;
     std::uint32_t& draws;
     bool& uses_steps;
 };
-/// The instructions of an expression with constant parts folded; a constant is one Literal.
+/// The instructions of an expression, whose constant parts are folded. A constant expression
+/// becomes one Literal.
 [[nodiscard]] Instructions compile_expression(const std::string& text,
                                               const ExpressionScope& scope);
-/// The value of instructions that consist of one Literal.
+/// The value of instructions that consist of one Literal; nullopt for other instructions.
 [[nodiscard]] std::optional<float> constant_of(const Instructions& code);
 
 } // namespace lsys::test

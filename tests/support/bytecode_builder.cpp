@@ -16,7 +16,7 @@ namespace lsys::test {
 
 namespace {
 
-/// Fills the tables in the order required by bytecode.h.
+/// Fills the tables of a Bytecode in the order that bytecode.h requires.
 class Assembler {
 public:
     Assembler(bool fold, std::uint32_t unused) : fold_(fold) {
@@ -44,7 +44,7 @@ public:
         return static_cast<SymbolId>(at->second);
     }
 
-    /// Symbols have the lowest codes, so all are declared before the first word.
+    /// Symbols have the lowest codes, so all symbols are declared before the first word is read.
     void declare_symbols(const std::string& modules) {
         for (const ModuleText& module : read_modules(modules)) {
             symbol(module.name, module.arguments.size());
@@ -61,7 +61,7 @@ public:
         return static_cast<std::uint32_t>(bytecode_.sites.size() - 1);
     }
 
-    /// Appends the instructions of one value and their consumer.
+    /// Appends the instructions of one value, and the instruction that takes this value.
     void emit(const Instructions& code, Opcode taker) {
         bytecode_.site_ranges.push_back({next(), site()});
         bytecode_.instructions.insert(bytecode_.instructions.end(), code.begin(), code.end());
@@ -167,7 +167,8 @@ private:
     std::map<std::vector<std::uint32_t>, Code> folded_;
 };
 
-/// The names and parameter counts of a pattern; equal texts belong to one rule or group.
+/// The names and parameter counts in a pattern. Patterns with equal texts belong to the same rule
+/// or group.
 std::string shape_of(const std::optional<std::string>& text) {
     std::string shape = text ? "present " : "absent ";
     for (const ModuleText& module : read_modules(text.value_or(""))) {

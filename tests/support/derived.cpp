@@ -32,7 +32,8 @@ DeriveOptions options_for(std::uint32_t generations,
     return options;
 }
 
-/// The text of the last word, with the origins of its modules if asked for.
+/// The text of the last word; `origins` receives the origins of its modules if `options` request
+/// origins.
 std::string
 derived_with(const Bytecode& bytecode, const DeriveOptions& options, std::vector<Origin>& origins) {
     Derivation derivation(bytecode, options);
@@ -69,7 +70,7 @@ bool same(const RuntimeError& a, const RuntimeError& b) {
            a.parameters == b.parameters && a.in_condition == b.in_condition;
 }
 
-/// Calls `visit` for the program, and for the program with reachable modules folded.
+/// Calls `visit` with the program, and with the program whose reachable modules are folded.
 template <typename Visit>
 void for_each_program(const Bytecode& bytecode,
                       std::uint32_t generations,

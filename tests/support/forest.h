@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Instance caches and trees from grammar texts, for tests of instancing.
+// Makes instance caches and trees from grammar texts, for tests of instancing.
 #pragma once
 
 #include "compiler/instancing/instance.h"
@@ -23,15 +23,15 @@ struct Planted {
 [[nodiscard]] CacheOptions heroes(std::uint32_t count, std::uint64_t seed = 0);
 [[nodiscard]] Tree tree_of(std::uint32_t number);
 
-/// Compiles the grammar for instancing and makes an instance cache. Requires success.
+/// Compiles a grammar for instancing, and makes an instance cache. Fails the test if this fails.
 [[nodiscard]] Planted
 plant(const std::string& grammar, std::uint32_t generations, float rho, CacheOptions options);
 
-/// The skeleton of the plant derived without instancing.
+/// The skeleton of the plant, derived without instancing.
 [[nodiscard]] Skeleton
 plain_plant(const std::string& grammar, std::uint32_t generations, std::uint64_t seed);
 
-/// A segment of a tree.
+/// A segment in a tree.
 struct TreeSegment {
     glm::dvec3 base{};
     glm::dvec3 tip{};
@@ -43,7 +43,7 @@ struct TreeSegment {
 segments_of(const InstanceCache& cache, const Tree& tree, std::uint64_t key);
 [[nodiscard]] std::vector<TreeSegment> segments_of(const Skeleton& skeleton);
 
-/// The number of segments of `a` without an equal one of `b` within `distance` (m).
+/// The number of segments of `a` for which `b` has no equal segment within `distance` (m).
 [[nodiscard]] std::size_t count_unmatched(const std::vector<TreeSegment>& a,
                                           const std::vector<TreeSegment>& b,
                                           double distance);

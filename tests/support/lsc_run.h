@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// In-process runs of `lsc`, and helpers of their tests.
+// Runs `lsc` in-process; helpers of tests that do so.
 #pragma once
 
 #include <cstddef>
@@ -19,10 +19,10 @@ struct LscRun {
 /// Runs `lsc ARGUMENTS` with `input` as standard input.
 [[nodiscard]] LscRun run_lsc(const std::vector<std::string>& arguments, const std::string& input);
 
-/// The number in a row of `lsc export --stats`; -1 if the row is missing.
+/// The number in the row `row` of the output of `lsc export --stats`; -1 if the row is missing.
 [[nodiscard]] long stated_number(const std::string& stats, const std::string& row);
 
-/// The bytes of a file, which must exist.
+/// The bytes of a file. Fails the test if the file does not exist.
 [[nodiscard]] std::string read_text(const std::filesystem::path& path);
 void write_text(const std::filesystem::path& path, std::string_view text);
 
@@ -34,20 +34,20 @@ public:
     ScratchFolder& operator=(const ScratchFolder&) = delete;
     ~ScratchFolder();
     [[nodiscard]] const std::filesystem::path& path() const { return path_; }
-    /// The path of a file in it, as an argument.
+    /// The path of a file in the folder, as an argument of a command.
     [[nodiscard]] std::string operator/(std::string_view name) const;
-    /// Count of files and folders directly in it.
+    /// Number of files and folders that lie directly in the folder.
     [[nodiscard]] std::size_t file_count() const;
 
 private:
     std::filesystem::path path_;
 };
 
-/// A sample of the gallery: samples/NAME/NAME.lsys or samples/species/NAME/NAME.lsys.
+/// A sample of the gallery, samples/NAME/NAME.lsys or samples/species/NAME/NAME.lsys.
 struct Sample {
     std::filesystem::path file;
-    std::vector<std::vector<std::string>> runs; // with the name of the file inserted
-    std::string counts;                         // one per line, as printed by --all --count
+    std::vector<std::vector<std::string>> runs; // by `run:` line; with the path of the file
+    std::string counts;                         // one count per line, as --all --count prints them
     std::size_t counts_size = 0;                // number of counts
     bool declares_warnings = false;
 };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Invariants of all meshes, and sizes for comparison.
+// Checks of what must hold for all meshes, and sizes of meshes for comparison.
 #pragma once
 
 #include "runtime/meshing/mesh.h"
@@ -21,7 +21,7 @@ inline glm::dvec3 twice_area(const glm::vec3& a, const glm::vec3& b, const glm::
     return glm::cross(glm::dvec3(b) - glm::dvec3(a), glm::dvec3(c) - glm::dvec3(a));
 }
 
-/// The number of triangles whose mean normal points to the back.
+/// The number of triangles for which the mean of the vertex normals points to their back.
 inline std::size_t triangles_turned_over(const Mesh& mesh) {
     std::size_t turned = 0;
     const LargeVector<std::uint32_t> indices = mesh.indices.expanded();
@@ -36,8 +36,9 @@ inline std::size_t triangles_turned_over(const Mesh& mesh) {
     return turned;
 }
 
-/// Checks for arrays of equal length, indices in range, unit normals, orthogonal unit tangents, no
-/// triangle without area, and parts that cover the indices.
+/// Checks that arrays have equal lengths, indices are in range, normals are unit vectors, tangents
+/// are unit vectors orthogonal to the normals, every triangle has an area, and parts cover all
+/// indices.
 inline void check_mesh(const Mesh& mesh, const MeshOptions& options) {
     const std::size_t count = mesh.positions.size();
     REQUIRE(mesh.normals.size() == count);
@@ -80,7 +81,7 @@ inline void check_mesh(const Mesh& mesh, const MeshOptions& options) {
     CHECK(wrong == 0);
 }
 
-/// The number of corners of triangles whose normal points to the back of the triangle.
+/// The number of corners of triangles whose vertex normal points to the back of the triangle.
 inline std::size_t corners_turned_over(const Mesh& mesh) {
     std::size_t turned = 0;
     for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
@@ -113,7 +114,7 @@ inline double area_of(const Mesh& mesh) {
     return sum;
 }
 
-/// The enclosed volume of a closed mesh.
+/// The volume that a closed mesh encloses.
 inline double volume_of(const Mesh& mesh) {
     double sum = 0.0;
     for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
@@ -129,7 +130,7 @@ struct Topology {
     std::size_t vertices = 0;
     std::size_t edges = 0;
     std::size_t triangles = 0;
-    std::size_t open_edges = 0;       // edges that do not occur once in each direction
+    std::size_t open_edges = 0;       // edges that do not occur exactly once in each direction
     std::size_t unbalanced_edges = 0; // edges that do not occur equally often in both directions
 
     [[nodiscard]] std::int64_t euler() const {
@@ -137,7 +138,7 @@ struct Topology {
     }
 };
 
-/// Counts vertices, edges and triangles. `place`: maps an index to the number of a vertex.
+/// Counts vertices, edges and triangles. `place`: returns the number of the vertex for an index.
 template <typename Place>
 Topology count_edges(const Mesh& mesh, const Place& place) {
     std::map<std::pair<std::uint32_t, std::uint32_t>, std::array<int, 2>> edges;
@@ -161,11 +162,11 @@ Topology count_edges(const Mesh& mesh, const Place& place) {
     return topology;
 }
 
-/// Topology with equal positions as one vertex.
+/// The topology of a mesh in which vertices at equal positions count as one.
 inline Topology topology_of(const Mesh& mesh) {
     std::map<std::array<float, 3>, std::uint32_t> places;
     return count_edges(mesh, [&](std::uint32_t index) {
-        const glm::vec3 p = mesh.positions[index] + 0.0F; // -0 is 0
+        const glm::vec3 p = mesh.positions[index] + 0.0F; // turns -0 into 0
         return places.emplace(std::array{p.x, p.y, p.z}, static_cast<std::uint32_t>(places.size()))
             .first->second;
     });

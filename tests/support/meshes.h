@@ -12,11 +12,12 @@ namespace lsys::test {
 [[nodiscard]] Mesh triangle_mesh();
 /// A cube of 1 m above the origin, 24 vertices with texture coordinates.
 [[nodiscard]] Mesh cube_mesh();
-/// An open tube along +Y of textured bark with all arrays; (rings + 1) * (sides + 1) vertices.
+/// An open tube along +Y of textured bark, with all optional arrays. It has (rings + 1) * (sides +
+/// 1) vertices.
 [[nodiscard]] Mesh tube_mesh(std::uint32_t rings, std::uint32_t sides);
-/// A tube of bark, leaves of cut-out cards, and a part of several colours: three parts.
+/// Three parts: a tube of bark, leaves as cut-out cards, and a part with several colours.
 [[nodiscard]] Mesh plant_mesh();
-/// A mesh of many tubes with about the given number of vertices.
+/// A mesh of many tubes, with about `vertices` vertices.
 [[nodiscard]] Mesh large_mesh(std::uint64_t vertices);
 
 } // namespace lsys::test

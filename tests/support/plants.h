@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Skeletons for tests, and the coverage of pictures by meshes.
+// Skeletons for tests, and the number of pixels that meshes cover in pictures.
 #pragma once
 
 #include "runtime/meshing/mesh.h"
@@ -9,7 +9,7 @@
 
 namespace lsys::test {
 
-/// Draws segments, each from the tip of its parent.
+/// Makes a skeleton segment by segment; each segment begins at the tip of its parent.
 class Plant {
 public:
     struct Look {
@@ -21,7 +21,8 @@ public:
         float roll = 0.0F; // radians
     };
 
-    /// Adds a segment along `direction` (not zero) from the parent's tip or the origin.
+    /// Adds a segment in `direction` (not zero), from the tip of the parent or, without a parent,
+    /// from the origin.
     std::uint32_t
     add(std::uint32_t parent, const glm::vec3& direction, float length, const Look& look);
     std::uint32_t add(std::uint32_t parent, const glm::vec3& direction, float length) {
@@ -34,7 +35,7 @@ private:
     Skeleton skeleton_;
 };
 
-/// Random numbers, equal with every standard library.
+/// Random numbers that are the same with every standard library.
 class RandomNumbers {
 public:
     explicit RandomNumbers(std::uint32_t seed) : engine_(seed) {}
@@ -50,11 +51,12 @@ private:
     std::mt19937 engine_;
 };
 
-/// A tree with `orders` levels of branches, as tapering axes of several segments.
+/// A tree with `orders` levels of branches. Each axis has several segments and tapers.
 [[nodiscard]] Skeleton random_tree(std::uint32_t seed, std::uint32_t orders);
 
-/// The number of pixels of a size x size picture of the square around `frame` that a mesh covers,
-/// seen along -Z after a turn about +Y by `turn` radians.
+/// The number of pixels that a mesh covers in a picture of `size` by `size` pixels. The picture
+/// shows the square around `frame`, seen along -Z after the mesh was turned about +Y by `turn`
+/// radians.
 [[nodiscard]] std::size_t
 coverage(const Mesh& mesh, const Bounds& frame, std::uint32_t size, float turn);
 

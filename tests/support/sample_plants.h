@@ -9,8 +9,8 @@
 
 namespace lsys::test {
 
-/// The plant of samples/NAME/LAST.lsys, where LAST is NAME or its part after the last `/`, with
-/// other values for the constants in `definitions`.
+/// The plant of samples/NAME/LAST.lsys, where LAST is the part of NAME after the last `/`.
+/// `definitions`: values that replace values of constants.
 [[nodiscard]] lsys::Plant sample_plant(const std::string& name,
                                        const std::vector<lsys::Definition>& definitions = {});
 

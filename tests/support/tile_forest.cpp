@@ -11,7 +11,7 @@ namespace lsys::tests {
 
 namespace {
 
-/// Places trees of one small grammar by a scene or by overrides of one.
+/// Makes a forest of trees of one small grammar, from a scene and overrides.
 TileForest make_forest(const std::string& file, SceneOverrides overrides, TileOptions options) {
     Project project;
     project.threads = 1;

@@ -6,10 +6,10 @@
 
 namespace lsys::tests {
 
-/// About 300 trees on a square of 70 m by 70 m, in three levels of tiles.
+/// A forest of about 300 trees on a square of 70 m by 70 m, with three levels of tiles.
 [[nodiscard]] TileForest make_small_tile_forest();
-/// A strip of 280 m by 70 m with about 1,200 trees; the function sets `triangles`, `error`
-/// and `generator`.
+/// A forest of about 1,200 trees on a strip of 280 m by 70 m. The function sets `triangles`,
+/// `error` and `generator` of `options`.
 [[nodiscard]] TileForest make_tile_strip(TileOptions options);
 
 } // namespace lsys::tests

@@ -86,7 +86,7 @@ void add_header(std::string_view line, UiCase& found) {
     }
 }
 
-/// The annotation in `text`, which begins after `//~` or `/*~`.
+/// Adds the annotation in `text`, which begins after `//~` or `/*~`, to `found`.
 void add_annotation(std::string_view text, std::uint32_t line, UiCase& found) {
     UiAnnotation annotation;
     annotation.written_at = line;

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A golden case: a grammar or scene with its runs in the first lines and its diagnostics in
-// annotations.
-// tests/README.md describes the form.
+// A golden case: a grammar or scene whose first lines state its runs, and whose annotations state
+// its diagnostics. tests/README.md describes the format.
 #pragma once
 
 #include <cstdint>
@@ -12,10 +11,10 @@
 
 namespace lsys::tests {
 
-/// A run: `// run: dump -n 3` and the `// exit: 1` after it.
+/// A run: the line `// run: dump -n 3`, and the line `// exit: 1` that follows it.
 struct UiRun {
-    std::vector<std::string> words; // with `%` and `%t` as written
-    std::string input;              // file of standard input, after `<`; may be empty
+    std::vector<std::string> words; // words of the command, with `%` and `%t` unreplaced
+    std::string input;              // file for standard input, after `<`; may be empty
     int exit_status = 0;
 };
 
@@ -33,29 +32,30 @@ struct UiCase {
     std::vector<UiRun> runs;
     std::vector<UiAnnotation> annotations;
     bool needs_posix = false;          // skipped on Windows
-    std::vector<std::string> mistakes; // mistakes in the first lines or annotations of the case
+    std::vector<std::string> mistakes; // mistakes in the first lines or in annotations
 };
 
 /// Reads the runs and annotations of a case.
 [[nodiscard]] UiCase parse_ui_case(const std::filesystem::path& file, std::string_view text);
 
-/// A printed diagnostic of any format.
+/// A diagnostic that was printed, in any format.
 struct UiDiagnostic {
-    std::string file; // empty: no place
+    std::string file; // empty: the diagnostic has no place
     std::uint32_t line = 0;
     std::string severity;
     std::string message;
     std::string code;
 };
 
-/// The diagnostics of standard error in any format. Only the first line of each message is read.
+/// The diagnostics that `text`, output to standard error in any format, contains. Only the first
+/// line of each message is read.
 [[nodiscard]] std::vector<UiDiagnostic> parse_diagnostics(std::string_view text);
 
-/// Whether the annotation matches the diagnostic; `name`: the file name of the case.
+/// Whether the annotation matches the diagnostic. `name`: the file name of the case.
 [[nodiscard]] bool
 matches(const UiAnnotation& annotation, const UiDiagnostic& diagnostic, std::string_view name);
 
-/// Words separated by blanks; single quotes keep blanks.
+/// The words of a text, separated by blanks; single quotes keep blanks in a word.
 [[nodiscard]] std::vector<std::string> split_words(std::string_view text);
 
 } // namespace lsys::tests

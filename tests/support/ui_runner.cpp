@@ -80,7 +80,7 @@ Printed run_lsc(const std::vector<std::string>& arguments, const std::string& in
     return printed;
 }
 
-/// The run of one case.
+/// Runs one case and checks its results.
 class CaseRun {
 public:
     CaseRun(const UiCase& the_case, const UiOptions& options, UiOutcome& outcome)
@@ -115,8 +115,8 @@ public:
         compare(".fixed", fix(scratch.path()));
     }
 
-    /// Runs a case without annotations; its exit status and standard output are not checked.
-    /// The folder of the run has the files whose name begins with `prefix`.
+    /// Runs a case without annotations; does not check exit status and standard output. The folder
+    /// of the run has the files whose names begin with `prefix`.
     void run_listed(const std::string& prefix) {
         const Scratch scratch;
         const fs::path folder = scratch.path() / "case"; // the run may write files
@@ -203,8 +203,8 @@ private:
         }
     }
 
-    /// The text of the case after `check --fix` on a copy; empty if unchanged or if the first run
-    /// is not `check`. Checks that no certain fix is left.
+    /// The text of the case after `check --fix` on a copy; empty if it is unchanged, or if the
+    /// first run is not `check`. Checks that no certain fix is left.
     std::string fix(const fs::path& scratch) {
         if (case_.runs.empty() || case_.runs.front().words.empty() ||
             case_.runs.front().words.front() != "check") {
@@ -267,7 +267,7 @@ private:
     bool ignores_status_ = false;
 };
 
-/// Reports expected files without a case.
+/// Reports golden files without a case.
 void check_strays(const fs::path& feature, const UiOptions& options, UiOutcome& outcome) {
     for (const fs::directory_entry& entry : fs::directory_iterator(feature)) {
         const std::string extension = path_text(entry.path().extension());

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Runs golden cases in-process and compares their output with the files beside them.
+// Runs golden cases in-process, and compares their output with the golden files beside them.
 #pragma once
 
 #include <filesystem>
@@ -11,7 +11,7 @@ namespace lsys::tests {
 
 struct UiOptions {
     std::filesystem::path root;       // tests/ui
-    std::vector<std::string> filters; // parts of `feature/fact`; if empty, all cases run
+    std::vector<std::string> filters; // parts of `feature/fact`; empty: all cases run
     bool bless = false;
     bool verbose = false; // print the name of each case before it runs, to identify a crash
 };
@@ -20,23 +20,23 @@ struct UiOutcome {
     std::size_t case_count = 0;
     std::vector<std::string> failures; // each names its case
     std::vector<std::string> blessed;  // files that were rewritten or removed
-    std::set<std::string> codes;       // codes of all annotations
+    std::set<std::string> codes;       // codes in all annotations
 };
 
-/// A case whose command is in a table instead of in its file.
+/// A case whose command is in a table and not in the case's file.
 struct ListedCase {
     std::string name;
     std::filesystem::path file;
-    std::vector<std::string> words; // the command, with `%` for the file and `%t` as in a case
+    std::vector<std::string> words; // words of the command; `%` and `%t` as in a case
 };
 
-/// Runs each listed case on a temporary copy of its files, and compares standard error with
-/// `<file>.stderr` and the text repaired by `check --fix` with `<file>.fixed`.
+/// Runs each listed case on a temporary copy of its files. Compares standard error with
+/// `<file>.stderr`, and the text after `check --fix` with `<file>.fixed`.
 [[nodiscard]] UiOutcome run_listed_cases(const std::vector<ListedCase>& cases,
                                          const UiOptions& options);
 
-/// Runs the cases `<feature>/<fact>.lsys` and `<feature>/<fact>.toml` below `root` that pass a
-/// filter.
+/// Runs those cases `<feature>/<fact>.lsys` and `<feature>/<fact>.toml` below `root` that a filter
+/// selects.
 [[nodiscard]] UiOutcome run_ui_cases(const UiOptions& options);
 
 } // namespace lsys::tests

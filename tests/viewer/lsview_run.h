@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// `lsview` run in-process by tests.
+// Runs `lsview` in-process in tests.
 #pragma once
 
 #include "tests/support/lsc_run.h"
@@ -9,8 +9,8 @@
 
 namespace lsys::tests {
 
-/// Pictures have low quality unless the arguments set another one, so that stored pictures are
-/// compared with pictures of any device.
+/// Runs `lsview ARGUMENTS`. Pictures have low quality unless the arguments set another quality, so
+/// that pictures of any device can be compared with stored pictures.
 [[nodiscard]] LscRun run_lsview(const std::vector<std::string>& arguments);
 /// The path of a sample's grammar, `samples/NAME/NAME.lsys`.
 [[nodiscard]] std::string sample(const std::string& name);

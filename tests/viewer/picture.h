@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Reads PNG files of tests and compares pictures.
+// Reads PNG files in tests, and compares pictures.
 #pragma once
 
 #include <array>
@@ -23,7 +23,7 @@ texel(const Picture& picture, std::uint32_t x, std::uint32_t y) {
     return {picture.texels[at], picture.texels[at + 1], picture.texels[at + 2]};
 }
 
-/// Fails the test if `png` is no PNG.
+/// The picture in the bytes of a PNG file. Fails the test if `png` is no PNG.
 [[nodiscard]] Picture decode_picture(const std::string& png);
 [[nodiscard]] Picture read_picture(const std::string& path);
 
@@ -31,7 +31,7 @@ struct PictureDifference {
     double mean = 0.0;      // over all channels, 0 to 255
     double differing = 0.0; // fraction of pixels that differ by more than 32 in a channel
 };
-/// Precondition: both pictures have the same size.
+/// Compares two pictures. Precondition: they have the same size.
 [[nodiscard]] PictureDifference difference_of(const Picture& a, const Picture& b);
 
 } // namespace lsys::tests

@@ -34,7 +34,7 @@ void CameraBookmarks::show(const std::string& state_folder, const std::string& f
     if (!text) {
         return;
     }
-    // A line is the number of a bookmark, a blank, the camera, a tab and the name.
+    // A line consists of the number of a bookmark, a blank, the camera as text, a tab and the name.
     std::istringstream lines(text.value());
     for (std::string each; std::getline(lines, each);) {
         const std::size_t tab = each.find('\t');

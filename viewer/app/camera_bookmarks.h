@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// CameraBookmarks: nine cameras with names, kept for each plant or scene in the user's state
+// CameraBookmarks: nine cameras with names for each plant or scene, stored in the user's state
 // folder.
 #pragma once
 
@@ -23,16 +23,16 @@ struct CameraBookmark {
 class CameraBookmarks {
 public:
     /// Reads the bookmarks of `file` from the state folder, unless the last call had the same
-    /// `file`. Skips lines that are no bookmarks. Without a state folder bookmarks are lost when
-    /// another file is shown.
+    /// `file`. Skips lines that are not bookmarks. Without a state folder, the bookmarks of a file
+    /// are lost when another file is shown.
     void show(const std::string& state_folder, const std::string& file);
 
     /// Bookmark 1 has index 0.
     [[nodiscard]] const std::array<std::optional<CameraBookmark>, kBookmarks>& all() const {
         return bookmarks_;
     }
-    /// Sets the camera of bookmark `index` + 1 (`index`: 0 to 8). Keeps its name; a new bookmark
-    /// is named "Camera 1", with its own number.
+    /// Sets the camera of bookmark `index` + 1 (`index`: 0 to 8). An existing bookmark keeps its
+    /// name; a new one is named "Camera 1", with its own number.
     void set(std::size_t index, const Camera& camera, const Console& console);
     /// Precondition: the bookmark is set.
     void rename(std::size_t index, const std::string& name, const Console& console);

@@ -18,13 +18,14 @@ namespace lsys::view {
 
 namespace {
 
-/// The value of a parameter at step `index` of `count`.
+/// The value of a parameter at step `index`, where `count` equal steps go from its minimum to its
+/// maximum.
 float value_at(const Constant& param, std::size_t index, std::size_t count) {
     return param.minimum + (param.maximum - param.minimum) * static_cast<float>(index) /
                                static_cast<float>(count - 1);
 }
 
-/// Draws the plants of a request one after the other; returns false on an error of OpenGL.
+/// Draws the plants of a request one after the other; returns false after an error of OpenGL.
 bool draw_plants(const SheetRequest& request, const std::atomic<bool>& cancelled) {
     const Result<std::unique_ptr<HeadlessContext>> context = HeadlessContext::make_without_window();
     if (!context) {
@@ -85,7 +86,7 @@ bool run_sheet(const SheetRequest& request, const std::atomic<bool>& cancelled) 
                                [] { return false; });
 }
 
-/// The varied parameters of the plant, in the order of `varied`.
+/// The parameters of the plant that `sheet` varies, in the order of ContactSheet::varied.
 std::vector<Constant> varied_params(const ContactSheet& sheet, const Grammar& grammar) {
     std::vector<Constant> params;
     if (grammar.program) {
@@ -100,8 +101,8 @@ std::vector<Constant> varied_params(const ContactSheet& sheet, const Grammar& gr
     return params;
 }
 
-/// Draws a list of the parameters for place `place` of ContactSheet::varied; returns whether the
-/// choice changed.
+/// Draws the list in which the user chooses the parameter at index `place` of ContactSheet::varied.
+/// Returns whether the choice changed.
 bool choose_param(ContactSheet& sheet, const PlantView& view, std::size_t place) {
     const char* const none = place == 0 ? "seeds" : "nothing else";
     const std::string shown = place < sheet.varied.size() ? sheet.varied[place] : none;
@@ -296,7 +297,7 @@ SheetAction draw_contact_sheet(ContactSheet& sheet, const PlantView& view) {
             ImDrawList& list = *ImGui::GetWindowDrawList();
             constexpr float kBorder = 3.0F;
             if (sheet.images.at(i) != 0) {
-                // ImTextureID is a pointer that carries the number of the texture.
+                // ImTextureID is a pointer type whose value is the number of the texture.
                 list.AddImage(reinterpret_cast<ImTextureID>(sheet.images.at(i)), // NOLINT
                               {corner.x + kBorder, corner.y + kBorder},
                               {corner.x + cell.x - kBorder, corner.y + cell.y - kBorder});

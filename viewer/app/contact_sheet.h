@@ -24,29 +24,29 @@ namespace lsys::view {
 inline constexpr std::size_t kSheetSide = 3;
 inline constexpr std::size_t kSheetCells = kSheetSide * kSheetSide;
 
-/// A plant of the sheet: the values in which it differs from the plant of the view.
+/// A plant of the sheet: the values by which it differs from the plant of the view.
 struct SheetCell {
     std::optional<std::uint64_t> seed;
-    std::vector<Definition> definitions; // replace the settings' definitions of the same names
+    std::vector<Definition> definitions; // they replace definitions of the same names
     std::string label;                   // "seed 4", "angle 30, width 0.2"
 };
 
-/// The cells of a sheet. Without `params`: nine seeds from `seed` on. One parameter: nine values in
-/// equal steps from its minimum to its maximum. Two parameters: three values of each, the first
-/// from left to right, the second from top to bottom.
+/// The cells of a sheet. Without `params`: nine consecutive seeds, beginning with `seed`. One
+/// parameter: nine values in equal steps from its minimum to its maximum. Two parameters: three
+/// values of each; the first changes from left to right, the second from top to bottom.
 [[nodiscard]] std::array<SheetCell, kSheetCells>
 sheet_cells(std::uint64_t seed, const std::vector<Constant>& params, const Names& names);
 
-/// Sets the values of a cell in the settings of a plant.
+/// Sets the values of a cell in the settings of a plant, `edits`.
 void take_cell(const SheetCell& cell, PlantEdits& edits);
 
-/// Pictures that the thread has drawn and the window has not taken.
+/// Pictures that the other thread has drawn and take() has not returned yet.
 struct SheetPictures {
     std::mutex mutex;
-    std::vector<std::pair<std::size_t, Texture>> drawn; // by cell; no texels: no plant
+    std::vector<std::pair<std::size_t, Texture>> drawn; // cell and picture; no texels: no plant
 };
 
-/// Work for another thread.
+/// The input of the thread that draws the pictures.
 struct SheetRequest {
     ViewOptions options;                       // options of all plants; `edits` are applied to them
     std::array<PlantEdits, kSheetCells> edits; // constants and seeds of the plants
@@ -63,14 +63,15 @@ struct SheetSize {
     std::uint32_t width = 1;
     std::uint32_t height = 1;
 };
-/// Size of the picture of a cell in a window of a size in pixels: a third, less the borders.
+/// Size of the picture of a cell, in a window of the given size in pixels: a third of the window,
+/// minus borders.
 [[nodiscard]] SheetSize sheet_cell_size(std::uint32_t window_width, std::uint32_t window_height);
 
 class ContactSheet {
 public:
-    /// Begins to draw the pictures for the plant of `view`; drops earlier pictures. `width`,
-    /// `height`: of a picture, pixels. `wake`: called on any thread when take() has pictures.
-    /// Without a plant does nothing.
+    /// Begins to draw the pictures for the plant of `view`, and drops earlier pictures. `width`,
+    /// `height`: size of a picture in pixels. `wake`: called on any thread when take() has
+    /// pictures. Does nothing if `view` has no plant.
     void show(const PlantView& view,
               std::uint32_t width,
               std::uint32_t height,
@@ -80,11 +81,11 @@ public:
     [[nodiscard]] bool is_busy() const { return worker_ != nullptr && worker_->is_busy(); }
     /// Whether take() has pictures.
     [[nodiscard]] bool has_pictures() const;
-    /// Takes new pictures by the number of their cell.
+    /// Takes new pictures, with the numbers of their cells.
     [[nodiscard]] std::vector<std::pair<std::size_t, Texture>> take();
 
-    /// Names of the `#param` that are varied, at most two; empty: seeds. A change takes effect at
-    /// the next show().
+    /// Names of the at most two `#param` that are varied; empty: seeds are varied. A change takes
+    /// effect at the next show().
     std::vector<std::string> varied;
     std::array<SheetCell, kSheetCells> cells;         // cells of the last show()
     std::array<std::uintptr_t, kSheetCells> images{}; // 0: not drawn yet
@@ -101,11 +102,11 @@ private:
 
 /// The action of the user in a frame of draw_contact_sheet().
 struct SheetAction {
-    std::optional<std::size_t> chosen_cell; // whose plant the user takes
+    std::optional<std::size_t> chosen_cell; // cell whose plant the user takes
     bool closes = false;
     bool varies = false; // ContactSheet::varied has changed
 };
-/// Draws the sheet over the whole window.
+/// Draws the sheet over the whole window. Returns the action of the user.
 [[nodiscard]] SheetAction draw_contact_sheet(ContactSheet& sheet, const PlantView& view);
 
 } // namespace lsys::view

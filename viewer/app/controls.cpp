@@ -25,7 +25,7 @@ float held_axis(const WindowInput& input, Key forwards, Key backwards) {
     return (is_held(input, forwards) ? 1.0F : 0.0F) - (is_held(input, backwards) ? 1.0F : 0.0F);
 }
 
-/// The scope of the next trace; the last scope is followed by the first.
+/// The scope after `scope` in the order of the key; after the last scope comes the first.
 TraceScope scope_after(TraceScope scope) {
     switch (scope) {
     case TraceScope::Written:
@@ -38,14 +38,15 @@ TraceScope scope_after(TraceScope scope) {
     return TraceScope::Written;
 }
 
-/// Index of the bookmark that a digit names.
+/// Index of the bookmark that a digit key selects.
 std::optional<std::size_t> bookmark_of(Key key) {
     return key >= Key::One && key <= Key::Nine
                ? std::optional(static_cast<std::size_t>(key) - static_cast<std::size_t>(Key::One))
                : std::nullopt;
 }
 
-/// Rotates the camera around the target: half a turn per picture height of `drag`.
+/// Rotates the camera around the target by half a turn per picture height that the mouse is
+/// dragged.
 void orbit(Camera& camera, const glm::vec2& drag, float height) {
     const float turn = std::numbers::pi_v<float> / std::max(height, 1.0F);
     if (drag != glm::vec2(0.0F)) {
@@ -53,7 +54,7 @@ void orbit(Camera& camera, const glm::vec2& drag, float height) {
     }
 }
 
-/// Moves the camera so that the target follows the mouse.
+/// Moves the camera so that the target follows the dragged mouse.
 void pan(Camera& camera, const glm::vec2& drag, float height) {
     if (drag != glm::vec2(0.0F)) {
         const float metres =
@@ -64,9 +65,10 @@ void pan(Camera& camera, const glm::vec2& drag, float height) {
     }
 }
 
-/// A place in the window, in half picture heights to the right and up from the picture's centre.
+/// Converts a place in the window in pixels to half picture heights, right and up from the centre
+/// of the picture.
 glm::vec2 place_in_picture(const glm::vec2& pixels, const PixelArea& area) {
-    // The upper edges of picture and window coincide.
+    // Picture and window have the same upper edge.
     const float half = 0.5F * static_cast<float>(area.height);
     return {(pixels.x - static_cast<float>(area.x) - 0.5F * static_cast<float>(area.width)) / half,
             (half - pixels.y) / half};
@@ -103,7 +105,7 @@ void take_picture(View& view, PanelState& panels) {
     const std::string problem =
         settings.name.empty() ? "the picture has no name" : problem_of_output(settings.path());
     if (!problem.empty()) {
-        view.set_note("not written: " + problem); // also shown in the dialog, which stays
+        view.set_note("not written: " + problem); // also shown in the dialog, which stays open
         return;
     }
     settings.width = settings.width == 0 ? view.picture_width() : settings.width;
@@ -131,7 +133,7 @@ void show_export_dialog(PanelState& panels) {
 void export_shown(PlantView& view, PanelState& panels) {
     const std::string problem = problem_of_export(view.settings.output.file);
     if (!problem.empty()) {
-        view.set_note("not written: " + problem); // also shown in the dialog, which stays
+        view.set_note("not written: " + problem); // also shown in the dialog, which stays open
         return;
     }
     panels.dialog = OpenDialog::None;
@@ -300,7 +302,7 @@ bool Controls::use_pages(const WindowInput& input, ViewSwitcher& switcher, Panel
     return true;
 }
 
-/// Keys that the panels have not taken.
+/// Handles keys that the panels have not handled.
 void Controls::press_in_page(const KeyPress& press,
                              ViewSwitcher& switcher,
                              PanelState& panels,
@@ -446,17 +448,17 @@ void Controls::apply(const WindowInput& input,
 }
 
 void Controls::click(const WindowInput& input, const PixelArea& area, View& view) {
-    constexpr float kStill = 3.0F; // pixels; a hand trembles during a click
+    constexpr float kStill = 3.0F; // pixels of motion that still count as a click
     for (const PointerEvent& event : input.pointer_events) {
         if (event.kind == PointerEvent::Kind::Press) {
             pressed_ = event.place;
             continue;
         }
         if (pressed_ && glm::distance(*pressed_, event.place) > kStill) {
-            pressed_.reset(); // the pointer is dragged: this is no click
+            pressed_.reset(); // dragged too far for a click
         }
         if (event.kind == PointerEvent::Kind::Release && pressed_) {
-            // The upper edges of picture and window coincide.
+            // Picture and window have the same upper edge.
             const glm::vec2 place = *pressed_ - glm::vec2(static_cast<float>(area.x), 0.0F);
             if (place.x >= 0.0F && place.y >= 0.0F) {
                 view.pick(
@@ -472,7 +474,7 @@ bool Controls::move_obstacle(const WindowInput& input, const PixelArea& area, Pl
     for (const PointerEvent& event : input.pointer_events) {
         const glm::vec2 place = place_in_picture(event.place, area);
         if (event.kind == PointerEvent::Kind::Press) {
-            view.release_obstacle(); // its release may have gone to a dialog
+            view.release_obstacle(); // the button may have been released over a dialog
             holds = event.shift && view.grab_obstacle(place);
             continue;
         }
@@ -559,7 +561,7 @@ bool Controls::press_common(const KeyPress& press, View& view, PanelState& panel
         return true;
     case Key::Escape:
         if (press.in_control) {
-            return true; // ends the use of the control
+            return true; // the key ends the use of the control
         }
         if (panels.focus.has_keys() && !panels.flies) {
             panels.focus_move = FocusMove::Picture;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Controls: mouse and keyboard input to changes of a view.
+// Controls: turns mouse and keyboard input into changes of a view.
 #pragma once
 
 #include "viewer/app/camera_bookmarks.h"
@@ -18,20 +18,20 @@
 
 namespace lsys::view {
 
-/// The dialog that receives all keys.
+/// The open dialog, which receives all keys.
 enum class OpenDialog : std::uint8_t { None, File, Picture, Export, Sheet, Unsaved };
 
-/// Open overlays, and modes of the window.
+/// State of overlays and dialogs, and modes of the window.
 struct PanelState {
     bool panels = true;
     bool statistics = false;
     bool help = false;
     bool flies = false;         // fly mode: the mouse looks around, WASD move
-    bool wants_to_quit = false; // Ctrl+Q
-    bool quits = false;         // unsaved changes are saved or given up
+    bool wants_to_quit = false; // the user has pressed Ctrl+Q
+    bool quits = false;         // quit: unsaved changes are saved or discarded
     FocusMove focus_move = FocusMove::None;
     PanelFocus focus;
-    /// Messages that the user closed, as View::all_messages(); others are shown.
+    /// Text of View::all_messages() when the user closed the messages; other messages are shown.
     std::string closed_messages;
     std::string state_folder; // folder of files kept between runs; empty: none are kept
     OpenDialog dialog = OpenDialog::None;
@@ -42,17 +42,17 @@ struct PanelState {
     CameraBookmarks bookmarks;
     ContactSheet sheet;
     bool has_open_list = false; // a list of a panel or dialog is open
-    std::string save_failure;   // why the dialog about unsaved changes has not saved them
+    std::string save_failure;   // why saving failed in the dialog about unsaved changes
     SourcePane source;
     Editors editors;
     WindowLook look;
     std::uint32_t window_width = 0; // pixels
     std::uint32_t window_height = 0;
-    std::function<void()> wake; // wakes the window when `film` has an outcome; called on any thread
+    std::function<void()> wake; // called on any thread when `film` has an outcome
     AddImage add_image;         // empty: pictures are not shown
 };
 
-/// A row of the list of keys.
+/// A row of the list of keys that the window shows.
 struct KeyHelp {
     const char* keys;
     const char* what;
@@ -155,8 +155,9 @@ inline constexpr auto kForestKeys = std::to_array<KeyHelp>({
 
 class Controls {
 public:
-    /// Applies input to the view shown. `seconds`: time since the last call. `area`: place of the
-    /// picture in the window, pixels from the window's lower left corner.
+    /// Applies input to the view that is shown. `seconds`: time since the last call. `area`: the
+    /// part of the window that the picture fills, in pixels from the lower left corner of the
+    /// window.
     void apply(const WindowInput& input,
                double seconds,
                const PixelArea& area,
@@ -174,15 +175,15 @@ public:
                const PixelArea& area,
                ForestView& view,
                PanelState& panels);
-    /// Moves the obstacle that a press of the left button with Shift grabs. Returns whether one was
-    /// held.
+    /// Moves the obstacle that the user grabs with Shift and the left button. Returns whether an
+    /// obstacle was held.
     [[nodiscard]] static bool
     move_obstacle(const WindowInput& input, const PixelArea& area, PlantView& view);
     /// Whether held keys may move the camera.
     [[nodiscard]] bool is_moving() const { return is_moving_; }
 
 private:
-    /// Gives input to the dialog or the start page that is shown; returns whether one is.
+    /// Passes input to the open dialog or to the start page. Returns whether one of them is shown.
     [[nodiscard]] static bool
     use_pages(const WindowInput& input, ViewSwitcher& switcher, PanelState& panels);
     static void press_in_page(const KeyPress& press,
@@ -198,46 +199,49 @@ private:
                        PanelState& panels);
     void press(const KeyPress& press, PlantView& view, PanelState& panels);
     void press(const KeyPress& press, ForestView& view, PanelState& panels);
-    /// Handles a key that has one meaning in all views; returns whether `press` was such a key.
+    /// Handles a key that has the same meaning in all views; returns whether `press` is such a key.
     [[nodiscard]] static bool press_common(const KeyPress& press, View& view, PanelState& panels);
-    /// Picks what lies under a press and release of the left button in one place.
+    /// Picks the part under the mouse if the left button was pressed and released at one place.
     void click(const WindowInput& input, const PixelArea& area, View& view);
     void use_tool(const WindowInput& input, const PixelArea& area, ForestView& view);
     void fly(const WindowInput& input, float seconds, float height, Camera& camera);
 
     float speed_ = 1.0F; // factor of the speed of flying
     bool is_moving_ = false;
-    // Place where the left button went down; empty once the mouse has moved.
+    // Place where the left button was pressed; empty once the mouse has moved from there.
     std::optional<glm::vec2> pressed_;
 };
 
-/// Opens a place in the editor; reports that in a note.
+/// Opens a place in the editor and reports this in a note.
 void open_in_editor(const FilePosition& place, View& view, PanelState& panels);
-/// Opens the dialog for a file, in the folder of the file shown.
+/// Opens the dialog that opens a file, in the folder of the file shown.
 void show_open_dialog(const View& view, PanelState& panels);
-/// Opens the dialog for a picture, with a name that no file has.
+/// Opens the dialog for a picture, with a file name that is not in use.
 void show_picture_dialog(const View& view, PanelState& panels);
-/// Writes the picture of panels.picture, or begins to write its film; a note reports errors.
+/// Writes the picture, or begins to write the film, that panels.picture describes; reports errors
+/// in a note.
 void take_picture(View& view, PanelState& panels);
-/// Opens the dialog for exports.
+/// Opens the dialog for the export of a plant.
 void show_export_dialog(PanelState& panels);
-/// Begins to write the file of the export dialog; reports the result in a note.
+/// Begins to write the file that the export dialog describes; reports the result in a note.
 void export_shown(PlantView& view, PanelState& panels);
 
 /// An answer to the question about unsaved changes.
 enum class UnsavedAnswer : std::uint8_t { Save, Discard, Cancel };
-/// Follows the answer. If saving fails, the dialog stays and shows the reason.
+/// Carries out the answer. If saving fails, the dialog stays open and shows the reason.
 void answer_unsaved(UnsavedAnswer answer, ViewSwitcher& switcher, PanelState& panels);
-/// Opens the dialog about unsaved changes if ViewSwitcher::leaving() waits for an answer.
+/// Opens the dialog about unsaved changes if a request of ViewSwitcher::leaving() waits for an
+/// answer.
 void ask_about_unsaved(const ViewSwitcher& switcher, PanelState& panels);
-/// Shows the contact sheet of the plant; without a plant reports that in a note.
+/// Shows the contact sheet of the plant; if there is no plant, reports this in a note.
 void show_sheet(PlantView& view, PanelState& panels);
 void close_sheet(PanelState& panels);
-/// Takes the values of a cell of the sheet and closes it; undo() takes them back.
+/// Sets the values of a cell of the sheet in the view, and closes the sheet; undo() restores the
+/// old values.
 void take_from_sheet(std::size_t cell, PlantView& view, PanelState& panels);
 /// Increments the plant's seed.
 void next_seed(PlantView& view);
-/// Shows the next generation if `step` is above 0, else the previous one; pauses growth.
+/// Shows the next generation if `step` is above 0, else the previous generation, and pauses growth.
 void step_generations(PlantView& view, int step);
 /// Increments the forest's key.
 void next_forest_key(ForestView& view);

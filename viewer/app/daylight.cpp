@@ -35,7 +35,7 @@ double sky_luminance(double turbidity, double sun, double zenith) {
     return at_zenith * perez(zenith, to_sun) / perez(0.0, sun);
 }
 
-/// Fraction of the light of the sun that passes through the air, for red, green and blue.
+/// Fraction of sunlight that passes through the air, for red, green and blue.
 glm::dvec3 sun_transmittance(double turbidity, double elevation_degrees) {
     const double elevation = std::max(elevation_degrees, 0.0);
     // Kasten & Young 1989: relative optical mass of the air.
@@ -91,25 +91,28 @@ Light daylight_of(const SceneLight& scene, const Light& light) {
     const auto fade = static_cast<float>(std::pow(0.01, below));
     Light changed = light;
     changed.to_sun = glm::vec3(direction_to(sun));
-    // The sunlight ends between the elevations 0.5 and -0.5 degrees, while the disc sets.
+    // Sunlight fades out between the elevations 0.5 and -0.5 degrees, while the disc of the sun
+    // sets.
     const auto disc = static_cast<float>(std::clamp(sun.elevation + 0.5, 0.0, 1.0));
     changed.sun = disc * light.sun * passes;
     // Haze makes the sky grey. Light from the horizon has passed through about half as much air as
-    // sunlight, so it has the square root of the sun's tint; at dusk it loses this tint.
-    constexpr double kGrey = 12.0; // turbidity above the default that makes a sky without colour
+    // sunlight, so its tint is the square root of the sun's tint; at dusk this tint fades.
+    constexpr double kGrey = 12.0; // increase of turbidity that makes a grey sky
     const auto grey = static_cast<float>((turbidity - kDefaultTurbidity) / kGrey);
     const glm::vec3 sky = glm::mix(light.sky, glm::vec3(luminance(light.sky)), grey);
     const glm::vec3 warm = glm::mix(glm::sqrt(passes / luminance(passes)), glm::vec3(1.0F),
                                     static_cast<float>(std::sqrt(below)));
     changed.sky = fade * brighter(0.0) * sky;
     changed.horizon = fade * brighter(kHorizon) * warm * light.horizon;
-    // The ground reflects what falls on it: the sun by the sine of its elevation, and the sky.
+    // The ground reflects the light that falls on it: sunlight, times the sine of the sun's
+    // elevation, and light of the sky.
     const auto falls = [](const Light& on) {
         const float up = std::max(glm::normalize(on.to_sun).y, 0.0F);
         return on.sun * up + glm::mix(on.horizon, on.sky, 0.6F);
     };
     changed.ground = light.ground * falls(changed) / falls(light);
-    // The exposure follows the light as an eye does: by the square root of the change.
+    // The exposure follows the light as an eye does: it changes by the square root of the change of
+    // the light.
     constexpr float kMaxExposure = 8.0F;
     changed.exposure *=
         std::min(std::sqrt(luminance(falls(light)) / std::max(luminance(falls(changed)), 1e-3F)),

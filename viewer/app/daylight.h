@@ -7,10 +7,10 @@
 
 namespace lsys::view {
 
-/// `scene` with the values that `changes` sets.
+/// `scene` with the values that are set in `changes`.
 [[nodiscard]] SceneLight replaced(const SceneLight& scene, const SceneLight& changes);
 
-/// The place of the sun in the direction `light.to_sun`.
+/// The place of the sun whose direction is `light.to_sun`.
 [[nodiscard]] SunPlace sun_of(const Light& light);
 
 /// `light` with the sun and the turbidity of `scene`; unchanged if it sets neither. The luminance of

@@ -12,8 +12,8 @@ class EditHistory {
 public:
     explicit EditHistory(Value value) : current_(std::move(value)) {}
 
-    /// Makes `value` the current value. If it differs from the old one, the change is a step for
-    /// undo(). Returns whether it is a step.
+    /// Makes `value` the current value. If it differs from the previous value, the change becomes a
+    /// step of undo(). Returns whether it became a step.
     bool record(const Value& value) {
         if (value == current_) {
             return false;
@@ -22,14 +22,14 @@ public:
         undone_.clear();
         return true;
     }
-    /// The current value. Changes through the reference are not steps.
+    /// The current value. Changes through this reference do not become steps.
     [[nodiscard]] Value& current() { return current_; }
 
     [[nodiscard]] bool can_undo() const { return !earlier_.empty(); }
     [[nodiscard]] bool can_redo() const { return !undone_.empty(); }
-    /// Takes back the last step. Precondition: can_undo().
+    /// Undoes the last step and returns the value before it. Precondition: can_undo().
     const Value& undo() { return move_step(earlier_, undone_); }
-    /// Repeats the step undone last. Precondition: can_redo().
+    /// Repeats the step that was undone last. Precondition: can_redo().
     const Value& redo() { return move_step(undone_, earlier_); }
 
 private:
@@ -41,7 +41,7 @@ private:
 
     Value current_;
     std::vector<Value> earlier_; // oldest first
-    std::vector<Value> undone_;  // first undone first
+    std::vector<Value> undone_;  // the step that was undone first comes first
 };
 
 } // namespace lsys::view

@@ -28,7 +28,7 @@ struct EditorForm {
     PlaceForm form = PlaceForm::PlusLine;
     bool needs_terminal = false;
 };
-/// Editors whose arguments differ from `+LINE FILE`, or that need a terminal.
+/// Editors that take a place in another form than `+LINE FILE`, or that need a terminal.
 constexpr std::array kEditors{
     EditorForm{"code", PlaceForm::Goto, false},
     EditorForm{"code-insiders", PlaceForm::Goto, false},
@@ -91,7 +91,7 @@ EditorForm form_of(const std::vector<std::string>& words) {
     return form;
 }
 
-/// The command as a path with arguments; empty if there is no such program.
+/// The words of the command, with the path of its program; empty if there is no such program.
 std::vector<std::string> found_command(std::string_view command,
                                        const EditorEnvironment& environment) {
     std::vector<std::string> words = command_words(command);
@@ -104,7 +104,7 @@ std::vector<std::string> found_command(std::string_view command,
     return words.front().empty() ? std::vector<std::string>() : words;
 }
 
-/// Appends the place. An absolute path cannot be taken for an option.
+/// Appends a place in a form. An absolute path cannot be mistaken for an option.
 void append_place(const FilePosition& place, PlaceForm form, std::vector<std::string>& words) {
     std::error_code error;
     const std::filesystem::path absolute = std::filesystem::absolute(path_of(place.file), error);
@@ -127,7 +127,8 @@ void append_place(const FilePosition& place, PlaceForm form, std::vector<std::st
     }
 }
 
-/// Puts a terminal program before the command; makes it empty if there is none.
+/// Puts a terminal program before the words of a command; clears `words` if there is no terminal
+/// program.
 void run_in_terminal(const EditorEnvironment& environment, std::vector<std::string>& words) {
     std::vector<std::string> terminal = found_command(environment.terminal, environment);
     for (const TerminalForm& form : kTerminals) {
@@ -139,7 +140,7 @@ void run_in_terminal(const EditorEnvironment& environment, std::vector<std::stri
             }
             terminal = {path};
         } else if (!is_named && form.name != kTerminals.back().name) {
-            continue; // an unknown $TERMINAL takes the option of xterm
+            continue; // unknown terminals take the option of xterm
         }
         if (!form.option.empty()) {
             terminal.emplace_back(form.option);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The user's editor: the command line that opens a file at a line, and the programs started with
-// it, which run beside lsview.
+// The user's editor: the command line that opens a file at a line, and the editors that were
+// started, which run beside lsview.
 #pragma once
 
 #include "grammar/base/result.h"
@@ -24,7 +24,8 @@ struct EditorEnvironment {
 };
 [[nodiscard]] EditorEnvironment editor_environment();
 
-/// The words of a command, split at blanks. Quotes and backslashes keep blanks, as in a shell.
+/// The words of a command line, split at blanks. Blanks in quotes or after a backslash do not
+/// split, as in a shell.
 [[nodiscard]] std::vector<std::string> command_words(std::string_view command);
 
 /// The command line that opens a place: $VISUAL; or $EDITOR if it has a window of its own; or VS
@@ -33,12 +34,13 @@ struct EditorEnvironment {
 [[nodiscard]] Result<std::vector<std::string>> editor_command(const FilePosition& place,
                                                               const EditorEnvironment& environment);
 
-/// The editors started.
+/// The editors that were started.
 class Editors {
 public:
     /// Starts the editor and returns its name at once.
     [[nodiscard]] Result<std::string> open(const FilePosition& place);
-    /// Forgets editors that have ended. Returns a message about one that failed, else no text.
+    /// Removes editors that have ended. Returns a message about one of them that failed, else an
+    /// empty text.
     [[nodiscard]] std::string forget_ended();
 
 private:

@@ -6,8 +6,8 @@
 
 namespace lsys::view {
 
-/// Draws the dialog in the middle of the window. Returns whether the file is to be written now.
-/// `is_open` becomes false after *Cancel*.
+/// Draws the dialog in the middle of the window. Returns whether the user wants the file to be
+/// written now. `is_open` becomes false after *Cancel*.
 [[nodiscard]] bool draw_export_dialog(ExportSettings& output, bool& is_open);
 
 } // namespace lsys::view

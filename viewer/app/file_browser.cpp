@@ -30,7 +30,7 @@ std::string joined(const std::string& folder, const std::string& name) {
     return folder.ends_with('/') ? folder + name : folder + '/' + name;
 }
 
-/// The path without `.`, `..` and a final separator.
+/// The path without `.`, `..` and the separator at its end.
 std::string normal(const std::string& path) {
     std::string text = path_text(path_of(path).lexically_normal());
     if (text.size() > 1 && text.ends_with('/')) {
@@ -74,7 +74,7 @@ std::string neighbour_file(const std::string& file, int step) {
         return {};
     }
     const auto count = static_cast<std::ptrdiff_t>(entries.size());
-    // A file that is not in the list is followed by the first one.
+    // A file that is not in the list counts as being before the first entry.
     const std::ptrdiff_t at = shown == entries.end() ? -1 : shown - entries.begin();
     const std::ptrdiff_t wanted = ((at + step) % count + count) % count;
     return folder + entries[static_cast<std::size_t>(wanted)].name;
@@ -91,7 +91,7 @@ void FileBrowser::show(const std::string& folder) {
         std::filesystem::absolute(path_of(folder.empty() ? "." : folder), error);
     folder_ = normal(path_text(absolute));
     text_.clear();
-    read_folder_.clear(); // read the folder again
+    read_folder_.clear(); // so that the folder is read again
     filter();
 }
 
@@ -189,7 +189,7 @@ void FileBrowser::move(int steps) {
 
 std::string FileBrowser::accept() {
     const std::string folder = listed_folder();
-    // A path that names a file exactly is opened, even with another extension.
+    // A file whose path is typed in full is opened, even if its extension is unknown.
     std::string typed = joined(folder, std::string(name_of_path(text_)));
     const platform::FileType type =
         text_.empty() ? platform::FileType::Missing : platform::facts_of(typed).type;

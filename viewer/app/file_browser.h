@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// FileBrowser: the state of the dialog that opens a file, without the dialog: a folder, its
-// entries, a typed text that filters them or names a path, and a selected entry.
+// FileBrowser: the state of the dialog that opens a file: a folder, its entries, a typed text,
+// which filters the entries or is a path, and a selected entry.
 #pragma once
 
 #include <cstddef>
@@ -22,12 +22,13 @@ struct FolderEntry {
 /// grammars, scenes.
 [[nodiscard]] bool can_open(std::string_view path);
 
-/// Folders, then files that lsview can open, each in alphabetical order; without hidden ones. Empty
-/// if the folder cannot be read.
+/// Folders, then files that lsview can open, each in alphabetical order; without hidden files.
+/// Empty if the folder cannot be read.
 [[nodiscard]] std::vector<FolderEntry> list_folder(const std::string& folder);
 
-/// The file that lsview can open `step` places after `file` in its folder, in alphabetical order;
-/// the first follows the last. Empty if the folder has no other file.
+/// The file that lies `step` places after `file` among the files of its folder that lsview can
+/// open, in alphabetical order; the first file follows the last. Empty if the folder has no other
+/// file.
 [[nodiscard]] std::string neighbour_file(const std::string& file, int step);
 
 class FileBrowser {
@@ -36,13 +37,14 @@ public:
     void show(const std::string& folder);
     /// Shows the home folder of the user; the root folder if there is none.
     void go_home() { show(home_folder()); }
-    /// Shows the folder around the current one and selects the folder left.
+    /// Shows the parent folder and selects the folder that was shown.
     void go_up();
 
     [[nodiscard]] const std::string& folder() const { return folder_; }
-    /// Entries that match the text. A text without `/` matches names that contain it, ignoring the
-    /// case of ASCII letters. A text with `/` is a path from the folder, from `/` or from `~`: it
-    /// matches names in the folder before its last `/` that begin with the rest.
+    /// Entries that match the text. A text without `/` matches names that contain it; the case of
+    /// ASCII letters does not matter. A text with `/` is a path from the shown folder, from `/` or
+    /// from `~`: it matches names in the folder before its last `/` that begin with the text after
+    /// this `/`.
     [[nodiscard]] const std::vector<FolderEntry>& entries() const { return entries_; }
     [[nodiscard]] std::size_t selected() const { return selected_; }
     [[nodiscard]] const std::string& text() const { return text_; }
@@ -50,18 +52,19 @@ public:
     [[nodiscard]] const std::string& mistake() const { return mistake_; }
 
     void set_text(const std::string& text);
-    /// Removes the last character of the text, in UTF-8; without a text goes up.
+    /// Removes the last character of the text, in UTF-8; if the text is empty, goes to the parent
+    /// folder.
     void erase_character();
-    /// Completes the text as far as all entries that begin with its last name agree, and to the
-    /// whole name of a single entry.
+    /// Extends the text by all characters that all entries which begin with its last name have in
+    /// common; a single entry is completed to its whole name.
     void complete();
     /// Moves the selection; stops at both ends.
     void move(int steps);
     void select(std::size_t entry) { selected_ = entry; }
-    /// Whether the list must scroll to the selection: true once after each change by keys.
+    /// Whether the list must be scrolled to the selection: true once after each change by keys.
     [[nodiscard]] bool take_scroll_request() { return std::exchange(wants_scroll_, false); }
-    /// Enters the selected folder and returns an empty path, or returns the path of the selected
-    /// file, or of the file that the text names. Without either sets mistake().
+    /// If a folder is selected, enters it and returns an empty path. Else returns the path of the
+    /// selected file, or of the file that the text names. If there is neither, sets mistake().
     [[nodiscard]] std::string accept();
 
 private:

@@ -12,7 +12,8 @@ namespace lsys::view {
 
 namespace {
 
-/// Writes `after` to each file whose bytes are `before`, in all files or in none.
+/// Writes `after` to the files of all `changes` if each file still has the bytes `before`; else
+/// writes none.
 Result<void> write_all(const std::vector<FileChange>& changes, const Console& console) {
     for (const FileChange& change : changes) {
         const Result<std::string> bytes = read_file(change.path, {kMaxSourceBytes}, console);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// FileEdits: changes of files on disk that undo and redo take back and repeat.
+// FileEdits: changes of files on disk, with undo and redo.
 #pragma once
 
 #include "grammar/base/result.h"
@@ -25,13 +25,14 @@ public:
     [[nodiscard]] Result<void> apply(std::vector<FileChange> changes, const Console& console);
     /// Count of steps that are applied.
     [[nodiscard]] std::size_t position() const { return position_; }
-    /// Takes back or repeats steps until `position` are applied. Error: a file was changed since by
-    /// someone else, or cannot be written; that step is then skipped, and its files stay.
+    /// Undoes or repeats steps until `position` steps are applied. Error: another program has
+    /// changed a file since, or a file cannot be written; then this step is skipped and its files
+    /// stay unchanged.
     [[nodiscard]] Result<void> go_to(std::size_t position, const Console& console);
     void clear();
 
 private:
-    std::vector<std::vector<FileChange>> steps_; // a step without changes was skipped
+    std::vector<std::vector<FileChange>> steps_; // a skipped step has no changes
     std::size_t position_ = 0;
 };
 

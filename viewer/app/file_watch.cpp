@@ -19,11 +19,12 @@ namespace fs = std::filesystem;
 
 using platform::stamp_of;
 
-constexpr int kMaxDelay = 10; // max delay of a report, as a multiple of Options::quiet
-/// Max interval of polls where the system has no events.
+constexpr int kMaxDelay = 10; // max delay of a report / Options::quiet
+/// Max interval of polls on systems without events of files.
 constexpr std::chrono::milliseconds kPollWithoutEvents{100};
 
-/// Absolute paths whose events are changes of `path`: the path itself and the target of its links.
+/// Absolute paths whose events mean that `path` has changed: `path` itself and the targets of its
+/// links.
 std::vector<fs::path> names_of(const std::string& path) {
     std::error_code error;
     std::vector<fs::path> names;
@@ -55,7 +56,7 @@ struct FileWatch::State {
     std::mutex mutex; // guards `requested` and `stops`
     std::optional<std::vector<std::string>> requested;
     bool stops = false;
-    // Used by the thread only.
+    // Used by the watching thread only.
     std::vector<Watched> files;
     std::thread thread;
 
@@ -128,7 +129,7 @@ struct FileWatch::State {
         }
     }
 
-    /// Reports all changes, unless a changed file is missing for less than `options.missing`.
+    /// Reports all changes, unless a changed file has been missing for less than `options.missing`.
     void report(Clock::time_point now) {
         std::vector<std::string> names;
         Clock::time_point first = Clock::time_point::max();
@@ -184,8 +185,8 @@ struct FileWatch::State {
                 next_check = now + options.poll;
                 check_stamps(now);
             }
-            // Report when no event came for `quiet`, or after kMaxDelay in folders with constant
-            // writes.
+            // Reports when no event has come for `quiet` or, in folders with constant writes, after
+            // kMaxDelay.
             const auto first = first_change();
             if (first &&
                 ((in_change && waited.timed_out) || now - *first > kMaxDelay * options.quiet)) {

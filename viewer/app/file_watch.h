@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// FileWatch: reports changes of files. Watches folders by events of the system, so that files
-// replaced by editors are seen, and polls times and sizes, for file systems without events.
+// FileWatch: reports changes of files. Watches their folders by events of the system, so that it
+// also sees files that editors replace. Polls times and sizes too, for file systems without events.
 #pragma once
 
 #include <chrono>
@@ -15,7 +15,7 @@ class FileWatch {
 public:
     using Clock = std::chrono::steady_clock;
     struct Options {
-        /// Time without events after which changes are reported, all together.
+        /// Duration without events after which all changes are reported together.
         std::chrono::milliseconds quiet{10};
         /// Max time that a file may be missing, for example while an editor replaces it, before its
         /// absence is reported.
@@ -24,8 +24,8 @@ public:
         std::chrono::milliseconds poll{1000};
         bool use_events = true;
     };
-    /// Called on the watch's thread with the changed files, by their paths in watch(), and the time
-    /// of the first change.
+    /// Called on the watching thread with the changed files, as the paths given to watch(), and the
+    /// time of the first change.
     using Changed = std::function<void(const std::vector<std::string>& files, Clock::time_point)>;
 
     FileWatch(const Options& options, Changed changed);
@@ -33,8 +33,8 @@ public:
     FileWatch& operator=(const FileWatch&) = delete;
     ~FileWatch();
 
-    /// Replaces the watched files; they need not exist. Unreported changes of files that stay are
-    /// kept.
+    /// Replaces the list of watched files; the files need not exist. Unreported changes of files
+    /// that stay in the list are kept.
     void watch(const std::vector<std::string>& files);
 
 private:

@@ -20,7 +20,8 @@ namespace lsys::view {
 
 namespace {
 
-/// A new folder for the pictures of a .mp4 film, beside the film; removed with its files.
+/// A new folder beside the film for the pictures of a .mp4 film; removed at the end with all its
+/// files.
 class PictureFolder {
 public:
     explicit PictureFolder(const std::string& film) {
@@ -50,7 +51,8 @@ std::string last_line(std::string text) {
     return text.substr(text.find_last_of('\n') + 1);
 }
 
-/// The pattern by which ffmpeg reads numbered files, where % has a meaning.
+/// The pattern from which ffmpeg derives the numbered file names. A % in the folder's name is
+/// escaped, because it has a meaning for ffmpeg.
 std::string pattern_of(const std::string& folder) {
     std::string pattern;
     for (const char each : folder) {
@@ -59,7 +61,7 @@ std::string pattern_of(const std::string& folder) {
     return pattern + "/film.%04d.png";
 }
 
-/// Encodes the pictures of a folder.
+/// Encodes the pictures of a folder as a .mp4 film.
 Result<void> encode(const PictureFolder& pictures,
                     const PictureSettings& settings,
                     const Console& console,

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Pictures and films that the window writes: their settings, and films written on a thread of their
-// own, in an OpenGL context of their own.
+// Pictures and films that the window writes: their settings, and a film that is written on a thread
+// of its own, in an OpenGL context of its own.
 #pragma once
 
 #include "viewer/app/latest_request_worker.h"
@@ -34,42 +34,43 @@ struct PictureSettings {
     bool as_mp4 = false;     // else numbered PNG
     bool has_ffmpeg = false; // ffmpeg was found when the dialog opened
 
-    /// The picture or film, with its folder and extension.
+    /// Path of the picture or film: folder, name and extension.
     [[nodiscard]] std::string path() const;
-    /// Pictures of the film, at least 2.
+    /// Number of pictures of the film, at least 2.
     [[nodiscard]] std::uint32_t frames() const;
 };
 
-/// `stem`-1.png, `stem`-2.png, ...: the first name without extension that `folder` does not have.
+/// The first of the names `stem`-1, `stem`-2, ... for which `folder` has no file with the extension
+/// .png.
 [[nodiscard]] std::string unused_picture_name(const std::string& folder, const std::string& stem);
 
-/// Work for another thread.
+/// The input of the thread that writes a film.
 struct FilmExportRequest {
     // Options of the film's pictures; values of `settings` replace them.
     std::shared_ptr<const ViewOptions> options;
     PictureSettings settings;
-    std::shared_ptr<std::atomic<std::uint32_t>> finished_pictures; // count, for progress
+    std::shared_ptr<std::atomic<std::uint32_t>> finished_pictures; // for progress
     SteadyClock::time_point changed_at;
     bool is_repeat = false;
 };
 
-/// Writes a film: numbered pictures, all or none, or a .mp4 file by ffmpeg. A film that fails or is
-/// cancelled changes no file. Returns "Wrote turn.0001.png to turn.0240.png", or the error in
-/// lines.
+/// Writes a film: numbered pictures, all or none, or a .mp4 file by ffmpeg. If it fails or is
+/// cancelled, no file changes. Returns "Wrote turn.0001.png to turn.0240.png", or the lines of an
+/// error message.
 [[nodiscard]] std::string export_film(const FilmExportRequest& request,
                                       const std::atomic<bool>& cancelled);
 
-/// At most one film at a time.
+/// Writes at most one film at a time.
 class FilmExport {
 public:
     /// Begins to write a film. `wake` is called on any thread when take() has an outcome.
     /// Precondition: !is_busy().
     void
     begin(const ViewOptions& options, const PictureSettings& settings, std::function<void()> wake);
-    /// Takes the text of export_film().
+    /// Takes the text that export_film() returned, once.
     [[nodiscard]] std::optional<std::string> take();
     [[nodiscard]] bool is_busy() const { return worker_ != nullptr && worker_->is_busy(); }
-    /// Count of pictures written; empty if no film is written.
+    /// Number of pictures written so far; nullopt if no film is being written.
     [[nodiscard]] std::optional<MakingState> state() const;
     /// Stops the film; no outcome follows.
     void cancel();

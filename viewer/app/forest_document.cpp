@@ -50,9 +50,9 @@ Outcome<void> make_model(const ViewOptions& options,
     return step.done();
 }
 
-/// Copies the chosen heroes, rho and cache cap of `before` if its goal and species are the same, so
-/// that an edit in a window does not search for them again. Returns whether goal and species are
-/// the same.
+/// Copies the chosen heroes, rho and cap of the caches from `before` if its goal and species are
+/// the same, so that an edit in a window does not start a new search for them. Returns whether goal
+/// and species are the same.
 bool keep_choice(const Scene& before, Scene& scene) {
     if (!scene.goal.is_set() || before.goal != scene.goal ||
         before.species.size() != scene.species.size()) {
@@ -152,7 +152,7 @@ Outcome<std::shared_ptr<ForestDocument>> make(const ViewOptions& options,
     if (project.is_cancelled()) {
         return step.end(Stop::Cancelled);
     }
-    // Max trees to measure; more would delay the first picture.
+    // Max number of trees to measure; measuring more would delay the first picture.
     constexpr std::size_t kMeasuredTrees = 20'000;
     if (document->squares == nullptr && document->grown.forest.trees.size() <= kMeasuredTrees) {
         document->tallest = tallest_height(document->grown, project);
@@ -166,11 +166,11 @@ Outcome<std::shared_ptr<ForestDocument>> make(const ViewOptions& options,
 }
 
 constexpr double kMetresPerKm = 1000.0;
-// Direction from the middle of a forest to its default camera.
+// Direction from the middle of a forest to its first camera.
 constexpr glm::vec3 kFirstDirection{0.55F, 0.42F, 0.8F};
 constexpr float kFirstField = 40.0F; // degrees
 
-/// Bounding box of all trees; of the ground's corners if there is no tree.
+/// Bounding box of all trees; without trees, of the corners of the ground.
 Bounds bounds_of(const ForestDocument& document) {
     Bounds bounds;
     for (const Tree& tree : document.grown.forest.trees) {
@@ -192,8 +192,8 @@ Bounds bounds_of(const ForestDocument& document) {
     return bounds;
 }
 
-/// Mean height of trees, m, weighted by their area in a picture. A few trees above grass therefore
-/// raise it, and a few seedlings below trees do not lower it.
+/// Mean height of trees in m, weighted by the area of the trees in a picture. So a few trees above
+/// grass raise the mean, and a few seedlings below trees do not lower it.
 float typical_height(const ForestDocument& document) {
     double square_sum = 0.0;
     double cube_sum = 0.0;
@@ -206,8 +206,8 @@ float typical_height(const ForestDocument& document) {
     return square_sum > 0.0 ? static_cast<float>(cube_sum / square_sum) : 0.0F;
 }
 
-/// Foot of a tree at the edge of the forest: far from `middle` in the direction `outward`, and near
-/// the line through `middle` in that direction.
+/// Foot of a tree at the edge of the forest: a tree far from `middle` in the direction `outward`,
+/// and near the line from `middle` in this direction.
 glm::vec3 edge_of(const Forest& forest, const glm::vec3& middle, const glm::vec2& outward) {
     glm::vec3 edge = middle;
     float farthest = -std::numeric_limits<float>::infinity();
@@ -223,7 +223,8 @@ glm::vec3 edge_of(const Forest& forest, const glm::vec3& middle, const glm::vec2
 }
 
 /// View into a forest from outside. `edge`: foot of a tree at the edge. `height`: height of the
-/// trees, m. Distances are multiples of `height`, so forests of grass and of trees look alike.
+/// trees in m. All distances are multiples of `height`, so that views of forests of grass and of
+/// trees look alike.
 Camera edge_view(const ForestDocument& document, const glm::vec3& edge, float height) {
     constexpr float kOutside = 3.5F;   // distance from the eye to the first tree
     constexpr float kAbove = 2.0F;     // height of the eye above the ground below it
@@ -296,7 +297,7 @@ Camera first_view(const ForestDocument& document, float aspect) {
         framing(Camera{kFirstDirection, glm::vec3(0.0F), kFirstField, {}}, bounds, aspect);
     const float picture_height = 2.0F * std::tan(0.5F * glm::radians(all.field_of_view)) *
                                  glm::distance(all.eye, all.target);
-    constexpr float kMinPart = 0.25F; // min height of a tree as a fraction of the picture's height
+    constexpr float kMinPart = 0.25F; // min height of a tree, as a fraction of the picture's
     return bounds.empty || height >= kMinPart * picture_height
                ? all
                : edge_view(document,
@@ -338,7 +339,7 @@ double default_visibility(const ForestDocument& document) {
 Light forest_light(const ForestDocument& document,
                    std::optional<double> visibility,
                    const SceneLight& changes) {
-    // Koschmieder 1924: at the limit of visibility 2 % of the contrast is left.
+    // At the limit of visibility, 2 % of the contrast remain (Koschmieder 1924).
     constexpr double kContrastLoss = 3.912; // -ln 0.02
     Light light;
     light.extinction = static_cast<float>(

@@ -12,7 +12,7 @@ namespace lsys::view {
 
 namespace {
 
-/// The current growth. Used by the growth thread only.
+/// The growth that is being computed. Used by the growth thread only.
 struct FilmState {
     std::shared_ptr<const ForestDocument> document; // the document from which `growth` was begun
     Scene scene;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// ForestFilm: makes moments of a forest's growth on a thread of its own, for a window that plays it.
+// ForestFilm: computes moments of a forest's growth on a thread of its own, for a window that plays
+// the growth.
 #pragma once
 
 #include "runtime/pipeline/forest_growth.h"
@@ -22,7 +23,7 @@ struct ForestFilmRequest {
     bool is_repeat = false;
 };
 
-/// The trees at a moment, without painting.
+/// The trees at a moment, without the painting of the scene.
 struct ForestFilmMoment {
     std::shared_ptr<const ForestDocument> document;
     LargeVector<Tree> trees;

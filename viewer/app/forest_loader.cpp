@@ -17,7 +17,8 @@ ForestOutcome make_forest(const ForestRequest& request,
     outcome.request = request;
     outcome.files = request.options.files;
     const ForestDocument* const known = request.is_repeat ? nullptr : request.known.get();
-    // Grammars of reused heroes are not read again, so take their files from the known forest.
+    // Files of grammars whose heroes are reused are not read again, so their paths come from the
+    // known forest.
     if (known != nullptr) {
         outcome.files = known->files;
     }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// ForestLoader: makes forests on a thread of its own, a LatestRequestWorker.
+// ForestLoader: makes forests on a thread of its own, by a LatestRequestWorker.
 #pragma once
 
 #include "viewer/app/forest_document.h"
@@ -16,7 +16,7 @@ namespace lsys::view {
 struct ForestRequest {
     ViewOptions options;
     SceneOverrides edits; // applied after options.overrides
-    /// Forest whose heroes may be reused; null: read all files.
+    /// Forest whose heroes may be reused; null: all files are read again.
     std::shared_ptr<const ForestDocument> known;
     SteadyClock::time_point changed_at;
     bool is_repeat = false;

@@ -28,7 +28,7 @@ std::vector<std::string> names_of(const Scene& scene) {
 }
 
 bool is_same_ground(const SceneTerrain& a, const SceneTerrain& b) {
-    // The file of a height map may have changed, so two height maps are never taken as equal.
+    // Two height maps never count as equal, because the file of a map may have changed.
     return a.kind == b.kind && a.kind != TerrainKind::HeightMap && a.region == b.region &&
            a.base == b.base && a.noise == b.noise;
 }
@@ -37,8 +37,7 @@ std::uint32_t cells_along(double size) {
     return static_cast<std::uint32_t>(std::clamp(size / kPickCell, 16.0, kMaxCells));
 }
 
-/// Refines `found`, an intersection of the ray with a height field, to an intersection with the
-/// terrain.
+/// Refines `found`, where the ray meets a height field, to the point where it meets the terrain.
 glm::dvec3 refined(const Ray& ray, const glm::dvec3& found, double reach, const Terrain& terrain) {
     const double length = glm::length(ray.direction);
     const double middle = glm::dot(found - ray.origin, ray.direction) / (length * length);
@@ -73,8 +72,8 @@ Painter& ForestPainting::painter() {
     return *painter_;
 }
 
-/// The painting with species of document_, matched by name. Drops trees of species that no longer
-/// exist.
+/// The painting with the species of document_, which are matched by name. Drops trees of species
+/// that document_ does not have.
 Painting ForestPainting::renamed(const Painting& painting) const {
     const std::vector<std::string> names = names_of(document_->scene);
     Painting result{{}, painting.erased};
@@ -192,7 +191,8 @@ void ForestPainting::move_tool(const glm::dvec3& place,
     const float way = glm::distance(from, glm::vec2(x, z));
     const float step = std::max(kStep * brush.radius, 0.1F);
     if (tool == PaintTool::OneTree || way < step) {
-        // PaintTool::OneTree plants only when pressed; a brush has already covered this place.
+        // PaintTool::OneTree plants only when the button is pressed; a brush has already covered
+        // this place.
         return;
     }
     const std::uint32_t steps =

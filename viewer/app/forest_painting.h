@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // ForestPainting: painting of the forest in the window. Finds the ground under the mouse, keeps
-// unsaved changes across reloads, and writes them to the scene file.
+// unsaved changes when the scene is reloaded, and writes them to the scene file.
 #pragma once
 
 #include "runtime/program/console.h"
@@ -21,7 +21,7 @@ namespace lsys::view {
 
 enum class PaintTool : std::uint8_t { None, Brush, OneTree, Eraser };
 
-/// Trees changed by a stroke, undo or redo.
+/// Number of trees that a stroke, undo or redo has changed.
 struct PaintCount {
     std::uint64_t added = 0;
     std::uint64_t removed = 0;
@@ -31,8 +31,8 @@ class ForestPainting {
 public:
     explicit ForestPainting(Renderer& renderer) : renderer_(&renderer) {}
 
-    /// Switches to a new forest, which the renderer shows already, and applies painted and erased
-    /// trees to it; keeps unsaved changes. Returns a note for the user, which may be empty.
+    /// Switches to a new forest, which the renderer already shows. Applies painted and erased trees
+    /// to it, and keeps unsaved changes. Returns a note for the user, which may be empty.
     [[nodiscard]] std::string set_document(std::shared_ptr<const ForestDocument> document);
 
     /// Drops all painted and erased trees, saved or not.
@@ -43,7 +43,8 @@ public:
 
     /// First intersection of a ray with the ground.
     [[nodiscard]] std::optional<glm::dvec3> pick(const Ray& ray);
-    /// Moves the tool to `place` and applies it along the way. `begins`: starts a stroke there.
+    /// Moves the tool to `place` and applies it between the last place and this one. `begins`: a
+    /// stroke begins at `place`.
     void move_tool(const glm::dvec3& place, bool begins, PaintTool tool, const Brush& brush);
     /// Trees changed by the last stroke, undo or redo.
     [[nodiscard]] const PaintCount& count() const { return count_; }
@@ -55,17 +56,17 @@ public:
     [[nodiscard]] bool is_unsaved() const { return painter_ && painter_->is_changed(); }
     /// Writes the scene file, all or nothing.
     [[nodiscard]] Result<void> save(const std::string& file, const Console& console);
-    /// Whether the last saved painting erases placed trees.
+    /// Whether the painting that was saved last erases placed trees.
     [[nodiscard]] bool has_erased() const { return in_file_ && !in_file_->erased.empty(); }
-    /// Last saved text of the scene file.
+    /// Text of the scene file as saved last.
     [[nodiscard]] const std::string& saved_text() const { return saved_text_; }
-    /// Whether anything was painted or erased, in the file or since.
+    /// Whether anything is painted or erased, in the file or since it was read.
     [[nodiscard]] bool is_painted() const { return painter_.has_value(); }
     /// Count of trees, painted ones included.
     [[nodiscard]] std::uint64_t tree_count() const;
     [[nodiscard]] std::uint64_t painted_count() const { return painted_; }
 
-    /// Circle of the brush on the ground.
+    /// Circle that shows the brush on the ground.
     [[nodiscard]] std::vector<LineVertex>
     outline(const glm::dvec3& place, float radius, bool erases) const;
 
@@ -83,7 +84,7 @@ private:
     std::vector<std::string> names_;    // species names by the indices in painter_
     std::optional<Painting> in_file_;   // the painting in the scene file as last read or saved
     std::optional<HeightField> ground_; // made on first use
-    std::optional<glm::dvec3> last_;    // last place of the stroke
+    std::optional<glm::dvec3> last_;    // last place to which the stroke moved
     PaintCount count_;
     std::uint64_t painted_ = 0;
     std::string saved_text_;

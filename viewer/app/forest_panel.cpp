@@ -15,7 +15,8 @@ namespace lsys::view {
 
 namespace {
 
-/// Shows `edit`, or `shown` if it is empty; sets `edit` on change and adds a button that resets it.
+/// Draws a widget for `edit`, or for `shown` while `edit` is not set. A change sets `edit` and adds
+/// a button that resets it.
 template <typename Value, typename Draw>
 void draw_edit(const char* name, Value shown, std::optional<Value>& edit, const Draw& draw) {
     ImGui::PushID(name);
@@ -176,7 +177,7 @@ std::string draw_species(ForestView& view) {
     for (std::size_t i = 0; i < document->scene.species.size(); ++i) {
         const SceneSpecies& species = document->scene.species[i];
         const PlacementSpecies& placed = document->scene.placement.species[i];
-        // A species may be named like a section of the panel.
+        // The name of a species may be equal to the title of a section of the panel.
         if (!ImGui::TreeNodeEx(("species " + species.name).c_str(),
                                i < 2 ? ImGuiTreeNodeFlags_DefaultOpen : ImGuiTreeNodeFlags_None,
                                "%s", species.name.c_str())) {
@@ -212,7 +213,7 @@ std::string draw_species(ForestView& view) {
         }
         ImGui::TreePop();
     }
-    // Drop species without edits, so that edits can be compared.
+    // Removes species without edits, so that equal edits compare equal.
     std::erase_if(view.settings.edits.species,
                   [](const auto& each) { return each.second == SpeciesOverrides{}; });
     return wanted;
@@ -289,7 +290,7 @@ void draw_cache(ForestView& view) {
     }
 }
 
-/// Draws the colours with their values, several per row.
+/// Draws the colours of the legend with their values, several per row.
 void draw_legend(const ForestView& view) {
     const std::vector<LegendEntry>& legend = view.legend();
     constexpr std::size_t kMaxShown = 60;
@@ -300,7 +301,7 @@ void draw_legend(const ForestView& view) {
             ImGui::SameLine(static_cast<float>(i % kInRow) * 0.19F *
                             ImGui::GetContentRegionAvail().x);
         }
-        const glm::vec3 root = glm::sqrt(legend[i].colour); // approximates the display's gamma by 2
+        const glm::vec3 root = glm::sqrt(legend[i].colour); // the display's gamma is about 2
         ImGui::PushID(static_cast<int>(i));
         ImGui::ColorButton("##colour", {root.x, root.y, root.z, 1.0F},
                            ImGuiColorEditFlags_NoTooltip | ImGuiColorEditFlags_NoPicker,
@@ -338,7 +339,7 @@ void draw_colours(ForestView& view) {
     draw_legend(view);
 }
 
-/// `own`: empty: no species follows the season.
+/// `own`: season of the scene; nullopt: no species follows the season.
 void draw_season(const std::optional<float>& own, std::optional<float>& edit) {
     ImGui::BeginDisabled(!own);
     draw_edit("Season", own.value_or(0.0F), edit, [&own](float& value) {

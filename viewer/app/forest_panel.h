@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Panel of a forest: its numbers, growth, painting, scene values and display.
+// Panel of a forest: statistics, growth, painting, values of the scene, and display options.
 #pragma once
 
 #include "viewer/app/forest_view.h"

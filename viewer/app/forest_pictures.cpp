@@ -22,7 +22,7 @@ namespace lsys::view {
 
 namespace {
 
-/// Times to choose the trees of each picture, ms.
+/// Times taken to choose the trees of each picture, ms.
 struct CullTimes {
     std::vector<double> wall;
     std::vector<double> cpu;
@@ -37,7 +37,7 @@ nlohmann::ordered_json pass_stats(const FrameStats& pass) {
     return stats;
 }
 
-/// Statistics of a streamed forest as JSON. `trees` is an estimate: tree_count().
+/// Statistics of a streamed forest as JSON. Its member `trees` is an estimate, tree_count().
 nlohmann::ordered_json streaming_stats(const ForestStreamer& streamer,
                                        const ForestDocument& document) {
     const StreamStats numbers = streamer.stats();
@@ -131,7 +131,7 @@ std::string stats_text(const ViewOptions& options,
     return stats.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }
 
-/// Shows the forest at a moment of its growth.
+/// Makes the renderer show the forest at a moment of its growth.
 ExitStatus show_moment(const GrowthMoment& moment,
                        const Project& project,
                        const Console& console,
@@ -207,7 +207,7 @@ ExitStatus take_forest_pictures(const ViewOptions& options,
         cull.gpu.push_back(drawn.cull_gpu_milliseconds);
         shadow.draws += drawn.shadow.draws;
         shadow.triangles += drawn.shadow.triangles;
-        shadow.gpu_milliseconds = drawn.shadow.gpu_milliseconds; // the last picture that drew it
+        shadow.gpu_milliseconds = drawn.shadow.gpu_milliseconds; // when it was last drawn
         ++pictures;
         if (!options.pick) {
             return ExitStatus::Ok;

@@ -9,8 +9,8 @@
 
 namespace lsys::view {
 
-/// `renderer` must show the forest. With ViewOptions::grow, each picture replaces the trees of the
-/// document by those of its moment.
+/// Precondition: `renderer` shows the forest of `document`. With ViewOptions::grow, each picture
+/// replaces the trees of `document` by the trees of its moment.
 [[nodiscard]] ExitStatus take_forest_pictures(const ViewOptions& options,
                                               const Camera& camera,
                                               ForestDocument& document,

@@ -14,8 +14,8 @@ namespace lsys::view {
 namespace {
 
 /// Bytes of a square, with the copies of its trees and cells that ForestLod and the device have
-/// while it is shown. Counts them for hidden squares too, so that the budget holds whatever is
-/// shown.
+/// while it is shown. These copies are counted for hidden squares too, so that the budget suffices
+/// whatever is shown.
 std::uint64_t bytes_of(const ForestSquare& square) {
     return square.trees.size() * kBytesPerStreamedTree +
            square.cells.size() * kBytesPerStreamedCell;
@@ -160,7 +160,7 @@ void ForestStreamer::forget_squares() {
             }
         }
         if (oldest == ready_.end()) {
-            return; // all squares left are wanted; they have more trees than expected
+            return; // the remaining squares are wanted, but have more trees than expected
         }
         stats_.bytes -= bytes_of(*oldest->second.square);
         ready_.erase(oldest);
@@ -210,7 +210,7 @@ ForestStreamer::settle(const Camera& camera,
         }
     }
     stats_.wait_seconds += watch.seconds();
-    // Squares that came while waiting were wanted in this step.
+    // Squares that were made while step() waited were wanted in this step.
     for (const SquareId& id : wanted.squares) {
         if (const auto found = ready_.find(id); found != ready_.end()) {
             found->second.last_wanted = step_;

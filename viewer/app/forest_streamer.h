@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 // ForestStreamer: places and prepares the squares of a streamed forest around a camera on threads
 // of its own, keeps them within a budget of memory, and lists the squares to show and to hide.
-// Squares that the camera no longer needs are hidden at once, and stay in memory while the budget
-// allows it. When all needed squares are ready, the squares shown are a function of the camera.
+// Squares that the camera no longer needs are hidden at once; they stay in memory while the budget
+// allows it. Once all needed squares are ready, the squares that are shown depend on the camera
+// alone.
 #pragma once
 
 #include "viewer/app/forest_document.h"
@@ -36,7 +37,7 @@ struct StreamStats {
     std::uint64_t made = 0;       // squares made by this streamer
     std::uint64_t bytes = 0;      // bytes of all squares that are ready
     std::uint64_t peak_bytes = 0; // greatest `bytes` so far
-    double slowest_step = 0.0;    // s, of step() and settle() without waiting
+    double slowest_step = 0.0;    // s, max time of step() and settle(), without waiting
     double wait_seconds = 0.0;    // time that settle() waited
 };
 
@@ -52,15 +53,16 @@ public:
     ForestStreamer& operator=(const ForestStreamer&) = delete;
     ~ForestStreamer();
 
-    /// Changes for a camera, without waiting. Shows squares that are ready, nearest first, with at
-    /// most `max_trees` trees in all, but at least one square. Throws std::bad_alloc if a thread
-    /// ran out of memory.
+    /// The squares to show and to hide for a camera; does not wait. Shows squares that are ready,
+    /// nearest first, with at most `max_trees` trees in total, but at least one square. Throws
+    /// std::bad_alloc if a thread ran out of memory.
     [[nodiscard]] StreamStep
     step(const Camera& camera, std::uint32_t picture_height, std::uint64_t max_trees);
-    /// Shows all wanted squares of a camera: hands `apply` the squares to hide, waits until all
-    /// wanted squares are ready, and hands `apply` the squares to show. Hiding first keeps the budget
-    /// when the camera jumps. Returns WantedSquares::range, or nothing if `is_cancelled`, which is
-    /// called ten times a second, returns true. Throws std::bad_alloc if a thread ran out of memory.
+    /// Shows all wanted squares of a camera: passes the squares to hide to `apply`, waits until all
+    /// wanted squares are ready, and passes the squares to show to `apply`. Hiding squares first
+    /// keeps memory within the budget when the camera jumps. Returns WantedSquares::range, or
+    /// nullopt if `is_cancelled` returns true, which is called ten times a second. Throws
+    /// std::bad_alloc if a thread ran out of memory.
     [[nodiscard]] std::optional<float>
     settle(const Camera& camera,
            std::uint32_t picture_height,
@@ -71,21 +73,22 @@ public:
 private:
     struct Ready {
         std::shared_ptr<const ForestSquare> square;
-        std::uint64_t last_wanted = 0; // number of the step
+        std::uint64_t last_wanted = 0; // number of the last step that wanted the square
         bool is_shown = false;
     };
 
     void work();
-    /// Replaces the list of squares that the threads have to make. Needs the lock.
+    /// Replaces the list of squares that the threads have to make. Precondition: the caller holds
+    /// the lock.
     void want(const WantedSquares& wanted);
     [[nodiscard]] WantedSquares wanted_for(const Camera& camera,
                                            std::uint32_t picture_height) const;
-    /// Hides the squares that are not wanted. Needs the lock.
+    /// Hides the squares that are not wanted. Precondition: the caller holds the lock.
     void hide_squares(SquareChanges& changes);
-    /// Shows wanted squares that are ready, see step(). Needs the lock.
+    /// Shows wanted squares that are ready, see step(). Precondition: the caller holds the lock.
     void show_squares(const WantedSquares& wanted, std::uint64_t max_trees, SquareChanges& changes);
-    /// Forgets squares that are not wanted, those wanted longest ago first, until the rest is within
-    /// the budget. Needs the lock.
+    /// Removes squares that are not wanted, those first whose last use is longest ago, until all
+    /// others are within the budget. Precondition: the caller holds the lock.
     void forget_squares();
 
     const ForestDocument& document_;
@@ -94,7 +97,7 @@ private:
     mutable std::mutex mutex_;
     std::condition_variable has_work_;
     std::condition_variable has_square_;
-    std::vector<SquareId> missing_; // the most urgent last
+    std::vector<SquareId> missing_; // the most urgent square is last
     std::set<SquareId> in_progress_;
     std::map<SquareId, Ready> ready_;
     std::uint64_t step_ = 0;
@@ -104,7 +107,8 @@ private:
     std::vector<std::thread> threads_; // last member: the threads use the others
 };
 
-/// Threads for streaming: one less than the machine has, 1 to 4; at most `limit` unless it is 0.
+/// Number of threads for streaming: one less than the machine has, but 1 to 4, and at most `limit`
+/// unless `limit` is 0.
 [[nodiscard]] std::uint32_t streaming_threads(std::uint32_t limit);
 
 } // namespace lsys::view

@@ -17,15 +17,15 @@ namespace lsys::view {
 
 namespace {
 
-// Time budget for baking of impostors between two events, s.
+// Time in s for baking of impostors between two events of the window.
 constexpr double kBakeTime = 0.02;
-// Max trees expanded into branches per picture, so that a flying camera does not stutter.
+// Max number of trees expanded into branches per picture, so that a flying camera does not stutter.
 constexpr std::uint32_t kMaxExpansions = 1000;
-// Max trees that come into view per picture of a streamed forest.
+// Max number of trees of a streamed forest that appear per picture.
 constexpr std::uint64_t kMaxStreamedTrees = 16'384;
-// Draw time above which pictures have reduced quality during motion, s.
+// Time in s to draw a picture above which pictures have reduced quality while the camera moves.
 constexpr double kSlowPicture = 0.12;
-// Time without motion before a redraw at full quality, s.
+// Time in s without motion after which the picture is drawn again at full quality.
 constexpr double kRest = 0.25;
 constexpr std::uint64_t kMinTriangles = 20'000;
 
@@ -95,7 +95,7 @@ ForestView::ForestView(const ViewOptions& options,
 ForestView::~ForestView() {
     streamer_.reset();
     renderer_->show_lines({});
-    renderer_->show_plant(Mesh{}); // instead of the forest, which ends with document_
+    renderer_->show_plant(Mesh{}); // replaces the forest, which document_ owns
 }
 
 /// Called on the file watch's thread.
@@ -114,7 +114,7 @@ void ForestView::files_changed(const std::vector<std::string>& files,
         const std::lock_guard lock(saved_mutex_);
         const Result<std::string> text = read_file(files.front(), {kMaxSourceBytes}, console_);
         if (!saved_text_.empty() && text && text.value() == saved_text_) {
-            return; // written by save()
+            return; // save() has written this change
         }
         saved_text_.clear();
     }
@@ -144,7 +144,7 @@ void ForestView::set_years(std::uint32_t years) {
     settings.plays = false;
     if (grown_) {
         grown_.reset();
-        requested_.reset(); // else it would equal the edits, and update() would request nothing
+        requested_.reset(); // else it equals the edits, and update() requests nothing
     }
 }
 
@@ -235,7 +235,7 @@ void ForestView::request_load() {
 
 void ForestView::take_outcome(ForestOutcome outcome) {
     if (outcome.request.options.files != options_.files) {
-        return; // the outcome of a newer request follows
+        return; // a newer request is running
     }
     const bool succeeded = outcome.document != nullptr;
     take_messages(outcome.messages, succeeded);
@@ -406,8 +406,8 @@ void ForestView::picture_shown(double draw_seconds) {
 }
 
 bool ForestView::plays_smoothly() const {
-    // Only domination has moments between years. Painting refers to trees by their numbers in a
-    // whole year, so a painted forest grows by whole years.
+    // Only domination has moments between years. Painting identifies trees by their numbers in a
+    // whole year, so a painted forest is shown at whole years only.
     return !painting_.is_painted() && document_ != nullptr &&
            document_->scene.placement.method == PlacementMethod::Domination;
 }
@@ -491,7 +491,7 @@ void ForestView::grow() {
                     now,
                     false});
     settings.edits.years = year;
-    requested_->years = year; // the growth thread makes this year, so the loader must not
+    requested_->years = year; // so that the loader does not make this year, too
 }
 
 void ForestView::grow_by_years() {
@@ -503,7 +503,7 @@ void ForestView::grow_by_years() {
         return;
     }
     last_growth_ = now;
-    // Slow pictures skip years.
+    // If pictures are slow, growth skips years.
     constexpr double kMaxYears = 1000.0;
     const auto next = years() + static_cast<std::uint32_t>(std::min(years_passed, kMaxYears));
     settings.plays = next < default_years_;
@@ -555,7 +555,7 @@ void ForestView::show_from(StandardView view) {
     if (streamer_ == nullptr) {
         View::show_from(view);
     } else {
-        settings.camera = seen_from(view, settings.camera); // the forest is larger than any view
+        settings.camera = seen_from(view, settings.camera); // no view can show the whole forest
     }
 }
 
@@ -573,7 +573,7 @@ void ForestView::show_outline() {
     std::optional<glm::dvec3> place;
     if (settings.tool != PaintTool::None && document_ != nullptr && streamer_ == nullptr) {
         if (!pointed_) {
-            return; // the outline stays
+            return; // the old outline stays
         }
         place = ground_at(*pointed_);
     }
@@ -701,7 +701,7 @@ void ForestView::save() {
         set_note("no forest to save yet");
         return;
     }
-    // path() may be a scene that is still loading or has errors.
+    // path() may be another scene, which is still loading or has errors.
     const std::string& scene = document_->files.front();
     if (!is_scene(scene)) {
         set_note("this forest has no scene file to save to");

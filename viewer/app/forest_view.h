@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// ForestView: the state of a window with a forest, without the window. Watches the scene, its
-// grammars and their includes; forests are made on another thread and swapped between two frames.
+// ForestView: the state of a window that shows a forest; usable without a window. Watches the
+// scene, its grammars and the files that these include. Forests are made on another thread and
+// replace the shown forest between two frames.
 #pragma once
 
 #include "viewer/app/edit_history.h"
@@ -27,10 +28,10 @@ inline constexpr float kMaxBrush = 500.0F; // m, radius
 
 /// Settings of the user that undo() takes back.
 struct ForestEdits {
-    SceneOverrides edits; // applied after command-line options; a change makes a new forest
+    SceneOverrides edits; // applied after options of the command line; a change makes a new forest
 
     bool shadows = true;
-    bool figure = false; // a person of 1.8 m where the camera looks
+    bool figure = false; // show a person of 1.8 m where the camera looks
     bool antialiasing = true;
     Quality quality = Quality::Auto;
     bool wireframe = false;
@@ -54,26 +55,26 @@ struct ForestViewSettings : ForestEdits {
     Brush brush;
 };
 
-/// Statistics of one instance cache: that of a species at one stage.
+/// Statistics of one instance cache: the cache of a species at one stage.
 struct CacheStats {
     std::string species;
     std::uint32_t generations = 0; // of the stage
     std::uint32_t heroes = 0;
     std::uint64_t keys = 0;     // pairs of a branch id and an age
-    std::uint64_t branches = 0; // recorded branches, whole plants included
+    std::uint64_t branches = 0; // recorded branches, including whole plants
     std::uint64_t hits = 0;     // hits, misses and dropped: sums over the InstanceSlot of all keys
     std::uint64_t misses = 0;
     std::uint64_t dropped = 0;
     std::uint64_t bytes = 0; // InstanceCache::byte_count()
 };
 
-/// Statistics of the forest shown.
+/// Statistics of the forest that is shown.
 struct ForestViewStats {
     double make_seconds = 0.0;   // all work of the loader
     double upload_seconds = 0.0; // time of the swap
-    double swap_seconds = 0.0;   // from the change to the swap
-    double shown_seconds = 0.0;  // from the change to the first picture on the screen
-    double draw_seconds = 0.0;   // last picture
+    double swap_seconds = 0.0;   // from the change of a file to the swap
+    double shown_seconds = 0.0;  // from the change to the first picture on screen
+    double draw_seconds = 0.0;   // time to draw the last picture
     FrameStats drawn;            // of the last picture
     std::uint64_t swaps = 0;     // count of forests shown
     std::uint64_t moments = 0;   // count of moments of growth shown
@@ -112,39 +113,39 @@ public:
     [[nodiscard]] bool has_growth() const override { return default_years() != 0; }
     [[nodiscard]] LoadedSources loaded_sources() const override;
 
-    /// Opens another scene and frames it.
+    /// Opens another scene, and moves the camera so that it shows the whole forest.
     void open(const std::string& file);
-    /// Restarts at the first year when all years are shown.
+    /// Plays or pauses growth. If all years are shown, growth begins again at the first year.
     void play_or_pause();
     void set_years(std::uint32_t years);
     [[nodiscard]] std::uint32_t years() const;
-    /// Years that the scene grows, without edits; for trees placed by stages, the count of stages;
-    /// 0: the scene does not grow.
+    /// Number of years that the scene grows, without edits of the user. For trees placed by stages,
+    /// the number of stages; 0: the scene does not grow.
     [[nodiscard]] std::uint32_t default_years() const;
 
-    /// Moves the tool to a place of the last picture: right and up from its centre, in half picture
-    /// heights.
+    /// Moves the tool to `place` in the last picture: to the right and up from its centre, in half
+    /// picture heights.
     void hover(const glm::vec2& place);
-    /// Applies the tool at `place`, in the units of hover(). `begins`: starts a stroke. `erases`:
-    /// uses the eraser instead.
+    /// Applies the tool at `place`, in the units of hover(). `begins`: a stroke begins here.
+    /// `erases`: the eraser is used in place of the chosen tool.
     void apply_tool(const glm::vec2& place, bool begins, bool erases);
     /// Ends a stroke and reports its changes.
     void end_stroke();
-    /// Saves painted trees and the season in the file of the scene shown and reports the result. If
-    /// a scene with errors was opened later, its file is not written.
+    /// Saves painted trees and the season in the file of the scene that is shown, and reports the
+    /// result in a note. Does not write the file of a scene with errors that was opened later.
     void save() override;
 
-    /// The moment of growth shown; empty: the forest of a whole year is shown.
+    /// The moment of growth that is shown; nullopt: the forest of a whole year is shown.
     [[nodiscard]] const std::optional<GrowthMoment>& grown() const { return grown_; }
-    /// Last forest without errors; null: none yet.
+    /// The last forest that was made without errors; null: none yet.
     [[nodiscard]] const ForestDocument* document() const { return document_.get(); }
     [[nodiscard]] const ForestViewStats& stats() const { return stats_; }
-    /// Statistics of a streamed forest; empty for others.
+    /// Statistics of a streamed forest; nullopt for other forests.
     [[nodiscard]] std::optional<StreamStats> stream_stats() const;
     [[nodiscard]] const ForestPainting& painting() const { return painting_; }
     /// Whether the last picture had reduced quality because of motion.
     [[nodiscard]] bool is_coarse() const { return is_coarse_; }
-    /// The colours of the branches; empty for natural ones.
+    /// The colours of the branches and their meanings; empty while branches have natural colours.
     [[nodiscard]] const std::vector<LegendEntry>& legend() const { return legend_; }
     /// Whether all impostors are baked.
     [[nodiscard]] bool has_all_impostors() const { return has_all_impostors_; }
@@ -153,25 +154,26 @@ protected:
     [[nodiscard]] PickRequest request_for(const Picked& picked) const override;
 
 private:
-    /// One step of undo() changes either settings or painted strokes.
+    /// Kind of a step of undo(): a change of settings, or a painted stroke.
     enum class StepKind : std::uint8_t { Settings, Painting };
 
     void add_step(StepKind kind);
-    /// Takes back a step, or repeats one: moves the last step of `from` to `to`.
+    /// Undoes or repeats a step: moves the last step of `from` to `to`.
     bool move_step(std::vector<StepKind>& from, std::vector<StepKind>& to, bool redoes);
     void take_outcome(ForestOutcome outcome);
     void swap(ForestOutcome outcome);
     void show_outline();
-    /// Shows and hides squares of a streamed forest for the camera of a frame.
+    /// Shows and hides squares of a streamed forest as the camera of `frame` needs.
     void stream(Frame& frame);
-    /// Returns whether the forest is streamed, after a note that such a forest cannot be painted.
+    /// Returns whether the forest is streamed. If so, shows a note that a streamed forest cannot be
+    /// painted.
     bool refuses_painting();
     [[nodiscard]] Result<void> save_season(const std::string& scene);
     void show_colours();
     [[nodiscard]] std::string painted_text(const char* what) const;
     void watch_files();
     void grow();
-    /// Whether moments between years can be shown.
+    /// Whether growth can show moments between years.
     [[nodiscard]] bool plays_smoothly() const;
     void grow_by_years();
     void take_moment();
@@ -182,10 +184,10 @@ private:
 
     std::shared_ptr<ForestDocument> document_;
     std::unique_ptr<ForestStreamer> streamer_; // streamer of document_; null: it is not streamed
-    bool is_streaming_ = false;                // the last picture lacked wanted squares
+    bool is_streaming_ = false;                // the last picture lacked some wanted squares
     ForestPainting painting_;
     std::vector<std::string> files_;
-    bool frame_next_ = true;  // the next swap fits the camera to the forest
+    bool frame_next_ = true;  // the next swap moves the camera to show the forest
     bool plays_next_ = false; // growth starts to play at the next swap
     bool logs_next_frame_ = false;
     bool has_all_impostors_ = true;
@@ -194,10 +196,10 @@ private:
     std::optional<SceneOverrides> requested_;
     EditHistory<ForestEdits> history_;
     std::vector<StepKind> steps_;  // oldest first
-    std::vector<StepKind> undone_; // first undone first
+    std::vector<StepKind> undone_; // the step that was undone first comes first
     std::uint32_t default_years_ = 0;
-    std::uint32_t unedited_years_ = 0;   // years of the forest if the user does not edit them
-    bool is_other_placement_ = false;    // edits or options change the placement of the scene file
+    std::uint32_t unedited_years_ = 0;   // default number of years of the forest
+    bool is_other_placement_ = false;    // the placement differs from that of the scene file
     SteadyClock::time_point changed_at_; // time of the change that led to the forest shown
     SteadyClock::time_point last_growth_;
     double growth_position_ = 0.0; // years
@@ -216,7 +218,7 @@ private:
     ForestViewStats stats_;
 
     std::mutex saved_mutex_;
-    std::string saved_text_;     // text last written by this view
+    std::string saved_text_;     // text of the scene file as this view last wrote it
     ViewOptions shown_options_;  // options with which document_ was made
     SceneOverrides shown_edits_; // edits with which document_ was made
     MakingProgress progress_;
@@ -224,7 +226,7 @@ private:
     FileWatch watch_; // last member: it calls the loader
 };
 
-/// Cache statistics by species and stage.
+/// Statistics of all caches, by species and stage.
 [[nodiscard]] std::vector<CacheStats> cache_stats(const Forest& forest);
 
 } // namespace lsys::view

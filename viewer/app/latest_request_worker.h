@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // LatestRequestWorker: handles requests on a thread of its own. A new request replaces a pending
-// one, and cancels a running one that takes long.
+// request, and cancels a running request that takes long.
 #pragma once
 
 #include <atomic>
@@ -45,8 +45,8 @@ public:
         const std::lock_guard lock(mutex_);
         enqueue(std::move(request));
     }
-    /// Repeats the last request, if any, after a change of files; cancels the running one. Callable
-    /// from any thread.
+    /// Repeats the last request, if there is one, after files have changed; cancels the running
+    /// request. May be called from any thread.
     void repeat(SteadyClock::time_point changed_at) {
         const std::lock_guard lock(mutex_);
         if (last_) {
@@ -57,21 +57,24 @@ public:
             enqueue(std::move(request));
         }
     }
-    /// Cancels the running request and drops a pending one: no outcome follows, unless it is made
-    /// already. repeat() then repeats the last request that was not cancelled, if any.
+    /// Cancels the running request and drops a pending request. Their outcomes do not appear,
+    /// except an outcome that is already made. repeat() then repeats the last request that was not
+    /// cancelled, if there is one.
     void cancel() {
         const std::lock_guard lock(mutex_);
         if (finished_) {
             last_ = finished_;
         }
-        // The next request must be a repeat too, because no outcome has the changed files.
+        // The next request must also have is_repeat set, because no outcome shows the changed
+        // files.
         owes_repeat_ = owes_repeat_ || (pending_ && pending_->is_repeat) ||
                        (is_running_ && is_running_repeat_);
         pending_.reset();
         cancelled_ = is_running_;
     }
-    /// Takes the last outcome. Cancels the running request if it has run long and a newer one is
-    /// pending, so that a dragged slider shows intermediate results.
+    /// Takes the last outcome. If the running request has run long and a newer one is pending,
+    /// cancels it; it is not cancelled earlier, so that a dragged slider shows intermediate
+    /// results.
     [[nodiscard]] std::optional<Outcome> take() {
         const std::lock_guard lock(mutex_);
         if (pending_ && is_running_ && SteadyClock::now() - began_ > kCancelDelay) {
@@ -80,7 +83,8 @@ public:
         owes_repeat_ = owes_repeat_ && !(outcome_ && is_running_repeat_);
         return std::exchange(outcome_, std::nullopt);
     }
-    /// Time since the running request began; empty: none runs, or it is cancelled.
+    /// Time since the running request began; nullopt: no request runs, or the running request is
+    /// cancelled.
     [[nodiscard]] std::optional<SteadyClock::duration> running_time() const {
         const std::lock_guard lock(mutex_);
         return is_running_ && !cancelled_ ? std::optional(SteadyClock::now() - began_)
@@ -99,7 +103,7 @@ public:
 
 private:
     void enqueue(Request request) {
-        // `is_repeat` stays set until an outcome that was made with it is taken.
+        // `is_repeat` stays set until the outcome of a request that has it set is taken.
         request.is_repeat = request.is_repeat || owes_repeat_ ||
                             (pending_ && pending_->is_repeat) ||
                             (is_running_repeat_ && (is_running_ || outcome_));

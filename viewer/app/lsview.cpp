@@ -77,8 +77,8 @@ ExitStatus run_forest_pictures(const ViewOptions& options, const Console& consol
         return status;
     }
     hidden_renderer.renderer->colour_branches(options.colours);
-    // Keep the model if it is read again: by each picture of a growing forest, by --pick, or by
-    // squares, which read its forms.
+    // Keeps the model if it is read again later: for each picture of a growing forest, for --pick,
+    // or for squares, which need its forms.
     const bool keeps_model = options.grow || options.pick || document.squares != nullptr;
     if (const Result<void> shown = hidden_renderer.renderer->show_forest(
             keeps_model ? document.model : std::move(document.model));

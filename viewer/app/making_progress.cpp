@@ -47,7 +47,8 @@ void MakingProgress::note_step(LongStep step) {
     generation_ = 0;
 }
 
-/// Keeps a running sum of the expected modules, since a plant may have up to 2^32 generations.
+/// Adds each generation to a running sum of the expected modules, because a plant may have up to
+/// 2^32 generations.
 void MakingProgress::note_derivation(const DerivationProgress& progress) {
     const std::lock_guard lock(mutex_);
     if (generation_ == 0) {

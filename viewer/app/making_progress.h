@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// MakingProgress: the step that the thread of a loader has reached, for the window. Thread-safe.
+// MakingProgress: the step that the thread of a loader has reached, which the window shows.
+// Thread-safe.
 #pragma once
 
 #include "runtime/pipeline/project.h"
@@ -29,13 +30,13 @@ private:
 
     mutable std::mutex mutex_;
     LongStep step_ = LongStep::Read;
-    // The members below belong to LongStep::Derive.
+    // The members below describe LongStep::Derive.
     std::uint32_t generation_ = 0; // 0: the derivation has not reported progress yet
     std::uint32_t generations_ = 0;
     std::uint64_t modules_ = 0;
     double expected_ = 0.0;        // modules of all generations; 0: unknown
     double expected_before_ = 0.0; // modules of generations before generation_
-    std::uint32_t summed_ = 0;     // generations in expected_before_
+    std::uint32_t summed_ = 0;     // number of generations that expected_before_ sums
 };
 
 } // namespace lsys::view

@@ -43,10 +43,10 @@ struct ViewOptions {
     std::optional<float> plant_height; // m
     std::vector<std::string> files;    // a grammar, a scene, or the grammars of a forest
     std::string file;                  // front of `files`
-    bool is_forest = false;            // a scene, several grammars, or options of forests
-    // Forests only; its `grammar` and `seed` are unset: the fields above hold them.
+    bool is_forest = false;            // a scene, several grammars, or an option of forests
+    // For forests only. Its members `grammar` and `seed` are unset; the members above have them.
     SceneOverrides overrides;
-    SceneOverrides edits; // edits in the window, applied after `overrides`
+    SceneOverrides edits; // edits of the user in the window, applied after `overrides`
     MeshOptions mesh;
     RunOptions run;
 
@@ -65,37 +65,37 @@ struct ViewOptions {
     BranchColours colours = BranchColours::Natural; // forests only
     SceneLight light;                               // values that replace the scene's
     std::uint32_t samples = 4;
-    std::uint64_t max_triangles = 1'500'000;               // budget of branches in a forest
-    std::uint64_t stream_bytes = std::uint64_t{128} << 20; // budget of trees of a streamed forest
+    std::uint64_t max_triangles = 1'500'000;               // max triangles of branches in a forest
+    std::uint64_t stream_bytes = std::uint64_t{128} << 20; // for trees of a streamed forest
     Culling culling = Culling::Auto;                       // forests only
     Quality quality = Quality::Auto;
     std::string fly_to; // camera at the end of a series; empty: the camera stays
-    // Folder of shaders that replace the built-in ones; empty: none.
+    // Folder of shaders that replace the built-in shaders; empty: none.
     std::string shaders;
 
     std::string screenshot;   // picture file; `-`: standard output; empty: opens a window instead
     std::uint32_t frames = 0; // pictures of a numbered series; 0: a single picture
     float frames_per_second = 24.0F;
-    bool transparent = false;         // a plant without sky and ground
+    bool transparent = false;         // draw a plant without sky and ground
     bool figure = false;              // a person of 1.8 m as a scale
     bool turntable = false;           // the series orbits once
     bool grow = false;                // the series shows growth; in a window, growth starts to play
     std::optional<PicturePixel> pick; // report what this pixel shows
-    std::optional<TraceScope> why;    // with `pick`: trace the module of a plant
+    std::optional<TraceScope> why;    // with `pick`: scope of the trace of a plant's module
     std::string stats;                // JSON file; `-`: standard output
-    bool beside_window = false;       // pictures are drawn on a thread beside that of a window
+    bool beside_window = false;       // draw on a thread beside the thread of a window
     bool all_or_none = false;         // pictures of a series appear when all are complete
     std::atomic<std::uint32_t>* pictures_done = nullptr; // counts written pictures; may be null
 };
 
-/// Sets the file to open. Drops the options for grammars and views, which belong to the files that
-/// the command line names.
+/// Sets the file to open. Drops the options of grammars and views, which apply only to the files
+/// that the command line names.
 void use_other_file(ViewOptions& options, const std::string& file);
 
 using ParsedOptions = std::variant<ViewOptions, PrintText, UsageError>;
 [[nodiscard]] ParsedOptions parse_options(std::span<const std::string> arguments);
 
-/// Calls `visit` with an app that declares all options.
+/// Calls `visit` with a CLI::App that declares all options.
 void visit_options(const std::function<void(const CLI::App& app)>& visit);
 
 } // namespace lsys::view

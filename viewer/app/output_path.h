@@ -6,7 +6,8 @@
 
 namespace lsys::view {
 
-/// Why no file can be written at `path`, such as "there is no folder `pictures`"; empty if one can.
+/// The reason why no file can be written at `path`, such as "there is no folder `pictures`"; empty
+/// if a file can be written.
 [[nodiscard]] std::string problem_of_output(const std::string& path);
 
 } // namespace lsys::view

@@ -10,11 +10,11 @@ namespace lsys::view {
 
 namespace {
 
-/// Windows that can have the keyboard beside dialogs, in the order of F6.
+/// Windows that can have the keyboard while no dialog is open, in the order of the key F6.
 constexpr std::array<const char*, 6> kPanels = {"Panel",    "Buttons", "Trace",
                                                 "Messages", "Making",  "Keys"};
 
-/// The window with the keyboard, without the windows inside it; null: the picture has it.
+/// The outermost window that has the keyboard; null: the picture has it.
 ImGuiWindow* focused_panel() {
     const ImGuiContext& context = *ImGui::GetCurrentContext();
     return context.NavWindow == nullptr || context.NavDisableHighlight
@@ -27,7 +27,8 @@ bool is_shown(const ImGuiWindow* window) {
     return window != nullptr && window->WasActive;
 }
 
-/// Gives the keyboard to a window, at the control that had it last; null: to the picture.
+/// Gives the keyboard to a window, where it goes to the control that had it last; null: to the
+/// picture.
 void focus(ImGuiWindow* window) {
     ImGuiContext& context = *ImGui::GetCurrentContext();
     if (window == nullptr) {
@@ -74,7 +75,7 @@ void PanelFocus::begin(DialogKeys dialog, FocusMove move) {
         ImGuiWindow* const window =
             before_.empty() ? nullptr : ImGui::FindWindowByName(before_.c_str());
         focus(is_shown(window) ? window : nullptr);
-        ImGui::GetIO().WantTextInput = false; // of a field of the dialog
+        ImGui::GetIO().WantTextInput = false; // set by a text field of the dialog
     }
     if (dialog == DialogKeys::OfPanels && dialog_ != DialogKeys::OfPanels) {
         context.NavDisableHighlight = false;
@@ -94,10 +95,10 @@ void PanelFocus::end(DialogKeys dialog) {
     const ImGuiWindow* const window = focused_panel();
     const bool has_panel =
         dialog_ != DialogKeys::NoDialog
-            ? !before_.empty() // the next frame gives the keyboard back
+            ? !before_.empty() // the keyboard returns in the next frame
             : window != nullptr && (window->Flags & ImGuiWindowFlags_NoNavInputs) == 0;
     if (dialog == DialogKeys::NoDialog && dialog_ != DialogKeys::NoDialog) {
-        ImGui::GetIO().WantTextInput = false; // of a field of the dialog
+        ImGui::GetIO().WantTextInput = false; // set by a text field of the dialog
     }
     has_keys_ =
         dialog == DialogKeys::OfPanels || has_list || (dialog == DialogKeys::NoDialog && has_panel);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// PanelFocus: which part of the window has the keyboard: the picture, a panel or a dialog. A ring
-// around a control shows that its panel or dialog has it.
+// PanelFocus: the part of the window that has the keyboard: the picture, a panel or a dialog. While
+// a panel or dialog has it, a ring is drawn around one of its controls.
 #pragma once
 
 #include <cstdint>
@@ -8,10 +8,10 @@
 
 namespace lsys::view {
 
-/// A request of the user.
+/// A change of the keyboard focus that the user requests.
 enum class FocusMove : std::uint8_t { None, Next, Picture };
 
-/// The kind of the open dialog. A dialog of Controls handles keys itself, and has no ring.
+/// The kind of the open dialog. Controls handles the keys of its own dialogs, which have no ring.
 enum class DialogKeys : std::uint8_t { NoDialog, OfPanels, OfControls };
 
 class PanelFocus {
@@ -27,7 +27,7 @@ public:
 
 private:
     DialogKeys dialog_ = DialogKeys::NoDialog;
-    std::string before_; // the window with the keyboard before the dialog; empty: the picture
+    std::string before_; // had the keyboard before the dialog; empty: the picture
     bool has_keys_ = false;
 };
 

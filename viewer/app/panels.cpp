@@ -27,7 +27,7 @@ constexpr float kPanelWidth = 340.0F;
 constexpr ImGuiWindowFlags kOverlay = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
                                       ImGuiWindowFlags_NoSavedSettings |
                                       ImGuiWindowFlags_NoFocusOnAppearing | ImGuiWindowFlags_NoNav;
-/// An overlay with controls, which F6 reaches.
+/// Flags of an overlay with controls, to which F6 can give the keyboard.
 constexpr ImGuiWindowFlags kUsedOverlay = kOverlay & ~ImGuiWindowFlags_NoNav;
 
 /// The part of the window beside the panel.
@@ -71,7 +71,7 @@ void draw_plant_times(const PlantView& view) {
     count_row("Triangles", stats.drawn.triangles);
 }
 
-/// The processor that chooses the visible trees, and the times that this takes.
+/// Draws which processor chooses the visible trees, and how long it takes.
 void draw_culling(const ForestFrameStats& frame) {
     line(frame.is_culled_on_device ? "Culling: GPU" : "Culling: CPU");
     time_row("  CPU", 1e-3 * frame.cull_cpu_milliseconds);
@@ -130,7 +130,7 @@ void draw_statistics(ViewSwitcher& switcher, const Area& area) {
 const ImVec4 kErrorColour{1.0F, 0.72F, 0.66F, 1.0F};
 const ImVec4 kWarningColour{1.0F, 0.93F, 0.7F, 1.0F};
 
-/// A bright colour of text, made darker and stronger on light panels.
+/// Converts a bright text colour for light panels: darker and more saturated.
 ImVec4 on_panel(const ImVec4& colour) {
     if (ImGui::GetStyle().Colors[ImGuiCol_WindowBg].x < 0.5F) {
         return colour;
@@ -139,7 +139,8 @@ ImVec4 on_panel(const ImVec4& colour) {
     return {darker(colour.x), darker(colour.y), darker(colour.z), colour.w};
 }
 
-/// A message; a click shows its source lines. `is_open`: whether it shows them at first.
+/// Draws a message; a click shows or hides its source lines. `is_open`: whether they are shown at
+/// first.
 void draw_message(
     const ShownMessage& message, int number, bool is_open, View& view, PanelState& panels) {
     ImGui::PushID(number);
@@ -170,8 +171,8 @@ void draw_message(
     ImGui::PopID();
 }
 
-/// Draws the messages of the grammar or scene, of shaders and of OpenGL, unless the user closed them.
-/// Returns the upper edge of their panel, or the lower edge of the area.
+/// Draws the messages of the grammar or scene, of shaders and of OpenGL, unless the user has closed
+/// them. Returns the upper edge of their panel or, without messages, the lower edge of the area.
 float draw_messages(View& view, PanelState& panels, const Area& area) {
     if (!panels.closed_messages.empty()) {
         if (panels.closed_messages == view.all_messages()) {
@@ -204,7 +205,7 @@ float draw_messages(View& view, PanelState& panels, const Area& area) {
         }
         int number = 0;
         for (const ShownMessage& message : view.entries()) {
-            // Notes may stay on the screen for long, so only their first line is shown at first.
+            // Notes may stay on screen for long, so at first only their first line is shown.
             const bool is_note = message.severity == Severity::Note;
             const bool is_open = number == 0 && !is_note && !panels.source.look.is_shown;
             draw_message(message, number, is_open, view, panels);
@@ -269,7 +270,8 @@ void draw_trace_line(const TextLine& text) {
     }
 }
 
-/// Width of the area below which panels keep out of each other's way, pixels of the usual text.
+/// Width of the area, in pixels at the default text size, below which panels give way to each
+/// other.
 constexpr float kNarrowArea = 640.0F;
 
 void draw_trace_buttons(View& view, PanelState& panels, bool is_narrow) {
@@ -306,7 +308,7 @@ void draw_trace_buttons(View& view, PanelState& panels, bool is_narrow) {
     }
 }
 
-/// Draws the trace of the module picked last above `bottom`.
+/// Draws the trace of the module picked last, with its lower edge at `bottom`.
 void draw_trace(View& view, PanelState& panels, const Area& area, float bottom) {
     if (!view.shows_trace() || !view.picked().module) {
         return;
@@ -323,7 +325,7 @@ void draw_trace(View& view, PanelState& panels, const Area& area, float bottom) 
             style.ScrollbarSize;
         const ImVec2 size{width - 2.0F * style.WindowPadding.x,
                           std::min(text_height, 0.45F * area.high.y)};
-        // Each trace scrolls on its own.
+        // Each trace has its own scroll position.
         const std::string id =
             fmt::format("Text {} {} {}", static_cast<int>(view.trace_scope()),
                         view.picked().module->generation, view.picked().module->position);
@@ -363,7 +365,8 @@ void wrap_within(const Area& area) {
     ImGui::PushTextWrapPos(std::max(area.high.x - area.low.x - kMargins, 100.0F));
 }
 
-/// Draws the lines about the last pick, in the corner opposite to the statistics, below a note.
+/// Draws the lines of the description picked last, in the corner opposite to the statistics, below
+/// a note.
 void draw_picked(const View& view, const Area& area) {
     if (view.picked().lines.empty()) {
         return;
@@ -409,7 +412,7 @@ void draw_hint(ViewSwitcher& switcher, const PanelState& panels, const Area& are
     ImGui::End();
 }
 
-/// Draws what is being made, with a button that cancels it.
+/// Draws the text about what is being made, with a button that cancels it.
 void draw_making(View& view, PanelState& panels, const Area& area) {
     const std::optional<MakingState> of_view = view.making();
     const std::optional<MakingState> making = of_view ? of_view : panels.film.state();
@@ -436,7 +439,7 @@ void draw_making(View& view, PanelState& panels, const Area& area) {
     ImGui::End();
 }
 
-/// Draws the cameras that are kept for the file, with their names.
+/// Draws the camera bookmarks of the file, with their names.
 void draw_bookmarks(View& view, PanelState& panels) {
     panels.bookmarks.show(panels.state_folder, view.path());
     if (!ImGui::CollapsingHeader("Cameras")) {
@@ -561,8 +564,8 @@ void draw_view_buttons(View& view, SourcePane& source) {
     draw_tooltip("Shows the text of the grammar with its messages (U)");
 }
 
-/// Draws the buttons below the panel, which are always visible. Returns the file to open; empty:
-/// none.
+/// Draws the buttons below the panel, which are always visible. Returns the path of the file to
+/// open; empty: none.
 std::string draw_buttons(ViewSwitcher& switcher, PanelState& panels) {
     std::string wanted;
     draw_edit_buttons(switcher);
@@ -577,7 +580,7 @@ std::string draw_buttons(ViewSwitcher& switcher, PanelState& panels) {
     return wanted;
 }
 
-/// Draws the panel on the left. Returns the file to open; empty: none.
+/// Draws the panel on the left. Returns the path of the file to open; empty: none.
 std::string draw_side_panel(ViewSwitcher& switcher, PanelState& panels, const Area& area) {
     std::string wanted;
     constexpr float kRows = 3.0F; // number of rows of buttons
@@ -608,7 +611,8 @@ std::string draw_side_panel(ViewSwitcher& switcher, PanelState& panels, const Ar
     return wanted;
 }
 
-/// Draws the panel and overlays of a plant or forest. Returns the file to open; empty: none.
+/// Draws the panel and overlays of a plant or forest. Returns the path of the file to open; empty:
+/// none.
 std::string
 draw_view_panels(ViewSwitcher& switcher, PanelState& panels, const Area& area, float scale) {
     std::string wanted;
@@ -683,7 +687,8 @@ DialogKeys keys_of(OpenDialog dialog) {
                                         : DialogKeys::OfPanels;
 }
 
-/// Draws the open dialog, except the contact sheet. Returns the file to open; empty: none.
+/// Draws the open dialog, except the contact sheet. Returns the path of the file to open; empty:
+/// none.
 std::string draw_dialog(ViewSwitcher& switcher, PanelState& panels) {
     std::string wanted;
     bool is_open = true;

@@ -7,17 +7,19 @@
 
 namespace lsys::view {
 
-/// Width of the panel on the left, pixels; the picture is beside it. `scale`: Window::scale().
+/// Width in pixels of the panel on the left, to the right of which the picture begins. `scale`:
+/// Window::scale().
 [[nodiscard]] float panel_width(float scale);
 
-/// Width of the source pane on the right, pixels; 0 if it is not shown. The picture keeps at least
-/// half of the room beside the panel on the left.
+/// Width in pixels of the source pane on the right; 0 if it is not shown. The picture keeps at
+/// least half of the width that the panel on the left leaves.
 [[nodiscard]] float source_width(const PanelState& panels, float window_width, float scale);
 
-/// Whether a control of the panels is held or edited.
+/// Whether a control of the panels is held by the mouse or being edited.
 [[nodiscard]] bool is_control_held();
 
-/// Call between Window::begin_panels() and Window::present(). `scale`: Window::scale().
+/// Draws all panels. Call it between Window::begin_panels() and Window::present(). `scale`:
+/// Window::scale().
 void draw_panels(ViewSwitcher& switcher, PanelState& panels, float scale);
 
 } // namespace lsys::view

@@ -39,12 +39,12 @@ std::string item_text(const SkeletonItem& item, const Skeleton& pose) {
                        segment.order);
 }
 
-/// The number of generations of the whole derivation.
+/// The number of generations that the whole derivation has.
 std::uint32_t generations_of(const ViewOptions& options, const PlantDocument& document) {
     return options.grammar.generations.value_or(document.plant.generations);
 }
 
-/// Counts of a branch in a forest.
+/// Number of copies of a branch in a forest, and of trees with it.
 struct BranchCount {
     std::uint64_t branches = 0;
     std::uint64_t trees = 0; // trees with at least one such branch
@@ -100,7 +100,8 @@ Outcome<Description> describe(const PickedTriangle& picked,
     if (!item) {
         return step.fail("not enough memory to describe the picked part");
     }
-    // Copies only the parts of the grammar that a derivation needs: a program cannot be copied.
+    // Only the parts of the grammar that a derivation needs are copied, because a program cannot be
+    // copied.
     Grammar grammar;
     grammar.sources = document.grammar.sources;
     grammar.bytecode = document.grammar.bytecode;

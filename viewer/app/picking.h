@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Picking: description of the part of a plant or forest that a pixel shows, as lines of text, and
-// the trace of the module that drew it. Renderer::pick() finds the part; the production that wrote
-// it and the trace are found by deriving again, on threads of their own in a window.
+// Picking: describes the part of a plant or forest that a pixel shows, as lines of text, and traces
+// the module that drew it. Renderer::pick() finds the part. The production that wrote the module
+// and the trace are found by deriving again; a window does this on other threads.
 #pragma once
 
 #include "runtime/pipeline/file_position.h"
@@ -22,7 +22,7 @@
 
 namespace lsys::view {
 
-/// A triangle of a plant as it is shown.
+/// A triangle of a plant in the state in which the plant is shown.
 struct PickedTriangle {
     std::uint64_t triangle = 0; // number; corners: Mesh::indices from 3 * triangle on
     glm::vec3 place{};          // m
@@ -31,7 +31,7 @@ struct PickedTriangle {
     std::optional<GrowthMoment> moment; // moment of a growing plant; empty: all generations
 };
 
-/// A module of a word of a plant.
+/// A module in a word of a plant.
 struct PickedModule {
     std::uint64_t position = 0; // in the word, from 0
     std::uint32_t generation = 0;
@@ -39,20 +39,21 @@ struct PickedModule {
 
 struct Description {
     std::vector<std::string> lines;
-    std::optional<PickedModule> module;  // module of a plant that drew the part
+    std::optional<PickedModule> module;  // module of a plant that drew the picked part
     std::string hint;                    // why there is no trace; may be empty
-    std::optional<FilePosition> place{}; // place that wrote the module or branch
+    std::optional<FilePosition> place{}; // place in a file that wrote the module or branch
 };
 
-/// Describes the module, its production with place and generation, and the segment, object or
-/// polygon. `options`: the options with which the document was made.
+/// Describes the module that drew a triangle, the production that wrote it, with place and
+/// generation, and the segment, object or polygon. `options`: the options with which `document` was
+/// made.
 [[nodiscard]] Outcome<Description> describe(const PickedTriangle& picked,
                                             const PlantDocument& document,
                                             const ViewOptions& options,
                                             const Project& project);
 
-/// The text of `lsc trace` about a module found by describe(), which had the same `document` and
-/// `options`. `colour`: with SGR codes.
+/// The text of `lsc trace` about a module that describe() has found with the same `document` and
+/// `options`. `colour`: whether the text has SGR codes.
 [[nodiscard]] Outcome<std::string> trace_picked(const PickedModule& module,
                                                 TraceScope scope,
                                                 bool colour,
@@ -60,20 +61,21 @@ struct Description {
                                                 const ViewOptions& options,
                                                 const Project& project);
 
-/// Describes the branch with id, age and hero, its production with place and generation, its count
-/// in the forest, and its tree; for an impostor only the tree. `trees_of_form`: numbers of the
-/// living trees of the same form, by Renderer::trees_of(). `file`: the scene, or a grammar.
+/// Describes a branch with its id, age and hero, the production that wrote it, with place and
+/// generation, the number of its copies in the forest, and its tree; for an impostor only the tree.
+/// `trees_of_form`: numbers of the living trees of the same form, from Renderer::trees_of().
+/// `file`: the scene, or a grammar.
 [[nodiscard]] Outcome<Description> describe(const Picked& picked,
                                             const std::vector<std::uint32_t>& trees_of_form,
                                             const ForestDocument& document,
                                             const std::string& file,
                                             const Project& project);
 
-/// trace_picked() with all arguments bound but the module and the scope.
+/// trace_picked() with all arguments bound except module and scope.
 using TraceFunction =
     std::function<Outcome<std::string>(const PickedModule&, TraceScope, const Project&)>;
 
-/// Work for another thread: a call of describe() with its arguments bound.
+/// The input of a picking thread: a call of describe() with its arguments bound.
 struct PickRequest {
     std::function<Outcome<Description>(const Project&)> describe;
     TraceFunction trace; // traces the module described; empty in forests
@@ -82,12 +84,12 @@ struct PickRequest {
     bool is_repeat = false;
 };
 
-/// Returns the description, or the messages of its failure.
+/// Returns the description; if it fails, the messages as a description.
 [[nodiscard]] Description run_pick(const PickRequest& request, const std::atomic<bool>& cancelled);
 
 using PickWorker = LatestRequestWorker<PickRequest, Description>;
 
-/// Work for another thread: a trace of a module.
+/// The input of a tracing thread.
 struct TraceRequest {
     TraceFunction trace;
     PickedModule module;
@@ -97,7 +99,7 @@ struct TraceRequest {
     bool is_repeat = false;
 };
 
-/// Returns the text of the trace, followed by messages; after an error only the messages.
+/// Returns the text of the trace, followed by messages; after an error only messages.
 [[nodiscard]] std::string run_trace(const TraceRequest& request,
                                     const std::atomic<bool>& cancelled);
 

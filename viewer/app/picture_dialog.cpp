@@ -49,7 +49,7 @@ void draw_size(const View& view, PictureSettings& settings) {
     draw_tooltip("Width and height in pixels");
 }
 
-/// Seconds, rate and format of a film. `has_ffmpeg`: whether .mp4 can be written.
+/// Draws the duration, rate and format of a film. `has_ffmpeg`: whether a .mp4 file can be written.
 void draw_film(const View& view, PictureSettings& settings, bool has_ffmpeg) {
     int kind = static_cast<int>(settings.kind);
     if (ImGui::Combo("Motion", &kind, view.has_growth() ? "Turntable\0Growth\0" : "Turntable\0")) {
@@ -76,7 +76,8 @@ bool draw_picture_dialog(const View& view, PictureSettings& settings, bool& is_o
     bool is_wanted = false;
     if (begin_dialog("Picture or film", is_open)) {
         if (ImGui::IsWindowAppearing()) {
-            // The programs that are installed may change between two uses of the dialog.
+            // Looks for ffmpeg each time the dialog opens, because the user may have installed it
+            // since.
             settings.has_ffmpeg = !platform::find_program("ffmpeg").empty();
         }
         if (ImGui::RadioButton("Picture", !settings.is_film)) {

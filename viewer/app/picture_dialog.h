@@ -7,8 +7,8 @@
 
 namespace lsys::view {
 
-/// Draws the dialog in the middle of the window. Returns whether the picture is to be written now.
-/// `is_open` becomes false after *Cancel*.
+/// Draws the dialog in the middle of the window. Returns whether the user wants the picture to be
+/// written now. `is_open` becomes false after *Cancel*.
 [[nodiscard]] bool draw_picture_dialog(const View& view, PictureSettings& settings, bool& is_open);
 
 } // namespace lsys::view

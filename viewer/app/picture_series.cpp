@@ -24,10 +24,10 @@ double milliseconds_since(Clock::time_point start) {
     return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
 }
 
-// Max pixels per draw; larger pictures are drawn in stripes.
+// Max number of pixels of a draw; larger pictures are drawn in stripes.
 constexpr std::uint64_t kStripePixels = std::uint64_t{1} << 22;
 
-/// Divides colours by the opacity: pixels at edges are means with transparent black.
+/// Divides colours by opacity, because pixels at edges are mixed with transparent black.
 void divide_by_opacity(std::vector<std::uint8_t>& texels) {
     constexpr unsigned kOpaque = 255;
     for (std::size_t at = 0; at + 3 < texels.size(); at += 4) {
@@ -42,7 +42,8 @@ void divide_by_opacity(std::vector<std::uint8_t>& texels) {
     }
 }
 
-/// Writes a file and appends it to `outputs`. It gets its name when `outputs` are committed.
+/// Writes a file under a temporary name and appends it to `outputs`. The file gets the name `path`
+/// when `outputs` are committed.
 Result<void> write_part(const std::string& path,
                         const std::string& bytes,
                         const Console& console,
@@ -128,7 +129,7 @@ ExitStatus take_series(const ViewOptions& options,
     const Camera camera = frame.camera;
     const std::uint32_t count = std::max(options.frames, 1U);
     const Camera last = with_parts(options.fly_to, camera);
-    std::vector<Output> outputs; // used with options.all_or_none only
+    std::vector<Output> outputs; // used only with options.all_or_none
     for (std::uint32_t i = 0; i < count; ++i) {
         if (console.interrupted()) {
             return ExitStatus::Interrupted;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// PictureSeries: pictures written by a run, one or a numbered series, with their times.
+// PictureSeries: the pictures that a run writes, one or a numbered series, with the times taken by
+// each.
 #pragma once
 
 #include "runtime/meshing/texture.h"
@@ -17,9 +18,9 @@ namespace lsys::view {
 
 struct PictureSeries {
     // Times of each picture, ms.
-    std::vector<double> prepare; // work of the caller before drawing
+    std::vector<double> prepare; // work of the caller before it draws
     std::vector<double> draw;
-    std::vector<double> read; // read-back from the GPU
+    std::vector<double> read; // reading the picture back from the GPU
     std::vector<double> cpu;  // processor time of the drawing thread
     std::vector<double> gpu;  // by timer queries
     std::vector<double> write;
@@ -30,17 +31,17 @@ struct PictureSeries {
 /// The median of `values`; 0 if there are none.
 [[nodiscard]] double median(std::vector<double> values);
 
-/// A frame with the camera and the values of the options.
+/// A frame with a camera and the values of the options.
 [[nodiscard]] Frame frame_of(const ViewOptions& options, const Camera& camera);
 
 /// Draws a picture in stripes. Adds to `stats` and `read_milliseconds`. With Frame::transparent,
-/// colours are not multiplied by the opacity: PNG requires this.
+/// colours are not multiplied by opacity, as PNG requires.
 [[nodiscard]] Texture
 draw_picture(const Frame& frame, Renderer& renderer, FrameStats& stats, double& read_milliseconds);
 
-/// Draws and writes the pictures of the options, starting with `frame`. `prepare`, which may be
-/// empty, is called before each picture with its frame, and `after` after each picture; a status
-/// other than Ok of either ends the series. Fails on OpenGL errors.
+/// Draws and writes the pictures that the options request, the first with `frame`. Calls `prepare`
+/// with the frame before each picture, unless `prepare` is empty, and `after` after each picture.
+/// If either returns a status other than Ok, the series ends. Fails on OpenGL errors.
 [[nodiscard]] ExitStatus take_series(const ViewOptions& options,
                                      Frame frame,
                                      Renderer& renderer,
@@ -49,8 +50,8 @@ draw_picture(const Frame& frame, Renderer& renderer, FrameStats& stats, double& 
                                      const std::function<ExitStatus(const Frame& frame)>& after,
                                      PictureSeries& series);
 
-/// Writes the lines of --pick for the frame to standard output; in a series, after a line with the
-/// number of the picture. `describe`: called with the result of Renderer::pick(), unless it is
+/// Writes the lines of --pick for a frame to standard output; in a series, after a line with the
+/// number of the picture. Calls `describe` with the result of Renderer::pick(), unless this is
 /// PickedKind::Nothing.
 [[nodiscard]] ExitStatus
 write_picked(const ViewOptions& options,

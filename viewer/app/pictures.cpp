@@ -36,7 +36,7 @@ PhysicsOptions forces_of(const ViewOptions& options, const PlantDocument& docume
     return forces;
 }
 
-/// Warns of a plant that falls under its weight, as `lsc` does.
+/// Warns if the plant falls under its weight, as `lsc` does.
 ExitStatus
 check_weight(const ViewOptions& options, const PlantDocument& document, const Console& console) {
     Diagnostics warning = make_fall_warning(
@@ -45,7 +45,7 @@ check_weight(const ViewOptions& options, const PlantDocument& document, const Co
                                  : console.show(warning, *document.grammar.sources);
 }
 
-/// Motion of a plant over a series.
+/// Moves a plant by physics during a series of pictures.
 class Motion {
 public:
     Motion(const ViewOptions& options, const PlantDocument& document)
@@ -54,7 +54,7 @@ public:
             return;
         }
         PhysicsOptions forces = forces_of(options, document);
-        // Physics makes a whole number of steps per frame.
+        // A frame takes a whole number of physics steps.
         const double steps = std::max(1.0, std::ceil(kStepsPerSecond * seconds_of_frame_));
         forces.time_step = static_cast<float>(seconds_of_frame_ / steps);
         physics_ = std::make_unique<PlantPhysics>(document.plant.skeleton, forces);
@@ -65,7 +65,7 @@ public:
     }
 
     [[nodiscard]] bool moves() const { return physics_ != nullptr; }
-    /// Steps the physics up to a time in s; does nothing without physics.
+    /// Steps the physics until the time `seconds` (s); does nothing without physics.
     void go_to(double seconds) {
         while (physics_ != nullptr &&
                physics_->time() + 0.5 * static_cast<double>(physics_->options().time_step) <
@@ -113,8 +113,8 @@ std::string stats_text(const ViewOptions& options,
     return stats.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }
 
-/// Shows the messages of a growth step. Messages about the grammar and its last generation were
-/// shown with the document.
+/// Shows the messages of a growth step, except messages about the grammar and its last generation,
+/// which were shown when the document was made.
 ExitStatus show_step_messages(const Outcome<void>& outcome, const Console& console) {
     if (!outcome) {
         return console.take(outcome);
@@ -127,8 +127,8 @@ ExitStatus show_step_messages(const Outcome<void>& outcome, const Console& conso
     return ExitStatus::Ok;
 }
 
-/// Begins `growth`. `grammar` receives the parts of the document's grammar that the growth needs;
-/// it must outlive `growth`.
+/// Begins `growth`. Copies to `grammar` the parts of the document's grammar that the growth needs;
+/// `grammar` must outlive `growth`.
 ExitStatus begin_growth(const ViewOptions& options,
                         const PlantDocument& document,
                         Grammar& grammar,
@@ -151,7 +151,7 @@ ExitStatus begin_growth(const ViewOptions& options,
     return ExitStatus::Ok;
 }
 
-/// describe(), with the trace of --why as a further line.
+/// Like describe(), with the trace of --why as a further line.
 Outcome<Description> describe_with_trace(const PickedTriangle& picked,
                                          const PlantDocument& document,
                                          const ViewOptions& options,
@@ -169,7 +169,7 @@ Outcome<Description> describe_with_trace(const PickedTriangle& picked,
                 text)) {
             return step.end();
         }
-        text.pop_back(); // its last line end
+        text.pop_back(); // removes the line end at the end of the text
         description.lines.push_back("\n" + text);
     }
     return step.done(std::move(description));
@@ -266,7 +266,7 @@ ExitStatus take_pictures(const ViewOptions& options,
         frame.figure = figure_beside(renderer.bounds());
     }
     if (options.grow && !renderer.bounds().empty) {
-        // Disc under the plant of the last generation, the same in all pictures.
+        // The disc under the plant of the last generation is used in all pictures.
         frame.ground_disc = ground_disc_of(renderer.bounds());
     }
     const ExitStatus status =

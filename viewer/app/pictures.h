@@ -9,8 +9,8 @@
 
 namespace lsys::view {
 
-/// `camera`: ViewOptions::camera, parsed. Parts missing in the option are set so that the whole
-/// plant is in view, as bent by gravity and wind.
+/// `camera`: the parsed option ViewOptions::camera. Parts of the camera that the option does not
+/// set are chosen so that the whole plant, as gravity and wind bend it, is in view.
 [[nodiscard]] ExitStatus take_pictures(const ViewOptions& options,
                                        const Camera& camera,
                                        const PlantDocument& document,

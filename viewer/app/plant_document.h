@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// PlantDocument: a grammar and its plant, from file to triangles.
+// PlantDocument: a grammar and its plant, with all data from the file to the triangles.
 #pragma once
 
 #include "grammar/base/outcome.h"
@@ -16,12 +16,12 @@ struct PlantDocument {
     Grammar grammar;
     Plant plant;
     Mesh mesh;           // at rest
-    double height = 0.0; // m, of the skeleton at rest
+    double height = 0.0; // m, height of the skeleton at rest
     double load_seconds = 0.0;
     double mesh_seconds = 0.0;
 };
 
-/// Reads, compiles, derives, draws and meshes.
+/// Reads and compiles a grammar, derives the word, draws the skeleton and makes the mesh.
 [[nodiscard]] Outcome<std::shared_ptr<const PlantDocument>>
 make_plant_document(const ViewOptions& options, const Project& project);
 

@@ -17,11 +17,12 @@ namespace lsys::view {
 
 namespace {
 
-/// The options of `lsc export` with the effect of the settings and of the plant's mesh options.
+/// The options of `lsc export` that have the effect of the export settings and of the plant's mesh
+/// options.
 Result<PlantFileOptions> file_options(const ExportRequest& request) {
     const MeshOptions& mesh = request.options.mesh;
     std::vector<NamedOption> options;
-    // The parser needs the method and the level, which prevent some options of presets
+    // The parser needs the method and the level, because they rule out some options of presets
     // (presets.def).
     if (mesh.method == MeshMethod::Solid) {
         options.emplace_back("method", "solid");
@@ -46,7 +47,7 @@ std::string unknown_format(const std::string& file) {
     return fmt::format("`{}` has no extension of a known format, such as .glb, .obj, .usda", file);
 }
 
-/// Writes the files.
+/// Writes the files of a request.
 ExitStatus write(const ExportRequest& request, const OutputContext& context) {
     const Result<PlantFileOptions> options = file_options(request);
     if (!options) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Export of the plant shown, by `lsc export`'s writers, on a thread of its own.
+// Exports the plant that is shown, with the writers of `lsc export`, on a thread of its own.
 #pragma once
 
 #include "runtime/meshing/mesh.h"
@@ -20,27 +20,27 @@ namespace lsys::view {
 struct ExportSettings {
     std::string file;       // its extension chooses the format
     std::string preset;     // a name in runtime/output/presets.def; empty: none
-    std::uint32_t lods = 0; // levels of detail; 0: one level, or those of the preset
+    std::uint32_t lods = 0; // 0: one level, or as many as the preset has
 };
 
-/// Work for another thread.
+/// The input of the exporting thread.
 struct ExportRequest {
     std::shared_ptr<const PlantDocument> document;
-    ViewOptions options; // with which the document was made
+    ViewOptions options; // options with which the document was made
     ExportSettings settings;
     SteadyClock::time_point changed_at;
     bool is_repeat = false;
 };
 
-/// Writes the plant at rest with the mesh options of the document. All files appear, or none.
-/// Returns "Wrote oak.glb", or the error and its help in lines.
+/// Writes the plant at rest, with the mesh options of the document. All files appear, or none.
+/// Returns "Wrote oak.glb", or the lines of an error and its help.
 [[nodiscard]] std::string export_plant(const ExportRequest& request,
                                        const std::atomic<bool>& cancelled);
 
 using PlantExporter = LatestRequestWorker<ExportRequest, std::string>;
 
-/// Why no plant can be written to `file`: its path, or an extension of no known format; empty if one
-/// can.
+/// The reason why no plant can be written to `file`: a problem of its path, or an extension of no
+/// known format. Empty if a plant can be written.
 [[nodiscard]] std::string problem_of_export(const std::string& file);
 
 /// Names of the presets for plants.

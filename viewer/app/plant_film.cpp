@@ -12,7 +12,7 @@ namespace lsys::view {
 
 namespace {
 
-/// The current growth. Used by the growth thread only.
+/// The growth that is being computed. Used by the growth thread only.
 struct FilmState {
     std::optional<ViewOptions> options; // options with which `growth` was begun
     Grammar grammar;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// PlantFilm: makes moments of a plant's growth on a thread of its own, for a window that plays it.
+// PlantFilm: computes moments of a plant's growth on a thread of its own, for a window that plays
+// the growth.
 #pragma once
 
 #include "runtime/pipeline/plant_growth.h"
@@ -26,9 +27,9 @@ struct FilmMoment {
     Mesh mesh;
     MeshOptions mesh_options; // options with which `mesh` was made
     GrowthMoment moment;
-    std::uint64_t modules = 0; // count of modules in the later of the two generations
-    std::shared_ptr<const SensedPlant> sensed; // by the later of the two generations
-    std::vector<EnvironmentMove> moves;        // with which it grew
+    std::uint64_t modules = 0; // number of modules in the later of the two generations
+    std::shared_ptr<const SensedPlant> sensed; // what the later of the two generations sensed
+    std::vector<EnvironmentMove> moves;        // displacements of obstacles with which it grew
     Messages messages;
     bool failed = false;
 };

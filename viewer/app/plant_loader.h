@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// PlantLoader: makes plants on a thread of its own, a LatestRequestWorker.
+// PlantLoader: makes plants on a thread of its own, by a LatestRequestWorker.
 #pragma once
 
 #include "viewer/app/latest_request_worker.h"

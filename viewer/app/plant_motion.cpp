@@ -19,8 +19,8 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-// Max wall time, s, since the last moment that is simulated for the next one; plants that take
-// longer move in slow motion.
+// Max time in s by which the simulation follows the clock from one moment to the next. Plants whose
+// moments take longer to compute move in slow motion.
 constexpr double kMaxTimeStep = 0.1;
 
 } // namespace
@@ -39,7 +39,7 @@ StandingOutcome check_plant_stands(const StandingRequest& request,
         },
         [&] {
             return StandingOutcome{request.document, {}};
-        }); // without memory there is no warning
+        }); // if memory runs out, there is no warning
 }
 
 struct PlantMotion::State {
@@ -70,7 +70,7 @@ struct PlantMotion::State {
         }
     }
 
-    /// Waits until the last moment is taken; returns false to stop the thread.
+    /// Waits until take() has returned the last moment; returns false to stop the thread.
     bool wait_for_room() {
         std::optional<Bending> bending;
         {
@@ -105,7 +105,7 @@ struct PlantMotion::State {
             }
             physics->pose(next.skeleton);
             if (make_mesh(next.skeleton, document->plant.user_meshes, mesh_options, next.mesh)) {
-                return; // out of memory: keep the last moment
+                return; // out of memory: the last moment stays
             }
             next.time = physics->time();
             next.seconds = std::chrono::duration<double>(Clock::now() - now).count();
@@ -119,7 +119,7 @@ struct PlantMotion::State {
     }
 
     void run() {
-        catch_out_of_memory([this] { move_on(); }, [] {}); // without memory the last moment stays
+        catch_out_of_memory([this] { move_on(); }, [] {}); // out of memory: the last moment stays
     }
 };
 

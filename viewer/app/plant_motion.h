@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // PlantMotion: simulates a plant under gravity and wind on a thread of its own. Steps the physics
-// with the clock and meshes the plant as fast as the results are taken.
+// with the clock, and meshes the plant as fast as take() returns the results.
 #pragma once
 
 #include "runtime/physics/physics.h"
@@ -17,7 +17,7 @@ struct BentPlant {
     Skeleton skeleton;
     Mesh mesh;
     double time = 0.0;    // s, simulated
-    double seconds = 0.0; // wall time to make it
+    double seconds = 0.0; // s, time taken to make it
 };
 
 struct Bending {
@@ -25,7 +25,7 @@ struct Bending {
     float stiffness = 1.0F; // factor of the spring constants of all segments
 };
 
-/// Work for another thread: checks whether a plant stands under its weight.
+/// The input of a thread that checks whether a plant stands under its weight.
 struct StandingRequest {
     std::shared_ptr<const PlantDocument> document;
     Bending bending;
@@ -34,7 +34,7 @@ struct StandingRequest {
 };
 struct StandingOutcome {
     std::shared_ptr<const PlantDocument> document;
-    /// make_fall_warning(): empty if the plant stands or is too large to be checked.
+    /// Result of make_fall_warning(): empty if the plant stands or is too large to be checked.
     Diagnostics warning;
 };
 [[nodiscard]] StandingOutcome check_plant_stands(const StandingRequest& request,
@@ -54,7 +54,8 @@ public:
 
     /// Changes forces; a change of stiffness restarts at rest.
     void set(const Bending& bending);
-    /// Swaps `plant` with the latest moment; returns false if there is none since the last call.
+    /// Swaps `plant` with the latest moment; returns false if there is no new moment since the last
+    /// call.
     [[nodiscard]] bool take(BentPlant& plant);
 
 private:

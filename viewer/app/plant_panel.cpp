@@ -29,7 +29,8 @@ void draw_numbers(const PlantView& view) {
         line("");
         return;
     }
-    // Numbers of a fixed width in a fixed count of lines, so that nothing moves during growth.
+    // Numbers of fixed width in a fixed number of lines, so that nothing moves while the plant
+    // grows.
     const FilmMoment* const grown = view.grown();
     const std::uint64_t modules = grown != nullptr ? grown->modules : document->plant.modules;
     const Skeleton& skeleton = grown != nullptr ? grown->skeleton : document->plant.skeleton;
@@ -86,7 +87,7 @@ void draw_growth(PlantView& view) {
     line("Seed");
 }
 
-/// Finds the value that the user has set for a constant; end() if there is none.
+/// Finds the value that the user has set for the constant `name`; end() if there is none.
 std::vector<Definition>::iterator find_definition(PlantViewSettings& settings,
                                                   const std::string& name) {
     return std::find_if(settings.definitions.begin(), settings.definitions.end(),
@@ -101,7 +102,7 @@ void draw_constant(PlantViewSettings& settings, const Constant& constant, const 
     ImGui::PushID(name.c_str());
     bool changed = false;
     if (constant.is_random && !is_set) {
-        // The constant is random in each run, unless the user sets it.
+        // The constant is random in each run unless the user sets its value.
         changed = ImGui::Button("Random: set");
         value = constant.is_param ? 0.5F * (constant.minimum + constant.maximum) : 0.0F;
         ImGui::SameLine();
@@ -155,7 +156,7 @@ void draw_constants(PlantView& view) {
     }
 }
 
-/// Draws the control of a setting with numbers; returns whether they changed.
+/// Draws the control of a setting that consists of numbers; returns whether they changed.
 bool edit_numbers(const SettingControl& control, std::array<float, 4>& numbers) {
     if (control.kind == SettingKind::Vector) {
         return ImGui::SliderFloat4("##value", numbers.data(), control.min, control.max, "%.3g");
@@ -317,7 +318,7 @@ void draw_senses(PlantView& view) {
     }
 }
 
-/// `own_droop`: droop of the plant's leaves unless the user sets another one.
+/// `own_droop`: droop of the plant's leaves if the user does not set it.
 void draw_mesh(PlantViewSettings& settings, float own_droop) {
     if (!ImGui::CollapsingHeader("Mesh")) {
         return;
@@ -368,8 +369,8 @@ void draw_bending(PlantViewSettings& settings) {
     ImGui::Checkbox("Simulate", &settings.simulates);
     ImGui::SliderFloat("Gravity", &forces.gravity, 0.0F, 30.0F, "%.2f m/s^2");
     draw_wind(forces.wind);
-    // Ten decades, from sagging trees to rigid stalks. ImGui derives the smallest value of a
-    // logarithmic slider from the digits of its format.
+    // Ten decades, from sagging trees to rigid stalks. ImGui derives the min of a logarithmic
+    // slider from the number of digits in its format.
     ImGui::SliderFloat("Stiffness", &settings.bending.stiffness, 1e-5F, 1e5F, "x%.6g",
                        ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_AlwaysClamp);
     ImGui::SliderFloat("Damping", &forces.damping, 0.001F, 1000.0F, "%.3g N m s/rad",

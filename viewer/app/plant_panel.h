@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Panel of a plant: its numbers and settings.
+// Panel of a plant: statistics and settings.
 #pragma once
 
 #include "viewer/app/controls.h"

@@ -74,7 +74,7 @@ bool is_same(const Bending& a, const Bending& b) {
            a.forces.load == b.forces.load;
 }
 
-/// A file in the current folder, named like the grammar.
+/// Path of a file in the current folder that has the name of the grammar.
 std::string default_output(const std::string& file) {
     return std::filesystem::path(file).stem().string() + ".glb";
 }
@@ -170,7 +170,7 @@ bool PlantView::update() {
     if (!settings.plays && !shows_growth_) {
         bend();
     } else if (!settings.plays && settings.simulates && !loader_.is_busy() && !failed()) {
-        requested_.reset(); // moments of growth do not bend, so request the plant itself
+        requested_.reset(); // moments of growth do not bend, so the plant itself is requested
     }
     has_new_content = check_standing() || has_new_content;
     if (exporter_ != nullptr) {
@@ -195,7 +195,7 @@ bool PlantView::update() {
 
 void PlantView::take_outcome(LoadOutcome outcome) {
     if (outcome.options.file != settings.file) {
-        return; // the outcome of a newer request follows
+        return; // a newer request is running
     }
     const bool succeeded = outcome.document != nullptr;
     take_messages(outcome.messages, succeeded);
@@ -203,7 +203,8 @@ void PlantView::take_outcome(LoadOutcome outcome) {
         files_ = outcome.files;
         swap(std::move(outcome));
     } else {
-        // The author may correct the error in any old or new file, so watch both.
+        // The user may correct the error in a file of the old or of the new plant, so both are
+        // watched.
         for (const std::string& file : outcome.files) {
             if (std::find(files_.begin(), files_.end(), file) == files_.end()) {
                 files_.push_back(file);
@@ -213,7 +214,7 @@ void PlantView::take_outcome(LoadOutcome outcome) {
     watch_files();
 }
 
-/// Drops values of constants that the file no longer has.
+/// Drops the user's values of constants that the file no longer has.
 void PlantView::drop_unknown_definitions() {
     if (!document_->grammar.program) {
         return;
@@ -225,7 +226,7 @@ void PlantView::drop_unknown_definitions() {
         });
     };
     if (std::erase_if(settings.definitions, is_unknown) != 0 && requested_) {
-        requested_->definitions = settings.definitions; // same plant
+        requested_->definitions = settings.definitions; // the plant is the same
     }
     std::erase_if(history_.current().definitions, is_unknown);
     std::erase_if(saved_.definitions, is_unknown);
@@ -240,7 +241,7 @@ void PlantView::swap(LoadOutcome outcome) {
     bending_.reset();
     checked_bending_.reset();
     warns_of_fall_ = false;
-    film_.reset(); // its files may have changed
+    film_.reset(); // files that it uses may have changed
     shows_growth_ = false;
     grown_ = {};
     renderer_->show_plant(document_->mesh);
@@ -251,7 +252,7 @@ void PlantView::swap(LoadOutcome outcome) {
         settings.plays = true;
     }
     if (std::exchange(frame_next_, false)) {
-        // Does not keep the direction from which the plant before was shown.
+        // Discards the direction from which the previous plant was shown.
         const Camera from = with_parts(options_.camera, Camera{});
         settings.camera = with_parts(
             options_.camera,
@@ -309,8 +310,8 @@ void PlantView::start_growth() {
     }
 }
 
-/// Keeps the ground of a growth as wide as its largest plant so far, so that it does not shrink
-/// and grow with the plant.
+/// Keeps the ground disc as wide as for the largest plant that the growth has shown so far, so that
+/// it does not shrink and grow with the plant.
 void PlantView::widen_film_ground() {
     if (renderer_->bounds().empty) {
         return;
@@ -321,7 +322,7 @@ void PlantView::widen_film_ground() {
     }
 }
 
-/// Shows the moment made by the growth thread (PlantFilm).
+/// Shows the moment that the growth thread has made (PlantFilm).
 void PlantView::take_moment() {
     std::optional<FilmMoment> film_moment = film_->take();
     if (!film_moment) {
@@ -342,11 +343,11 @@ void PlantView::take_moment() {
     changed_ = true;
     if (grown_.moment.generation >= default_generations()) {
         settings.plays = false;
-        requested_.reset(); // request the plant itself, with its messages
+        requested_.reset(); // request the plant itself, which has the messages
     }
 }
 
-/// Requests the next moment of growth. Slow plants grow in slow motion.
+/// Requests the next moment of growth. Plants whose moments take long grow in slow motion.
 void PlantView::grow() {
     if (!settings.plays || document_ == nullptr) {
         if (film_ != nullptr) {
@@ -377,7 +378,7 @@ void PlantView::grow() {
     film_->request(options, {generation, growth_position_ - std::floor(growth_position_)});
     settings.generations = generation;
     if (requested_) {
-        // The growth thread makes this generation, so the loader must not make it.
+        // The growth thread makes this generation, so the loader must not make it, too.
         requested_->generations = generation;
     }
 }
@@ -410,7 +411,7 @@ void PlantView::redo() {
     follow_file_steps();
 }
 
-/// Takes back or repeats changes of files, as undo() and redo() ask for.
+/// Undoes or repeats changes of files until they agree with PlantEdits::file_steps.
 void PlantView::follow_file_steps() {
     if (settings.file_steps == file_edits_.position()) {
         return;
@@ -460,7 +461,8 @@ bool PlantView::is_unsaved() const {
             settings.set_values != saved_.set_values || settings.seed != saved_.seed);
 }
 
-/// The bytes of the file with `values`, if the plant shown is that of the file on disk.
+/// The bytes of the file with the values `values`. Error: the plant that is shown is not that of
+/// the file on disk.
 Result<std::string> PlantView::text_with_values(const StatementValues& values) const {
     const Grammar& grammar = document_->grammar;
     const std::string& file = settings.file;
@@ -564,7 +566,7 @@ void PlantView::bend() {
     }
 }
 
-/// Warns if the simulated plant falls under its weight. Returns whether messages changed.
+/// Adds a warning if the simulated plant falls under its weight. Returns whether messages changed.
 bool PlantView::check_standing() {
     const bool wants = settings.simulates && document_ != nullptr && !failed() &&
                        motion_ != nullptr && settings.bending.forces.gravity > 0.0F;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// PlantView: the state of a window with a plant, without the window. Watches files; plants are made
-// on other threads and swapped between two frames. Every call needs a current OpenGL context.
+// PlantView: the state of a window that shows a plant; usable without a window. Watches files.
+// Plants are made on other threads and replace the shown plant between two frames. Every call needs
+// a current OpenGL context.
 #pragma once
 
 #include "runtime/pipeline/value_edits.h"
@@ -25,25 +26,25 @@
 
 namespace lsys::view {
 
-/// Values that make the plant of a file: a change makes a new plant.
+/// Values from which the plant of a file is made; a change makes a new plant.
 struct PlantSource {
     std::vector<Definition> definitions; // replace constants of the grammar
     std::vector<SettingText> set_values; // replace `#set` statements of the grammar
     std::optional<std::uint32_t> generations;
     std::optional<std::uint64_t> seed;
     MeshOptions mesh;
-    std::vector<EnvironmentMove> moves; // of obstacles; save() does not write them
+    std::vector<EnvironmentMove> moves; // displacements of obstacles; save() does not write them
 
     friend bool operator==(const PlantSource&, const PlantSource&) = default;
 };
 
-/// Looks of a picture.
+/// Settings that decide how a plant is drawn.
 struct PlantLook {
     PlantStyle style = PlantStyle::Surface;
     LineKind lines = LineKind::None;
     bool shadows = true;
     bool ground = true;
-    bool dims = true;    // surfaces fade while lines are shown
+    bool dims = true;    // surfaces fade while lines are drawn
     bool figure = false; // a person of 1.8 m beside the plant
     bool antialiasing = true;
     Quality quality = Quality::Auto;
@@ -57,7 +58,7 @@ struct PlantLook {
 struct PlantEdits : PlantSource, PlantLook {
     bool simulates = false; // gravity and wind move the plant
     Bending bending;
-    std::size_t file_steps = 0; // FileEdits::position() of the files
+    std::size_t file_steps = 0; // number of applied changes of files, FileEdits::position()
 
     friend bool operator==(const PlantEdits& a, const PlantEdits& b);
 };
@@ -72,15 +73,15 @@ struct PlantViewSettings : PlantEdits {
     ExportSettings output;
 };
 
-/// Statistics of the plant shown.
+/// Statistics of the plant that is shown.
 struct PlantViewStats {
     double upload_seconds = 0.0;
     double make_seconds = 0.0;  // all work of the loader
-    double swap_seconds = 0.0;  // from the change to the swap
-    double shown_seconds = 0.0; // from the change to the first picture on the screen
-    double draw_seconds = 0.0;  // last picture
-    double bend_seconds = 0.0;  // time to make the last moment of motion
-    double bend_time = 0.0;     // s, time of the simulation
+    double swap_seconds = 0.0;  // from the change of a file to the swap
+    double shown_seconds = 0.0; // from the change to the first picture on screen
+    double draw_seconds = 0.0;  // time to draw the last picture
+    double bend_seconds = 0.0;  // time to make the last moment of the simulation
+    double bend_time = 0.0;     // s, simulated time
     std::uint64_t moments = 0;  // count of moments of growth shown
     FrameStats drawn;
     std::uint64_t swaps = 0; // count of plants shown
@@ -114,43 +115,44 @@ public:
     [[nodiscard]] bool has_growth() const override { return default_generations() != 0; }
     [[nodiscard]] LoadedSources loaded_sources() const override;
 
-    /// Opens another file and frames it.
+    /// Opens another file, and moves the camera so that it shows the whole plant.
     void open(const std::string& file);
-    /// Restarts at the axiom when all generations are shown.
+    /// Plays or pauses growth. If all generations are shown, growth begins again at the axiom.
     void play_or_pause();
-    /// Whether constants, settings or the seed differ from those of the file.
+    /// Whether constants, settings or the seed differ from the values in the file.
     [[nodiscard]] bool has_changed_values() const;
     /// Whether constants, settings or the seed have changed since the file was opened or written.
     [[nodiscard]] bool is_unsaved() const override;
-    /// Writes changed constants, settings and seed to the .lsys file, keeps the rest of the file,
-    /// and reports the result in a note. Refuses another dialect, a compiled grammar, a file that
-    /// has changed on disk since it was read, values in included files, and values whose plant is
-    /// not shown.
+    /// Writes changed constants, settings and the seed to the .lsys file, leaves the other bytes of
+    /// the file unchanged, and reports the result in a note. Refuses another dialect, a compiled
+    /// grammar, a file that has changed on disk since it was read, values that are set in included
+    /// files, and values whose plant is not shown.
     void save() override;
-    /// Writes changed files of the grammar, all or none, and reports `what` in a note; undo() takes
-    /// that back. Refuses files that have changed on disk.
+    /// Writes changed files of the grammar, all or none, and reports `what` in a note; undo()
+    /// restores the old files. Refuses files that have changed on disk.
     void change_files(std::vector<FileChange> changes, const std::string& what);
-    /// Writes the plant shown, at rest, to settings.output.file on another thread, and reports the
-    /// result in a note. Refuses moments between generations.
+    /// Writes the plant that is shown, at rest, to settings.output.file on another thread, and
+    /// reports the result in a note. Refuses while a moment between generations is shown.
     void export_shown();
 
-    /// Last plant without errors; null: none yet.
+    /// The last plant that was made without errors; null: none yet.
     [[nodiscard]] const PlantDocument* document() const { return document_.get(); }
     [[nodiscard]] const PlantViewStats& stats() const { return stats_; }
-    /// Generations of the command line or grammar, without the user's settings.
+    /// Number of generations that the command line or the grammar sets, without the user's
+    /// settings.
     [[nodiscard]] std::uint32_t default_generations() const;
     [[nodiscard]] std::uint32_t generations() const;
-    /// What the plant shown senses; null if it senses nothing.
+    /// What the plant that is shown has sensed; null if it senses nothing.
     [[nodiscard]] const SensedPlant* sensed() const;
-    /// Grabs the obstacle at a place of the picture, in half picture heights to the right and up
-    /// from the centre. Returns whether there is one.
+    /// Grabs the obstacle at a place of the picture, given in half picture heights to the right and
+    /// up from the centre. Returns whether there is an obstacle.
     [[nodiscard]] bool grab_obstacle(const glm::vec2& place);
-    /// Moves the grabbed obstacle to another place of the picture, in the plane through the grabbed
-    /// point that faces the camera.
+    /// Moves the grabbed obstacle to another place of the picture. The point at which it was
+    /// grabbed moves in the plane that faces the camera.
     void drag_obstacle(const glm::vec2& place);
     void release_obstacle() { grabbed_.reset(); }
     [[nodiscard]] bool has_grabbed() const { return grabbed_.has_value(); }
-    /// The moment of growth that is shown instead of document(); null if document() is shown.
+    /// The moment of growth that is shown in place of document(); null if document() is shown.
     [[nodiscard]] const FilmMoment* grown() const { return shows_growth_ ? &grown_ : nullptr; }
 
 protected:
@@ -161,7 +163,7 @@ private:
     struct GrabbedObstacle {
         std::string name;            // of its environment
         std::array<float, 3> move{}; // its displacement when it was grabbed, m
-        double depth = 0.0;          // m, along the view
+        double depth = 0.0;          // m, distance of the grabbed point along the view
         glm::dvec3 place{};          // the grabbed point, relative to the eye, m
     };
 
@@ -184,9 +186,9 @@ private:
 
     std::shared_ptr<const PlantDocument> document_;
     LoadOutcome shown_outcome_;
-    PlantSource saved_; // values when the file was opened or written
+    PlantSource saved_; // values when the file was opened or last saved
     std::vector<std::string> files_;
-    bool frame_next_ = true;  // the next swap fits the camera to the plant
+    bool frame_next_ = true;  // the next swap moves the camera to show the plant
     bool is_new_file_ = true; // at the next swap, take the damping of the grammar
     bool logs_next_frame_ = false;
     PlantViewStats stats_;
@@ -197,7 +199,7 @@ private:
     FileEdits file_edits_;
     LineKind shown_lines_ = LineKind::None;
     SenseLook shown_senses_;
-    std::vector<EnvironmentMove> shown_moves_; // PlantSource::moves in the drawing of senses
+    std::vector<EnvironmentMove> shown_moves_; // the shown PlantSource::moves
     std::optional<GrabbedObstacle> grabbed_;
     SteadyClock::time_point last_growth_;
     double growth_position_ = 0.0; // generations
@@ -210,7 +212,7 @@ private:
     MeshOptions bent_mesh_options_;  // options with which bent_ was meshed
     std::optional<Bending> bending_; // settings of motion_
     std::unique_ptr<PlantMotion> motion_;
-    /// Last request to the worker that checks whether the plant stands.
+    /// The last input of the worker that checks whether the plant stands.
     std::optional<Bending> checked_bending_;
     bool warns_of_fall_ = false;
     std::unique_ptr<StandingChecker> standing_checker_; // made by the first simulation

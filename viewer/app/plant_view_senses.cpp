@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the plant of a PlantView senses: its drawing, and obstacles that the mouse moves.
+// PlantView: the drawing of what its plant senses, and the obstacles that the mouse moves.
 #include "viewer/app/plant_view.h"
 
 #include <glm/geometric.hpp>
@@ -14,7 +14,7 @@ const SensedPlant* PlantView::sensed() const {
                                   : document_->plant.sensed.get();
 }
 
-/// Displacements of environments since the plant shown has grown.
+/// Displacements of environments that the user has made since the shown plant grew.
 std::vector<EnvironmentMove> PlantView::new_moves() const {
     std::vector<EnvironmentMove> moves = settings.moves;
     const std::vector<EnvironmentMove>& grown_with =

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Host that records the files requested from it, to watch them.
+// A Host that records which files are requested from it, so that they can be watched.
 #pragma once
 
 #include "runtime/pipeline/project.h"

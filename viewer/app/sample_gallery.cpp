@@ -33,7 +33,8 @@ std::string head_of(const std::string& path) {
     return head;
 }
 
-/// The picture of a sample. NAME.png of a scene may be a map of its trees, so other views come first.
+/// The picture of a sample. NAME.png of a scene may be a map of its trees, so pictures with other
+/// names are tried first.
 std::string picture_of(const std::string& stem, const std::string& extension) {
     std::vector<std::string> pictures{stem + ".png"};
     if (extension == ".toml") {
@@ -68,7 +69,7 @@ void add_samples(const std::string& folder, std::vector<GallerySample>& samples)
     }
 }
 
-/// Whether a folder holds samples of lsc, and not something else of that name.
+/// Whether a folder has samples of lsc, and not other files under the same name.
 bool holds_samples(const std::filesystem::path& folder) {
     return is_file(path_text(folder / "README.md")) &&
            platform::facts_of(path_text(folder / "species")).type == platform::FileType::Directory;

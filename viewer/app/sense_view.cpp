@@ -35,7 +35,7 @@ constexpr std::array<SenseWord, 4> kSenseWords = {{{"obstacles", &SenseLook::obs
                                                    {"markers", &SenseLook::markers},
                                                    {"directions", &SenseLook::directions}}};
 
-/// From dark blue (0: no light) to yellow (1: all light).
+/// Colour of a light value, from dark blue (0, no light) to yellow (1, all light).
 SenseColour colour_of_light(double light) {
     const auto between = [at = std::clamp(light, 0.0, 1.0)](double dark, double bright) {
         return static_cast<std::uint8_t>(std::lround(dark + at * (bright - dark)));
@@ -47,7 +47,7 @@ class SenseDrawer {
 public:
     SenseDrawer(double scale, SenseDrawing& drawing) : scale_(scale), drawing_(drawing) {}
 
-    /// Begins a group; those without vertices are dropped.
+    /// Begins a group of vertices; groups that stay empty are dropped.
     void begin(SensePrimitive primitive, double diameter) {
         end();
         drawing_.groups.push_back(
@@ -63,7 +63,7 @@ public:
             drawing_.groups.pop_back();
         }
     }
-    /// `place`: in the plant's own metres.
+    /// Adds a vertex. `place`: in m, before scaling by SensedPlant::scale.
     void add(const glm::dvec3& place, const SenseColour& colour) {
         drawing_.vertices.push_back({glm::vec3(scale_ * place), colour});
     }
@@ -82,13 +82,13 @@ glm::dvec3 point_of(const std::array<float, 3>& place) {
             static_cast<double>(place[2])};
 }
 
-/// Middle and radius of a ball around the plant and the obstacles of kind Mesh.
+/// Middle and radius of a ball that contains the plant and the obstacles of kind Mesh.
 struct SenseExtent {
     glm::dvec3 middle{};
     double radius = 1.0; // m
 };
 
-/// `bounds`: of the drawn plant; the result is in the plant's own metres.
+/// `bounds`: of the plant as drawn. The result is in m, before scaling by SensedPlant::scale.
 SenseExtent extent_of(const SensedPlant& plant, const Bounds& bounds) {
     glm::dvec3 low(std::numeric_limits<double>::infinity());
     glm::dvec3 high = -low;
@@ -112,7 +112,8 @@ SenseExtent extent_of(const SensedPlant& plant, const Bounds& bounds) {
                                                  : SenseExtent{};
 }
 
-/// A square of a plane, as two triangles: around the point next to the middle of `extent`.
+/// Adds a square of a plane as two triangles, around the point of the plane nearest to the middle
+/// of `extent`.
 void add_plane(const std::array<float, 4>& plane,
                const SenseExtent& extent,
                const glm::dvec3& by,
@@ -133,7 +134,7 @@ void add_plane(const std::array<float, 4>& plane,
     }
 }
 
-/// The obstacles of an environment as triangles.
+/// Adds the obstacles of an environment as triangles.
 void add_obstacles(const SensedPart& part,
                    const SenseExtent& extent,
                    const std::vector<EnvironmentMove>& moves,
@@ -152,7 +153,7 @@ void add_obstacles(const SensedPart& part,
 }
 
 void add_light(const SensedPart& part, double scale, SenseDrawer& drawer) {
-    constexpr double kPart = 0.6; // of the edge of a voxel
+    constexpr double kPart = 0.6; // diameter of a point / edge of a voxel
     if (part.kind == EnvironmentKind::Shadow) {
         double most = 1.0; // a voxel without shadow may have more than 1
         for (const SensedVoxel& voxel : part.voxels) {
@@ -171,7 +172,7 @@ void add_light(const SensedPart& part, double scale, SenseDrawer& drawer) {
     }
 }
 
-/// An arrow from `from` along the unit vector `along`.
+/// Adds an arrow that begins at `from` and points along the unit vector `along`.
 void add_arrow(const glm::dvec3& from,
                const glm::dvec3& along,
                double length,
@@ -202,7 +203,8 @@ void add_directions(const SensedPart& part,
     }
 }
 
-/// Parameter of a ray at a triangle (Möller and Trumbore 1997); infinite if it misses.
+/// The parameter of the ray where it meets a triangle (Möller and Trumbore 1997); infinite if it
+/// misses the triangle.
 double distance_to(const Ray& ray, const LineVertex* corners) {
     const glm::dvec3 base(corners[0].position);
     const glm::dvec3 u = glm::dvec3(corners[1].position) - base;
@@ -276,7 +278,8 @@ SenseDrawing make_sense_drawing(const SensedPlant& plant,
                                 const SenseLook& look,
                                 const std::vector<EnvironmentMove>& moves,
                                 const Bounds& bounds) {
-    // Lengths are parts of the diagonal of the plant. Few arrows are long, many leave room.
+    // Lengths of arrows, as fractions of the diagonal of the plant. A few arrows are long; many
+    // arrows are short, to leave room for each other.
     constexpr double kShortestArrow = 0.04;
     constexpr double kLongestArrow = 0.3;
     constexpr double kMarkerPart = 0.006;

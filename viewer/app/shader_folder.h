@@ -10,7 +10,7 @@
 
 namespace lsys::view {
 
-/// Shaders of `folder`; built-in ones if it is empty.
+/// Shaders in `folder`; the built-in shaders if `folder` is empty.
 [[nodiscard]] ShaderSource shaders_of(const std::string& folder, const Console& console);
 /// Paths of all `.glsl` files in `folder`, sorted.
 [[nodiscard]] std::vector<std::string> shader_files(const std::string& folder);

@@ -18,8 +18,8 @@ namespace {
 
 constexpr std::uint32_t kPageRows = 20;
 
-/// Bytes of the part of `text` that fits into `columns`: up to its last blank, or all columns if it
-/// has none.
+/// Number of bytes of the beginning of `text` that fit into `columns`: up to the last blank that
+/// fits or, without blanks, all that fit.
 std::size_t fitting(std::string_view text, std::uint32_t columns) {
     std::size_t at = 0;
     std::size_t blank = 0;
@@ -74,7 +74,7 @@ std::vector<TextLine> wrapped(const TextLine& line, std::uint32_t columns) {
             std::size_t bytes = fitting(text, left);
             const bool is_whole = bytes == text.size();
             if (!is_whole && left < columns && text[bytes - 1] != ' ') {
-                bytes = 0; // a word that fits only on the next line
+                bytes = 0; // the word fits on the next line
             }
             if (bytes != 0) {
                 lines.back().push_back({run.colour, std::string(text.substr(0, bytes))});
@@ -185,7 +185,7 @@ void SourcePane::take(std::shared_ptr<const SourceText> text, View& view) {
             if (message.severity == Severity::Error && first_error.empty()) {
                 first_error = fmt::format("{}:{}:{}: {}", text_->files[i].path, message.line,
                                           message.column, plain_text(message.text.front()));
-                if (first_error != first_error_) { // not seen before
+                if (first_error != first_error_) { // this error has not been shown before
                     file_index_ = i;
                     target_ = message.line;
                 }

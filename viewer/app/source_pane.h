@@ -18,26 +18,26 @@
 
 namespace lsys::view {
 
-/// The settings of the pane that are stored and read again by the next run.
+/// The settings of the pane that are stored for the next run.
 struct SourcePaneLook {
     bool is_shown = false;
-    float width = 440.0F; // pixels at scale 1
+    float width = 440.0F; // pixels at text scale 1
 
     friend bool operator==(const SourcePaneLook&, const SourcePaneLook&) = default;
 };
 inline constexpr float kMinSourceWidth = 200.0F;
 inline constexpr float kMaxSourceWidth = 4000.0F;
-/// The look that write_source_look() wrote into the folder of recent_files.h.
+/// The settings that write_source_look() wrote into the state folder (recent_files.h).
 [[nodiscard]] SourcePaneLook read_source_look(const std::string& folder);
 void write_source_look(const std::string& folder,
                        const SourcePaneLook& look,
                        const Console& console);
 
-/// A row of the pane. All rows have one height.
+/// A row of the pane. All rows have the same height.
 struct SourceRow {
     enum class Kind : std::uint8_t {
-        Line,    // of the file
-        Marks,   // `^^^` below the marked bytes of `message`, with its label if `index` is 1
+        Line,    // a line of the file
+        Marks,   // `^^^` below the marked bytes of `message`; with its label if `index` is 1
         Text,    // row `index` of SourcePane::texts()
         Fix,     // fix `index` of `message`, with its button
         Preview, // row `index` of SourcePane::texts(), not wrapped
@@ -51,42 +51,44 @@ struct SourceRow {
 class SourcePane {
 public:
     SourcePaneLook look;
-    bool has_focus = false; // keys scroll it
+    bool has_focus = false; // keys scroll the pane
 
-    /// Follows the loads and the picked part of a view. `wake` is called on any thread when
-    /// update() has work. Returns whether the pane shows something new.
+    /// Reads the loads and the picked part of a view. `wake` is called on any thread when update()
+    /// has work. Returns whether the pane shows something new.
     bool update(View& view, const std::function<void()>& wake);
     /// Shows and selects the statement at a place. Does nothing if its file is not shown.
     void show(const FilePosition& place);
-    /// Goes to the next message (`step` 1) or the previous one (-1), in all files.
+    /// Selects the next message (`step` 1) or the previous message (-1) among the messages of all
+    /// files.
     void go_to_message(int step, View& view);
-    /// Handles a key while has_focus; returns whether it had a meaning.
+    /// Handles a key while has_focus; returns whether the key has a meaning.
     bool press(const KeyPress& press);
-    /// The place that *Open in editor* opens: the selected line; without one, the picked part, the
-    /// first message, or the file.
+    /// The place that *Open in editor* opens: the selected line; without a selection, the picked
+    /// part; else the first message; else the file.
     [[nodiscard]] FilePosition place_to_open(const View& view) const;
-    /// The selected lines; empty if there are none.
+    /// The text of the selected lines; empty if none is selected.
     [[nodiscard]] std::string selected_text() const;
 
     void select_file(std::size_t file);
-    /// Selects a line; `extends` keeps the other end of the selection.
+    /// Selects a line; with `extends`, the other end of the selection stays.
     void select_line(std::uint32_t line, bool extends);
-    /// Lays messages out in `columns`.
+    /// Makes the rows for a width of `columns`.
     void lay_out(std::uint32_t columns);
-    /// Writes the file with a fix of a message of the file shown, or with all certain fixes.
+    /// Writes a file with a fix applied: a fix of a message in the file shown, or all certain
+    /// fixes.
     void apply(const SourceFix& fix, PlantView& view) const;
     void apply_all(PlantView& view) const;
 
     [[nodiscard]] const SourceText* text() const { return text_.get(); }
-    /// The file shown; null: none.
+    /// The file that is shown; null: none.
     [[nodiscard]] const ShownSource* source() const;
     [[nodiscard]] std::size_t file_index() const { return file_index_; }
     [[nodiscard]] const std::vector<SourceRow>& rows() const { return rows_; }
     [[nodiscard]] const std::vector<TextLine>& texts() const { return texts_; }
     [[nodiscard]] LineRange selected() const;
-    /// The statement of the picked part.
+    /// The lines of the statement that drew the picked part.
     [[nodiscard]] LineRange highlighted() const { return highlighted_; }
-    /// Line to scroll to, once.
+    /// The line to which the pane must scroll; returned once.
     [[nodiscard]] std::optional<std::uint32_t> take_target();
 
 private:
@@ -96,31 +98,31 @@ private:
     std::string requested_file_;
     std::uint64_t requested_load_ = 0;
     std::uint64_t followed_pick_ = 0;
-    std::string shown_file_; // of the view whose text_ is shown
+    std::string shown_file_; // file of the view to which text_ belongs
     std::shared_ptr<const SourceText> text_;
     std::size_t file_index_ = 0;
-    std::string first_error_; // of text_, with its place
+    std::string first_error_; // first error of text_, with its place
     std::uint32_t anchor_ = 0;
-    std::uint32_t selected_ = 0; // line; 0: none
+    std::uint32_t selected_ = 0; // number of the selected line; 0: none
     LineRange highlighted_;
     std::optional<std::uint32_t> target_;
-    std::uint32_t columns_ = 0; // of rows_; 0: to be laid out
+    std::uint32_t columns_ = 0; // columns for which rows_ were made; 0: they must be made
     std::vector<SourceRow> rows_;
     std::vector<TextLine> texts_;
 };
 
-/// Parts of `line` that are at most `columns` wide, broken at blanks where possible.
+/// Parts of `line`, each at most `columns` wide; `line` is broken at blanks where possible.
 [[nodiscard]] std::vector<TextLine> wrapped(const TextLine& line, std::uint32_t columns);
-/// `text`, which begins in `column` of its line, with tabs as blanks.
+/// `text` with each tab replaced by blanks. `column`: the column in which `text` begins.
 [[nodiscard]] std::string expanded(std::string_view text, std::uint32_t column);
 
-/// Requests of the user in the drawn pane.
+/// What the user requests in the drawn pane.
 struct SourceActions {
-    std::optional<FilePosition> opens; // in the editor
+    std::optional<FilePosition> opens; // place to open in the editor
     bool closes = false;
 };
-/// Draws the pane at the right edge of the window, `width` wide. `plant` may be null; then no fix
-/// can be applied. `scale`: of text.
+/// Draws the pane at the right edge of the window. `plant` may be null; then no fix can be applied.
+/// `width`: in pixels. `scale`: scale of text.
 [[nodiscard]] SourceActions
 draw_source_pane(SourcePane& pane, View& view, PlantView* plant, float width, float scale);
 

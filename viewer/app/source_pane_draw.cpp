@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The source pane as widgets.
+// SourcePane: its drawing with widgets of ImGui.
 #include "grammar/base/utf8.h"
 #include "viewer/app/source_pane.h"
 #include "viewer/app/widgets.h"
@@ -25,7 +25,7 @@ struct Shade {
     static bool is_light_theme() { return ImGui::GetStyle().Colors[ImGuiCol_WindowBg].x > 0.5F; }
 };
 constexpr Shade shade(ImU32 dark, ImU32 light) {
-    // 0xRRGGBB to the order of ImGui.
+    // Converts 0xRRGGBB to the order of bytes of ImGui.
     const auto turned = [](ImU32 rgb) {
         return 0xFF000000U | (rgb & 0xFFU) << 16U | (rgb & 0xFF00U) | (rgb >> 16U & 0xFFU);
     };
@@ -33,7 +33,7 @@ constexpr Shade shade(ImU32 dark, ImU32 light) {
 }
 
 constexpr Shade kText = shade(0xD8DCE0, 0x202428);
-/// By SourceTokenKind.
+/// Colours of tokens, by SourceTokenKind.
 constexpr std::array<Shade, 8> kTokenShades{
     shade(0x8FD6A0, 0x1B6B34), // module
     shade(0x9CC4FF, 0x0B4FA8), // constant
@@ -73,14 +73,14 @@ ImU32 translucent(ImU32 colour, ImU32 alpha) {
     return (colour & 0x00FFFFFFU) | alpha << 24U;
 }
 
-/// Places of the rows that are drawn.
+/// Places and sizes for drawing a row.
 struct RowPlaces {
-    ImVec2 corner;            // of the row
-    float text_left = 0.0F;   // of the text of a line
+    ImVec2 corner;            // upper left corner of the row
+    float text_left = 0.0F;   // left edge of the text of a line
     float character = 0.0F;   // width of a character
-    float line_height = 0.0F; // of text
+    float line_height = 0.0F; // height of a line of text
     float row_height = 0.0F;
-    float right = 0.0F; // edge of the visible part
+    float right = 0.0F; // right edge of the visible part
     float left = 0.0F;
 };
 
@@ -88,19 +88,19 @@ void put(ImVec2 at, ImU32 colour, std::string_view text) {
     ImGui::GetWindowDrawList()->AddText(at, colour, text.data(), text.data() + text.size());
 }
 
-/// Draws text from a column on, and returns the column after it.
+/// Draws text that begins in a column; returns the column after the text.
 std::uint32_t
 put_part(const RowPlaces& at, std::uint32_t column, ImU32 colour, std::string_view text) {
     put({at.text_left + at.character * static_cast<float>(column), at.corner.y}, colour, text);
     return column + text_width(text);
 }
 
-/// The column of a byte of a line.
+/// The column of the byte at `offset` in a line.
 std::uint32_t column_of(std::string_view line, std::size_t offset) {
     return text_width(expanded(line.substr(0, std::min(offset, line.size())), 0));
 }
 
-/// The part of a line that may be visible: the rest of a very long line is not drawn.
+/// Max number of bytes of a line that are drawn; the remaining bytes of very long lines are not.
 constexpr std::size_t kMaxDrawnBytes = 2000;
 
 void draw_line(const ShownSource& source, std::uint32_t number, const RowPlaces& at) {
@@ -135,7 +135,7 @@ void draw_line(const ShownSource& source, std::uint32_t number, const RowPlaces&
         kNumber.get(), digits);
 }
 
-/// Draws a line below the marked bytes.
+/// Underlines the marked bytes of a line.
 void draw_underlines(const ShownSource& source, std::uint32_t number, const RowPlaces& at) {
     const std::string_view text = source.file->line_text(number);
     auto message =
@@ -172,7 +172,7 @@ void draw_runs(const TextLine& line, const RowPlaces& at) {
     }
 }
 
-/// Draws the button and the title of a fix; returns whether the button was pressed.
+/// Draws the button and the title of a fix. Returns whether the button was pressed.
 bool draw_fix(const SourceFix& fix, bool can_apply, const RowPlaces& at) {
     const char* const name = fix.is_certain ? "Apply fix" : "Apply this repair";
     bool pressed = false;
@@ -191,7 +191,7 @@ bool draw_fix(const SourceFix& fix, bool can_apply, const RowPlaces& at) {
     return pressed;
 }
 
-/// A bar at the left edge that changes the width.
+/// Draws the bar at the left edge of the pane, with which the user changes the width.
 void draw_border(SourcePane& pane, float scale, float height) {
     const float thickness = 6.0F * scale;
     ImGui::InvisibleButton("border", {thickness, std::max(height, 1.0F)});
@@ -262,7 +262,7 @@ void draw_buttons(SourcePane& pane, View& view, PlantView* plant, SourceActions&
     draw_tooltip("Close the source (U)");
 }
 
-/// The background of a row: the selection, and the statement of the picked part.
+/// Draws the background of a row: the selection, and the statement that drew the picked part.
 void draw_background(const SourcePane& pane, const SourceRow& row, const RowPlaces& at) {
     const auto is_in = [&row](const LineRange& lines) {
         return lines.first != 0 && row.line >= lines.first && row.line <= lines.last;
@@ -378,7 +378,7 @@ void draw_rows(SourcePane& pane, PlantView* plant, SourceActions& actions) {
             ImGui::SetCursorScreenPos({origin.x, at.corner.y + at.row_height});
         }
     }
-    // The extent of all rows, for the scroll bars.
+    // Reserves the area of all rows, for the scroll bars.
     const float width = gutter + at.character * static_cast<float>(std::min<std::size_t>(
                                                     pane.source()->columns, kMaxDrawnBytes));
     ImGui::SetCursorScreenPos(origin);
@@ -412,7 +412,7 @@ draw_source_pane(SourcePane& pane, View& view, PlantView* plant, float width, fl
         } else {
             draw_files(pane);
             ImGui::Separator();
-            // Each file scrolls on its own.
+            // Each file has its own scroll position.
             ImGui::PushID(static_cast<int>(pane.file_index()));
             if (ImGui::BeginChild("Text", {0.0F, 0.0F}, false,
                                   ImGuiWindowFlags_HorizontalScrollbar | ImGuiWindowFlags_NoNav)) {

@@ -20,7 +20,8 @@ namespace {
 
 constexpr std::string_view kSourceMark = "\xEF\xBB\xBF";
 
-/// Columns of the longest line. Tabs count as kPaneTabStop, so it may be a little too large.
+/// Number of columns of the longest line. Tabs count as kPaneTabStop columns, so the result may be
+/// a little too large.
 std::uint32_t columns_of(const SourceFile& file) {
     std::uint32_t most = 0;
     for (std::uint32_t line = 1; line <= file.line_count(); ++line) {
@@ -31,7 +32,7 @@ std::uint32_t columns_of(const SourceFile& file) {
     return most;
 }
 
-/// Adds a remark below a message: `note: text`.
+/// Appends a remark below a message, such as `note: text`.
 void add_remark(const char* kind,
                 TextColour colour,
                 const std::string& text,
@@ -69,7 +70,7 @@ public:
     }
 
 private:
-    /// Reads the files shown from memory, and others from disk.
+    /// A Host that reads the shown files from memory and other files from disk.
     Host file_host(const std::atomic<bool>& cancelled) {
         Host host = make_file_host(&cancelled);
         const auto shown_first = [this](auto read) {
@@ -86,7 +87,7 @@ private:
 
     void add_file(const std::string& path, std::string bytes) {
         if (path.empty() || path.starts_with("--") || made_->find(path)) {
-            return; // the text of an option, or a file that was added before
+            return; // the text of an option, or a file that was added already
         }
         const FileId id = made_->sources.add(path, std::move(bytes));
         const SourceFile& file = made_->sources.file(id);
@@ -104,7 +105,7 @@ private:
             }
         };
         if (loaded_.is_forest) {
-            add_files_of_disk(); // the order of the scene
+            add_files_of_disk(); // the files in the order of the scene
         }
         add(loaded_.sources.get());
         if (loaded_.messages != nullptr) {
@@ -159,7 +160,7 @@ private:
         }
     }
 
-    /// Colours a plant's grammar, and finds the fixes that are certain.
+    /// Finds the tokens of a plant's grammar, and the fixes that are certain.
     void compile() {
         const std::array<std::string, 1> named{loaded_.file};
         scope_.emplace(loaded_.file, named);
@@ -292,7 +293,8 @@ private:
         }
     }
 
-    /// The diagnostic of compiled_ that equals `diagnostic`; null if there is none.
+    /// The diagnostic of compiled_ that equals `diagnostic` in the file `path`; null if there is
+    /// none.
     [[nodiscard]] const Diagnostic* find_judged(const Diagnostic& diagnostic,
                                                 const std::string& path) const {
         for (const Diagnostic& each : compiled_.diagnostics.all()) {
@@ -306,7 +308,7 @@ private:
         return nullptr;
     }
 
-    /// The changed lines of a fix, as a message shows them.
+    /// The lines that a fix changes, as messages show them.
     static std::vector<TextLine>
     preview_of(const Diagnostic& diagnostic, const Fix& fix, const SourceMap& sources) {
         Diagnostic alone = make_diagnostic(diagnostic.code, {}, {});
@@ -314,7 +316,7 @@ private:
         std::string text;
         render(alone, sources, {MessageFormat::Human, true}, text);
         std::vector<TextLine> lines = styled_lines(text);
-        constexpr std::ptrdiff_t kHead = 2; // the head of the message, and the title of the fix
+        constexpr std::ptrdiff_t kHead = 2; // lines: head of the message, title of the fix
         lines.erase(lines.begin(),
                     lines.begin() + std::min(kHead, static_cast<std::ptrdiff_t>(lines.size())));
         return lines;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// SourceText: the files of the grammar or scene shown with everything that the source pane draws:
-// tokens, statements, messages and their fixes. Made on another thread after each load.
+// SourceText: the files of the shown grammar or scene, with all that the source pane draws: tokens,
+// statements, messages and their fixes. Made on another thread after each load.
 #pragma once
 
 #include "grammar/base/outcome.h"
@@ -24,25 +24,25 @@ namespace lsys::view {
 
 inline constexpr std::uint32_t kPaneTabStop = 4; // columns, as in messages on a terminal
 
-/// The colour of a message's first words.
+/// The colour of the first words of a message.
 [[nodiscard]] TextColour severity_colour(Severity severity);
 
 struct SourceFix {
     std::string title;
     bool is_certain = false;                        // `lsc check --fix` applies it
     std::string refusal;                            // why it cannot be applied here; else empty
-    std::vector<TextLine> preview;                  // the changed lines as they read afterwards
+    std::vector<TextLine> preview;                  // the changed lines after the fix
     std::map<std::string, std::vector<Edit>> edits; // by path, ascending
 };
 
-/// A diagnostic in a file. Rows of text are those of `lsc check` below the source line.
+/// A diagnostic in a file. `text` has the rows that `lsc check` prints below the source line.
 struct SourceMessage {
     Severity severity = Severity::Error;
     std::uint32_t line = 1;
     std::uint32_t column = 1;
     std::uint32_t begin = 0; // marked bytes of the line; `end` is at most its size
     std::uint32_t end = 0;
-    std::string label;          // beside the marks
+    std::string label;          // text beside the marked bytes
     std::vector<TextLine> text; // severity, message and code; places, notes and help
     std::vector<SourceFix> fixes;
 };
@@ -52,8 +52,8 @@ struct ShownSource {
     const SourceFile* file = nullptr; // of SourceText::sources
     std::vector<SourceToken> tokens;
     std::vector<SourceSpan> statements;  // ascending
-    std::vector<SourceMessage> messages; // by line
-    std::uint32_t columns = 0;           // of the longest line
+    std::vector<SourceMessage> messages; // sorted by line
+    std::uint32_t columns = 0;           // number of columns of the longest line
 };
 
 /// A range of lines, counted from 1, with both ends.
@@ -64,31 +64,31 @@ struct LineRange {
 
 struct SourceText {
     SourceMap sources;
-    std::vector<ShownSource> files; // the grammar or scene first
-    std::string failure;            // why there are no files
+    std::vector<ShownSource> files; // the grammar or scene comes first
+    std::string failure;            // reason why there are no files
     /// The bytes that `lsc check --fix` would write, by path. Empty if there is no certain fix.
     std::map<std::string, std::string> fixed;
     std::size_t fix_count = 0; // count of the certain fixes in `fixed`
 
-    /// Index of the file with this path; nothing if it is not shown.
+    /// Index of the file with this path; nullopt if the file is not shown.
     [[nodiscard]] std::optional<std::size_t> find(std::string_view path) const;
 };
 
-/// Lines of the statement at a place; its line alone if there is no statement.
+/// Lines of the statement at a place; the line of the place if there is no statement.
 [[nodiscard]] LineRange
 statement_at(const ShownSource& source, std::uint32_t line, std::uint32_t column);
 
 /// The bytes of a file.
 [[nodiscard]] std::string file_bytes(const SourceFile& file);
-/// `file` after the edits of a fix; the other bytes stay.
+/// The bytes of `file` after the edits of a fix.
 [[nodiscard]] std::string edited_bytes(const SourceFile& file, const std::vector<Edit>& edits);
 
-/// The sources of a load. Texts are those that the load has read; other files are read from disk.
+/// The sources of a load. Texts that the load has read are used; other files are read from disk.
 struct LoadedSources {
     std::string file;                         // grammar or scene
     std::vector<std::string> files;           // further grammars of a scene
     std::shared_ptr<const SourceMap> sources; // of a plant; null if it has errors
-    std::shared_ptr<const Messages> messages; // of the load
+    std::shared_ptr<const Messages> messages; // messages of the load
     GrammarOptions options;                   // of a plant
     RunOptions run;
     bool is_forest = false;

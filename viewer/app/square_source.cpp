@@ -13,7 +13,7 @@ namespace lsys::view {
 
 namespace {
 
-constexpr std::uint32_t kSampledTrees = 64; // per species, for mean and largest sizes
+constexpr std::uint32_t kSampledTrees = 64; // per species, for mean and max sizes
 
 } // namespace
 
@@ -30,7 +30,8 @@ SquareSource::make(const Scene& scene, const Project& project, const GrownForest
     PlacementOptions options = placement_options(scene, project, grown);
     options.threads = 1;
     const Region all = options.region;
-    // Cell numbers are largest at the corners. If they are valid there, they are valid everywhere.
+    // Cell numbers are largest at the corners of the ground. If they are valid there, they are
+    // valid everywhere.
     for (const double x : {all.x, all.x + all.width}) {
         for (const double z : {all.z, all.z + all.depth}) {
             options.region = {std::max(x - 1.0, all.x), std::max(z - 1.0, all.z), 1.0, 1.0};
@@ -96,7 +97,7 @@ std::shared_ptr<const StreamedTrees> SquareSource::describe(const ForestModel& m
     streamed->layout = make_square_layout(options_.region, all_places_ / options_.region.area());
     std::vector<double> scales(model.forms.size());
     std::vector<double> counts(model.forms.size());
-    std::vector<double> crowns; // m2, mean area that a tree of a species hides seen from above
+    std::vector<double> crowns; // by species: mean area in m2 that a tree hides, seen from above
     for (std::size_t s = 0; s < options_.species.size(); ++s) {
         std::vector<Tree> trees;
         for (std::uint32_t number = 0; number < kSampledTrees; ++number) {
@@ -120,7 +121,8 @@ std::shared_ptr<const StreamedTrees> SquareSource::describe(const ForestModel& m
         streamed->mean_scales.push_back(
             counts[form] > 0.0 ? static_cast<float>(scales[form] / counts[form]) : 0.0F);
     }
-    // Area of the crowns on the whole ground, from tree densities at a lattice of places.
+    // Area of the crowns on the whole ground, estimated from the tree densities at the points of a
+    // lattice.
     constexpr int kLattice = 24;
     std::vector<double> crown_sums(crowns.size());
     std::vector<double> densities_here(crowns.size());
@@ -137,7 +139,7 @@ std::shared_ptr<const StreamedTrees> SquareSource::describe(const ForestModel& m
         const std::uint32_t first = model.first_form[s];
         const std::size_t end =
             s + 1 < crowns.size() ? model.first_form[s + 1] : model.forms.size();
-        double trees = 0.0; // sampled trees of the species, all stages
+        double trees = 0.0; // number of sampled trees of the species, all stages
         for (std::size_t form = first; form < end; ++form) {
             trees += counts[form];
         }
@@ -157,7 +159,7 @@ std::shared_ptr<const StreamedTrees> SquareSource::describe(const ForestModel& m
         for (std::size_t s = 0; s < crowns.size(); ++s) {
             area += densities[s] * crowns[s];
         }
-        return static_cast<float>(1.0 - std::exp(-area)); // crowns at independent places
+        return static_cast<float>(1.0 - std::exp(-area)); // cover of crowns at independent places
     };
     constexpr float kViewDistance = 120'000.0F; // beyond the default visibility
     streamed->view_distance = kViewDistance;

@@ -21,7 +21,7 @@ constexpr ImGuiWindowFlags kFixed = ImGuiWindowFlags_NoResize | ImGuiWindowFlags
                                     ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoSavedSettings |
                                     ImGuiWindowFlags_NoTitleBar;
 
-/// Uploads the picture of the next sample.
+/// Uploads the picture of the next sample that has none yet.
 void load_image(StartPage& page, const AddImage& add_image) {
     if (!is_loading(page)) {
         return;
@@ -34,7 +34,7 @@ void load_image(StartPage& page, const AddImage& add_image) {
         bytes && add_image ? add_image(thumbnail_of(bytes.value(), kThumbnailSide)) : 0);
 }
 
-/// Scrolls to the last item if the keyboard has selected it.
+/// Scrolls to the item drawn last if the keyboard has selected it.
 void scroll_to_selection(StartPage& page, bool is_selected) {
     if (is_selected && page.wants_scroll) {
         ImGui::SetScrollHereY();
@@ -61,7 +61,7 @@ std::string draw_recent(StartPage& page) {
     return chosen;
 }
 
-/// Draws a sample as its picture, name and title; returns whether it was clicked.
+/// Draws a sample: picture, name and title. Returns whether it was clicked.
 bool draw_sample(const GallerySample& sample, std::uintptr_t image, float side, bool is_selected) {
     const ImVec2 corner = ImGui::GetCursorScreenPos();
     const float line_height = ImGui::GetTextLineHeight();
@@ -76,7 +76,7 @@ bool draw_sample(const GallerySample& sample, std::uintptr_t image, float side, 
     ImDrawList& list = *ImGui::GetWindowDrawList();
     const ImVec2 end{corner.x + side, corner.y + side};
     if (image != 0) {
-        // ImTextureID is a pointer that carries the number of the texture.
+        // ImTextureID is a pointer type whose value is the number of the texture.
         list.AddImage(reinterpret_cast<ImTextureID>(image), corner, end); // NOLINT
     } else {
         list.AddRectFilled(corner, end, ImGui::GetColorU32(ImGuiCol_FrameBg));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// StartView: the view of a window without a file: an empty sky behind the start page.
+// StartView: the view of a window without a file; draws an empty sky behind the start page.
 #pragma once
 
 #include "viewer/app/view.h"

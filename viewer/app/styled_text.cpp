@@ -9,7 +9,7 @@ namespace lsys::view {
 
 namespace {
 
-/// The colour that the parameters of an SGR code set; `now` if they are unknown.
+/// The colour that the parameters of an SGR code set; `now` if the parameters are unknown.
 TextColour colour_of(std::string_view parameters, TextColour now) {
     static constexpr std::array<std::pair<std::string_view, TextColour>, 8> kColours{
         {{"", TextColour::Plain},

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Text with the colours of a terminal, as lines of runs of one colour, for widgets. Reads the SGR
-// codes that reports of runtime/program and frames of grammar/rendering write.
+// codes that runtime/program and grammar/rendering write.
 #pragma once
 
 #include <cstdint>

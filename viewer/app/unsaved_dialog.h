@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The dialog about unsaved changes, before another file is opened or the window is closed.
+// The dialog that asks about unsaved changes before another file is opened or the window is closed.
 #pragma once
 
 #include "viewer/app/controls.h"
@@ -8,8 +8,8 @@
 
 namespace lsys::view {
 
-/// Draws the dialog in the middle of the window; returns the answer once the user has given it.
-/// Precondition: ViewSwitcher::leaving().
+/// Draws the dialog in the middle of the window. Returns the answer once the user has given it.
+/// Precondition: ViewSwitcher::leaving() has a value.
 [[nodiscard]] std::optional<UnsavedAnswer> draw_unsaved_dialog(ViewSwitcher& switcher,
                                                                const PanelState& panels);
 

@@ -23,7 +23,7 @@ View::View(const ViewOptions& options,
 
 namespace {
 
-/// One entry per diagnostic and per other message.
+/// One entry for each diagnostic and for each other message.
 std::vector<ShownMessage> entries_of(const Messages& messages) {
     std::vector<ShownMessage> entries;
     for (const Message& message : messages.all()) {
@@ -45,9 +45,9 @@ std::vector<ShownMessage> entries_of(const Messages& messages) {
             render(diagnostic, sources, {MessageFormat::Short}, entry.head);
             render(diagnostic, sources, {MessageFormat::Human}, entry.text);
             entry.head.erase(entry.head.find_last_not_of('\n') + 1);
-            // The first line of the text repeats the head.
+            // The first line of the text is equal to the head, so it is removed.
             entry.text.erase(0, entry.text.find('\n') + 1);
-            constexpr std::size_t kMaxEntries = 50; // the limit of the messages on a terminal
+            constexpr std::size_t kMaxEntries = 50; // as many messages as on a terminal
             if (entries.size() >= kMaxEntries) {
                 return entries;
             }

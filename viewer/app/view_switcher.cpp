@@ -19,7 +19,8 @@ ViewSwitcher::ViewSwitcher(const ViewOptions& options,
 void ViewSwitcher::make(const ViewOptions& options) {
     plant_ = nullptr;
     forest_ = nullptr;
-    // Destroy the old view before the new one is made: both watch files and use the renderer.
+    // The old view must end before the new view is made, because both watch files and use the
+    // renderer.
     current_.reset();
     if (options.file.empty()) {
         current_ = std::make_unique<StartView>(options, console_, *renderer_, wake_);

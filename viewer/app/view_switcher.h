@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// ViewSwitcher: holds the view of a plant or of a forest, by the kind of the file; without a file,
-// a StartView.
+// ViewSwitcher: owns the view of a window: a PlantView or a ForestView, according to the file, or
+// without a file a StartView.
 #pragma once
 
 #include "viewer/app/forest_view.h"
@@ -14,9 +14,9 @@
 
 namespace lsys::view {
 
-/// A request that waits until the user has decided about unsaved changes.
+/// A request that waits until the user has decided what happens to unsaved changes.
 struct Leaving {
-    std::string file; // to open; empty: the window is to be closed
+    std::string file; // file to open; empty: the window is to be closed
 };
 
 class ViewSwitcher {
@@ -27,26 +27,26 @@ public:
                  std::function<void()> wake);
 
     [[nodiscard]] View& current() { return *current_; }
-    /// Null if another kind is shown.
+    /// The plant view; null if another kind of view is shown.
     [[nodiscard]] PlantView* plant() { return plant_; }
     [[nodiscard]] ForestView* forest() { return forest_; }
 
-    /// Opens and frames another file: a scene as a forest, a grammar as a plant. With unsaved
-    /// changes only sets leaving().
+    /// Opens another file, a scene as a forest or a grammar as a plant, and moves the camera so
+    /// that it shows all of it. If there are unsaved changes, only sets leaving().
     void open(const std::string& file);
-    /// Returns whether the window may be closed. With unsaved changes it may not: then
-    /// may_quit() sets leaving().
+    /// Returns whether the window may be closed. If there are unsaved changes, sets leaving() and
+    /// returns false.
     [[nodiscard]] bool may_quit();
-    /// The last request that found unsaved changes; empty: none waits.
+    /// The last request that found unsaved changes; nullopt: no request waits.
     [[nodiscard]] const std::optional<Leaving>& leaving() const { return leaving_; }
-    /// Drops the request.
+    /// Drops the waiting request.
     void stay() { leaving_.reset(); }
-    /// Fulfils the request without saving. Returns whether the window is to be closed.
-    /// Precondition: leaving().
+    /// Carries out the waiting request without saving. Returns whether the window is to be closed.
+    /// Precondition: leaving() has a value.
     [[nodiscard]] bool leave();
-    /// Opens the next file (`step` 1) or the previous one (-1) of the folder of the file shown.
+    /// Opens the next file (`step` 1) or the previous file (-1) in the folder of the file shown.
     void open_neighbour(int step);
-    /// Scene shown before the plant; empty: none.
+    /// The scene that was shown before the plant; empty: none.
     [[nodiscard]] const std::string& last_scene() const { return last_scene_; }
 
 private:

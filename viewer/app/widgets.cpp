@@ -31,7 +31,7 @@ void line(const std::string& text) {
 
 namespace {
 
-/// Whether the keyboard was used last, and a ring is shown.
+/// Whether the user last used the keyboard, so that ImGui draws a ring around a control.
 bool uses_keyboard() {
     return ImGui::GetCurrentContext()->NavDisableMouseHover && ImGui::GetIO().NavVisible;
 }
@@ -40,7 +40,7 @@ bool uses_keyboard() {
 
 void set_tooltip(const std::string& text) {
     if (uses_keyboard()) {
-        // Beside the window, so that the next controls stay in sight.
+        // Placed beside the window, so that the next controls stay visible.
         ImGui::SetNextWindowPos(
             {ImGui::GetWindowPos().x + ImGui::GetWindowWidth(), ImGui::GetItemRectMin().y});
     }
@@ -65,7 +65,7 @@ void draw_tooltip(const char* text) {
 
 namespace {
 
-constexpr const char* kRefused = "refused"; // state of a dialog: Enter was refused
+constexpr const char* kRefused = "refused"; // state of a dialog: it has refused Enter
 
 bool presses_enter() {
     return ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Enter), false) ||
@@ -93,7 +93,7 @@ bool begin_dialog(const char* name, bool& is_open) {
 }
 
 bool is_enter_free() {
-    // Without a ring no control takes Enter.
+    // Without a ring, no control handles Enter.
     return !ImGui::GetIO().NavVisible && !ImGui::IsAnyItemActive() && ImGui::IsWindowFocused() &&
            presses_enter();
 }
@@ -144,7 +144,7 @@ void draw_quality(Quality& quality) {
     }
 }
 
-/// Edits a wind by its speed and by the direction it blows to, degrees from +X towards +Z.
+/// Edits a wind: its speed, and the direction to which it blows, in degrees from +X towards +Z.
 void draw_wind(Wind& wind) {
     constexpr float kDegrees = 180.0F / std::numbers::pi_v<float>;
     float speed = std::hypot(wind.velocity.x, wind.velocity.z);
@@ -193,7 +193,7 @@ void draw_sun(const SceneLight& own, SceneLight& light) {
 }
 
 void draw_camera(Camera& camera) {
-    // Seven numbers and an origin: the text of a camera fits into `text`.
+    // A camera has seven floats and an origin of three doubles, whose text fits into `text`.
     static_assert(sizeof(Camera) == 8 * sizeof(float) + 3 * sizeof(double));
     std::array<char, 256> text{};
     std::snprintf(text.data(), text.size(), "%s", to_text(camera).c_str());

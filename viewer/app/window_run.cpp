@@ -22,18 +22,18 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-// Max time to wait for input in s, without and with work to do.
+// Max time in s to wait for input: without work, and with work to do.
 constexpr double kIdle = 0.5; // also the max delay after Ctrl-C
 constexpr double kBusy = 0.02;
-// Time between two pictures of a progress bar.
+// Duration between two pictures of a progress bar.
 constexpr std::chrono::milliseconds kProgressInterval{100};
-// Max time step of a flying camera, s, so that a slow picture does not make it jump.
+// Max time step in s of a flying camera, so that the camera does not jump after a slow picture.
 constexpr double kMaxFlightStep = 0.1;
 /// Time without a change after which pictures are refined.
 constexpr std::chrono::milliseconds kRest{300};
-/// Pictures that take longer are not refined, because input waits for a sample.
+/// Max time in s to draw a picture that is refined; input must wait while a sample is drawn.
 constexpr double kMaxRefinedSeconds = 0.15;
-/// Count of pictures that ImGui needs after input until its layout is final.
+/// Number of pictures after input that ImGui needs until its layout is final.
 constexpr int kPicturesAfterInput = 3;
 
 std::string title_of(const std::string& file) {
@@ -60,7 +60,7 @@ public:
         }
     }
 
-    /// Handles input and draws a picture if needed; returns false to quit.
+    /// Handles input and draws a picture if needed. Returns false to quit.
     bool step() {
         const double wait =
             pictures_left_ > 0 || refines_ || controls_.is_moving() ? 0.0
@@ -110,9 +110,9 @@ public:
         }
         update_progress(now);
         draw();
-        if (switcher_.current().path() != file) { // panels open files too
+        if (switcher_.current().path() != file) { // a panel has opened another file
             window_.set_title(title_of(switcher_.current().path()));
-            window_.drop_images(); // pictures of the start page, which is not shown again
+            window_.drop_images(); // the start page, whose pictures these are, is not shown again
             panels_.start = {};
             if (panels_.dialog == OpenDialog::Sheet) {
                 close_sheet(panels_);
@@ -143,7 +143,7 @@ private:
         return area;
     }
 
-    /// Draws while something is being made, and once more when it is done.
+    /// Draws while something is being made, and once more when it is ready.
     void update_progress(Clock::time_point now) {
         const bool is_making =
             switcher_.current().making().has_value() || panels_.film.state().has_value();
@@ -165,7 +165,8 @@ private:
         if (drew) {
             last_drawn_ = start;
         }
-        // At rest, refine the picture by one sample at a time, so that input is handled between them.
+        // When nothing moves, adds one sample at a time to the picture, so that input is handled
+        // between samples.
         refines_ = start - last_drawn_ >= kRest && last_seconds_ <= kMaxRefinedSeconds &&
                    !controls_.is_moving() && !switcher_.current().is_busy() &&
                    switcher_.current().refine();
@@ -209,9 +210,9 @@ private:
     bool shows_progress_ = false;
     bool shows_sheet_ = false;
     WindowLook look_;            // look of the window
-    SourcePaneLook source_look_; // look of the source pane, as written
+    SourcePaneLook source_look_; // settings of the source pane, as last written
     Clock::time_point last_drawn_ = last_;
-    double last_seconds_ = 0.0; // that the last picture or sample took
+    double last_seconds_ = 0.0; // time taken by the last picture or sample
     bool refines_ = false;
     int pictures_left_ = kPicturesAfterInput;
 };
@@ -223,7 +224,8 @@ ExitStatus run_window(const ViewOptions& options, const Console& console) {
     if (!camera) {
         return report_error(Error{fmt::format("--camera: {}", camera.error().message)}, console);
     }
-    // An unreadable file is a usage error; errors in a readable file are shown in the window.
+    // A file that cannot be read is a usage error; errors in a file that can be read are shown in
+    // the window.
     if (!options.file.empty()) {
         if (const Result<std::string> bytes = read_file(options.file, {kMaxSourceBytes}, console);
             !bytes) {

@@ -16,7 +16,7 @@ namespace lsys::view {
 
 namespace {
 
-/// Explains that the OpenGL version of the context is too old; empty if it is not.
+/// An error message if the OpenGL version of the context is too old, else an empty text.
 std::string version_error() {
     const int version = epoxy_gl_version();
     return version >= 45
@@ -24,7 +24,8 @@ std::string version_error() {
                : fmt::format("OpenGL {}.{} found, 4.5 required", version / 10, version % 10);
 }
 
-/// Contexts of all threads by their display, which eglTerminate() would end for all of them.
+/// Counts the contexts of all threads by display, because eglTerminate() ends the display for all
+/// of them.
 struct DisplayUsers {
     std::mutex mutex;
     std::map<EGLDisplay, int> counts;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // HeadlessContext: an OpenGL 4.5 core context without a window, on machines with or without a
-// display. Tried in turn: EGL without a surface, EGL on a device, a hidden window.
+// display. Tries in turn: EGL without a surface, EGL on a device, a hidden window.
 #pragma once
 
 #include "grammar/base/result.h"
@@ -12,10 +12,11 @@ namespace lsys::view {
 
 class HeadlessContext {
 public:
-    /// Makes a context and makes it current on this thread. Error: the reason of each failure.
+    /// Makes a context that is current on this thread. The error lists the reasons for which each
+    /// way failed.
     [[nodiscard]] static Result<std::unique_ptr<HeadlessContext>> make();
-    /// Makes a context like make(), but never by a hidden window, which only the main thread may
-    /// make and only while no Window exists.
+    /// Like make(), but never makes a hidden window, which only the main thread may make, and only
+    /// while no Window exists.
     [[nodiscard]] static Result<std::unique_ptr<HeadlessContext>> make_without_window();
     HeadlessContext(const HeadlessContext&) = delete;
     HeadlessContext& operator=(const HeadlessContext&) = delete;

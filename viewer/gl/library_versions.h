@@ -8,7 +8,7 @@
 
 namespace lsys::view {
 
-/// Names and versions; for GLFW the version loaded at run time.
+/// Names and versions of the libraries; for GLFW the version that is loaded at run time.
 [[nodiscard]] std::vector<std::pair<std::string, std::string>> viewer_libraries();
 
 } // namespace lsys::view

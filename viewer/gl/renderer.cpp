@@ -32,14 +32,14 @@ namespace {
 constexpr std::uint32_t kShadowTexels = 2048;
 constexpr GLuint kFrameBinding = 0;
 constexpr GLuint kShadowTexture = 0;
-constexpr GLuint kNearShadowTextures = 7; // in light.glsl; of kNearMaps
-/// Shadow maps around the eye in a forest.
+constexpr GLuint kNearShadowTextures = 7; // first unit of kNearMaps; in light.glsl
+/// A shadow map around the eye in a forest.
 struct NearMap {
     float radius;        // m
     std::uint32_t level; // level of the branches that cast shadows
 };
 constexpr std::array<NearMap, kNearMaps> kNearMapSpecs = {{{8.0F, 0}, {30.0F, 2}}};
-// Uniform locations of ground.*.glsl.
+// Locations of uniforms in ground.*.glsl.
 constexpr GLint kDisc = 0;
 constexpr GLint kGridStep = 1;
 constexpr GLint kPickedContent = 20;  // in pick.frag.glsl
@@ -78,7 +78,7 @@ Result<Programs> make_programs(Device& device, const ShaderSource& shaders) {
     return programs;
 }
 
-/// Box around a plant and the part of the ground on which its shadow may fall.
+/// Box around a plant and the part of the ground on which the shadow of the plant may fall.
 Bounds shadow_bounds(const Bounds& plant) {
     Bounds bounds = plant;
     const float height = plant.high.y - plant.low.y;
@@ -89,7 +89,7 @@ Bounds shadow_bounds(const Bounds& plant) {
     return bounds;
 }
 
-/// Box of the casters whose shadows fall into `lit`.
+/// Box of the objects whose shadows may fall into `lit`.
 Bounds shadow_casters(const Bounds& lit) {
     Bounds casters = lit;
     const glm::vec3 reach = 6.0F * (lit.high - lit.low);
@@ -102,7 +102,7 @@ bool overlaps(const Bounds& a, const Bounds& b) {
     return a.low.x <= b.high.x && b.low.x <= a.high.x && a.low.z <= b.high.z && b.low.z <= a.high.z;
 }
 
-/// Term number `index` of the Halton sequence (1964) with a base, 0 to 1.
+/// Element number `index` of the Halton sequence (1964) in a base, 0 to 1.
 float halton(std::uint32_t index, std::uint32_t base) {
     float sum = 0.0F;
     for (float part = 1.0F; index != 0; index /= base) {
@@ -112,8 +112,8 @@ float halton(std::uint32_t index, std::uint32_t base) {
     return sum;
 }
 
-/// Shifts a picture by a part of a pixel, and its dither by whole pixels. `index`: number of the
-/// refinement; 0: no shift.
+/// Shifts a picture by a part of a pixel, and its dither pattern by whole pixels. `index`: number
+/// of the refinement; 0: no shift.
 void shift(FrameBlock& block, std::uint32_t index, const PixelArea& area) {
     if (index == 0) {
         return;
@@ -247,7 +247,7 @@ public:
             Result<ProgramObject> made =
                 make_program(device_, shaders_, "copy.vert.glsl", "copy.frag.glsl");
             if (!made) {
-                return false; // pictures stay as they are
+                return false; // shown pictures need not change
             }
             copy_ = std::move(made.value());
         }
@@ -333,7 +333,7 @@ public:
     const std::vector<std::string>& errors() const override { return device_.errors(); }
 
 private:
-    /// Draws the shown frame, shifted by a part of a pixel for a refinement.
+    /// Draws the shown frame; for a refinement, shifted by a part of a pixel.
     FrameStats draw_sample() {
         const Frame& world_frame = *shown_frame_;
         const PixelArea& area = shown_area_;
@@ -400,7 +400,7 @@ private:
         if (frame.ground && !is_forest_ && !bounds().empty) {
             draw_ground(frame, stats);
         }
-        if (!frame.transparent) { // the sky covers all pixels that are left
+        if (!frame.transparent) { // the sky is drawn where nothing else was
             glUseProgram(programs_.sky.name());
             glDrawArrays(GL_TRIANGLES, 0, 3);
             ++stats.draws;
@@ -413,7 +413,7 @@ private:
         }
         glDepthFunc(GL_ALWAYS);
         if (frame.dims && !frame.transparent) {
-            // Dim everything: draw the sky over it, partly transparent.
+            // Dims the picture by drawing a partly transparent sky over it.
             constexpr GLfloat kVeil = 0.6F;
             glEnable(GL_BLEND);
             glBlendColor(0.0F, 0.0F, 0.0F, kVeil);
@@ -437,13 +437,13 @@ private:
         times_.cpu = 1e3 * (platform::thread_cpu_seconds() - cpu_start);
         return stats;
     }
-    /// QUALITY of shaders.
+    /// Value of QUALITY in shaders.
     [[nodiscard]] std::uint32_t tier_of(Quality quality) const {
         return quality == Quality::Auto
                    ? (device_.is_software() ? 0 : 1)
                    : static_cast<std::uint32_t>(quality) - static_cast<std::uint32_t>(Quality::Low);
     }
-    /// The frame with a camera relative to the origin of what is shown.
+    /// The frame with its camera relative to the origin of the forest that is shown.
     Frame localised(const Frame& frame) {
         if (!is_forest_) {
             Frame local = frame;
@@ -458,7 +458,8 @@ private:
         return local;
     }
 
-    /// Moves the person to the place of `frame`, whose coordinates are local.
+    /// Moves the person to the place that `frame` states. The camera of `frame` is relative to the
+    /// origin.
     void place_figure(const Frame& frame) {
         const std::optional<glm::vec3> place =
             frame.figure ? std::optional(glm::vec3(*frame.figure - frame.camera.origin))
@@ -478,7 +479,7 @@ private:
         }
     }
 
-    /// Chooses the processor, CPU or GPU, that selects the visible trees of the next forest.
+    /// Chooses whether the CPU or the GPU selects the visible trees of the next forest.
     Result<void> choose_culling() {
         if (culling_ == Culling::Cpu || (culling_ == Culling::Auto && device_.is_software())) {
             return forest_.cull_on_device(false, shaders_);
@@ -513,14 +514,14 @@ private:
         glEnable(GL_DEPTH_CLAMP);
     }
 
-    /// Draws the shadow maps around the eye, and sets the fields of the block that describe them.
+    /// Draws the shadow maps around the eye, and sets the members of `block` that describe them.
     void draw_near_shadows(const Frame& frame, FrameBlock& block) {
         for (std::size_t i = 0; i < kNearMaps; ++i) {
             if (near_shadows_.size() == i) {
                 near_shadows_.emplace_back(device_, kShadowTexels);
             }
             ShadowMap& map = near_shadows_[i];
-            // The map shows a sphere ahead of the eye, which moves in large steps.
+            // The map shows a sphere ahead of the eye. The sphere moves in large steps.
             const float radius = kNearMapSpecs[i].radius;
             const float step = 0.125F * radius;
             const glm::vec3 middle =
@@ -565,7 +566,7 @@ private:
         glDisable(GL_POLYGON_OFFSET_FILL);
     }
 
-    /// Compiles the shaders of pick() at its first call.
+    /// Compiles the shaders of pick() when it is first called.
     Result<void> compile_pick_programs() {
         if (is_forest_) {
             return forest_.compile_pick_programs(shaders_);
@@ -594,7 +595,8 @@ private:
     void draw_ground(const Frame& frame, FrameStats& stats) {
         const glm::vec4 disc =
             frame.ground_disc.w > 0.0F ? frame.ground_disc : ground_disc_of(bounds());
-        // The grid step is a power of ten, with about ten lines along the plant.
+        // The distance of grid lines is a power of ten with which about ten lines lie along the
+        // plant.
         const float unit =
             std::pow(10.0F, std::floor(std::log10(std::max(disc.w / kDiscInRadii, 1e-6F))));
         glUseProgram(programs_.ground.name());
@@ -614,19 +616,19 @@ private:
     Quality quality_ = Quality::Auto;
     RenderTarget target_;
     ShadowMap shadow_;
-    std::vector<ShadowMap> near_shadows_; // one per entry of kNearMapSpecs; made when first needed
+    std::vector<ShadowMap> near_shadows_; // one per entry of kNearMapSpecs; made when needed
     Wind near_wind_;                      // wind when near_shadows_ were last drawn
     double near_time_ = 0.0;
     MaterialTextures textures_;
     PlantMesh plant_;
     std::unique_ptr<PlantMesh> figure_;     // made when a person is first shown
-    std::optional<glm::vec3> figure_place_; // place of the person in figure_; empty: none is shown
+    std::optional<glm::vec3> figure_place_; // feet of the person in figure_; nullopt: not shown
     LineSet lines_;
     SensePass senses_;
     ForestPass forest_;
     ForestFrameStats forest_stats_;
     bool is_forest_ = false; // a forest is shown
-    Bounds casters_;         // box of the casters of the last shadow map
+    Bounds casters_;         // box of the casters in the last shadow map
     ShaderSource shaders_;   // forest shaders are compiled on first use
     bool has_forest_shaders_ = false;
     std::optional<Frame> shown_frame_; // frame of the last draw()
@@ -634,7 +636,7 @@ private:
     std::uint32_t refinements_ = 0;
     ProgramObject copy_; // compiled on first use
     Buffer frame_;
-    Buffer near_frame_; // while near_shadows_ are drawn
+    Buffer near_frame_; // FrameBlock while near_shadows_ are drawn
     VertexArray empty_;
 };
 

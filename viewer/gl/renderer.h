@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Renderer: draws plants and forests. The interface of viewer/gl, the only code that calls OpenGL.
+// Renderer: draws plants and forests. The interface of viewer/gl, whose code alone calls OpenGL.
 // Every call needs a current context.
 #pragma once
 
@@ -27,7 +27,7 @@
 
 namespace lsys::view {
 
-/// Text of a shader by file name; nullopt if there is no such file.
+/// Returns the text of a shader by file name; nullopt if there is no such file.
 using ShaderSource = std::function<std::optional<std::string>(std::string_view name)>;
 /// Shaders embedded in the program.
 [[nodiscard]] std::optional<std::string> built_in_shader(std::string_view name);
@@ -45,7 +45,7 @@ struct Light {
     friend bool operator==(const Light&, const Light&) = default;
 };
 
-/// Drawing style of surfaces.
+/// Style in which surfaces are drawn.
 enum class PlantStyle : std::uint8_t { Surface, Wireframe, None };
 
 /// Rectangle of a picture in pixels from its lower left corner.
@@ -68,23 +68,23 @@ struct Frame {
     Wind wind;
     bool shadows = true;
     bool ground = true; // disc under a single plant
-    /// A plant without sky; pixels that nothing covers have opacity 0, and colours are multiplied
-    /// by the opacity.
+    /// Draw a plant without sky: pixels that nothing covers have opacity 0, and colours are
+    /// multiplied by opacity.
     bool transparent = false;
-    /// Centre (xyz) and radius (w) of the ground disc, m; radius 0: ground_disc_of() the plant
-    /// shown. Growth keeps one disc for all its pictures.
+    /// Centre (xyz) and radius (w) of the ground disc, m. Radius 0: ground_disc_of() of the plant
+    /// that is shown. A growth uses one disc for all its pictures.
     glm::vec4 ground_disc{0.0F};
     PlantStyle style = PlantStyle::Surface;
     bool dims = false;                // dims everything except lines; not with `transparent`
     std::uint32_t samples = 4;        // per pixel: 1 or 4
     std::optional<glm::dvec3> figure; // feet of a person of 1.8 m in the world, m
     // The three fields below are for forests only.
-    /// Max triangles of branches; with more, trees are drawn coarser.
+    /// Max triangles of branches; if there are more, trees are drawn in coarser levels.
     std::uint64_t max_triangles = 1'500'000;
-    /// Max trees that the processor expands into branches per picture; the others stay impostors
-    /// until the next picture. Ignored where compute shaders choose the trees.
+    /// Max trees that the CPU expands into branches per picture; further trees stay impostors until
+    /// the next picture. Ignored if compute shaders choose the trees.
     std::uint32_t max_expansions = ~0U;
-    /// WantedSquares::range of a streamed forest, m; other forests show all their trees.
+    /// WantedSquares::range of a streamed forest, in m; other forests show all their trees.
     float tree_range = std::numeric_limits<float>::infinity();
 
     friend bool operator==(const Frame&, const Frame&) = default;
@@ -99,14 +99,15 @@ struct FrameStats {
     double gpu_milliseconds = 0.0; // for passes of a forest only, like FrameTimes::gpu
 };
 
-/// Device that chooses the trees and branches of a picture of a forest; the pictures are the same.
+/// Processor that chooses the trees and branches in a picture of a forest. Pictures are the same
+/// with both.
 enum class Culling : std::uint8_t {
     Auto, // Gpu if a hardware renderer has the needed limits, else Cpu
     Cpu,
     Gpu,
 };
 
-/// Looks and cost of pictures. Shaders have it as QUALITY: 0, 1, 2.
+/// Quality, and with it drawing time, of pictures. Shaders have it as the macro QUALITY: 0, 1, 2.
 enum class Quality : std::uint8_t {
     Auto, // Low for a software renderer, else Medium
     Low,
@@ -114,13 +115,13 @@ enum class Quality : std::uint8_t {
     High,
 };
 
-/// The word of `--quality`.
+/// The name of a quality, as `--quality` takes it.
 [[nodiscard]] const char* name_of(Quality quality);
 
 /// Times of the last picture, ms.
 struct FrameTimes {
     double cpu = 0.0; // processor time of the thread that called draw()
-    double gpu = 0.0; // by timer queries; of an earlier picture while the device draws the last one
+    double gpu = 0.0; // of timer queries; of an earlier picture until the last is drawn
 };
 
 /// Statistics of the last picture of a forest.
@@ -130,26 +131,27 @@ struct ForestFrameStats {
     std::uint64_t clustered_trees = 0;                       // drawn in clusters
     std::uint64_t clusters = 0;
     std::uint64_t blended_trees = 0;  // drawn in two levels of detail, mixed
-    std::uint64_t occluded_trees = 0; // in the frustum, occluded by the ground
+    std::uint64_t occluded_trees = 0; // inside the frustum, but occluded by the ground
     std::uint64_t drawn_branches = 0;
     std::uint32_t expanded_trees = 0;
-    std::uint32_t waiting_trees = 0; // near, drawn as impostors until expanded
-    float detail = 1.0F;             // factor of tree heights; below 1 to keep max_triangles
+    std::uint32_t waiting_trees = 0; // near trees, drawn as impostors until they are expanded
+    float detail = 1.0F;             // factor of heights; below 1 to stay within max_triangles
     FrameStats branches;
     FrameStats impostors;
     FrameStats terrain;
     FrameStats shadow;
-    double cull_milliseconds = 0.0;     // includes expansion of trees
+    double cull_milliseconds = 0.0;     // time to choose trees, with their expansion
     double cull_cpu_milliseconds = 0.0; // processor time of the thread, without waiting
-    // With compute shaders, counts above, except of draws, are those of the last picture that the
-    // device has finished: this one after read(), an earlier one before.
+    // Whether compute shaders choose the trees. Then all counts above, except those of draws, are
+    // counts of the last picture that the device has finished: after read() the last picture,
+    // before read() an earlier one.
     bool is_culled_on_device = false;
     double cull_gpu_milliseconds = 0.0;
-    /// Triangles that draw() does not return, because only the device knows them.
+    /// Triangles that draw() does not count, because only the device knows their number.
     std::uint64_t device_triangles = 0;
 };
 
-/// Sizes of the forest in use.
+/// Sizes of the forest that is shown.
 struct ForestSizes {
     std::uint64_t trees = 0;
     std::uint64_t tree_bytes = 0;
@@ -161,7 +163,8 @@ struct ForestSizes {
     double impostor_milliseconds = 0.0;
 };
 
-/// Kind of the part that a pixel of a picture shows; shaders/pick.frag.glsl writes the numbers.
+/// Kind of the part that a pixel of a picture shows. The values are those that
+/// shaders/pick.frag.glsl writes.
 enum class PickedKind : std::uint8_t {
     Nothing = 0,  // sky, or the ground below a plant
     Plant = 1,    // a triangle of the plant
@@ -173,7 +176,7 @@ enum class PickedKind : std::uint8_t {
 
 struct Picked {
     PickedKind kind = PickedKind::Nothing;
-    glm::vec3 place{};          // m; unless Nothing
+    glm::vec3 place{};          // m; set for all kinds except Nothing
     std::uint64_t triangle = 0; // Plant: number of the triangle in the mesh of show_plant()
     std::uint32_t instance = 0; // Branch: index in the cache of the form
     std::uint32_t form = 0;     // Branch, Impostor: index in ForestModel::forms
@@ -189,66 +192,67 @@ public:
     Renderer& operator=(const Renderer&) = delete;
     virtual ~Renderer() = default;
 
-    /// Shows a plant in place of the plant or forest before. `mesh` is copied to the device.
+    /// Shows a plant in place of the previous plant or forest. `mesh` is copied to the device.
     virtual void show_plant(const Mesh& mesh) = 0;
-    /// Replaces the lines drawn over everything.
+    /// Replaces the lines, which are drawn over the whole picture.
     virtual void show_lines(std::span<const LineVertex> lines) = 0;
-    /// Replaces what the plant senses; pictures of forests do not show it.
+    /// Replaces the drawing of what the plant senses; pictures of forests do not show it.
     virtual void show_senses(const SenseDrawing& drawing) = 0;
-    /// Sets the quality of later pictures; Auto at first. Error: a shader does not compile; the old
-    /// quality stays.
+    /// Sets the quality of later pictures, which is Auto at first. Error: a shader does not
+    /// compile; the old quality stays.
     [[nodiscard]] virtual Result<void> set_quality(Quality quality) = 0;
     /// The quality of later pictures: Low, Medium or High.
     [[nodiscard]] virtual Quality quality() const = 0;
-    /// Sets the processor that chooses the trees of later forests; Auto at first.
+    /// Sets the processor that chooses the trees of later forests, which is Auto at first.
     virtual void set_culling(Culling culling) = 0;
-    /// Shows a forest in place of the plant or forest before. Forest and terrain of the model must
-    /// live as long as it is shown. bake_impostors() makes the new impostors. Until then, if both
-    /// forests have the same number of impostors, those of the previous forest are drawn, else only
-    /// those that both forests share. Error: a shader does not compile, or the device lacks
-    /// features for the value of set_culling().
+    /// Shows a forest in place of the previous plant or forest. The forest and the terrain of
+    /// `model` must live as long as the forest is shown. bake_impostors() makes the new impostors.
+    /// Until then, the impostors of the previous forest are drawn if both forests have the same
+    /// number of impostors, else only the impostors that both forests share. Error: a shader does
+    /// not compile, or the device lacks features that the value of set_culling() needs.
     [[nodiscard]] virtual Result<void> show_forest(ForestModel model) = 0;
     /// Updates the trees of the forest shown after a change; its other parts must be unchanged.
     virtual void update_trees() = 0;
     /// Bakes missing impostors for about `seconds`. Returns whether all are done.
     [[nodiscard]] virtual bool bake_impostors(double seconds) = 0;
-    /// Whether all trees of the forest have impostors, possibly those of other trees until their
-    /// own are baked.
+    /// Whether all trees of the forest have impostors. Until its own impostor is baked, a tree may
+    /// have that of another tree.
     [[nodiscard]] virtual bool has_stand_ins() const = 0;
-    /// Adds or removes a tree of the forest: ForestLod::change_tree().
+    /// Adds or removes a tree of the forest, as ForestLod::change_tree() does.
     virtual void change_tree(std::uint32_t index, const Tree& tree, bool alive) = 0;
-    /// Adds and removes squares of a streamed forest; show_forest() begins with none.
+    /// Adds and removes squares of a streamed forest, which has no squares after show_forest().
     virtual void change_squares(const SquareChanges& changes) = 0;
     /// Colours the branches of this forest and of all later ones. Call bake_impostors() afterwards.
     virtual void colour_branches(BranchColours by) = 0;
     /// Bounding box of the plant or forest; empty for a streamed forest.
     [[nodiscard]] virtual const Bounds& bounds() const = 0;
 
-    /// Recompiles the shaders. Error: the old ones stay in use.
+    /// Compiles the shaders again. Error: a shader does not compile; the old shaders stay in use.
     [[nodiscard]] virtual Result<void> reload(const ShaderSource& shaders) = 0;
 
-    /// Draws the part of a picture within `area` to an offscreen target.
+    /// Draws the part of a picture within `area` into an offscreen framebuffer.
     virtual FrameStats draw(const Frame& frame, const PixelArea& area) = 0;
-    /// Finds the part at the middle of a pixel of the picture that draw() makes of the frame.
-    /// Ignores lines drawn over it; wireframes count as surfaces. `x`, `y`: from the lower left
-    /// corner of the picture. Keeps the last picture. Error: a shader does not compile.
+    /// Finds the part that draw() shows at the middle of a pixel of the frame. Lines drawn over the
+    /// picture are ignored; wireframes count as surfaces. `x`, `y`: pixels from the lower left
+    /// corner of the picture. The last picture stays. Error: a shader does not compile.
     [[nodiscard]] virtual Result<Picked>
     pick(const Frame& frame, std::uint32_t x, std::uint32_t y) = 0;
-    /// Numbers (Tree::number) of the trees of a form that stand in the forest.
+    /// Numbers (Tree::number) of the trees of the form `form` that stand in the forest.
     [[nodiscard]] virtual std::vector<std::uint32_t> trees_of(std::uint32_t form) const = 0;
     /// Statistics of the last draw(); empty without a forest.
     [[nodiscard]] virtual const ForestFrameStats& forest_stats() const = 0;
     [[nodiscard]] virtual ForestSizes forest_sizes() const = 0;
     [[nodiscard]] virtual FrameTimes frame_times() const = 0;
-    /// Draws the last picture again, shifted by a part of a pixel, and adds it to the mean that
-    /// present() shows until the next draw(). Precondition: the plant or forest is unchanged since
-    /// draw(). Returns false, and draws nothing, once the mean has 17 pictures.
+    /// Draws the last picture again, shifted by a part of a pixel, and adds it to the mean, which
+    /// present() shows until the next draw(). Precondition: the plant or forest has not changed
+    /// since draw(). Once the mean has 17 pictures, draws nothing and returns false.
     [[nodiscard]] virtual bool refine() = 0;
-    /// Rows of the picture that present() shows, from top to bottom, RGBA.
+    /// Reads the picture that present() shows: RGBA, rows from top to bottom.
     virtual void read_shown(std::vector<std::uint8_t>& pixels) = 0;
-    /// Rows of the picture of the last draw(), without refinement, from top to bottom, RGBA.
+    /// Reads the picture of the last draw() without refinement: RGBA, rows from top to bottom.
     virtual void read(std::vector<std::uint8_t>& pixels) = 0;
-    /// Copies the last picture, refined or not, to a part of the window whose context is current.
+    /// Copies the last picture, refined or not, to a part of the window whose OpenGL context is
+    /// current.
     virtual void present(const PixelArea& area) = 0;
 
     /// Device and version of OpenGL, for example

@@ -43,7 +43,8 @@ constexpr std::array<NamedKey, 19> kNamedKeys = {{{GLFW_KEY_ESCAPE, Key::Escape}
                                                   {GLFW_KEY_HOME, Key::Home},
                                                   {GLFW_KEY_END, Key::End}}};
 
-/// The key of a GLFW key code. Letters follow the keyboard layout, digits are the keys above them.
+/// The key for a GLFW key code. Letters follow the keyboard layout, digits the row of keys above
+/// the letters.
 Key key_of(int code, int scan_code) {
     const auto* const named =
         std::find_if(kNamedKeys.begin(), kNamedKeys.end(),
@@ -65,7 +66,7 @@ bool is_modifier(int code) {
     return code >= GLFW_KEY_LEFT_SHIFT && code <= GLFW_KEY_RIGHT_SUPER;
 }
 
-/// Whether a letter edits text together with Ctrl: select all, copy, paste, cut, undo, redo.
+/// Whether a letter with Ctrl edits text: select all, copy, paste, cut, undo, redo.
 bool edits_text(Key key) {
     return key == Key::A || key == Key::C || key == Key::V || key == Key::X || key == Key::Z ||
            key == Key::Y;
@@ -98,9 +99,9 @@ void append_utf8(std::string& text, unsigned character) {
     put(0x80U | (character & 0x3FU));
 }
 
-/// The file of a scalable font of fixed width; null: none is installed.
+/// Path of a scalable font of fixed width; null: none is installed.
 const char* find_font() {
-    // Debian and Ubuntu, Arch, Fedora.
+    // The folders of Debian and Ubuntu, Arch, and Fedora.
     for (const char* const path : {"/usr/share/fonts/truetype/dejavu/DejaVuSansMono.ttf",
                                    "/usr/share/fonts/TTF/DejaVuSansMono.ttf",
                                    "/usr/share/fonts/dejavu-sans-mono-fonts/DejaVuSansMono.ttf"}) {
@@ -124,21 +125,21 @@ struct Window::State {
     bool has_panels = false;
     bool mouse_captured = false;
     bool panels_have_keys = false;
-    // Collected until the next wait().
+    // Events are collected until the next wait().
     WindowInput input;
     glm::vec2 mouse{0.0F};
     bool has_mouse = false;
     bool shift = false;         // at the last press or release of the left button
-    std::array<bool, 3> held{}; // buttons pressed outside of panels
+    std::array<bool, 3> held{}; // buttons that were pressed outside of panels
     std::vector<std::pair<int, Key>> keys;
-    // Keys that the panels received since the last frame. ImGui would not see a key that is released
-    // before the next one, so such releases wait.
+    // Keys that were pressed in panels since the last frame. ImGui would not see a key that is
+    // released before the next frame, so the release of such a key is delayed.
     std::vector<int> new_keys;
     std::vector<std::pair<int, int>> waiting_releases; // GLFW key codes and scan codes
     std::vector<GLuint> images;
     WindowLook look;
-    WindowLook drawn_look;    // look for which ImGui's fonts and style were made
-    float drawn_scale = 0.0F; // scale for which they were made; 0: not made yet
+    WindowLook drawn_look;    // look with which ImGui's fonts and style were made
+    float drawn_scale = 0.0F; // scale with which they were made; 0: not made yet
 
     static State& of(GLFWwindow* window) {
         return *static_cast<State*>(glfwGetWindowUserPointer(window));
@@ -158,8 +159,8 @@ struct Window::State {
         }
     }
 
-    /// Adds an event at the current position of the pointer, since a press may come before any
-    /// move.
+    /// Adds an event at the current position of the pointer, because a button may be pressed before
+    /// the pointer has moved.
     void add_pointer_event(PointerEvent::Kind kind) {
         double x = 0.0;
         double y = 0.0;
@@ -168,7 +169,7 @@ struct Window::State {
             {pixels({static_cast<float>(x), static_cast<float>(y)}), kind, shift});
     }
 
-    /// Window coordinates to pixels of the framebuffer.
+    /// Converts window coordinates to pixels of the framebuffer.
     glm::vec2 pixels(const glm::vec2& place) const {
         int width = 0;
         int height = 0;
@@ -198,7 +199,7 @@ struct Window::State {
         }
     }
 
-    /// Handles a key event; returns whether the panels receive it too.
+    /// Handles a key event. Returns whether the panels must receive the event, too.
     bool press_key(int code, int scan_code, int action, int modifiers) {
         input.has_events = true;
         const Key key = key_of(code, scan_code);
@@ -226,11 +227,12 @@ struct Window::State {
                 keys.emplace_back(code, key);
             }
         }
-        // Escape ends the use of a control, and else leaves the panels, which the caller does.
+        // Escape ends the use of a control. If no control is in use, the caller makes the panels
+        // give up the keyboard.
         return to_panels && (key != Key::Escape || in_control);
     }
 
-    /// Makes fonts and style anew if the scale of the monitor or the look has changed.
+    /// Makes fonts and style again if the scale of the monitor or the look has changed.
     void update_look(float scale) {
         if (scale == drawn_scale && look == drawn_look) {
             return;
@@ -244,7 +246,7 @@ struct Window::State {
         constexpr float kGrip = 0.45F;
         style.Colors[ImGuiCol_SliderGrab].w = kGrip;
         style.Colors[ImGuiCol_SliderGrabActive].w = kGrip;
-        // The ring around the control that has the keyboard.
+        // Colour of the ring around the control that has the keyboard.
         style.Colors[ImGuiCol_NavHighlight] =
             look.is_light ? ImVec4(0.85F, 0.3F, 0.0F, 1.0F) : ImVec4(1.0F, 0.75F, 0.2F, 1.0F);
         style.ScaleAllSizes(scale);
@@ -263,7 +265,7 @@ struct Window::State {
         ImGui_ImplOpenGL3_CreateFontsTexture();
     }
 
-    /// ImGui chains its own callbacks to these.
+    /// Installs the callbacks of this class. ImGui calls them from its own callbacks.
     void install_callbacks() {
         glfwSetWindowUserPointer(window, this);
         glfwSetMouseButtonCallback(window,
@@ -299,12 +301,12 @@ struct Window::State {
         glfwSetWindowFocusCallback(window, [](GLFWwindow* from, int /*focused*/) {
             State& state = of(from);
             state.input.has_events = true;
-            state.keys.clear(); // releases may go to another window
+            state.keys.clear(); // other windows may receive the releases
             state.held = {};
         });
     }
 
-    /// Replaces ImGui's own callback, and passes it the keys for the panels.
+    /// Replaces ImGui's callback for keys, and passes the keys for panels on to it.
     void install_key_callback() {
         glfwSetKeyCallback(
             window, [](GLFWwindow* from, int code, int scan_code, int action, int modifiers) {
@@ -314,7 +316,8 @@ struct Window::State {
                 }
                 const bool is_new = std::find(state.new_keys.begin(), state.new_keys.end(), code) !=
                                     state.new_keys.end();
-                // Shift and Ctrl are held until the key with them is seen.
+                // The release of Shift and Ctrl is delayed, too, until ImGui has seen the key
+                // pressed with them.
                 const bool is_needed = is_modifier(code) && !state.new_keys.empty();
                 if (action == GLFW_RELEASE && (is_new || is_needed)) {
                     state.waiting_releases.emplace_back(code, scan_code);
@@ -327,7 +330,7 @@ struct Window::State {
             });
     }
 
-    /// Call after ImGui has begun a frame.
+    /// Passes the delayed releases to ImGui. Call it after ImGui has begun a frame.
     void release_keys() {
         new_keys.clear();
         for (const auto& [code, scan_code] : std::exchange(waiting_releases, {})) {
@@ -448,7 +451,7 @@ void Window::capture_mouse(bool captured) {
     io.ConfigFlags = captured ? io.ConfigFlags | ImGuiConfigFlags_NoMouse
                               : io.ConfigFlags & ~ImGuiConfigFlags_NoMouse;
     if (captured) {
-        ImGui::SetWindowFocus(nullptr); // ends typing
+        ImGui::SetWindowFocus(nullptr); // ends the editing of a text
     }
 }
 
@@ -481,7 +484,7 @@ void Window::begin_panels() {
     state_->update_look(scale());
     ImGui_ImplGlfw_NewFrame();
     ImGuiIO& io = ImGui::GetIO();
-    // Enter edits numbers and texts, and presses buttons as Space does.
+    // Enter starts the editing of numbers and texts, and presses buttons, as Space does.
     if (io.KeysDown[GLFW_KEY_ENTER] || io.KeysDown[GLFW_KEY_KP_ENTER]) {
         io.NavInputs[ImGuiNavInput_Activate] = 1.0F;
     }

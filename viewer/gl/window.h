@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Window: a GLFW window with an OpenGL 4.5 core context, its input, and panels of Dear ImGui over
-// the picture. The only code that calls GLFW and its binding to ImGui.
+// the picture. No other code calls GLFW or ImGui's binding to GLFW.
 #pragma once
 
 #include "grammar/base/result.h"
@@ -16,7 +16,7 @@
 
 namespace lsys::view {
 
-/// Keys; letters have their ASCII codes.
+/// Keys; the values of letters are their ASCII codes.
 enum class Key : std::uint8_t {
     None = 0,
     Escape,
@@ -77,11 +77,11 @@ struct KeyPress {
     bool control = false;
     bool shift = false;
     bool alt = false;
-    // A control of the panels was in use, or one of their lists was open.
+    // Whether a control of the panels was in use, or one of their lists was open.
     bool in_control = false;
 };
 
-/// Event of the left button over the picture.
+/// An event of the left mouse button over the picture.
 struct PointerEvent {
     enum class Kind : std::uint8_t { Press, Move, Release };
     glm::vec2 place{0.0F}; // pixels from the upper left corner of the window
@@ -89,7 +89,7 @@ struct PointerEvent {
     bool shift = false;
 };
 
-/// Input since the last wait(), without input to panels.
+/// Input since the last wait(), without the input that panels handled.
 struct WindowInput {
     std::vector<KeyPress> presses;
     std::vector<Key> held;
@@ -100,14 +100,14 @@ struct WindowInput {
     std::vector<PointerEvent> pointer_events; // presses, releases, moves while pressed
     glm::vec2 mouse{0.0F};                    // pixels, from the upper left corner
     bool over_picture = false;                // the pointer is on the picture, not on a panel
-    glm::vec2 motion{0.0F};                   // as drags, while the mouse is captured
+    glm::vec2 motion{0.0F};                   // pixels, right and down, while the mouse is captured
     float wheel = 0.0F;                       // positive away from the user
     std::vector<std::string> dropped;
     bool has_events = false;      // any event, also of panels
     bool close_requested = false; // by the window manager
 };
 
-/// Look of the panels.
+/// How panels are drawn.
 struct WindowLook {
     float text_size = 1.0F; // factor of the text size that suits the monitor's scale
     bool is_light = false;  // dark text on light panels
@@ -117,41 +117,41 @@ struct WindowLook {
 
 class Window {
 public:
-    /// Error: no display, or its OpenGL is too old.
+    /// Error: there is no display, or its OpenGL version is too old.
     [[nodiscard]] static Result<std::unique_ptr<Window>>
     make(const std::string& title, std::uint32_t width, std::uint32_t height);
     Window(const Window&) = delete;
     Window& operator=(const Window&) = delete;
     ~Window();
 
-    /// Cancels a request of the window manager to close the window.
+    /// Discards the request of the window manager to close the window.
     void stay_open();
-    /// Waits up to `seconds` for input; 0: returns pending input.
+    /// Waits up to `seconds` s for input; 0: returns the pending input at once.
     [[nodiscard]] WindowInput wait(double seconds);
-    /// Ends a wait(); callable from any thread.
+    /// Makes wait() return; may be called from any thread.
     void wake() const;
 
     /// Size of the framebuffer in pixels; 0 while minimized.
     [[nodiscard]] std::uint32_t width() const;
     [[nodiscard]] std::uint32_t height() const;
-    /// Scale of text and widgets: that of the monitor times WindowLook::text_size.
+    /// Scale of text and widgets: the scale of the monitor times WindowLook::text_size.
     [[nodiscard]] float scale() const;
-    /// Takes effect at the next begin_panels(). Text above its usual size is drawn with DejaVu Sans
-    /// Mono if it is installed, else with enlarged pixels.
+    /// Sets the look, which takes effect in the next begin_panels(). Text above its usual size is
+    /// drawn with DejaVu Sans Mono if this font is installed, else with enlarged pixels.
     void set_look(const WindowLook& look);
-    /// Whether the panels have the keyboard: then they receive all keys except F keys, and those with
-    /// Ctrl or Alt. A text field in use always has the keyboard.
+    /// Sets whether the panels have the keyboard: then they receive all keys except F keys and keys
+    /// pressed with Ctrl or Alt. A text field that is being edited always has the keyboard.
     void set_panel_keys(bool panels_have_keys);
     void set_title(const std::string& title);
-    /// Hides the pointer and reports its motion without limits.
+    /// With true, hides the pointer and reports its motion without limits.
     void capture_mouse(bool captured);
 
-    /// Uploads a picture for ImGui::Image(); returns its ImTextureID as a number, which is not 0.
-    /// The window keeps the picture until drop_images(). Empty pictures are 0.
+    /// Uploads a picture for ImGui::Image(). Returns its ImTextureID as a number other than 0; 0
+    /// for an empty picture. The window owns the picture until drop_images().
     [[nodiscard]] std::uintptr_t add_image(const Texture& picture);
     void drop_images();
 
-    /// Draw ImGui windows between these two calls; present() draws them and shows the picture.
+    /// ImGui windows are drawn between these two calls; present() draws them and shows the picture.
     void begin_panels();
     void present();
 

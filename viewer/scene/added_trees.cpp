@@ -10,7 +10,7 @@ namespace lsys::view {
 
 namespace {
 
-constexpr std::uint32_t kSide = 64; // cells along X and Z
+constexpr std::uint32_t kSide = 64; // number of cells along X and along Z
 
 } // namespace
 

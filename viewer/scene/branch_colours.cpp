@@ -15,7 +15,7 @@ namespace lsys::view {
 
 namespace {
 
-/// Hue in turns, 0 red, 1/3 green, 2/3 blue, to linear RGB.
+/// Linear RGB of a hue in turns: 0 is red, 1/3 green, 2/3 blue.
 glm::vec3 hue_colour(float hue, float saturation, float value) {
     const glm::vec3 turns = glm::fract(glm::vec3(hue) + glm::vec3(0.0F, 2.0F / 3.0F, 1.0F / 3.0F));
     const glm::vec3 pure = glm::clamp(glm::abs(6.0F * turns - 3.0F) - 1.0F, 0.0F, 1.0F);
@@ -23,8 +23,8 @@ glm::vec3 hue_colour(float hue, float saturation, float value) {
     return display * display; // a gamma of 2
 }
 
-/// Colour of a ramp from dark blue through green to yellow, with evenly rising lightness; `part`
-/// from 0 to 1.
+/// Colour of a ramp from dark blue through green to yellow, whose lightness rises evenly. `part`: 0
+/// to 1.
 glm::vec3 ramp_colour(float part) {
     constexpr std::array<glm::vec3, 5> kStops = {{{0.27F, 0.13F, 0.55F},
                                                   {0.20F, 0.42F, 0.72F},
@@ -71,8 +71,8 @@ glm::vec3 branch_colour(BranchColours by, std::uint32_t value, std::uint32_t las
     if (by == BranchColours::Age) {
         return ramp_colour(last == 0 ? 0.0F : static_cast<float>(value) / static_cast<float>(last));
     }
-    // Hues are multiples of the golden ratio, so consecutive hues are far apart; lightness
-    // distinguishes hues that are similar.
+    // Hues are multiples of the golden ratio, so those of consecutive numbers differ much;
+    // lightness distinguishes numbers with similar hues.
     constexpr double kGolden = 0.6180339887498949;
     const double turns = 0.07 + kGolden * static_cast<double>(value);
     const auto hue = static_cast<float>(turns - std::floor(turns));

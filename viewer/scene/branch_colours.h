@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Colours that distinguish the branches of a forest by id, age or hero (docs/language.md section
-// 9). An id or hero has the same colour in every forest; the colour of an age depends on the
-// greatest age of the forest. Colours are the same on every machine.
+// 9). An id or a hero has the same colour in every forest; the colour of an age depends on the
+// greatest age in the forest. Colours are the same on every machine.
 #pragma once
 
 #include "viewer/scene/forest_model.h"
@@ -27,15 +27,16 @@ struct LegendEntry {
     friend bool operator==(const LegendEntry&, const LegendEntry&) = default;
 };
 
-/// Id, age or hero of an instance. Precondition: `by` is not Natural.
+/// The id, age or hero of an instance, as `by` selects. Precondition: `by` is not Natural.
 [[nodiscard]] std::uint32_t
 branch_value(BranchColours by, const InstanceCache& cache, std::uint32_t instance);
 
-/// Linear RGB. Consecutive ids and heroes have very different hues; ages go from dark blue through
-/// green to yellow. `last` is the greatest age. Precondition: `by` is not Natural.
+/// Colour of a value as linear RGB. Consecutive ids and heroes have very different hues; the
+/// colours of ages go from dark blue through green to yellow. `last`: the greatest age.
+/// Precondition: `by` is not Natural.
 [[nodiscard]] glm::vec3 branch_colour(BranchColours by, std::uint32_t value, std::uint32_t last);
 
-/// Colours of all branches of the heroes, in ascending order of value. Empty for Natural.
+/// Colours of all branches of the heroes, sorted by value. Empty for Natural.
 [[nodiscard]] std::vector<LegendEntry> legend_of(const ForestModel& model, BranchColours by);
 
 } // namespace lsys::view

@@ -122,7 +122,7 @@ bool BranchPool::allocate(std::uint32_t count, std::uint32_t& first) {
             return true;
         }
     }
-    // Allocate at the end of the array, merged with a free range there.
+    // Allocates at the end of the array; a free range at the end becomes part of the new range.
     first = static_cast<std::uint32_t>(branches_.size());
     const auto last = free_.empty() ? free_.end() : std::prev(free_.end());
     const bool free_end = last != free_.end() && last->first + last->second == first;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// BranchPool: branches of near trees in one array, mirrored on the device. The branches of a tree
-// are contiguous and keep their place until the tree is forgotten.
+// BranchPool: branches of near trees in one array, of which the device has a copy. The branches of
+// a tree are consecutive and stay in place until the pool forgets the tree.
 #pragma once
 
 #include "runtime/forest/instance_cache.h"
@@ -14,15 +14,15 @@
 
 namespace lsys::view {
 
-/// A branch in the layout of the device.
+/// A branch in the layout of the device's copy.
 struct PoolBranch {
-    glm::vec3 position{}; // m, position of the origin of the hero
+    glm::vec3 position{}; // m, position of the hero's origin
     float scale = 1.0F;
     std::array<std::int16_t, 4> rotation{}; // x, y, z, w in 1/32767
     std::uint32_t mesh = 0;                 // instance in its form's cache
     std::uint32_t tree = 0;                 // number for ForestLod::lod_tree()
 
-    /// Transforms a point of the hero, m, into the forest.
+    /// Transforms a point of the hero, in m, to coordinates of the forest.
     [[nodiscard]] glm::vec3 at(const glm::vec3& place) const;
 };
 static_assert(sizeof(PoolBranch) == 32);
@@ -40,23 +40,25 @@ public:
     /// `capacity`: max number of branches.
     explicit BranchPool(std::uint32_t capacity = kMaxBranches) : capacity_(capacity) {}
 
-    /// Branches of a tree, marked as used in this frame. Count 0: the pool has none.
+    /// The branches of a tree, which are marked as used in this frame. Count 0: the pool does not
+    /// have the tree.
     [[nodiscard]] PoolSpan find(std::uint32_t tree);
-    /// Stores the branches of a tree that has none, marked as used in this frame; evicts branches
-    /// not used in this frame if needed. Count 0: no room.
+    /// Stores the branches of a tree that the pool does not have, and marks them as used in this
+    /// frame. If there is no room, removes branches that were not used in this frame. Count 0:
+    /// there is still no room.
     [[nodiscard]] PoolSpan add(std::uint32_t tree, std::span<const PoolBranch> branches);
-    /// Begins a frame and forgets branches last used more than `kept` frames ago.
+    /// Begins a frame and forgets trees whose branches were last used more than `kept` frames ago.
     void begin_frame(std::uint32_t kept);
-    /// Forgets a tree that was removed or replaced.
+    /// Forgets a tree that was removed or replaced by another tree.
     void forget(std::uint32_t tree);
     void clear();
 
     [[nodiscard]] std::span<const PoolBranch> branches() const { return branches_; }
     [[nodiscard]] std::size_t tree_count() const { return trees_.size(); }
     [[nodiscard]] std::uint64_t used_branches() const { return used_branches_; }
-    /// Ranges written since the last take_written().
+    /// Ranges that were written since the last call.
     [[nodiscard]] std::vector<PoolSpan> take_written();
-    /// Ranges of the trees in the pool, by tree.
+    /// Range of each tree in the pool, by number of the tree.
     [[nodiscard]] std::map<std::uint32_t, PoolSpan> spans() const;
 
     static constexpr std::uint32_t kMaxBranches = 2U << 20U; // 64 MiB of PoolBranch
@@ -64,7 +66,7 @@ public:
 private:
     struct Entry {
         PoolSpan span;
-        std::uint64_t last_use = 0; // frame number
+        std::uint64_t last_use = 0; // number of the frame
     };
 
     void release(const PoolSpan& span);

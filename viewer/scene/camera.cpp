@@ -19,7 +19,7 @@ namespace lsys::view {
 namespace {
 
 constexpr glm::vec3 kUp{0.0F, 1.0F, 0.0F};
-constexpr float kSteepest = 1.553F; // radians above or below the horizon
+constexpr float kSteepest = 1.553F; // radians, max angle of the view above or below the horizon
 constexpr float kMinField = 1.0F;
 constexpr float kMaxField = 170.0F;
 constexpr float kNearest = 0.02F;    // m, min distance of the near plane
@@ -27,7 +27,7 @@ constexpr float kMaxDistance = 1e7F; // m, of eye and target
 constexpr double kNearWorld =
     16'384.0; // m, max distance along X and Z of cameras without an origin
 
-/// Removes the next word from `text`.
+/// Removes the first word from `text` and returns it.
 std::string_view take_word(std::string_view& text) {
     const std::size_t begin = std::min(text.find_first_not_of(" \t"), text.size());
     const std::size_t end = std::min(text.find_first_of(" \t", begin), text.size());
@@ -58,8 +58,8 @@ bool parse_place(std::string_view text, glm::dvec3& place) {
 }
 
 struct ViewAngles {
-    float azimuth = 0.0F;   // from -Z towards +X
-    float elevation = 0.0F; // above the horizon
+    float azimuth = 0.0F;   // radians, from -Z towards +X
+    float elevation = 0.0F; // radians, above the horizon
 };
 
 ViewAngles angles_of(const glm::vec3& unit) {
@@ -180,7 +180,7 @@ Camera orbited(const Camera& camera, float around, float upwards) {
 }
 
 Camera seen_from(StandardView view, const Camera& camera) {
-    ViewAngles angles; // angles of the view from the front
+    ViewAngles angles; // the view from the front
     if (view == StandardView::Side) {
         angles.azimuth = -0.5F * std::numbers::pi_v<float>;
     } else if (view == StandardView::Top) {
@@ -228,7 +228,7 @@ Camera framing(const Camera& camera, const Bounds& bounds, float aspect) {
     const glm::vec3 upwards = glm::cross(across, along);
     const float tangent = std::tan(0.5F * glm::radians(camera.field_of_view));
     result.target = 0.5F * (bounds.low + bounds.high);
-    // Nearest eye with all corners of the box in the picture.
+    // The nearest eye from which all corners of the box are in the picture.
     float distance = 0.0F;
     for (unsigned corner = 0; corner < 8; ++corner) {
         const glm::vec3 at = {(corner & 1U) != 0 ? bounds.high.x : bounds.low.x,

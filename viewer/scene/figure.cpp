@@ -6,7 +6,7 @@
 namespace lsys::view {
 
 glm::vec3 figure_beside(const Bounds& plant) {
-    constexpr float kGap = 0.2F; // m
+    constexpr float kGap = 0.2F; // m, between plant and person
     return {plant.high.x + kFigureHalfWidth + kGap, std::min(plant.low.y, 0.0F),
             0.5F * (plant.low.z + plant.high.z)};
 }

@@ -159,14 +159,14 @@ void ForestLod::find_within(const Bounds& box, std::vector<std::uint32_t>& trees
 
 float ForestLod::crown_cover(const glm::vec3& eye) const {
     constexpr float kRange = 15.0F; // m
-    constexpr float kLow = 1.0F;    // m above the eye: tops of crowns that count for nothing
-    constexpr float kHigh = 5.0F;   // and of those that count as a whole
+    constexpr float kLow = 1.0F;    // m above the eye: lower tops of crowns do not count
+    constexpr float kHigh = 5.0F;   // m above the eye: higher tops count in full
     Bounds box;
     box.add(eye - kRange);
     box.add(eye + kRange);
     std::vector<std::uint32_t> numbers;
     find_within(box, numbers);
-    float covered = 0.0F; // area of crowns over pi, m^2
+    float covered = 0.0F; // m^2, weighted area of crowns / pi
     for (const std::uint32_t number : numbers) {
         const LodTree& tree = lod_tree(number);
         const TreeForm& form = model_.forms[tree.form];
@@ -177,7 +177,7 @@ float ForestLod::crown_cover(const glm::vec3& eye) const {
         covered +=
             nearness * std::clamp((top - kLow) / (kHigh - kLow), 0.0F, 1.0F) * radius * radius;
     }
-    constexpr float kMeanNearness = 0.5F; // within the range
+    constexpr float kMeanNearness = 0.5F; // mean of `nearness` within the range
     return 1.0F - std::exp(-covered / (kMeanNearness * kRange * kRange));
 }
 
@@ -215,7 +215,7 @@ void ForestLod::list_whole_trees(std::span<const std::uint32_t> trees,
     }
 }
 
-/// Gives a tree of the forest, in `cell`, another yaw and the form of its new surroundings.
+/// Replaces yaw and form of a tree of the forest in `cell` after its surroundings have changed.
 void ForestLod::turn_tree(std::uint32_t number, const Tree& tree, ForestCell& cell) {
     pool_.forget(number);
     turned_[number] = tree;

@@ -25,27 +25,27 @@ float pixels_of(const Frustum& frustum, const glm::vec3& place, float height) {
     return height * frustum.pixels / std::max(glm::distance(frustum.eye, place), kNearest);
 }
 
-/// Weight of the finer of two LOD bands for a height of `pixels`: 0 up to the `limit` of the
-/// coarser one, 1 from `blend` times the limit on.
+/// Weight of the finer of two LOD bands at a height of `pixels`: 0 up to `limit`, the limit of the
+/// coarser band, and 1 from `blend` * `limit` on.
 float finer_weight(float pixels, float limit, float blend) {
     return blend > 1.0F ? std::clamp((pixels / limit - 1.0F) / (blend - 1.0F), 0.0F, 1.0F) : 1.0F;
 }
 
-/// Fraction of a tree's pixels that are drawn at `distance` from the eye, m: 1 up to four fifths of
-/// `range`, 0 beyond it.
+/// Fraction of a tree's pixels that are drawn at `distance` (m) from the eye: 1 up to four fifths
+/// of `range`, decreasing to 0 at `range`.
 float presence_at(float distance, float range) {
     constexpr float kFading = 0.2F;
     return std::isfinite(range) ? std::clamp((range - distance) / (kFading * range), 0.0F, 1.0F)
                                 : 1.0F;
 }
 
-/// Max displacement by wind, m, of trees whose height and width are at most those of a box.
+/// Max displacement by wind, in m, of trees that are as high and wide as a box, or smaller.
 float sway_within(const glm::vec3& low, const glm::vec3& high, const Sway& sway) {
     const glm::vec3 size = high - low;
     return sway.displacement(size.y, std::max(size.x, size.z));
 }
 
-/// Bounding sphere of a box of trees in the wind.
+/// Bounding sphere of a box of trees, enlarged by their max displacement by wind.
 Sphere swaying_box(const glm::vec3& low, const glm::vec3& high, const Sway& sway) {
     return {0.5F * (low + high), 0.5F * glm::distance(low, high) + sway_within(low, high, sway)};
 }
@@ -153,7 +153,7 @@ Sphere ForestLod::swaying(const Sphere& sphere, const LodTree& tree) const {
 }
 
 Bounds ForestLod::impostor_box(const LodTree& tree, const glm::vec3& eye) const {
-    // Impostors have a margin, and those seen from above lean back: shaders/impostor.glsl.
+    // Impostors have a margin, and impostors seen from above lean back, see shaders/impostor.glsl.
     constexpr float kLevel = 0.15F; // sine of the max elevation of side views of all trees
     const Sphere sphere = impostor_sphere(tree);
     const float wide = kImpostorMargin * sphere.radius;
@@ -170,20 +170,22 @@ bool ForestLod::is_occluded(const Bounds& box, float sway) const {
 }
 
 float ForestLod::cluster_size(const ForestCell& cell, const glm::vec3& eye) const {
-    // Elevations of the pictures and the limits between them: shaders/impostor.vert.glsl.
+    // Elevations of the pictures of clusters, and the limits between them, see
+    // shaders/impostor.vert.glsl.
     constexpr std::array<float, 3> kSines = {0.0F, 0.573576F, 0.965926F};
     constexpr std::array<float, 2> kLimits = {0.300676F, 0.819127F};
     const float away = std::max(glm::distance(eye, cell.middle), kNearest);
     const float sine = std::clamp((eye.y - cell.middle.y) / away, 0.0F, 1.0F);
     const std::size_t picture = sine < kLimits[0] ? 0 : sine < kLimits[1] ? 1 : 2;
-    // Twice the vertical error of trees at the edges, by the elevation of the picture.
+    // Twice the error in height of trees at the edges, in sides of the cell, for the elevation of
+    // the picture.
     const float height_error = std::abs(sine - kSines[picture]);
     // Min height of trees, in sides of the cell. The picture is as wide as the cell, so lower trees
-    // would cover few of its texels.
+    // would cover only few of its texels.
     constexpr float kMinHeight = 1.0F / 6.0F;
-    // Seen from above, the size is about the side of the cell: no cell hides the next one, so the
-    // borders of large pictures would be visible as a grid.
-    constexpr float kSideView = 0.25F; // sine of the elevation
+    // Seen from above, the length is about the side of the cell: no cell hides the next cell, so
+    // the borders of large pictures would be visible as a grid.
+    constexpr float kSideView = 0.25F; // sine of the max elevation of a view from the side
     constexpr float kFootprint = 2.5F;
     const float footprint = kFootprint * (sine - kSideView);
     const float per_side = std::max({height_error, kMinHeight, footprint});
@@ -199,7 +201,7 @@ void ForestLod::visit_cell(std::uint32_t index,
     if (presence <= 0.0F) {
         return;
     }
-    float weight = 1.0F; // weight of single trees against the cluster
+    float weight = 1.0F; // weight of single trees, as opposed to the cluster
     if (cell.count >= kMinClusterTrees && cell.removed == 0 && options.cluster_pixels > 0.0F) {
         const float scale = frustum.pixels / std::max(distance, kNearest); // pixels per metre
         const float pixels = scale * cluster_size(cell, frustum.eye);
@@ -278,9 +280,9 @@ float ForestLod::detail_in_budget(const LodOptions& options) const {
     if (fits(1.0F)) {
         return 1.0F;
     }
-    // Bisection for the largest factor that fits, so that a small move of the camera changes the
-    // level of few trees.
-    float fitting = 0.0F; // at 0 no tree has branches, so it fits
+    // Bisects for the largest factor with which the triangles are within the limit, so that few
+    // trees change their level when the camera moves a little.
+    float fitting = 0.0F; // with 0, no tree has branches
     float excessive = 1.0F;
     for (int step = 0; step < kDetailSteps; ++step) {
         const float middle = 0.5F * (fitting + excessive);
@@ -381,7 +383,7 @@ void ForestLod::list_branches(const Frustum& frustum, const LodOptions& options)
 }
 
 void ForestLod::list_runs() {
-    // Draw finer levels first: their trees are nearer and occlude the others.
+    // Finer levels are drawn first: their trees are nearer, and occlude others.
     std::uint32_t first = 0;
     for (std::uint32_t group = 0; group < kGroups; ++group) {
         const std::uint32_t level = group % kTreeLevels;
@@ -390,7 +392,7 @@ void ForestLod::list_runs() {
             const auto instances = static_cast<std::uint32_t>(form.cache->instances.size());
             for (std::uint32_t i = 0; i < instances; ++i) {
                 std::uint32_t& place = mesh_counts_[first_mesh_[f] + group * instances + i];
-                // `place` becomes the end of the list filled below.
+                // `place` becomes the index after the last entry of the list that is filled below.
                 const std::uint32_t count = std::exchange(place, first);
                 if (count != 0) {
                     lists_.runs.push_back({f, level, i, first, count, group >= kTreeLevels});

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// ForestLod: the trees of a streamed forest, which come and go square by square.
+// ForestLod: the functions for streamed forests, whose trees are added and removed square by
+// square.
 #include "grammar/base/contract.h"
 #include "viewer/scene/forest_square.h"
 
@@ -11,7 +12,7 @@ namespace lsys::view {
 
 namespace {
 
-/// Min number of elements added to trees_ when no free range is long enough.
+/// Min number of elements by which trees_ grows if no free range is long enough.
 constexpr std::size_t kMinAddedTrees = std::size_t{1} << 16U;
 
 void add_box(const glm::vec3& low, const glm::vec3& high, Bounds& box) {

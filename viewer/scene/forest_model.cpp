@@ -14,16 +14,16 @@ namespace lsys::view {
 
 namespace {
 
-/// Min radius of twigs by level, as a fraction of the tree's height.
+/// By level: min radius of twigs, as a fraction of the tree's height.
 constexpr std::array<float, kTreeLevels> kMinTwigRadius = {0.0F, 0.0F, 0.0008F, 0.0016F};
-/// Leaves per shown leaf by level.
+/// By level: one of this many leaves is shown.
 constexpr std::array<std::uint32_t, kTreeLevels> kLeavesPerShownLeaf = {1, 1, 2, 4};
-/// Max impostors of all forms together, unless there are more forms.
+/// Max number of impostors of all forms together; if there are more forms, each has one impostor.
 constexpr std::size_t kMaxTotalImpostors = 16;
-/// Min leaves of an instance for thinning; with fewer, all are shown.
+/// Min number of leaves of an instance for thinning; if there are fewer, all are shown.
 constexpr std::size_t kMinThinnedLeaves = 24;
 
-/// Max impostors of a form.
+/// Max number of impostors of each form, if there are `forms` forms.
 std::size_t max_impostors_of(std::size_t forms) {
     return std::clamp<std::size_t>(kMaxTotalImpostors / std::max<std::size_t>(forms, 1), 1,
                                    kMaxImpostors);
@@ -34,7 +34,7 @@ bool is_leaf(const PlacedObject& object) {
            object.kind == TurtleOperation::Flower;
 }
 
-/// Whether a leaf is shown; a coarser level shows a subset of a finer one.
+/// Whether a leaf is shown. The leaves of a coarser level are a subset of those of a finer level.
 bool is_shown(std::size_t leaf, std::uint32_t leaves_per_shown_leaf) {
     const std::uint64_t mixed = golden_multiple(std::uint64_t{leaf} + 1);
     return (mixed >> 40 & (leaves_per_shown_leaf - 1)) == 0;
@@ -47,7 +47,7 @@ Sphere sphere_around(const Bounds& bounds) {
     return {0.5F * (bounds.low + bounds.high), 0.5F * glm::distance(bounds.low, bounds.high)};
 }
 
-/// Smallest sphere that encloses both.
+/// The smallest sphere that encloses both spheres.
 Sphere joined(const Sphere& a, const Sphere& b) {
     const float distance = glm::distance(a.centre, b.centre);
     if (distance + b.radius <= a.radius) {
@@ -58,10 +58,10 @@ Sphere joined(const Sphere& a, const Sphere& b) {
     }
     const float radius = 0.5F * (distance + a.radius + b.radius);
     return {a.centre + (b.centre - a.centre) * ((radius - a.radius) / distance),
-            radius * 1.0001F}; // covers rounding errors
+            radius * 1.0001F}; // more than rounding errors
 }
 
-/// Finds the first tree whose whole plant is `instance`.
+/// Finds the first tree whose first instance is the whole plant `instance`.
 bool find_impostor(const InstanceCache& cache,
                    std::uint64_t key,
                    std::uint32_t instance,
@@ -95,8 +95,8 @@ void find_impostors(TreeForm& form, std::uint64_t key, std::size_t max_count) {
     }
 }
 
-/// Measures the bounding cylinder and the mean count of branches of form.impostor_trees.
-/// `meshes`: meshes of their branches.
+/// Computes the bounding cylinder of form.impostor_trees and the mean number of their branches.
+/// `meshes`: meshes of the branches.
 void measure_impostors(TreeForm& form, std::uint64_t key, const InstanceMeshes& meshes) {
     const LargeVector<std::uint32_t> indices = meshes.mesh.indices.expanded();
     const LargeVector<glm::vec3>& positions = meshes.mesh.positions;
@@ -122,7 +122,7 @@ void measure_impostors(TreeForm& form, std::uint64_t key, const InstanceMeshes& 
     form.radius = std::sqrt(radius2);
 }
 
-/// Bounding boxes of the triangles of each instance at any level, in the frame of its entry.
+/// By instance: bounding box of its triangles at all levels, in the frame of its entry.
 std::vector<Bounds> bounds_of_levels(const InstanceCache& cache, const TreeMeshes& levels) {
     std::vector<Bounds> all(cache.instances.size());
     for (const InstanceMeshes& level : levels) {
@@ -137,7 +137,7 @@ std::vector<Bounds> bounds_of_levels(const InstanceCache& cache, const TreeMeshe
     return all;
 }
 
-/// Bounding spheres of the boxes `bounds`, by instance. A box is in the frame of its instance's
+/// By instance: bounding sphere of its box in `bounds`. A box is in the frame of the instance's
 /// entry, a sphere in the frame of the heroes.
 std::vector<Sphere> spheres_in_heroes(const InstanceCache& cache,
                                       const std::vector<Bounds>& bounds) {
@@ -236,7 +236,7 @@ std::vector<Sphere> bounding_spheres(const InstanceCache& cache,
                                      const std::vector<Bounds>& bounds) {
     std::vector<Sphere> spheres(cache.slots.size());
     std::vector<bool> known(cache.slots.size());
-    // Depth first: the slot of an exit comes before the instance with the exit.
+    // Depth first: slots at the exits of an instance are handled before the slot of the instance.
     std::vector<std::uint32_t> pending{0};
     std::vector<bool> begun(cache.slots.size());
     while (!pending.empty()) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// ForestModel: geometry of a forest for drawing: the branches of each stage of each species as
-// meshes of several levels of detail, and the sizes of its trees.
+// ForestModel: geometry of a forest for drawing: branches as meshes of several levels of detail,
+// for each stage of each species, and the sizes of its trees.
 #pragma once
 
 #include "runtime/forest/forest.h"
@@ -17,7 +17,7 @@
 namespace lsys::view {
 
 inline constexpr std::uint32_t kTreeLevels = 4; // 0 is the finest
-/// Max impostors of a form.
+/// Max number of impostors of a form.
 inline constexpr std::uint32_t kMaxImpostors = 4;
 
 struct Sphere {
@@ -25,32 +25,33 @@ struct Sphere {
     float radius = 0.0F; // m
 };
 
-/// Meshes by level, finest first.
+/// Meshes by level; the finest comes first.
 using TreeMeshes = std::array<InstanceMeshes, kTreeLevels>;
 
-/// Plants of one species with one number of generations. Lengths are for a tree of scale 1.
+/// The drawn plants of one stage of a species. Lengths are those of a tree of scale 1.
 struct TreeForm {
     const InstanceCache* cache = nullptr;
     std::shared_ptr<const TreeMeshes> meshes; // may be released after upload
     std::array<std::vector<std::uint32_t>, kTreeLevels> mesh_triangles; // by level and instance
-    /// Bounding spheres of the triangles of each instance at any level, in the hero's frame; radius
-    /// below 0: no triangles.
+    /// By instance: bounding sphere of its triangles at all levels, in the frame of the hero; with
+    /// a radius below 0 if there are no triangles.
     std::vector<Sphere> mesh_spheres;
-    std::array<double, kTreeLevels> triangles{}; // per tree by level, mean over impostor_trees
-    double branches = 0.0;                       // per tree, mean over impostor_trees
-    /// Bounding sphere of every possible tree at yaw 0.
+    std::array<double, kTreeLevels> triangles{}; // by level: mean per tree of impostor_trees
+    double branches = 0.0;                       // mean per tree of impostor_trees
+    /// Bounding sphere of all trees that can be assembled, at yaw 0.
     Sphere sphere;
-    /// Cylinder around +Y that bounds impostor_trees, m.
+    /// Bounding cylinder of impostor_trees around +Y, m.
     float radius = 0.0F;
     float low = 0.0F;
     float high = 0.0F;
-    /// One tree per impostor, at the origin with yaw 0 and scale 1. It represents all trees whose
-    /// first branch comes from the same hero.
+    /// One tree for each impostor, at the origin, with yaw 0 and scale 1. Its impostor is used for
+    /// all trees whose first instance is the same hero.
     std::vector<Tree> impostor_trees;
-    std::vector<std::uint32_t> impostor_of; // impostor by instance of a whole plant; 0 for others
+    std::vector<std::uint32_t> impostor_of; // by instance: impostor of a whole plant; else 0
 
     [[nodiscard]] float height() const { return high - low; }
-    /// triangles[level], rounded: sums over trees do not depend on their order.
+    /// triangles[level], rounded to an integer, so that sums over trees do not depend on their
+    /// order.
     [[nodiscard]] std::uint32_t triangle_count(std::uint32_t level) const {
         return static_cast<std::uint32_t>(std::lround(triangles[level]));
     }
@@ -62,10 +63,10 @@ struct ForestModel {
     const Forest* forest = nullptr;
     const Terrain* terrain = nullptr;
     GroundPictures ground; // pictures of the terrain
-    /// Set for a streamed forest, whose Forest::trees is empty; null for other forests.
+    /// The parts of a streamed forest, whose Forest::trees is empty; null for other forests.
     std::shared_ptr<const StreamedTrees> streamed;
     std::vector<TreeForm> forms;
-    // Index in `forms` of the first stage of each species; its other stages follow.
+    // By species: index in `forms` of its first stage. Its other stages follow.
     std::vector<std::uint32_t> first_form;
 
     [[nodiscard]] std::uint32_t form_of(const Tree& tree) const {
@@ -74,18 +75,19 @@ struct ForestModel {
     [[nodiscard]] std::uint64_t mesh_bytes() const;
 };
 
-/// An earlier model whose meshes may be reused.
+/// An earlier model, whose meshes may be reused.
 struct KnownModel {
     const ForestModel* model = nullptr;
-    std::uint64_t key = 0; // key of its forest
+    std::uint64_t key = 0; // key of the earlier forest
     MeshOptions options;
-    /// For each species of the new forest: the species of `model` with the same heroes, if any.
+    /// By species of the new forest: the species of `model` that has the same heroes; nullopt: none
+    /// has.
     std::vector<std::optional<std::size_t>> species;
 };
 
-/// Builds the model and reuses meshes of `known`. `user_meshes`: by species. `options.level`: mesh
-/// level of the finest tree level. Forest and terrain must outlive the model. Returns the reason if
-/// it was stopped, as make_instance_meshes() does.
+/// Builds the model; reuses meshes of `known`. `user_meshes`: by species. `options.level`: level of
+/// the meshes in the finest level of trees. Forest and terrain must outlive the model. Returns the
+/// reason if making the model was stopped, as make_instance_meshes() does.
 [[nodiscard]] std::optional<Stop>
 make_forest_model(const Forest& forest,
                   const Terrain& terrain,
@@ -94,16 +96,16 @@ make_forest_model(const Forest& forest,
                   ForestModel& model,
                   const KnownModel& known = {});
 
-/// Heroes of a cache at a coarser `level`: without thin twigs, and with fewer but larger leaves,
-/// which are at most twice as long. `height`: of a tree, m.
+/// The heroes of a cache at a coarser `level`: without thin twigs, and with fewer leaves, which are
+/// larger but at most twice as long. `height`: height of a tree in m.
 [[nodiscard]] InstanceCache
 coarsened(const InstanceCache& cache, std::uint32_t level, float height);
 
-/// Bounding box of the triangles of each instance, in the frame of its entry.
+/// By instance: bounding box of its triangles, in the frame of its entry.
 [[nodiscard]] std::vector<Bounds> bounds_of(const InstanceCache& cache,
                                             const InstanceMeshes& meshes);
-/// Bounding sphere, by slot, of every branch that can fill it, in the frame of its entry. `bounds`:
-/// by instance.
+/// By slot: bounding sphere of all branches that can fill the slot, in the frame of their entry.
+/// `bounds`: by instance, see bounds_of().
 [[nodiscard]] std::vector<Sphere> bounding_spheres(const InstanceCache& cache,
                                                    const std::vector<Bounds>& bounds);
 

@@ -30,14 +30,14 @@ WantedSquares
 ForestStream::wanted(const Camera& camera, float ground, std::uint32_t picture_height) const {
     const glm::dvec3 eye = eye_of(camera);
     const double above = std::max(eye.y - static_cast<double>(ground), 0.0);
-    const double pixels_per_slope = // height in pixels of an object as high as it is far away
+    const double pixels_per_slope = // pixels of height / (height / distance)
         0.5 * picture_height /
         std::tan(0.5 * glm::radians(static_cast<double>(camera.field_of_view)));
     const double reach =
         static_cast<double>(tallest_) * pixels_per_slope / static_cast<double>(kMinStreamedPixels);
     const double usable = kWantedPart * static_cast<double>(max_bytes_);
-    // The search ends at this distance: a circle of this radius exceeds the budget even if all its
-    // squares are empty.
+    // The search for squares ends at this distance, because a circle of this radius exceeds the
+    // budget even if all its squares are empty.
     const double empty_bytes = static_cast<double>(layout_.cell_count() * kBytesPerStreamedCell);
     const double most = std::sqrt(usable / empty_bytes) * layout_.side;
     const double away = std::min(reach, std::hypot(most, above));

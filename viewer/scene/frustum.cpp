@@ -12,8 +12,8 @@ Frustum make_frustum(const Camera& camera, std::uint32_t width, std::uint32_t he
     const float tangent = std::tan(0.5F * glm::radians(camera.field_of_view));
     const float aspect = static_cast<float>(width) / static_cast<float>(height);
     const glm::vec3 along = forward_of(camera);
-    // Axes from view_matrix() and not from cross products with +Y, which is parallel to the view when
-    // the camera looks straight up or down.
+    // The axes come from view_matrix() and not from cross products with +Y, because +Y is parallel
+    // to the view when the camera looks straight up or down.
     const glm::mat4 view = view_matrix(camera);
     const glm::vec3 across(view[0][0], view[1][0], view[2][0]);
     const glm::vec3 up(view[0][1], view[1][1], view[2][1]);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Frustum: the part of the world that a camera sees.
+// Frustum: the part of the world that is visible for a camera.
 #pragma once
 
 #include "viewer/scene/camera.h"
@@ -12,11 +12,11 @@
 
 namespace lsys::view {
 
-/// Planes around the view; there is no far plane.
+/// Planes that bound the visible part; there is no far plane.
 struct Frustum {
     std::array<glm::vec4, 5> planes{}; // unit normals, pointing inward
     glm::vec3 eye{};
-    float pixels = 1.0F; // projected height of an object whose height is its distance
+    float pixels = 1.0F; // height in pixels of an object as high as it is far away
 
     [[nodiscard]] bool intersects(const Sphere& sphere) const {
         for (const glm::vec4& plane : planes) {

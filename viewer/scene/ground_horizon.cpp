@@ -14,13 +14,13 @@ namespace lsys::view {
 namespace {
 
 constexpr float kTurn = 2.0F * std::numbers::pi_v<float>;
-constexpr float kFirst = 2.0F; // m: nearer ground occludes nothing
+constexpr float kFirst = 2.0F; // m; nearer ground counts as occluding nothing
 constexpr float kRatio = 1.06F;
-/// Added to slopes: covers the error of approximating the arc between two directions by a straight
-/// line between its ends.
+/// Added to slopes. Covers the error of replacing the arc between two directions by a straight line
+/// between its ends.
 constexpr float kMargin = 5e-4F;
 
-/// Index of the step at a distance, m, as a real number.
+/// Number of the step at a distance in m, as a real number.
 float steps_to(float distance) {
     return std::log(distance / kFirst) / std::log(kRatio);
 }
@@ -46,7 +46,7 @@ std::vector<float> GroundHorizon::rays() {
 }
 
 void GroundHorizon::set_viewpoint(const TerrainLod& ground, const glm::vec3& eye) {
-    // Seen from below, the ground is invisible and occludes nothing.
+    // For an eye below the ground, the ground is invisible and occludes nothing.
     ground_ = ground.eye_height() > 0.0F ? &ground : nullptr;
     eye_ = eye;
     steps_ = distance_count(ground);
@@ -71,8 +71,8 @@ float GroundHorizon::min_between(std::uint32_t sector, float distance) const {
     };
     const glm::vec2 first = at(sector);
     const glm::vec2 last = at(sector + 1);
-    // All grid corners between the two points, and one more on each side, since vertices morph to
-    // their neighbours.
+    // Takes all grid corners between the two points and one more on each side, because vertices
+    // morph towards their neighbours.
     const glm::ivec2 low = glm::ivec2(glm::floor(glm::min(first, last))) - 1;
     const glm::ivec2 high = glm::ivec2(glm::floor(glm::max(first, last))) + 2;
     const HeightGrid& grid = ground_->grid(level);
@@ -112,7 +112,7 @@ bool GroundHorizon::occludes(const glm::vec3& low, const glm::vec3& high) {
         return false;
     }
     const glm::vec2 middle = 0.5F * glm::vec2(low.x + high.x, low.z + high.z) - eye;
-    float left = 0.0F; // angles of the corners from the middle
+    float left = 0.0F; // angles of the outermost corners, from the middle
     float right = 0.0F;
     float farthest = 0.0F;
     for (const float x : {low.x, high.x}) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// GroundHorizon: occlusion by the ground. Stores, for directions around the eye, how steeply the
-// drawn ground rises up to each distance. Conservative: everything it reports as hidden is
+// GroundHorizon: occlusion by the ground. Stores, for each direction from the eye, how steeply the
+// drawn ground rises up to each distance. Conservative: all that it reports as occluded is
 // invisible. No OpenGL.
 #pragma once
 
@@ -15,23 +15,24 @@ namespace lsys::view {
 
 class GroundHorizon {
 public:
-    /// Prepares for the eye that `ground` was selected for; discards earlier results.
+    /// Prepares for the eye for which `ground` was selected; discards the results for earlier eyes.
     void set_viewpoint(const TerrainLod& ground, const glm::vec3& eye);
-    /// Whether the ground occludes a whole box, m.
+    /// Whether the ground occludes a whole box. `low`, `high`: m.
     [[nodiscard]] bool occludes(const glm::vec3& low, const glm::vec3& high);
 
-    /// Directions around the eye, and max distances; also in shaders/culling_horizon*.glsl.
+    /// Number of directions around the eye, and max number of distances; also in
+    /// shaders/culling_horizon*.glsl.
     static constexpr std::uint32_t kDirections = 512;
     static constexpr std::uint32_t kMaxDistances = 256;
-    /// Count of distances up to the range of the drawn ground.
+    /// Number of distances up to the range of the drawn ground.
     [[nodiscard]] static std::uint32_t distance_count(const TerrainLod& ground);
-    /// kMaxDistances distances, m, then sine and cosine of the kDirections + 1 angles that bound
-    /// the directions.
+    /// The kMaxDistances distances in m, then sine and cosine of the kDirections + 1 angles that
+    /// bound the directions.
     [[nodiscard]] static std::vector<float> rays();
 
 private:
-    /// Steepest slope (rise / distance) of the ground between two directions, up to each distance:
-    /// the ground occludes everything behind it below that slope.
+    /// Steepest slope (rise / distance) of the ground between two directions, up to each distance.
+    /// The ground occludes all that lies behind it and below this slope.
     struct Sector {
         bool known = false;
         std::vector<float> slopes; // by step

@@ -11,7 +11,7 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-/// Clips [begin, end] to the part where origin + t * direction lies in [low, high].
+/// Clips [begin, end] to the range of t for which origin + t * direction is in [low, high].
 bool clip_axis(
     double origin, double direction, double low, double high, double& begin, double& end) {
     if (direction == 0.0) {
@@ -21,7 +21,7 @@ bool clip_axis(
     const double b = (high - origin) / direction;
     begin = std::max(begin, std::min(a, b));
     end = std::min(end, std::max(a, b));
-    // Tolerance: a border belongs to the squares on both sides, whatever the rounding.
+    // With this tolerance a border belongs to the squares on both sides, however it is rounded.
     const double slack = 1e-12 * (std::abs(begin) + std::abs(end));
     return begin <= end + slack;
 }
@@ -70,8 +70,8 @@ double HeightField::height_at(std::uint32_t column, std::uint32_t row) const {
     return static_cast<double>(heights_[std::size_t{row} * (columns_ + 1) + column]);
 }
 
-/// The part of the ray over a square; nullopt if the ray passes beside the square or above its max
-/// height.
+/// The range of ray parameters over a square; nullopt if the ray passes beside the square, or above
+/// the max height of the square.
 std::optional<HeightField::Span> HeightField::clip(const Ray& ray,
                                                    std::uint32_t level,
                                                    std::uint32_t column,
@@ -102,8 +102,8 @@ std::optional<HeightField::Span> HeightField::clip(const Ray& ray,
     return span;
 }
 
-/// Intersects the ray with the two triangles of a cell. The height of the ray above a triangle is
-/// linear along the ray.
+/// Intersects the ray with the two triangles of a cell. The height of the ray above a triangle is a
+/// linear function of the ray parameter.
 std::optional<double> HeightField::pick_in_cell(const Ray& ray,
                                                 const Span& span,
                                                 std::uint32_t column,
@@ -128,7 +128,7 @@ std::optional<double> HeightField::pick_in_cell(const Ray& ray,
     if (height <= 0.0) {
         return begin;
     }
-    if (std::isinf(span.end)) { // vertical ray
+    if (std::isinf(span.end)) { // the ray is vertical
         return ray.direction.y < 0.0 ? std::optional(begin - height / ray.direction.y)
                                      : std::nullopt;
     }
@@ -170,13 +170,13 @@ std::optional<glm::dvec3> HeightField::pick(const Ray& ray) const {
             }
             continue;
         }
-        // Push the four children of the square in reverse order, so that the nearest is popped
-        // first.
+        // Pushes the four children of the square in reverse order, so that the nearest child is
+        // popped first.
         const Level& finer = levels_[square.level - 1];
         const std::uint32_t near_column = ray.direction.x < 0.0 ? 1 : 0;
         const std::uint32_t near_row = ray.direction.z < 0.0 ? 1 : 0;
-        // The order of the two children next to the nearest one is irrelevant: a ray meets only one
-        // of them, or both at the corner shared by all four.
+        // The two children beside the nearest child may be visited in any order: a ray meets only
+        // one of them, or meets both at the corner that all four children share.
         for (const std::uint32_t which : {3U, 2U, 1U, 0U}) {
             const Square child{square.level - 1, 2 * square.column + (near_column ^ (which & 1U)),
                                2 * square.row + (near_row ^ (which >> 1U))};

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// HeightField: grid of ground heights for ray casting. A cell is two triangles, split along the
-// diagonal from its lowest x and z. A pyramid of max heights skips cells below the ray (Tevs, Ihrke
-// and Seidel 2008, "Maximum mipmaps"): no ridge is missed, and the time grows with the logarithm of
-// the grid.
+// HeightField: a grid of ground heights for ray casting. A cell consists of two triangles, split
+// along the diagonal from the corner of lowest x and z. A pyramid of max heights skips cells that
+// lie below the ray (Tevs, Ihrke and Seidel 2008, "Maximum mipmaps"): no ridge is missed, and time
+// grows with the logarithm of the size of the grid.
 #pragma once
 
 #include "runtime/terrain/region.h"
@@ -24,16 +24,16 @@ struct Ray {
 
 class HeightField {
 public:
-    /// Samples the region of the terrain in columns x rows cells, at least 1 each.
+    /// Samples the terrain's region in `columns` by `rows` cells, at least 1 each.
     HeightField(const Terrain& terrain, std::uint32_t columns, std::uint32_t rows);
 
     [[nodiscard]] std::uint32_t columns() const { return columns_; }
     [[nodiscard]] std::uint32_t rows() const { return rows_; }
-    /// Heights, m: rows() + 1 rows of columns() + 1 heights.
+    /// Heights in m, in rows() + 1 rows of columns() + 1 heights.
     [[nodiscard]] std::span<const float> heights() const { return heights_; }
 
-    /// First point of the ray on the ground or below it; nullopt if the ray passes over or beside
-    /// it.
+    /// First point of the ray that is on the ground or below it; nullopt if the ray passes over the
+    /// ground or beside it.
     [[nodiscard]] std::optional<glm::dvec3> pick(const Ray& ray) const;
 
 private:
@@ -49,7 +49,7 @@ private:
     pick_in_cell(const Ray& ray, const Span& span, std::uint32_t column, std::uint32_t row) const;
 
     /// Max heights of squares of cells. Each level has half the columns and half the rows of the
-    /// one before, rounded up.
+    /// level before it, rounded up.
     struct Level {
         std::uint32_t columns = 0;
         std::uint32_t rows = 0;
@@ -62,7 +62,7 @@ private:
     double step_x_; // m between samples
     double step_z_;
     std::vector<float> heights_;
-    std::vector<Level> levels_; // from a square per cell to one square
+    std::vector<Level> levels_; // first one square per cell, at last one square
 };
 
 } // namespace lsys::view

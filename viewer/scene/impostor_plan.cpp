@@ -11,13 +11,13 @@ namespace lsys::view {
 
 namespace {
 
-/// Finest level of branches in impostors; a form with more than kMaxTriangles per tree gets a
-/// coarser level.
+/// Finest level of branches that impostors show; a form whose trees have more than kMaxTriangles
+/// gets a coarser level.
 constexpr std::uint32_t kFinestLevel = 1;
 constexpr double kMaxTriangles = 70'000.0;
-constexpr std::uint32_t kClusterRow = 4; // trees along a side of a cluster
+constexpr std::uint32_t kClusterRow = 4; // number of trees along a side of a cluster
 
-/// Deterministic number from 0 to 1.
+/// A number from 0 to 1 that a hash of `a` and `b` determines.
 float random_unit(std::uint32_t a, std::uint32_t b) {
     return unit_float(lattice32(a, b));
 }

@@ -92,7 +92,7 @@ std::vector<std::uint8_t> with_coverage(const ImpostorTexels& picture, double wa
     for (std::size_t i = 0; i < texels; ++i) {
         ++counts[picture.albedos[4 * i + 3]];
     }
-    // Find the lowest opacity among the texels that stay opaque.
+    // Finds the lowest opacity among the texels that stay opaque.
     std::size_t opaque_count = 0;
     unsigned min_opacity = 255;
     while (min_opacity > 1 && static_cast<double>(opaque_count + counts[min_opacity]) <

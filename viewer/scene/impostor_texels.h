@@ -14,34 +14,34 @@ namespace lsys::view {
 struct ImpostorTexels {
     std::uint32_t width = 0;
     std::uint32_t height = 0;
-    std::vector<std::uint8_t> albedos; // square roots of linear RGB; opacity
+    std::vector<std::uint8_t> albedos; // square root of linear RGB; opacity
     std::vector<std::uint8_t> normals; // normal in two channels, depth, translucency
 };
 
-/// Next mip level; texels are weighted by opacity.
+/// The next mip level; texels are means weighted by opacity.
 [[nodiscard]] ImpostorTexels halved(const ImpostorTexels& from);
 
-/// Fills empty texels with the colours of their neighbours, so that texture filters do not mix in
-/// the colour of empty texels.
+/// Gives empty texels the colours of their neighbours, so that texture filters do not mix the
+/// colour of empty texels into others.
 void dilate(ImpostorTexels& picture, std::uint32_t rounds);
 
-/// Mean opacity.
+/// Mean opacity of all texels.
 [[nodiscard]] double coverage_of(const ImpostorTexels& picture);
 
-/// Opacities scaled so that the fraction `wanted` of the texels is opaque at this mip level;
-/// otherwise trees thin out with distance (Castano 2010, "Computing Alpha Mipmaps").
+/// Opacities, scaled so that the fraction `wanted` of the texels is opaque at this mip level.
+/// Otherwise trees would thin out at a distance (Castano 2010, "Computing Alpha Mipmaps").
 [[nodiscard]] std::vector<std::uint8_t> with_coverage(const ImpostorTexels& picture, double wanted);
 
 /// A square of texels.
 struct Tile {
-    std::uint32_t x = 0; // of the corner with the lowest coordinates
+    std::uint32_t x = 0; // of the corner with the lowest coordinates, in texels
     std::uint32_t y = 0;
     std::uint32_t side = 0;
 };
 
-/// Bounding box of the opaque texels of a tile, grown by `margin` texels within the tile: min x,
-/// min y, max x, max y as fractions of its side. All 0 without opaque texels. `picture`: RGBA
-/// texels in rows of `width`.
+/// Bounding box of the opaque texels of a tile, enlarged by `margin` texels within the tile. As min
+/// x, min y, max x, max y in sides of the tile; all 0 if no texel is opaque. `picture`: RGBA texels
+/// in rows of `width`.
 [[nodiscard]] glm::vec4 opaque_box(std::span<const std::uint8_t> picture,
                                    std::uint32_t width,
                                    const Tile& tile,

@@ -14,7 +14,7 @@ using Colour = std::array<std::uint8_t, 4>;
 
 constexpr Colour kJump = {150, 150, 150, 255};
 
-/// Colour from blue (0) through green and yellow to red (1).
+/// Colour of a ramp from blue (0) through green and yellow to red (1).
 Colour ramp(float at) {
     const float hue = 0.2F + 0.65F * at;
     const auto channel = [hue](float middle) {
@@ -61,8 +61,8 @@ void add_skeleton(const Skeleton& skeleton, LineMaker& lines) {
     }
 }
 
-/// Adds jumps before segments: later lines cover earlier ones, and a jump back along a branch would
-/// cover the branch.
+/// Adds the jumps of the turtle before its segments: later lines cover earlier lines, and a jump
+/// back along a branch would cover the branch.
 void add_path(const Skeleton& skeleton, LineMaker& lines) {
     glm::vec3 at{0.0F};
     for (const Segment& segment : skeleton.segments) {

@@ -14,8 +14,8 @@ namespace lsys::view {
 
 enum class LineKind : std::uint8_t {
     None,
-    Skeleton,   // segments coloured by branching order; outlines of polygons
-    TurtlePath, // segments coloured by time; jumps of the turtle in grey
+    Skeleton,   // segments, coloured by branching order; outlines of polygons
+    TurtlePath, // segments, coloured by time; jumps of the turtle in grey
 };
 
 struct LineVertex {
@@ -23,7 +23,7 @@ struct LineVertex {
     std::array<std::uint8_t, 4> colour{}; // sRGB
 };
 
-/// Two vertices per line.
+/// Makes the lines: two vertices for each line.
 [[nodiscard]] std::vector<LineVertex> make_lines(const Skeleton& skeleton, LineKind kind);
 
 } // namespace lsys::view

@@ -15,12 +15,13 @@ namespace {
 
 constexpr std::uint32_t kMaxCells = std::uint32_t{1} << 22;
 constexpr std::uint32_t kPaintGeneration =
-    0x5041494EU; // makes these random numbers independent of those of placements
-// Random places tried per tree that still fits into the brush; max places tried per call.
+    0x5041494EU; // differs from the numbers by which placements draw
+// Number of random places that are tried per tree that still fits into the brush; max number of
+// places tried per call.
 constexpr double kTries = 4.0;
 constexpr double kMaxTries = 20'000.0;
-// Max density times d^2 of trees placed at random at least d apart: the jamming limit of discs is
-// 0.547 of the area (Feder 1980), and 0.547 * 4 / pi = 0.696.
+// Max density * d^2 of trees that are placed at random, at least d apart. The jamming limit of
+// discs is 0.547 of the area (Feder 1980), and 0.547 * 4 / pi = 0.696.
 constexpr float kJammed = 0.696F;
 
 } // namespace
@@ -31,7 +32,7 @@ Painter::Painter(std::span<const Tree> placed,
                  const Terrain& terrain,
                  std::uint64_t key)
     : placed_(placed), region_(region), terrain_(&terrain), key_(key) {
-    // About two trees per square.
+    // Makes about one square per two trees.
     const double wanted = std::clamp(static_cast<double>(placed.size()) / 2.0, 1024.0,
                                      static_cast<double>(kMaxCells) / 2.0);
     cell_ = static_cast<float>(std::sqrt(region.area() / wanted));
@@ -103,8 +104,8 @@ std::uint32_t Painter::cell_of(float x, float z) const {
            index(static_cast<double>(x) - region_.x, columns_);
 }
 
-/// Calls `visit(index)` for living trees nearer than `radius` until `visit` returns true; returns
-/// whether it returned true.
+/// Calls `visit(index)` for living trees nearer than `radius` to (x, z), until `visit` returns
+/// true. Returns whether it returned true.
 template <typename Visit>
 bool Painter::any_near(float x, float z, float radius, const Visit& visit) const {
     const std::uint32_t low = cell_of(x - radius, z - radius);
@@ -149,10 +150,10 @@ std::span<const std::uint32_t> Painter::sense_around(std::span<const TreeChange>
         return sensed_;
     }
     const std::vector<double> scales(kinds.species.size(), static_cast<double>(max_scale_));
-    // A border of a centimetre, because any_near() excludes its radius.
+    // One centimetre is added, because any_near() excludes trees at the distance `radius`.
     const auto reach = static_cast<float>(reach_of_surroundings(kinds, scales)) + 0.01F;
     std::vector<std::uint32_t> affected;
-    std::vector<std::uint32_t> around; // neighbours of affected trees, and the trees themselves
+    std::vector<std::uint32_t> around; // affected trees and their neighbours
     const auto collect_near = [&](std::uint32_t index, std::vector<std::uint32_t>& found) {
         const glm::vec3& at = tree(index).position;
         any_near(at.x, at.z, reach, [&](std::uint32_t near) {
@@ -203,7 +204,7 @@ void Painter::record(std::uint32_t index, bool alive) {
     changes_.push_back(log_.back());
 }
 
-/// Adds a painted tree that is not alive yet.
+/// Adds a painted tree that no stroke has added yet.
 void Painter::add(const PaintedTree& paint) {
     const std::uint32_t cell = cell_of(paint.x, paint.z);
     paints_.push_back(paint);
@@ -214,8 +215,8 @@ void Painter::add(const PaintedTree& paint) {
     painted_alive_.push_back(0);
 }
 
-/// Drops undone strokes, so that redo() no longer restores them, and the trees that only they
-/// added.
+/// Drops undone strokes, which redo() can then no longer repeat, and the trees that only these
+/// strokes have added.
 void Painter::forget_undone() {
     if (done_ == strokes_.size()) {
         return;
@@ -226,7 +227,7 @@ void Painter::forget_undone() {
     const std::size_t first = strokes_[done_].first;
     std::size_t kept = painted_.size();
     for (std::size_t i = first; i < log_.size(); ++i) {
-        if (log_[i].alive) { // the first log entry of a painted tree adds it
+        if (log_[i].alive) { // the first entry of a painted tree adds it
             kept = std::min<std::size_t>(kept, log_[i].index - placed_.size());
         }
     }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Painter: adds and removes trees by hand, with undo and redo. Cost grows with the changed trees,
-// not with the forest.
+// Painter: adds and removes trees by hand, with undo and redo. Time depends on the number of
+// changed trees, not on the size of the forest.
 #pragma once
 
 #include "runtime/base/large_vector.h"
@@ -27,25 +27,26 @@ struct Brush {
 
 /// A tree that was added or removed.
 struct TreeChange {
-    std::uint32_t index = 0; // of Painter::tree()
+    std::uint32_t index = 0; // index for Painter::tree()
     bool alive = false;
 };
 
 class Painter {
 public:
-    /// `placed` and `terrain` must exist and stay unchanged until the next move_to() or the
-    /// painter's end. `painting`: earlier changes; its erased trees start removed. `key`: of the
-    /// forest.
+    /// `placed` and `terrain` must stay valid and unchanged until the next move_to(), or as long as
+    /// the painter. `painting`: earlier changes; the trees that it erases are removed at the start.
+    /// `key`: key of the forest.
     Painter(std::span<const Tree> placed,
             const Painting& painting,
             const Region& region,
             const Terrain& terrain,
             std::uint64_t key);
-    /// Continues with equal trees and ground at other addresses. Returns false, without effect, if
-    /// they differ.
+    /// Continues with trees and ground that are equal, but stored elsewhere. Returns false, without
+    /// any effect, if they are not equal.
     [[nodiscard]] bool move_to(std::span<const Tree> placed, const Terrain& terrain);
 
-    /// Count of placed trees, which have the first indices, and of all trees ever painted.
+    /// Number of placed trees, which have the first indices; and number of these and all trees ever
+    /// painted.
     [[nodiscard]] std::uint32_t tree_count() const {
         return static_cast<std::uint32_t>(placed_.size() + painted_.size());
     }
@@ -64,39 +65,40 @@ public:
 
     /// Begins a stroke; undo() takes back whole strokes.
     void begin_stroke();
-    /// Fills the brush up to its density, within the region. Trees keep the distance that the
-    /// density implies. The result is valid until the next call.
+    /// Adds trees within the brush and the region until the density of the brush is reached. Trees
+    /// keep the min distance that the density implies. The result is valid until the next call.
     std::span<const TreeChange> paint(float x, float z, const Brush& brush);
-    /// Plants one tree with the brush's species and scales, unless a tree stands there or the place
-    /// is outside the region.
+    /// Adds one tree with the species and scales of the brush, unless there is a tree at the place,
+    /// or the place is outside of the region.
     std::span<const TreeChange> plant(float x, float z, const Brush& brush);
     /// Removes all trees under the brush.
     std::span<const TreeChange> erase(float x, float z, float radius);
 
     [[nodiscard]] bool can_undo() const { return done_ != 0; }
     [[nodiscard]] bool can_redo() const { return done_ != strokes_.size(); }
-    /// Takes back the last stroke; does nothing without one.
+    /// Undoes the last stroke; does nothing if there is none.
     std::span<const TreeChange> undo();
     std::span<const TreeChange> redo();
 
-    /// Senses the surroundings of the living trees around the changed ones again. Returns the
-    /// indices of the trees that have new surroundings or another yaw. `kinds`: the species of the
-    /// trees. The result is valid until the next call.
+    /// Senses the surroundings of the living trees around the changed trees again. Returns the
+    /// indices of the trees that have got new surroundings or another yaw. `kinds`: forest with the
+    /// species of the trees. The result is valid until the next call.
     std::span<const std::uint32_t> sense_around(std::span<const TreeChange> changes,
                                                 const Forest& kinds);
 
-    /// All changes, as a scene file stores them.
+    /// All changes, in the form that a scene file stores.
     [[nodiscard]] Painting painting() const;
-    /// Whether painting() differs from its value at the last mark_saved(), or at the start.
+    /// Whether painting() differs from its value at the last mark_saved() or, without one, at the
+    /// start.
     [[nodiscard]] bool is_changed() const { return done_ != saved_; }
     /// Marks painting() as saved.
     void mark_saved() { saved_ = done_; }
-    /// Marks the initial painting as not saved.
+    /// Marks the painting with which the painter was made as not saved.
     void set_unsaved() { saved_ = kNone; }
 
 private:
     static constexpr std::uint32_t kNone = 0xFFFFFFFFu;
-    /// Changes from index `first` up to the first one of the next stroke.
+    /// Entries of a stroke: from index `first` up to the first entry of the next stroke.
     struct Stroke {
         std::size_t first = 0;
     };
@@ -123,12 +125,12 @@ private:
     LargeVector<std::uint8_t> placed_alive_;
     LargeVector<std::uint8_t> painted_alive_;
     std::uint64_t alive_count_ = 0;
-    float max_scale_ = 0.0F; // of all trees, removed ones included
-    // Erased trees of the painting whose numbers do not occur in `placed`.
+    float max_scale_ = 0.0F; // of all trees, including removed ones
+    // Erased trees of the painting whose numbers no tree of `placed` has.
     std::vector<std::uint32_t> erased_before_;
     std::uint64_t draws_ = 0; // count of random numbers used
 
-    // Trees by square of the ground: placed ones in ranges, painted ones in linked lists.
+    // Trees by square of the ground: placed trees in ranges, painted trees in linked lists.
     float cell_ = 1.0F; // m
     std::uint32_t columns_ = 1;
     std::uint32_t rows_ = 1;
@@ -139,8 +141,8 @@ private:
 
     std::vector<TreeChange> log_;
     std::vector<Stroke> strokes_;
-    std::size_t done_ = 0;  // count of strokes that are not undone
-    std::size_t saved_ = 0; // done_ when last saved; kNone: that state is gone
+    std::size_t done_ = 0;  // number of strokes that are not undone
+    std::size_t saved_ = 0; // done_ when last saved; kNone: that state cannot return
     std::vector<TreeChange> changes_;
     std::vector<std::uint32_t> sensed_; // result of sense_around()
 };

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// SenseDrawing: what a plant senses as coloured triangles, lines and points. Drawn by viewer/gl
-// within the picture: the plant hides what lies behind it.
+// SenseDrawing: what a plant senses, as coloured triangles, lines and points. viewer/gl draws it
+// within the picture, so that the plant hides what is behind it.
 #pragma once
 
 #include "viewer/scene/lines.h"
@@ -17,17 +17,17 @@ enum class SensePrimitive : std::uint8_t {
     Points, // discs of `diameter`
 };
 
-/// Vertices of one kind, next to each other.
+/// Consecutive vertices of one kind.
 struct SenseGroup {
     SensePrimitive primitive = SensePrimitive::Triangles;
-    std::size_t first = 0; // in SenseDrawing::vertices
+    std::size_t first = 0; // index in SenseDrawing::vertices
     std::size_t count = 0;
-    float diameter = 0.0F; // m, of points
+    float diameter = 0.0F; // m, diameter of points
 };
 
 struct SenseDrawing {
     std::vector<LineVertex> vertices;
-    std::vector<SenseGroup> groups; // in the order in which they are drawn: triangles last
+    std::vector<SenseGroup> groups; // in the order of drawing: triangles are last
 };
 
 } // namespace lsys::view

@@ -14,13 +14,14 @@ namespace lsys::view {
 namespace {
 
 constexpr std::int32_t kNodeCells = 2 * static_cast<std::int32_t>(kPatchCells);
-constexpr float kNearestRange = 34.0F; // m, of level 0
-// No gaps between levels: vertices of the finer level finish their morph at its range. Vertices of
-// the coarser level begin theirs beyond the farthest corner of a node that touches that range,
-// since 0.85 * 2 * 34 >= 34 + sqrt(2) * 16.
+constexpr float kNearestRange = 34.0F; // m, range of level 0
+// Fraction of the range of a level at which its vertices begin to morph. Levels have no gaps
+// between them: vertices of the finer level end their morph at the range of their level, and
+// vertices of the coarser level begin theirs beyond the farthest corner of a node that touches this
+// range, because 0.85 * 2 * 34 >= 34 + sqrt(2) * 16.
 constexpr float kMorphStart = 0.85F;
-// Texels by which the height grid moves at once when it follows the camera, so that it is seldom
-// rebuilt.
+// Number of texels by which the height grid is moved when it follows the camera. It moves in large
+// steps, so that it is seldom rebuilt.
 constexpr std::int64_t kGridStep = 16;
 constexpr std::uint64_t kRowsPerPiece = 16;
 
@@ -67,7 +68,7 @@ void TerrainLod::make_grid(std::uint32_t level, const glm::vec3& eye) {
     if (grid.is_valid && grid.origin == origin) {
         return;
     }
-    // Texels of the previous grid keep their values, so that few heights are computed while the
+    // Heights that the previous grid has are copied, so that few heights are computed while the
     // camera moves slowly.
     const HeightGrid before = std::exchange(grid, {});
     const bool has_cover = cover_ && level >= kFirstCoverLevel;
@@ -160,7 +161,7 @@ bool TerrainLod::is_visible(const TerrainPatch& at,
     const glm::vec3 high(static_cast<float>(at.x + cells) * size, grid.highest,
                          static_cast<float>(at.z + cells) * size);
     return std::all_of(frustum.planes.begin(), frustum.planes.end(), [&](const glm::vec4& plane) {
-        // Corner farthest inside the plane.
+        // The corner of the box that lies farthest inside of the plane.
         const glm::vec3 corner(plane.x > 0.0F ? high.x : low.x, plane.y > 0.0F ? high.y : low.y,
                                plane.z > 0.0F ? high.z : low.z);
         return glm::dot(glm::vec3(plane), corner) + plane.w >= 0.0F;

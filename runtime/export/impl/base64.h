@@ -13,12 +13,12 @@ public:
     explicit Base64Writer(PieceWriter& out) : out_(out) {}
 
     void put(std::span<const std::byte> bytes);
-    /// Writes the last group, with padding.
+    /// Writes the digits of the last, incomplete group of three bytes, with padding.
     void finish();
 
 private:
     PieceWriter& out_;
-    std::array<std::byte, 3> pending_{}; // bytes of an incomplete group
+    std::array<std::byte, 3> pending_{}; // bytes of the incomplete group of three
     std::size_t pending_size_ = 0;
 };
 

@@ -16,7 +16,8 @@ namespace lsys {
 
 namespace {
 
-// Max error of positions that needs no further joint, relative to the size of the plant.
+// A piece gets no further joint if its positions are off by at most this fraction of the plant's
+// size.
 constexpr double kPlaceTolerance = 1e-5;
 // Max error of positions due to an omitted key, relative to the max displacement of a tip in the
 // clip.
@@ -51,8 +52,8 @@ struct Tree {
     std::vector<std::uint32_t> parents; // kNoSegment: a root
     std::vector<std::uint32_t> first_child;
     std::vector<std::uint32_t> next_sibling;
-    std::vector<std::uint32_t> thickest; // child that continues the segment, else kNoSegment
-    std::vector<std::uint32_t> sizes;    // count of the segment and its descendants
+    std::vector<std::uint32_t> thickest; // child that continues the segment's axis, else kNoSegment
+    std::vector<std::uint32_t> sizes;    // segments in the subtree of each, itself included
 };
 
 Tree tree_of(const Skeleton& plant) {
@@ -137,8 +138,8 @@ private:
         return glm::dvec3(place.base + plant_.segments[segment].length * heading(place.frame));
     }
 
-    /// Max distance in the sampled frames between the tip of a segment and the tip moved rigidly
-    /// with `root`.
+    /// Max distance, over the sampled frames, between the tip of `segment` and the place to which
+    /// the motion of `root` takes this tip.
     [[nodiscard]] double error(std::uint32_t root, std::uint32_t segment) const {
         const glm::dvec3 at_start = tip(segment, start_);
         double max_error = 0.0;
@@ -187,8 +188,8 @@ private:
         }
     }
 
-    /// Cuts a piece on the path from its root to its worst segment, where the errors of both parts
-    /// are about equal.
+    /// Cuts a piece in two on the path from its root to its worst segment, at the place where the
+    /// errors of both parts are about equal.
     void cut(std::uint32_t piece) {
         const std::uint32_t root = pieces_[piece].root;
         const std::uint32_t worst = pieces_[piece].worst;
@@ -221,7 +222,7 @@ private:
         remeasure(piece, root);
     }
 
-    /// Finds the worst segment of a piece that has lost a part.
+    /// Finds the worst segment of a piece from which a part was cut off.
     void remeasure(std::uint32_t piece, std::uint32_t root) {
         pieces_[piece].error = 0.0;
         pieces_[piece].worst = kNoSegment;
@@ -248,7 +249,7 @@ private:
 /// A point of a piece, for fitting the rotation of the joint of the piece.
 struct FitPoint {
     std::uint32_t segment = 0;
-    bool is_base = false; // the point is the base of the segment, else its tip
+    bool is_base = false; // the point is the base of a segment, else its tip
     double weight = 1.0;
 };
 
@@ -386,8 +387,8 @@ private:
         return moves_[std::size_t{joint} * animation_.frame_count + frame];
     }
 
-    /// Rotates a joint in each frame so that its piece and its child joints are nearest to their
-    /// places.
+    /// Rotates a joint in each frame so that the points of its piece and its child joints come
+    /// nearest to their places in that frame.
     void fit(std::uint32_t joint) {
         Bone& bone = bones_.joints[joint];
         const std::vector<FitPoint>& points = points_[joint];
@@ -510,7 +511,7 @@ private:
             const std::uint32_t parent = tree_.parents[i];
             const BoneWeights at_parent =
                 parent == kNoSegment ? BoneWeights{{0}, {1.0F}} : bones_.segments[parent][1];
-            if (joint == 0 || along[i] < 0.0) { // rigid: stands still, or is not on the axis
+            if (joint == 0 || along[i] < 0.0) { // bound to one joint: still, or beside the axis
                 bones_.segments[i] = {at_parent, at_parent};
                 continue;
             }
@@ -524,8 +525,8 @@ private:
         }
     }
 
-    /// Weights at `along` metres from the start of the axis of a piece. `root`: the weights at the
-    /// place from which the piece grows.
+    /// Weights at `along` metres from the start of the axis of a piece. `root`: weights of the
+    /// point of the parent piece where the axis starts.
     static BoneWeights weights_on(std::span<const Axis> axes,
                                   std::uint32_t joint,
                                   double along,

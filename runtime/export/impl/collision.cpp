@@ -192,8 +192,9 @@ void add_ring(const glm::vec3& middle,
     }
 }
 
-/// A pole, four rings and a pole. The poles are the two vertices that are farthest apart, since
-/// importers find the axis by them. The round ends lie within the piece if it is long enough.
+/// Makes a capsule of a vertex (a pole), four rings of vertices and a second pole. The poles are
+/// the two vertices that are farthest apart, since importers find the axis of the capsule by them.
+/// The round ends lie within the piece if the piece is long enough.
 void make_capsule(const BoughPiece& piece, CollisionShape& shape) {
     const glm::vec3 chord = piece.to - piece.from;
     const float length = glm::length(chord);
@@ -226,7 +227,8 @@ void make_capsule(const BoughPiece& piece, CollisionShape& shape) {
     }
 }
 
-/// The hull of the cross-sections at the ends of segments, at most kMaxRings of them.
+/// Makes the hull of the cross-sections at the ends of segments, of at most kMaxRings
+/// cross-sections.
 void make_hull(const Skeleton& skeleton, const BoughPiece& piece, CollisionShape& shape) {
     std::vector<glm::vec3> points;
     const std::size_t joints = piece.segments.size() + 1;

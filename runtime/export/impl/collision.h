@@ -28,18 +28,20 @@ struct CollisionShape {
 /// A nearly straight run of about equally thick segments, each the child of the one before.
 struct BoughPiece {
     std::vector<std::uint32_t> segments;
-    glm::vec3 from{}; // ends of its chord
+    glm::vec3 from{}; // ends of the chord of the run
     glm::vec3 to{};
-    float radius = 0.0F; // mean along its segments
+    float radius = 0.0F; // mean along the segments of the run
     double area = 0.0;   // 2 * radius * length: the area seen from the side
 };
 
-/// The largest pieces of trunk and boughs, by descending area: enough for nine tenths of the area
-/// of all pieces, but at least 10 if the plant has them, and at most kMaxCollisionShapes. The trunk
-/// and each bough continue in the thickest segment that begins at their end.
+/// The largest pieces of trunk and boughs, by descending area. Their count is the smallest that
+/// covers nine tenths of the area of all pieces, but at least 10 if the plant has as many, and at
+/// most kMaxCollisionShapes. The trunk and each bough continue in the thickest segment that begins
+/// at their end.
 [[nodiscard]] std::vector<BoughPiece> find_boughs(const Skeleton& skeleton);
 
-/// The shapes of find_boughs(). `info`: kind of shapes and of names, and name of the plant.
+/// The shapes of find_boughs(). `info` states the kind of shapes, the kind of names and the name of
+/// the plant.
 [[nodiscard]] std::vector<CollisionShape> make_collision(const Skeleton& skeleton,
                                                          const ExportInfo& info);
 

@@ -111,8 +111,8 @@ private:
         return true;
     }
 
-    /// Extends the hull to the point `apex`. Triangles whose planes contain the point count as
-    /// facing it, so that no edge of the horizon is collinear with the point.
+    /// Extends the hull to the point `apex`. A triangle whose plane contains the point counts as
+    /// facing the point, so that no edge of the horizon is collinear with the point.
     void add(std::uint32_t apex) {
         orientations_.clear();
         for (const Corners& triangle : triangles_) {

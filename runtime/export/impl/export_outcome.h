@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Outcomes of exports, with messages for exports that write no file.
+// Outcomes of exports, with messages for the case that an export writes no file.
 #pragma once
 
 #include "grammar/base/outcome.h"

@@ -13,8 +13,8 @@ namespace lsys {
 
 namespace {
 
-/// Counts of the vertices and indices of a piece of the trees; later the next free position of
-/// vertices and indices in the mesh.
+/// First the counts of the vertices and indices of a piece of the trees; later the positions in the
+/// mesh of the next vertex and of the next index of each material.
 struct Share {
     std::uint64_t vertices = 0;
     std::vector<std::uint64_t> indices; // by material of the scene
@@ -110,7 +110,7 @@ private:
         return count;
     }
 
-    /// Calls visit(number of the stage, branch) for each branch of the trees.
+    /// Calls visit(index of the stage in ForestPlan::stages(), branch) for each branch of `trees`.
     template <typename Visit>
     void for_each_branch(std::span<const Tree> trees, const Visit& visit) const {
         std::vector<TreeExpander> expanders;

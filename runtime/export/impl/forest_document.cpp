@@ -89,12 +89,12 @@ void ForestDocument::put_nodes(JsonWriter& json) const {
         json.object().member("name", "ground").member("mesh", 0).end(); // never quantised
     }
     std::uint64_t child = 1 + ground + cells;
-    std::vector<bool> written(collisions_.size()); // as in for_each_collider()
+    std::vector<bool> written(collisions_.size()); // by instance; see for_each_collider()
     for (const ForestCell& cell : plan_.cells()) {
         json.object().member("name", fmt::format("cell {} {}", cell.x, cell.z));
         json.array("children");
         std::uint64_t count = instanced() ? cell.group_count : cell.branches;
-        // Nodes of collision shapes follow the node of their group, as its siblings.
+        // Nodes of collision shapes are siblings of the node of their group, and follow it.
         for (std::size_t i = 0; instanced() && !collisions_.empty() && i < cell.group_count; ++i) {
             const std::uint32_t instance = plan_.groups()[cell.first_group + i].instance;
             if (!(written[instance] && collides_once())) {

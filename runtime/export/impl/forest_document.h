@@ -33,7 +33,8 @@ struct ForestView {
     std::uint64_t count = 0;  // items
     std::uint64_t offset = 0; // in the buffer, a multiple of 4
     std::uint64_t bytes = 0;  // in the buffer
-    /// EXT_meshopt_compression: contents in the buffer, and the place of the decoded items.
+    /// Bytes in the buffer if EXT_meshopt_compression compresses the array, and the place of the
+    /// decoded items.
     GltfBuffer compressed = {};
     std::uint64_t decoded_offset = 0;
     std::string_view filter = {}; // of EXT_meshopt_compression; empty: none
@@ -47,7 +48,7 @@ struct ForestBlock {
     std::vector<ForestView> attributes;
     ForestView wide_indices;    // 32 bits; count 0: there is no view
     ForestView narrow_indices;  // 16 bits; count 0: there is no view
-    std::size_t first_view = 0; // of the attributes; wide, then narrow indices follow
+    std::size_t first_view = 0; // of the attributes; then the views of wide and of narrow indices
     bool coloured = false;      // has vertex colours
 };
 
@@ -55,7 +56,7 @@ struct ForestBlock {
 struct ForestSurface {
     std::size_t stage = kNoStage; // index in ForestPlan::stages(); kNoStage: the ground
     const Mesh* mesh = nullptr;
-    /// By material of the mesh: its index among all materials of the scene.
+    /// By material of the mesh: index of this material among all materials of the scene.
     const std::vector<std::uint32_t>* materials = nullptr;
     SlicedMesh sliced;
     std::vector<ForestBlock> blocks; // by material of the mesh
@@ -100,9 +101,9 @@ private:
                      const Mesh& mesh,
                      const std::vector<std::uint32_t>& materials,
                      std::span<const PartList> lists);
-    /// Plans the forms of texture coordinates, by material of the scene.
+    /// Sets texture_forms_.
     void plan_texture_forms();
-    /// Makes the collision shapes of all instances in use.
+    /// Sets collisions_ and collision_meshes_: the collision shapes of all instances in use.
     void add_collisions();
     /// Whether only the first tree of a hero gets collision shapes: Unreal Engine adds the shapes
     /// to the mesh, which all trees of the hero share.
@@ -119,7 +120,7 @@ private:
     void compress_views();
     void compress_transforms();
     void place_views();
-    /// Sets the offset of a view, after all earlier views.
+    /// Sets the offset of a view to the end of the views placed before it.
     void place(ForestView& view);
     /// Calls visit(surface, material of the mesh, view) for each view in order.
     template <typename Visit>
@@ -169,7 +170,7 @@ private:
     std::size_t transforms_view_ = 0;      // first view of transforms
     std::size_t first_image_view_ = 0;
     std::size_t first_group_accessor_ = 0;
-    std::uint64_t transforms_offset_ = 0; // offset of float transforms; if packed, of the images
+    std::uint64_t transforms_offset_ = 0; // of float transforms; if packed, of the images
     std::uint64_t bytes_ = 0;
     std::uint64_t decoded_bytes_ = 0;
 };

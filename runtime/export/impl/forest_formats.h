@@ -37,11 +37,12 @@ struct ItemGrid {
     glm::vec3 low{0.0F};
     float step = 1.0F;
 };
-/// The pose that takes the quantised items of a surface to where `pose` takes its positions.
+/// The pose that places the quantised items of a surface where `pose` places the positions of the
+/// surface.
 [[nodiscard]] InstancePose pose_of_items(const InstancePose& pose, const ItemGrid& grid);
 
-/// Gives the transforms of all groups to `write`, in order, until it returns false. `grids`: by
-/// stage.
+/// Calls `write` with the transforms of all groups, in order, until `write` returns false. `grids`:
+/// by stage.
 void write_transforms(const ForestPlan& plan,
                       std::span<const ItemGrid> grids,
                       const ForestExportInfo& info,

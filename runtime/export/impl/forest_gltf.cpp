@@ -145,7 +145,7 @@ void ForestDocument::add_surface(std::size_t stage,
     }
     GltfForm form = form_of(info_.compression, bounds);
     if (stage == kNoStage) {
-        form.step = 0.0F; // not quantised: trees would float above a ground with rounded heights
+        form.step = 0.0F; // exact: above rounded ground, trees would float
     } else if (form.step > 0.0F) {
         grids_[stage] = {form.low, form.step};
     }
@@ -228,9 +228,9 @@ void ForestDocument::add_views(ForestSurface& surface) {
 
 namespace {
 
-/// The indices of a part, within its slice. `ordered`, for compression: triangles are sorted by
-/// their highest index, so that triangles of nested lists come first, as if the part were a
-/// separate mesh.
+/// Reads the indices of a part, within its slice. With `ordered`, for compression, triangles are
+/// sorted by their highest index, so that triangles of nested lists come first, in the order that
+/// these triangles would have if the part were a separate mesh.
 void read_indices(const ForestSurface& surface,
                   std::size_t number,
                   bool ordered,

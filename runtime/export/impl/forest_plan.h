@@ -31,7 +31,7 @@ struct ForestGroup {
 
 /// Consecutive trees of one cell: the unit of work of a thread.
 struct ForestPiece {
-    std::uint64_t first_tree = 0; // in the order of the plan: cell by cell
+    std::uint64_t first_tree = 0; // index in the order of the plan, which is cell by cell
     std::uint64_t tree_count = 0;
     /// Pairs (instance, its count in earlier pieces of the cell) for the instances of this piece,
     /// sorted by instance.
@@ -41,7 +41,7 @@ struct ForestPiece {
 struct ForestCell {
     std::int64_t x = 0; // in units of the side of a cell
     std::int64_t z = 0;
-    std::uint64_t first_tree = 0; // in the order of the plan
+    std::uint64_t first_tree = 0; // index in the order of the plan
     std::uint64_t tree_count = 0;
     std::size_t first_piece = 0;
     std::size_t piece_count = 0;
@@ -101,7 +101,7 @@ private:
     const ForestScene& scene_;
     std::vector<ExportedStage> stages_;
     std::vector<std::uint32_t> first_stage_;   // by species
-    LargeVector<std::uint32_t> tree_of_place_; // empty: the order of the forest
+    LargeVector<std::uint32_t> tree_of_place_; // in the order of the plan; empty: as the forest
     std::vector<ForestCell> cells_;
     std::vector<ForestPiece> pieces_;
     std::vector<ForestGroup> groups_;

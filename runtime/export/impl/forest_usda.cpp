@@ -119,7 +119,7 @@ private:
         }
         out_->put("]\n");
         const InstanceVertices own = number_vertices(stage, plan_);
-        std::vector<float> sizes; // m, of the prototypes
+        std::vector<float> sizes; // m, largest extent of each prototype
         for (const std::uint32_t i : used) {
             Bounds bounds;
             for (const std::uint32_t vertex : own.of(i)) {

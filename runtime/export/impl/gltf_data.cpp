@@ -22,7 +22,7 @@ bool has_vertex_colours(const Mesh& mesh, const MeshPart& part) {
         return false;
     }
     const glm::vec3 own(mesh.materials[part.material].colour);
-    std::uint32_t last_colour = ~std::uint32_t{0}; // a palette index with the material's colour
+    std::uint32_t last_colour = ~std::uint32_t{0}; // last index found to have the colour `own`
     TriangleReader indices(mesh.indices);
     for (std::uint64_t i = 0; i < part.index_count; ++i) {
         const ItemColour colour = mesh.colours[indices[part.first_index + i]];

@@ -17,7 +17,8 @@ struct Switch {
     bool shown = false;
 };
 
-/// Switches of a shape in order of time, from frame 0 on; none if the film has one shape only.
+/// Switches of a shape in ascending order of frames, from frame 0 on; none if the film has one
+/// shape only.
 std::vector<Switch> switches_of(const MeshFilm& film, std::uint32_t number) {
     std::vector<Switch> switches;
     if (film.shapes.size() == 1) {

@@ -31,9 +31,9 @@ void write_film_weights(const MeshFilm& film, const GltfBytes& write);
 [[nodiscard]] std::vector<std::uint32_t> drawn_shapes(const MeshFilm& film);
 /// A node for each mesh. Readers without animations show the last shape.
 void put_film_nodes(JsonWriter& json, const MeshFilm& film);
-/// Accessors: for each shape times and scales, then times and weights; accessors without items are
-/// left out. The views of times, scales and weights are consecutive from `first_view` on; empty
-/// views are left out.
+/// Accessors: times and scales for each shape, then times and weights for each shape. Accessors
+/// without items are left out. The views of times, scales and weights are consecutive from
+/// `first_view` on; empty views are left out.
 void put_film_accessors(JsonWriter& json, const MeshFilm& film, std::size_t first_view);
 /// The member `animations`. `first_node`: number of the first node of put_film_nodes(); `accessor`:
 /// number of the first accessor of put_film_accessors().

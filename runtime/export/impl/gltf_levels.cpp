@@ -86,7 +86,7 @@ public:
             if (node.contains("name")) {
                 node["name"] = level_name(node["name"], level);
             }
-            node.erase("extras"); // equal to the extras of level 0
+            node.erase("extras"); // equal to the `extras` of level 0, which stay
             if (node.contains("mesh")) {
                 node["mesh"] = node["mesh"].get<std::size_t>() + meshes;
             }

@@ -85,7 +85,7 @@ struct GltfFile {
     /// and is not stored; 0: no fallback. It is numbered after buffer 0 and `others`.
     std::uint64_t decoded_bytes = 0;
     std::vector<GltfOtherBuffer> others =
-        {}; // buffers 1, 2, ...; their fallbacks are last, in order
+        {}; // buffers 1, 2, ...; their fallback buffers follow the last of them, in the same order
 };
 /// Header of a GLB and header of its document, which is its first chunk.
 using GlbHeader = std::array<std::uint32_t, 5>;

@@ -206,7 +206,7 @@ const Material& material_of(const Mesh& mesh, const GltfPrimitive& primitive) {
 void order_triangles(std::span<std::uint32_t> triangles) {
     std::uint32_t* const corners = triangles.data();
     const std::size_t count = triangles.size() / 3;
-    std::size_t ordered = 0; // triangles that have their places
+    std::size_t ordered = 0; // count of triangles at their final places
     // The next triangles, in an order in which each shares an edge with the previous one.
     std::vector<std::uint32_t> run;
     std::vector<std::uint32_t> moved; // corners of the run
@@ -250,8 +250,8 @@ void order_triangles(std::span<std::uint32_t> triangles) {
             if (!run.empty()) {
                 end_run();
             }
-            // Swaps the triangles of the first quad of a run if the first one shares an edge with
-            // the next quad, and the second does not.
+            // Swaps the two triangles of the first quad of a run if its first triangle, and not its
+            // second, shares an edge with the next quad.
             swapped = pair && i + 2 < count && !meet(i + 1, i + 2) &&
                       (meet(i, i + 2) || (i + 3 < count && meet(i, i + 3)));
         }

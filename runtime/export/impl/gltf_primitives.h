@@ -39,8 +39,8 @@ enum class GltfColours : std::uint8_t {
 /// Parts that are drawn with one material.
 struct GltfPrimitive {
     std::vector<GltfPart> parts;
-    std::uint32_t shape = 0; // of the film; 0 without a film
-    glm::vec3 colour{1.0F};  // of the material, linear
+    std::uint32_t shape = 0; // number of the shape of the film; 0 without a film
+    glm::vec3 colour{1.0F};  // linear colour of the material
     GltfColours colours = GltfColours::None;
     std::uint64_t first_vertex = 0;
     std::uint64_t vertex_count = 0;

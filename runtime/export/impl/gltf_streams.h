@@ -33,14 +33,15 @@ struct GltfPlant {
 
 struct GltfStream {
     GltfArray array = GltfArray::Positions;
-    std::size_t index = 0;   // of the primitive or image that the stream belongs to
-    std::uint32_t frame = 0; // of a morph target, in MeshFilm::Shape::earlier
+    std::size_t index = 0;   // number of the primitive or image that the stream belongs to
+    std::uint32_t frame = 0; // number of the frame of a morph target in MeshFilm::Shape::earlier
     Bounds bounds = {};      // of PositionChanges
     GltfItem type;
     std::uint64_t count = 0;  // items
     std::uint64_t offset = 0; // in the buffer, a multiple of 4
     std::uint64_t bytes = 0;  // in the buffer
-    /// EXT_meshopt_compression: contents in the buffer, and the place of the decoded items.
+    /// Bytes in the buffer if EXT_meshopt_compression compresses the stream, and the place of the
+    /// decoded items.
     GltfBuffer compressed = {};
     std::uint64_t decoded_offset = 0;
 

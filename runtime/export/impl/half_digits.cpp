@@ -23,7 +23,7 @@ constexpr int kMaxDigits = 5; // enough for any half float
 
 std::uint16_t half_bits(float value) {
     const auto bits = std::bit_cast<std::uint32_t>(value);
-    if (bits < kSmallestNormal) { // the rounding to an integer is the only rounding
+    if (bits < kSmallestNormal) { // the product is exact; only nearbyint() rounds
         return static_cast<std::uint16_t>(std::nearbyint(value * kSubnormalsInOne));
     }
     // Rounds off 13 bits of the fraction, half to even, and changes the bias of the exponent from

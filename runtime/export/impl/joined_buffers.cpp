@@ -18,7 +18,7 @@ namespace lsys {
 
 namespace {
 
-constexpr std::size_t kAlignment = 8; // of views in a file and in its fallback
+constexpr std::size_t kAlignment = 8; // bytes, of views in a file and in its fallback buffer
 
 void align(std::string& bytes) {
     bytes.resize((bytes.size() + kAlignment - 1) / kAlignment * kAlignment, '\0');
@@ -120,7 +120,7 @@ void join_buffers(std::span<MeshDocument* const> documents, std::string& file) {
         stored["byteLength"] = packed.size();
         stored["count"] = joined.items.size() / kind.second;
         joined.view["byteOffset"] = decoded;
-        if (kind.first != "indices") { // several accessors of a view need its stride
+        if (kind.first != "indices") { // views with several accessors need a stride
             joined.view["byteStride"] = kind.second;
         }
         joined.view["byteLength"] = joined.items.size();

@@ -46,7 +46,7 @@ public:
     JsonWriter& value(T number) {
         return put(number);
     }
-    /// Digits; as a string from 2^53 on, where some readers of JSON round numbers.
+    /// Decimal digits; in quotes from 2^53 on, because some readers of JSON round larger numbers.
     template <std::integral T>
     JsonWriter& value(T number) {
         constexpr std::uint64_t kFirstUnsafe = std::uint64_t{1} << 53U;
@@ -96,7 +96,7 @@ private:
 
     PieceWriter& out_;
     std::string closing_; // closing brackets of open values, the innermost last
-    bool comma_ = false;  // before the next value
+    bool comma_ = false;  // whether the next value needs a comma before it
 };
 
 /// The document that `write` creates.

@@ -9,11 +9,11 @@
 
 namespace lsys {
 
-/// Adds a part with the material to `samples` unless a part has it already. Returns the index of
-/// the material.
+/// Adds a part with the material to `samples` unless a part of it has the material already. Returns
+/// the index of the material.
 std::uint32_t add_material(Mesh& samples, const Material& material);
-/// Called after the last material. Makes names unique, and adds the vertex: with texture
-/// coordinates if `textured`, with a tangent if `tangents`.
+/// Makes names unique and adds the vertex, with texture coordinates if `textured`, with a tangent
+/// if `tangents`. Call it after the last material.
 void finish_samples(Mesh& samples, bool textured, bool tangents);
 
 } // namespace lsys

@@ -15,9 +15,9 @@ namespace {
 
 /// Max cells along a side of the picture; a cell of a larger picture has several texels.
 constexpr std::uint32_t kMaxSide = 256;
-constexpr double kMinArea = 1e-4;        // of the picture; smaller outlines are dropped
+constexpr double kMinArea = 1e-4;        // fraction of the picture; smaller outlines are dropped
 constexpr float kMinTolerance = 0.75F;   // cells
-constexpr float kTolerance = 1.0F / 200; // of the longer side
+constexpr float kTolerance = 1.0F / 200; // fraction of the longer side
 
 /// Whether each cell, a square of texels, is at least half opaque.
 struct Mask {

@@ -101,9 +101,9 @@ bool contains(const Card& card, const UserMesh& mesh, const Triangle& corners, f
 /// The cards of a mesh; none if the mesh has parts that are not cards.
 std::vector<Card> find_cards(const UserMesh& mesh) {
     constexpr std::size_t kMaxCards = 64;
-    constexpr float kTolerance = 1e-3F; // of the size of the mesh
+    constexpr float kTolerance = 1e-3F; // fraction of the size of the mesh
     constexpr float kMinFilled = 0.6F;  // of the box of texture coordinates; a triangle fills 0.5
-    constexpr float kBeyond = 0.01F;    // texture coordinates farther out repeat the picture
+    constexpr float kBeyond = 0.01F;    // farther outside 0 to 1 the picture repeats
     Bounds bounds;
     for (const glm::vec3& position : mesh.positions) {
         bounds.add(position);
@@ -218,7 +218,7 @@ std::vector<glm::vec2> convex_hull(std::vector<glm::vec2>& points) {
             chain.push_back(point);
         }
         if (!chain.empty()) {
-            chain.pop_back(); // the first point of the other chain
+            chain.pop_back(); // the other chain begins with this point
         }
         std::reverse(points.begin(), points.end());
     }

@@ -42,7 +42,7 @@ std::size_t number_of(std::vector<Picture>& list, const Picture& wanted) {
     if (found != list.end()) {
         return static_cast<std::size_t>(found - list.begin());
     }
-    // Names of files keep their extension.
+    // The file name of a picture keeps its extension.
     constexpr std::string_view kExtension = ".png";
     const bool is_file = wanted.name.ends_with(kExtension);
     const auto stem_of = [&](const std::string& name) {

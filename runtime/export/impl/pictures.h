@@ -18,7 +18,7 @@ namespace lsys {
 
 enum class PictureKind : std::uint8_t {
     Colour,  // with opacity
-    Opacity, // in all channels, as readers of MTL differ in the one they use
+    Opacity, // in all channels, because readers of MTL use different ones
     NormalMap,
 };
 
@@ -28,7 +28,7 @@ struct Picture {
     glm::vec3 tint{1.0F}; // linear
     std::shared_ptr<const Texture>
         file_texture; // replaces the texture of the material's kind; null: none
-    std::string name; // of the file, or of the image in the document
+    std::string name; // name of the picture file, or of the image in the document
 };
 
 /// Numbers of the pictures of a material.

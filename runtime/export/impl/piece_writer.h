@@ -33,7 +33,7 @@ public:
     void advance_to(char* end) { at_ = end; }
 
     void put(std::string_view text);
-    /// Long spans are not copied.
+    /// Passes long spans to the sink without a copy.
     void put_bytes(std::span<const std::byte> bytes);
     template <typename T>
     void put_array(std::span<const T> items) {
@@ -41,7 +41,7 @@ public:
     }
 
     [[nodiscard]] bool stopped() const { return stopped_; }
-    /// Passes the remaining bytes to the sink. Returns false if the sink has stopped.
+    /// Passes the buffered bytes to the sink. Returns false if the sink has stopped.
     [[nodiscard]] bool finish();
 
 private:

@@ -13,7 +13,7 @@ namespace lsys {
 
 namespace {
 
-constexpr double kPlaceTolerance = 1e-5; // of the size of the plant
+constexpr double kPlaceTolerance = 1e-5; // fraction of the size of the plant
 constexpr double kAngleTolerance = 1e-4; // rad
 
 struct Place {
@@ -32,8 +32,8 @@ bool are_near(const Place& a, const Place& b, double distance) {
     return glm::dot(off, off) <= distance * distance && half_sine <= 0.5 * kAngleTolerance;
 }
 
-/// Whether `segment` moves rigidly with the joint of `leader`; if `leader` is kNoSegment, whether
-/// it stands still.
+/// Whether `segment` moves rigidly with the joint of the segment `leader`; if `leader` is
+/// kNoSegment, whether `segment` stands still.
 bool goes_with(const PlantAnimation& animation,
                std::uint32_t leader,
                std::uint32_t segment,

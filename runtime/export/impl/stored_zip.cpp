@@ -12,10 +12,10 @@ namespace lsys {
 namespace {
 
 constexpr std::uint64_t kAlignment = 64;
-constexpr std::uint64_t kHeaderBytes = 30; // of an entry, without name and padding
+constexpr std::uint64_t kHeaderBytes = 30; // bytes of an entry, without name and padding
 constexpr std::uint64_t kDirectoryEntryBytes =
     46;                                 // of an entry of the central directory, without its name
-constexpr std::uint64_t kEndBytes = 22; // of the end of central directory record
+constexpr std::uint64_t kEndBytes = 22; // bytes of the end of central directory record
 constexpr std::uint64_t kExtraHeaderBytes = 4; // kind and size of an extra field
 constexpr std::uint16_t kPaddingKind = 0x1986; // as in OpenUSD's archives
 constexpr std::uint16_t kVersion = 10;         // of the format: 1.0, stored entries

@@ -23,7 +23,7 @@ namespace lsys {
 namespace {
 
 constexpr double kLongerSide = 800.0;   // of the picture, in pixels
-constexpr double kMargin = 0.02;        // of the longer side
+constexpr double kMargin = 0.02;        // fraction of the longer side
 constexpr float kHairline = 1.0F / 800; // min width of a line, relative to the longer side
 constexpr std::size_t kPointBytes = 2 * kNumberBytes + 2;
 
@@ -65,7 +65,7 @@ private:
     PieceWriter& out_;
     std::map<ObjectKey, std::vector<Outline>> outlines_;
     Bounds bounds_;
-    float side_ = 0.0F; // longer side of the bounds
+    float side_ = 0.0F; // m, longer side of the bounds
 };
 
 const std::vector<Outline>& Drawing::outlines(const PlacedObject& object) {

@@ -432,7 +432,7 @@ private:
         for (const List& list : lists_) {
             size += list.text.size();
         }
-        constexpr std::size_t kRest = 4096; // enough for names of lists and for buffers
+        constexpr std::size_t kRest = 4096; // bytes for the names of lists and for buffers
         bytes.reserve(size + kRest);
         bytes += parts_.begin;
         for (std::size_t i = first_root_; i < count_of(GltfList::Nodes); ++i) {
@@ -455,16 +455,16 @@ private:
     PartTable table_; // the items of the surface, besides the shared ones
     std::vector<Buffer> buffers_;
     std::vector<std::uint32_t> buffer_numbers_; // by number in the table
-    std::vector<std::uint32_t> numbers_;        // of items in their lists, by number in the table
+    std::vector<std::uint32_t> numbers_; // number of an item in its list, by number in the table
     std::array<List, kGltfLists> lists_;
     std::vector<GltfList> order_; // lists in the order of their first items
     std::vector<std::string> used_;
     std::vector<std::string> required_;
     std::vector<std::uint32_t> rows_;        // of the table of properties, by tree
     std::vector<std::uint32_t> shown_trees_; // by row
-    std::size_t first_root_ = 0;      // root nodes of the scene are this one and those after it
-    std::vector<std::size_t> meshes_; // by group
-    std::string data_;                // the buffer of the GLB
+    std::size_t first_root_ = 0;             // number of the first root; all later nodes are roots
+    std::vector<std::size_t> meshes_;        // by group
+    std::string data_;                       // the buffer of the GLB
 };
 
 std::string TileDocument::write() {

@@ -72,7 +72,7 @@ private:
 };
 
 struct TilePart {
-    std::vector<std::size_t> buffers; // of its mesh, then of its pictures
+    std::vector<std::size_t> buffers; // numbers in the table: of its mesh, then of its pictures
     std::uint64_t decoded_bytes = 0;  // size of the fallback of its buffer; 0: no fallback
     std::vector<std::size_t> items;   // in the order in which a document lists them
     std::vector<JsonTemplate> accessors;
@@ -87,8 +87,8 @@ struct TilePart {
 [[nodiscard]] TilePart make_tile_part(const MeshDocument& document, PartTable& table);
 
 struct TileParts::State {
-    std::string begin;  // of a document: the asset and its scene
-    std::string schema; // of the table of properties
+    std::string begin;  // beginning of a document: the asset and its scene
+    std::string schema; // schema of the table of properties
     PartTable table{nullptr};
     std::vector<TilePart> list;
 };

@@ -78,9 +78,9 @@ void put_mesh(const Mesh& mesh,
         [&cursor](std::uint64_t i) { return cursor.index(i); });
 }
 
-/// Writes a plant with variants. The prim of the first mesh lies outside the variant set, for
-/// readers without variants; the variants of the other meshes make it inactive. The prim itself
-/// must not set `active`, because its value would replace the values that the variants set.
+/// Writes a plant with variants. The prim of the first mesh lies outside of the variant set, for
+/// readers without variants; the variants of the other meshes make this prim inactive. The prim
+/// itself must not set `active`, because its value would override the values that the variants set.
 void put_choice(const ExportJob& job, const UsdaVariants& variants, PieceWriter& out) {
     put_header(job.info, nullptr, out);
     out.put(fmt::format("def Xform \"Plant\" (\n"
@@ -146,8 +146,8 @@ void put_layer(const ExportJob& job, const UsdaMotion* motion, PieceWriter& out)
     out.put("}\n");
 }
 
-/// Makes the skin of an animated plant, and calls `write` with its motion; with null if it stands
-/// still.
+/// Makes the skin of an animated plant, and calls `write` with its motion, or with null if the
+/// plant stands still.
 template <typename Write>
 Outcome<void> with_motion(const ExportJob& job, const Write& write) {
     const PlantAnimation* const poses = job.info.animation;

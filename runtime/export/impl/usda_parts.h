@@ -86,11 +86,11 @@ struct UsdaDigits {
 
 /// A mesh prim.
 struct UsdaSurface {
-    const Mesh& mesh; // may have vertices that the prim does not use
+    const Mesh& mesh; // may have vertices that no triangle of the prim uses
     std::string name;
     std::uint64_t vertices = 0;
     std::span<const MeshPart> parts;
-    const std::vector<std::string>& materials; // names, by parts
+    const std::vector<std::string>& materials; // names of the materials, by part
     std::string_view root;                     // path of the prim of put_usda_materials()
     std::function<void()> put_skin;            // writes properties of a skin; empty: none
     std::optional<UsdaDigits> digits = {};     // empty: exact numbers

@@ -94,8 +94,8 @@ void put_places(const UsdaMotion& motion,
     out.put("\n");
 }
 
-/// Writes `name.timeSamples`; put(frame, joint) writes the item of a joint other than joint 0,
-/// whose item is `still`.
+/// Writes `name.timeSamples`. put(frame, joint) writes the item of a joint other than joint 0;
+/// `still` is the item of joint 0.
 template <typename Put>
 void put_samples(const UsdaMotion& motion,
                  std::string_view name,

@@ -16,9 +16,9 @@ struct UsdaVariants {
     std::string set;                 // name of the variant set
     std::vector<std::string> names;  // of the variants; the first is the selected one
     std::vector<const Mesh*> meshes; // of each variant
-    std::vector<double> coverages;   // of levels of detail: min part of the screen, 0 to 1
+    std::vector<double> coverages;   // of levels of detail: min fraction of the screen, 0 to 1
     Mesh samples;                    // their distinct materials in use (material_samples.h)
-    std::vector<std::vector<std::uint32_t>> materials; // of the parts of each mesh, in `samples`
+    std::vector<std::vector<std::uint32_t>> materials; // by mesh and part: index in `samples`
 };
 
 /// The variants of a file; none if it has one mesh only. The result refers to `mesh` and `info`.

@@ -18,8 +18,8 @@ double phase_of(std::uint32_t bough) {
     return turns - std::floor(turns);
 }
 
-/// Whether `child` continues the trunk rather than `other`: compares thickness, then the number of
-/// brackets; with both equal, the child drawn first continues.
+/// Whether `child` continues the trunk rather than `other`: the thicker segment, else the segment
+/// in fewer brackets, else the child that was drawn first.
 bool continues(const Segment& child, const Segment& other) {
     return child.base_radius > other.base_radius ||
            (child.base_radius == other.base_radius && child.order < other.order);
@@ -51,8 +51,8 @@ WindData::WindData(const Skeleton& plant) : plant_(&plant) {
     const std::vector<bool> is_trunk = trunks_of(plant);
     const auto count = static_cast<std::uint32_t>(plant.segments.size());
     places_.resize(count);
-    // The sum of the angles from the pivot to the tip of each segment, and the bending at its base
-    // and tip.
+    // The sum of the angles of the segments from the pivot to the tip of each segment, and the
+    // bending at base and tip of each segment.
     std::vector<double> angles(count, 0.0);
     std::vector<std::array<double, 2>> bends(count);
     double max_bend = 0.0;
@@ -104,7 +104,7 @@ WindVertex WindData::on(std::uint32_t number, const glm::vec3& position) const {
 }
 
 WindVertex WindData::at(const VertexSegments& bound, const glm::vec3& position) const {
-    // A vertex at a joint has the values of the segment before it.
+    // A vertex at a joint takes the values of the segment that ends there.
     return on(bound[0], position);
 }
 

@@ -19,7 +19,7 @@ float straightness(const Segment& a, const Segment& b) {
     return glm::dot(direction(a.frame), direction(b.frame));
 }
 
-/// Makes the joined `child` continue its parent unless an earlier child bends less.
+/// Lets the joined segment `child` continue its parent unless an earlier child bends less.
 void follow(const Skeleton& skeleton, std::uint32_t child, LargeVector<std::uint32_t>& nexts) {
     const Segment& segment = skeleton.segments[child];
     const Segment& parent = skeleton.segments[segment.parent];
@@ -32,8 +32,8 @@ void follow(const Skeleton& skeleton, std::uint32_t child, LargeVector<std::uint
     }
 }
 
-/// A range of segments. Children of segments of earlier ranges wait until all ranges are done, so
-/// that the children of a segment are compared in order.
+/// A range of segments that one thread handles. Children of segments in earlier ranges are handled
+/// after all ranges, so that the children of a segment are compared in order.
 class Range {
 public:
     Range(std::size_t begin, std::size_t end) : begin_(begin), end_(end) {}
@@ -59,7 +59,7 @@ public:
     }
 
     [[nodiscard]] const std::vector<std::uint32_t>& late() const { return late_; }
-    /// Colours in use.
+    /// Colours of the segments of the range.
     [[nodiscard]] const std::set<ItemColour>& colours() const { return colours_; }
 
 private:

@@ -18,10 +18,10 @@ inline constexpr std::uint32_t kForked = kNoSegment - 1;
 struct Axes {
     /// Per segment: the segment that continues it, kForked, or kNoSegment.
     LargeVector<std::uint32_t> next;
-    std::vector<ItemColour> colours; // in use, ascending
+    std::vector<ItemColour> colours; // colours of all segments, ascending
 };
 
-/// heading() of a unit quaternion in half the operations.
+/// Equal to heading() for a unit quaternion, in half the operations.
 [[nodiscard]] inline glm::vec3 direction(const glm::quat& q) {
     return {2.0F * (q.x * q.y - q.w * q.z), 1.0F - 2.0F * (q.x * q.x + q.z * q.z),
             2.0F * (q.y * q.z + q.w * q.x)};

@@ -11,8 +11,8 @@ namespace lsys {
 
 namespace {
 
-// Max joints that one edge may replace: by a tolerance in radii, and by an error in metres. These
-// limits keep the search linear.
+// Max number of joints that one edge may replace: with a tolerance in radii, and with an error in
+// metres. These limits keep the search linear.
 constexpr std::size_t kMaxLeftOut = 32;
 constexpr std::size_t kMaxLeftOutByError = 256;
 
@@ -36,7 +36,7 @@ bool can_replace(const LargeVector<Joint>& joints,
         const float bound = std::max(tolerance * joint.radius, error);
         const glm::vec3 off = joint.centre - (a.centre + part * (b.centre - a.centre));
         const float thicker = joint.radius - (a.radius + part * (b.radius - a.radius));
-        // Compared by coordinate: squares of huge numbers are infinite.
+        // Each coordinate is compared, because squares of huge numbers are infinite.
         if (!(std::max({std::abs(off.x), std::abs(off.y), std::abs(off.z), std::abs(thicker)}) <=
               bound) ||
             joint.colour != a.colour || (joint.sides != a.sides && error == 0.0F)) {

@@ -5,9 +5,10 @@
 
 namespace lsys {
 
-/// Simplifies an axis: removes joints within `tolerance` radii, or `error` metres, of the edge that
-/// replaces them, if the radius changes nearly linearly. Ends and changes of colour stay; changes
-/// of the number of sides stay if `error` is 0. `scratch`: memory to reuse.
+/// Simplifies an axis: removes joints that are within `tolerance` radii, or `error` metres, of the
+/// edge that replaces them, if the radius changes nearly linearly along this edge. Both ends and
+/// joints where the colour changes stay; joints where the number of sides changes stay if `error`
+/// is 0. `scratch`: memory to reuse.
 void leave_out_joints(LargeVector<Joint>& joints,
                       LargeVector<Joint>& scratch,
                       float tolerance,

@@ -15,20 +15,20 @@ namespace lsys {
 
 namespace {
 
-// Points nearer than this fraction of their coordinates count as equal.
+// Points nearer to each other than this fraction of their coordinates count as equal.
 constexpr float kResolution = 4e-6F;
 // A radius below this fraction of the coordinates counts as 0.
 constexpr float kNoRadius = 1e-8F;
 // Min radius per side, as a fraction of the coordinates: keeps the corners of a ring apart.
 constexpr float kRadiusPerSide = 4e-7F;
-// Min radius of a ring relative to its edges, so that its triangles have an area.
+// Min radius of a ring relative to the edges beside it, so that its triangles have an area.
 constexpr float kThinnest = 1e-9F;
 constexpr float kMinRadius = 1e-36F;
 constexpr float kMaxRadius = 1e36F;
 constexpr std::uint32_t kMaxLevels = 8;
-// Fraction of the parent's inner radius that the hidden ring of a branch may fill.
+// Max radius of the hidden ring of a branch, as a fraction of the inner radius of its parent.
 constexpr float kHidden = 0.9F;
-constexpr float kThickestBranch = 1.5F; // in radii of the parent; above, the base is closed
+constexpr float kThickestBranch = 1.5F; // in radii of the parent; thicker ones have closed bases
 constexpr float kCollarSlope = 0.13F;   // increase of radius per length towards the base
 constexpr float kMinSine = 0.5F;     // min sine of a branch's angle, for the length of its collar
 constexpr float kMaxCollar = 0.7F;   // max length of a collar per length of its edge
@@ -47,7 +47,7 @@ bool is_ring_thick_enough(float radius, const Joint& before, float length) {
     return radius >= kThinnest * std::max(std::max(before.radius, before.length), length);
 }
 
-/// Rings of a joint: one up to a bend of 60 degrees, two up to 120, else three.
+/// Number of rings at a joint: one for bends up to 60 degrees, two up to 120 degrees, else three.
 std::uint8_t rings_of_bend(const glm::vec3& before, const glm::vec3& after) {
     const float cosine = glm::dot(before, after);
     return cosine >= 0.5F ? 1 : cosine >= -0.5F ? 2 : 3;
@@ -104,7 +104,7 @@ void AxisReader::start(std::uint32_t first_segment) {
     }
     joints_.clear();
     if (const std::size_t joints = segments + kExtraJoints; joints > joints_.capacity()) {
-        // Reserved at once: growing later would need as much new memory again.
+        // All memory is reserved at once: growing the array later would need as much memory again.
         joints_.reserve(std::max(joints, 2 * joints_.capacity()));
     }
 }
@@ -133,7 +133,7 @@ bool AxisReader::read(Run& run) {
     for (std::uint32_t after = 0; at < kForked; at = after) {
         after = axes_.next[at];
         if (after < kForked) {
-            // The next segment of the axis lies behind the segments of branches in memory.
+            // In memory, the next segment of the axis lies behind the segments of the branches.
             prefetch(skeleton_.segments[after]);
         }
         const Segment& segment = skeleton_.segments[at];
@@ -251,7 +251,8 @@ void AxisReader::add(const Segment& segment, float radius) {
     }
 }
 
-/// Adds the last joint. Returns false if nothing is long or thick enough to be drawn.
+/// Adds the last joint of a run. Returns false if the run has no edge that is long and thick enough
+/// to be drawn.
 bool AxisReader::add_end(const glm::vec3& centre, float radius) {
     while (joints_.size() > 1 && coincide(joints_.back().centre, centre, joints_.back().radius)) {
         joints_.pop_back();
@@ -280,7 +281,8 @@ bool AxisReader::add_end(const glm::vec3& centre, float radius) {
     return true;
 }
 
-/// Fits the base into the tube that the axis branches from; returns false if it lies outside.
+/// Fits the base of a run into the tube from which the axis branches; returns false if the base
+/// lies outside of this tube.
 bool AxisReader::fit_into_parent(const Run& run, std::optional<CurveStart>& start) {
     const Segment& child = skeleton_.segments[run.first_segment];
     if (child.parent >= run.first_segment) {
@@ -329,8 +331,8 @@ bool AxisReader::fit_into_parent(const Run& run, std::optional<CurveStart>& star
     return true;
 }
 
-/// The tangent, at the tip of `segment`, of a curve through it. `next`: the segment that continues
-/// it; at least kForked: none.
+/// The tangent at the tip of `segment` of a smooth curve through this tip. `next`: the segment that
+/// continues `segment`; at least kForked: none.
 glm::vec3 AxisReader::tip_tangent(const Segment& segment, std::uint32_t next) const {
     const glm::vec3 own = direction(segment.frame);
     if (next >= kForked || !(skeleton_.segments[next].length > 0.0F)) {
@@ -356,7 +358,7 @@ void AxisReader::add_collar(const Segment& parent, float parent_radius) {
         return;
     }
     if (counts_ && !(options_.bark_noise > 0.0F)) {
-        // The sides are those of the longest collar, so that they stay the same when the plant
+        // The longest possible collar decides the sides, so that they stay the same when the plant
         // bends.
         const float longest = parent_radius / kMinSine + 1.5F * base.radius;
         const float widest = std::max(joints_[1].radius - base.radius, 0.0F);
@@ -378,8 +380,9 @@ bool AxisReader::is_shaped(const Segment& segment) const {
            usable_sides(options_.sides != 0 ? options_.sides : segment.sides) >= kMinShapedSides;
 }
 
-/// Sets the widening of a branch by `#set collar`; returns false if it has none. Its length does
-/// not depend on the angle of the branch, so that the number of joints stays when the plant bends.
+/// Sets the widening of a branch by `#set collar`; returns false if the branch has none. The length
+/// of the widening does not depend on the angle of the branch, so that the number of joints stays
+/// the same when the plant bends.
 bool AxisReader::set_wide_collar(const Segment& child, float parent_radius) {
     const float own = joints_.front().radius;
     const float extra = std::min(skeleton_.tube_shape.collar * own, parent_radius) - own;
@@ -399,7 +402,7 @@ bool AxisReader::set_wide_collar(const Segment& child, float parent_radius) {
     return true;
 }
 
-/// Applies base_widening_: adds joints where it needs them and widens all joints that it reaches.
+/// Applies base_widening_: adds joints within its length and widens all joints within its length.
 void AxisReader::widen_base(bool open) {
     const BaseWidening& wide = base_widening_;
     const float step = (wide.end - wide.begin) / static_cast<float>(wide.parts);
@@ -415,7 +418,7 @@ void AxisReader::widen_base(bool open) {
             radius = std::min(radius > 0.0F ? wide.widened(radius, at) : 0.0F, kMaxRadius);
         };
         put(from, arc);
-        float begin = 0.0F; // begin of the last piece, measured from the begin of the edge
+        float begin = 0.0F; // begin of the last piece, as distance from the begin of the edge
         for (; part <= wide.parts; ++part) {
             const float along = wide.begin + static_cast<float>(part) * step - arc;
             if (!(along < from.length)) {
@@ -447,7 +450,7 @@ void AxisReader::widen_base(bool open) {
     rings_final_ = false;
 }
 
-/// Gives the rings with roots enough sides to show them.
+/// Gives the rings with buttress roots enough sides to show these.
 void AxisReader::add_root_sides() {
     const Flare& flare = skeleton_.tube_shape.flare;
     const std::uint32_t wanted = std::min(kSidesPerRoot[options_.level] * flare.roots, kMaxSides);
@@ -491,7 +494,7 @@ void AxisReader::subdivide() {
     joints_.swap(spare_);
 }
 
-/// Reduces the sides of each joint to those that MeshOptions::deviation needs for its radius.
+/// Reduces the sides of each joint to the number that MeshOptions::deviation needs at its radius.
 void AxisReader::fit_sides() {
     radii_.clear();
     for (std::size_t i = 0; i < joints_.size(); ++i) {
@@ -512,7 +515,8 @@ void AxisReader::fit_sides() {
     }
 }
 
-/// Sets the rings of all joints by their bends, and widens joints too thin for their neighbours.
+/// Sets the number of rings of each joint by its bend, and widens joints that are too thin for the
+/// joints beside them.
 void AxisReader::set_rings() {
     const std::size_t last = joints_.size() - 1;
     for (std::size_t i = 0; i <= last; ++i) {

@@ -19,8 +19,8 @@ namespace lsys {
 /// A joint, and the edge from it to the next one.
 struct Joint {
     glm::vec3 centre{};
-    float radius = 0.0F; // distance of the ring's corners from the centre; 0 only at a pointed end
-    glm::vec3 heading{}; // unit, of the edge; last joint: of the edge before
+    float radius = 0.0F; // distance of the ring's corners from `centre`; 0 only at a pointed end
+    glm::vec3 heading{}; // unit, along the edge; last joint: of the edge before
     float length = 0.0F; // length of the edge; 0 at the last joint
     ItemColour colour = 0;
     std::uint8_t sides = 0;
@@ -54,7 +54,7 @@ struct Run {
     bool has_roots = false; // the buttress roots of Skeleton::tube_shape
 };
 
-/// Run::side for a run that begins with the segment.
+/// Run::side for a run that begins with the segment `first_segment`.
 [[nodiscard]] inline glm::vec3 side_of(const Skeleton& skeleton, std::uint32_t first_segment) {
     return skeleton.segments[first_segment].frame * glm::vec3(1.0F, 0.0F, 0.0F);
 }
@@ -74,7 +74,8 @@ public:
     void start(std::uint32_t first_segment);
     /// Reads the next run of the axis, valid until the next call; false after the last one.
     [[nodiscard]] bool next(Run& run);
-    /// Moves the joints of the last run and their radii out; the spans of the run stay valid.
+    /// Moves the joints of the last run and their radii into the arguments; the spans of the run
+    /// stay valid.
     void take(LargeVector<Joint>& joints, LargeVector<float>& radii) {
         joints = std::exchange(joints_, {});
         radii = std::exchange(radii_, {});
@@ -104,7 +105,8 @@ private:
     const MeshOptions& options_;
     std::array<std::uint8_t, 256> sides_{}; // drawn sides, by Segment::sides
     std::array<float, 256> widening_{};     // factor of the radius, by Segment::sides
-    // With a deviation, sides_ and joints have the sides of level 0 until fit_sides().
+    // If a deviation is set, sides_ and the joints have the sides of level 0 until fit_sides() is
+    // called.
     std::optional<SideCounts> counts_;
     std::array<std::uint8_t, kMaxSides + 1> max_sides_{}; // at options_.level, by sides of level 0
     BaseWidening base_widening_;                          // widening of the current run
@@ -114,7 +116,7 @@ private:
     LargeVector<Joint> joints_;
     LargeVector<Joint> spare_;
     std::uint32_t segment_ = kNoSegment; // the next segment to read
-    bool attached_ = false;              // no segment of the axis was left out so far
+    bool attached_ = false;              // no segment of the axis has been left out so far
     bool rings_final_ = true; // the rings of all joints are final: set_rings() is not needed
     bool stale_ = false;      // heading and length of the last joint are outdated
 };

@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::uint32_t kColumns = 5;         // lattice points around the tube
 constexpr double kRowsPerCircumference = 2.5; // half of kColumns: bark is longer than wide
-constexpr double kMaxRows = 1e15;             // above, doubles have too few bits for fractions
+constexpr double kMaxRows = 1e15;             // above, doubles lack bits for fractions of rows
 
 /// A number from -1 to 1 for each point of the lattice.
 float lattice_value(std::uint64_t row, std::uint32_t column, std::uint32_t seed) {

@@ -10,8 +10,8 @@ namespace lsys {
 
 struct NoiseSample {
     float value = 0.0F;     // -1 to 1
-    float by_angle = 0.0F;  // derivative, by radians
-    float by_length = 0.0F; // derivative, by the unit of the arc length
+    float by_angle = 0.0F;  // derivative with respect to the angle in radians
+    float by_length = 0.0F; // derivative with respect to the arc length
 };
 
 class BarkNoise {
@@ -19,7 +19,7 @@ public:
     /// `circumference` of the tube, greater than 0; `seed` differs from tube to tube.
     BarkNoise(float circumference, std::uint32_t seed);
 
-    /// Noise at `turn` (0 to 1) around the axis and `arc` along it.
+    /// Noise at `turn` (0 to 1) around the axis and at arc length `arc` along it.
     [[nodiscard]] NoiseSample at(float turn, double arc) const;
 
 private:

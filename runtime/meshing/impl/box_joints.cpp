@@ -16,26 +16,27 @@ namespace lsys {
 
 namespace {
 
-// Min ratio of the smaller to the larger radius.
+// Min ratio of the smaller to the larger radius of a segment.
 constexpr float kMinTaper = 0.05F;
 // A single child continues its parent if it bends by less than 60 degrees.
 constexpr float kStraight = 0.5F;
-// Below this cosine, no side of a joint faces a child.
+// A side whose normal has a smaller cosine with the heading of a child does not face the child.
 constexpr float kFacing = 0.35F;
-// Min length of a child / length of its part inside the joint.
+// Min length of a child, relative to the length of its part within the joint.
 constexpr float kOutside = 1.25F;
-// Min size of the opening of a child, relative to its cross-section. Smoothing hides that a branch
-// narrows in its opening; unsmoothed boxes must not narrow.
+// Min size of the opening of a child, relative to the cross-section of the child. A branch may be
+// narrower in its opening if the mesh is smoothed, which hides this; unsmoothed boxes must not be
+// narrower there.
 constexpr float kSmoothedOpening = 0.4F;
 constexpr float kExactOpening = 0.98F;
-// Flat ends of smoothed meshes: size of the inner square of the face, and distance of the last ring
-// from the face, in half sides.
+// Rim of the flat ends of smoothed meshes: size of the inner square of the end face, and distance
+// of the last ring from the end face, both in half sides.
 constexpr float kRim = 0.72F;
 constexpr float kBevel = 0.28F;
-// Min half side with a rim, relative to the distance from the origin.
+// Min half side of an end with a rim, relative to its distance from the origin.
 constexpr float kMinRim = 2e-4F;
-// Overlaps, in half sides, at a tip whose branches have separate surfaces: of the parent beyond its
-// tip, and of branches before this tip. The overlap of branches is smaller, so that no thick branch
+// Overlaps, in half sides, at a tip where branches have separate surfaces: of the parent beyond its
+// tip, and of the branches before this tip. The second overlap is smaller, so that no thick branch
 // shows on the far side of the parent.
 constexpr float kParentOverlap = 0.6F;
 constexpr float kBranchOverlap = 0.1F;
@@ -43,14 +44,14 @@ constexpr float kBranchOverlap = 0.1F;
 constexpr float kStep = 0.01F;
 // Min step that floats can represent, relative to the distance from the origin.
 constexpr float kMinStep = 4e-6F;
-// Min cosine of the bend and max relative difference of widths with which a child continues its
-// parent from the top of a joint.
+// Limits with which a child continues its parent from the top of a joint: min cosine of the bend,
+// and max relative difference of widths.
 constexpr float kContinues = 0.97F;
 constexpr float kSameWidth = 0.15F;
 constexpr std::size_t kSides = 5; // sides of a joint: four around it and the top
 constexpr std::size_t kTop = 4;
 
-/// Whether the segment is large enough for the resolution of floats at its place.
+/// Whether the segment is larger than the resolution of floats at its place.
 bool is_drawn(const Segment& segment) {
     const glm::vec3 end = tip(segment);
     const float far =
@@ -85,7 +86,8 @@ private:
         return std::span(children_).subspan(first_child_[segment],
                                             first_child_[segment + 1] - first_child_[segment]);
     }
-    /// Drawn children of each drawn parent, skipping segments without length.
+    /// Finds the children of each drawn segment; segments without length are replaced by their
+    /// children.
     void find_children() {
         const std::size_t count = skeleton_.segments.size();
         drawn_.resize(count);
@@ -138,7 +140,7 @@ private:
         const glm::vec3 along = heading(own.frame);
         const float length = own.length;
         writer_.begin_segment(own, segment, w.base);
-        // Length of the segment that is covered so far.
+        // Length of the segment, from its base, that already has a surface.
         float reach = 0.0F;
         if (socket_of_[segment] == kNoSegment) {
             const bool is_cut = own.cut || closed_[segment];
@@ -167,8 +169,8 @@ private:
         finish(segment, w.tip, reach);
     }
 
-    /// Whether an end of this half side has a rim: if it is smoothed and floats can represent the
-    /// rim.
+    /// Whether an end with this half side has a rim: if the mesh is smoothed and floats can
+    /// represent the rim.
     [[nodiscard]] bool has_rim(float half, const Segment& segment) const {
         const glm::vec3 end = tip(segment);
         return shape_.smoothed &&
@@ -213,14 +215,15 @@ private:
         branch(segment, half, reach);
     }
 
-    /// Makes a joint whose sides carry the children that fit.
+    /// Makes a joint. Children that fit grow from its sides.
     void branch(std::uint32_t segment, float half, float reach) {
         const Segment& own = skeleton_.segments[segment];
         const glm::vec3 along = heading(own.frame);
         const float height = std::min(half, 0.5F * (own.length - reach));
         writer_.add_ring(own.length - height, along, half);
         const BoxJoint joint = writer_.add_joint(own.length + height, along, half);
-        // Children by angle to the parent, so that a child that continues the parent gets the top.
+        // Children in the order of their angle to the parent, so that a child that continues the
+        // parent gets the top side.
         const std::span<const std::uint32_t> all = children(segment);
         std::vector<std::uint32_t> order(all.begin(), all.end());
         std::stable_sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
@@ -253,13 +256,13 @@ private:
         }
     }
 
-    /// Half side of a joint across its parent, and along it.
+    /// Half sides of a joint, across its parent and along it.
     struct JointSize {
         float half;
         float height;
     };
 
-    /// Distance from the middle of a joint to the plane of a side, along a direction.
+    /// Distance from the middle of a joint to the plane of a side, measured along `direction`.
     static float distance_to_side(const BoxSocket& side,
                                   std::size_t number,
                                   const JointSize& size,
@@ -277,8 +280,8 @@ private:
                grown.length > 2.0F * half;
     }
 
-    /// Whether the openings of the children `here` have room on a side, each in its tile, and no
-    /// child ends within its opening.
+    /// Whether a side has room for the openings of the children `here`, each in its own tile, and
+    /// no child ends within its opening.
     [[nodiscard]] bool has_room(const BoxSocket& side,
                                 std::size_t number,
                                 const JointSize& size,
@@ -305,7 +308,7 @@ private:
             glm::vec2 room = kMaxOpening * halves;
             if (here.size() > 2) { // each opening has a quarter of the side
                 room *= 0.5F * kInnerPart;
-            } else if (here.size() == 2) { // each has a half; divide() splits the side
+            } else if (here.size() == 2) { // each opening has a half; divide() splits the side
                 const glm::vec3 apart = heading(skeleton_.segments[here[0]].frame) -
                                         heading(skeleton_.segments[here[1]].frame);
                 const bool beside =
@@ -330,8 +333,8 @@ private:
         return true;
     }
 
-    /// Gives a child the side, among the sides with room, that its heading is nearest to; returns
-    /// false if no side has room.
+    /// Assigns to a child that side, among the sides with room, whose normal is nearest to its
+    /// heading; returns false if no side has room.
     bool choose_side(const BoxJoint& joint,
                      const JointSize& size,
                      std::uint32_t child,

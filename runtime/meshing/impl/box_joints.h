@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-// The control mesh of MeshMethod::Boxes: a box of square cross-section for each segment, joined at
-// the joints into one closed mesh per plant (docs/documents.md, S: the report on the .sys forest,
-// 2005). Each child grows out of the side of the joint that its heading is nearest to; a side with
-// several children is divided into tiles. A child for which no side has room is a closed box that
-// begins within its parent.
+// The control mesh of MeshMethod::Boxes: a box of square cross-section for each segment; the boxes
+// of a plant are joined at the joints into one closed mesh (docs/documents.md, S: the report on the
+// .sys forest, 2005). Each child grows out of that side of the joint whose normal is nearest to its
+// heading; a side with several children is divided into tiles. A child for which no side has room
+// becomes a closed box that begins within its parent.
 #pragma once
 
 #include "runtime/meshing/impl/catmull_clark.h"
@@ -12,9 +12,9 @@
 namespace lsys {
 
 struct BoxShape {
-    float width = 1.0F; // half side of a box for a radius of 1
-    /// Whether the mesh will be smoothed: flat ends then get a rim that keeps them flat, and a
-    /// branch may be narrower in its opening, the hole in the side of its parent's box. Otherwise
+    float width = 1.0F; // half side of the box of a segment whose radius is 1
+    /// Whether the mesh will be smoothed. Flat ends then get a rim that keeps them flat, and a
+    /// branch may be narrower in its opening, the hole in the side of its parent's box. If false,
     /// each box has exactly the widths of its segment.
     bool smoothed = true;
 };

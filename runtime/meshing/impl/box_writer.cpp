@@ -20,8 +20,8 @@ constexpr std::array<glm::vec2, 4> kCorners{{{1, 1}, {-1, 1}, {-1, -1}, {1, -1}}
 // u goes from 0 to 1 and back to 0 around a branch, so there is no seam.
 constexpr std::array<float, 4> kAround{0.0F, 0.5F, 1.0F, 0.5F};
 
-// Min distance of an opening from the axis of its branch that is visible, in half sides of the
-// socket.
+// An opening whose distance from the axis of its branch is below this, in half sides of the socket,
+// looks centred.
 constexpr float kMinVisibleOffset = 0.01F;
 
 /// `v`, turned by the smallest rotation that takes the unit vector `from` to the unit vector `to`.
@@ -34,8 +34,8 @@ glm::vec3 transported(const glm::vec3& v, const glm::vec3& from, const glm::vec3
     return cosine * v + glm::cross(axis, v) + axis * (glm::dot(axis, v) / (1.0F + cosine));
 }
 
-/// Sets the axes of a socket: `normal`, a unit vector perpendicular to it and as near to `right` as
-/// possible, and their cross product.
+/// Sets the axes of a socket: the unit vector `normal`; a unit vector perpendicular to it, as near
+/// to `right` as possible; and their cross product.
 void set_axes(BoxSocket& socket, const glm::vec3& right, const glm::vec3& normal) {
     socket.normal = normal;
     socket.right = glm::normalize(right - glm::dot(right, normal) * normal);
@@ -126,7 +126,7 @@ void BoxWriter::fade_radii() {
 }
 
 BoxOpening BoxWriter::add_opening(const glm::vec3& along, float half) {
-    // The socket is a rectangle: places in it are fractions of its half sides.
+    // Places in the socket, a rectangle, are fractions of its half sides.
     const auto corner = [&](std::size_t i) { return mesh_.positions[end_.corners[i]]; };
     const glm::vec3 middle = 0.25F * (corner(0) + corner(1) + corner(2) + corner(3));
     const glm::vec3 right = 0.25F * (corner(0) - corner(1) - corner(2) + corner(3));
@@ -171,7 +171,7 @@ BoxOpening BoxWriter::add_opening(const glm::vec3& along, float half) {
     return opening;
 }
 
-/// Adds the faces between two rings. A fan from the first corner of each face covers the face.
+/// Adds the faces between two rings, each of which is covered by a fan from its first corner.
 void BoxWriter::join(const BoxSocket& from, const BoxSocket& to) {
     for (std::size_t i = 0; i < 4; ++i) {
         const std::size_t j = (i + 1) % 4;
@@ -322,7 +322,8 @@ std::span<const BoxSocket> BoxWriter::divide(const BoxSocket& side,
     for (const Tile& tile : tiles_) {
         BoxSocket& socket = sockets_[tile_order_[tile.first]];
         for (std::size_t i = 0; i < 4; ++i) {
-            // Tiles are cut in halves, so a corner of a neighbour on this edge lies in its middle.
+            // Tiles are halves of tiles, so a corner of a neighbouring tile on this edge lies at
+            // the middle of the edge.
             const glm::vec2 middle =
                 0.5F * (corner_place(tile, i) + corner_place(tile, (i + 1) % 4));
             const auto found = std::find(tile_corners_.begin(), tile_corners_.end(), middle);

@@ -15,8 +15,9 @@ namespace lsys {
 
 inline constexpr std::size_t kMaxOnSide = 4; // max children per side of a joint
 
-/// An open square that a segment grows out of, seen from outside: its corners lie at (right, up) =
-/// (+, +), (-, +), (-, -), (+, -). Between two corners there may be a vertex of a neighbour.
+/// An open square from which a segment grows, seen from outside. Its corners lie at (right, up) =
+/// (+, +), (-, +), (-, -), (+, -). Between two corners there may be a vertex of a neighbouring
+/// tile.
 struct BoxSocket {
     static constexpr std::uint32_t kNone = 0xFFFFFFFFu;
     std::array<std::uint32_t, 4> corners{};
@@ -29,7 +30,7 @@ struct BoxSocket {
     float v = 0.0F;         // texture coordinate of the square
 };
 
-/// Sides 0 to 3 go around, side 4 is the top.
+/// The sides of a joint: sides 0 to 3 lie around it, side 4 is the top.
 struct BoxJoint {
     std::array<BoxSocket, 5> sides;
 };
@@ -37,40 +38,42 @@ struct BoxJoint {
 /// The shape of a ring in the side of a joint.
 struct BoxOpening {
     float reach = 0.0F; // distance from the base of the segment to the farthest corner
-    float size = 1.0F;  // relative to the cross-section of the segment; 1 if there is room
+    float size = 1.0F;  // relative to the cross-section of the segment; below 1 if room lacks
     bool moved = false; // its middle is not on the axis of the segment
 };
-/// Max size of an opening, as a fraction of the side of the joint or of the tile that it is in.
+/// Max size of an opening, as a fraction of the side of the joint or of the tile that contains it.
 inline constexpr float kMaxOpening = 0.94F;
 /// Fraction of a divided side that its tiles take.
 inline constexpr float kInnerPart = 0.85F;
 
-/// The axes of the socket, turned by the smallest angle until perpendicular to `direction` (unit).
+/// The socket with its axes turned by the smallest angle that makes them perpendicular to the unit
+/// vector `direction`.
 [[nodiscard]] BoxSocket axes_across(const BoxSocket& socket, const glm::vec3& direction);
 
 class BoxWriter {
 public:
     /// Begins `segment`, number `number`; `half`: half side of its box at the base.
     void begin_segment(const Segment& segment, std::uint32_t number, float half);
-    /// Begins at a distance from the base. `rim` below 1 keeps the end flat when it is smoothed:
-    /// its face has an inner square of this size.
+    /// Begins with an end at a distance from the base of the segment. `rim` below 1: the face of
+    /// the end has an inner square of this size, which keeps the end flat when it is smoothed.
     void begin_root(float distance, float half, float rim);
     void begin_at(const BoxSocket& socket);
     /// Adds a ring across `direction`, at a distance from the base of the segment, joined to the
     /// ring or socket before it.
     void add_ring(float distance, const glm::vec3& direction, float half);
-    /// Adds a ring in the plane of the socket of begin_at(): the section of that plane through a
-    /// box along unit vector `along`, scaled down if the socket has no room for it.
+    /// Adds a ring in the plane of the socket of begin_at(): the section of this plane with a box
+    /// along the unit vector `along`, scaled down if the socket has no room for it.
     BoxOpening add_opening(const glm::vec3& along, float half);
-    /// Adds a ring without joining it to the ring before. The four sides between them, and the new
-    /// ring as the top, are the sides of the joint.
+    /// Adds a ring without joining it to the ring before it. The sides of the joint are the four
+    /// sides between the two rings, and the new ring as the top.
     [[nodiscard]] BoxJoint add_joint(float distance, const glm::vec3& direction, float half);
     /// The socket for the next segment.
     [[nodiscard]] const BoxSocket& end_socket() const { return end_; }
     /// Closes the end; `rim` as for begin_root().
     void close(float rim);
-    /// Divides a side for segments that grow towards these places in (right, up). Returns a socket
-    /// for each, valid until the next call. Closes the side if there are no places.
+    /// Divides a side into tiles for segments that grow towards `places`, given in (right, up).
+    /// Returns a socket for each segment, valid until the next call. Closes the side if there are
+    /// no places.
     [[nodiscard]] std::span<const BoxSocket> divide(const BoxSocket& side,
                                                     std::span<const glm::vec2> places);
 

@@ -23,7 +23,7 @@ namespace lsys {
 
 namespace {
 
-// Half side of a box for a radius of 1. The radius of a smoothed square tube is 0.65 of its half
+// Half side of a box for a radius of 1. A smoothed square tube has a radius of 0.65 of its half
 // diagonal; the cross-section of an unsmoothed box has the area of the circle.
 constexpr float kSmoothedWidth = 1.075F;
 constexpr float kBoxWidth = 0.886F;
@@ -33,7 +33,7 @@ constexpr std::uint64_t kVerticesPerPiece = 1U << 14;
 
 /// Triangles of the faces, by part.
 struct Parts {
-    std::vector<MeshBuilder::PartSize> sizes;   // by rising material
+    std::vector<MeshBuilder::PartSize> sizes;   // by ascending material
     std::vector<std::span<std::uint32_t>> room; // for the indices of each part
     std::map<ItemColour, std::size_t> of_colour;
 };
@@ -76,8 +76,8 @@ glm::vec3 unit_or(const glm::vec3& v, const glm::vec3& otherwise) {
     return largest > 0.0F ? glm::normalize(v / largest) : otherwise;
 }
 
-/// Writes a vertex of the surface as vertex `to` of the block: normal, tangent along rising u and
-/// colour from the faces around it, or from the face `only`.
+/// Writes a vertex of the surface as vertex `to` of the block. Normal, tangent (along rising u) and
+/// colour come from the faces around the vertex, or from the face `only`.
 void write_vertex(const CatmullClark& surface,
                   std::uint32_t vertex,
                   std::optional<std::uint32_t> only,
@@ -137,7 +137,7 @@ void write_vertex(const CatmullClark& surface,
     }
 }
 
-/// Whether one of the triangles into which the diagonal from corner `first` cuts a quad faces away
+/// Whether the diagonal from corner `first` cuts the quad into triangles of which one faces away
 /// from the quad.
 bool folds(const PolygonMesh& mesh, std::uint32_t begin, std::uint32_t first) {
     const auto at = [&](std::uint32_t i) { return mesh.positions[mesh.corners[begin + i % 4]]; };
@@ -147,8 +147,8 @@ bool folds(const PolygonMesh& mesh, std::uint32_t begin, std::uint32_t first) {
            glm::dot(glm::cross(across, at(first + 3) - at(first)), area) < 0.0F;
 }
 
-/// Writes the triangles of a face to the front of `room`: a fan from its first corner, or a quad
-/// cut along its shorter diagonal. `flat`: vertices are numbered like corners.
+/// Writes the triangles of a face to the begin of `room`: a quad is cut along its shorter diagonal,
+/// any other face becomes a fan from its first corner. `flat`: vertices are numbered like corners.
 void write_face(const PolygonMesh& mesh,
                 std::uint32_t begin,
                 std::uint32_t end,
@@ -202,15 +202,15 @@ void write(const CatmullClark& surface,
 }
 
 /// Carves grooves along the stems: moves vertices inwards by up to `depth` times the radius. Around
-/// a stem u rises over one half and falls over the other, so the grooves of the halves mirror each
-/// other; they are shifted less where u changes direction. `steps`: smoothing steps made so far.
-/// `wanted`: total number of steps, which decides the number of grooves.
+/// a stem u rises over one half and falls over the other, so the grooves of both halves mirror each
+/// other; grooves are shifted less where u changes direction. `steps`: smoothing steps made so far.
+/// `wanted`: total number of smoothing steps, which decides the number of grooves.
 void carve_grooves(CatmullClark& surface,
                    float depth,
                    std::uint32_t steps,
                    std::uint32_t wanted,
                    Workers& workers) {
-    constexpr std::uint32_t kMaxSteps = 4; // further steps add no grooves
+    constexpr std::uint32_t kMaxSteps = 4; // more steps add no grooves
     if (wanted < 2) {
         return;
     }
@@ -247,7 +247,7 @@ void carve_grooves(CatmullClark& surface,
 void append_boxes(const Skeleton& skeleton, const MeshOptions& options, MeshBuilder& builder) {
     const std::uint32_t wanted = options.subdivisions.value_or(kSubdivisions);
     const std::uint32_t steps = wanted > options.level ? wanted - options.level : 0;
-    // Boxes that are not to be smoothed are flat: each face has vertices of its own.
+    // Boxes that are not smoothed have flat faces: each face has vertices of its own.
     const bool flat = wanted == 0;
     PolygonMesh boxes;
     if (skeleton.segments.size() <= kMaxSegments) {

@@ -69,7 +69,8 @@ std::uint32_t CatmullClark::previous(std::uint32_t half) const {
     return half > face_begin(face) ? half - 1 : mesh_.face_ends[face] - 1;
 }
 
-/// Pairs half-edges that join the same vertices, in buckets by their lower vertex.
+/// Pairs the half-edges that join the same two vertices; the half-edges are sorted into buckets by
+/// the lower number of the two.
 void CatmullClark::find_twins() {
     const auto count = static_cast<std::uint32_t>(mesh_.corners.size());
     twins_.resize(count);
@@ -186,7 +187,7 @@ void CatmullClark::refine() {
     twins.resize(to.corners.size());
     LargeVector<std::uint32_t> edges_of;
     edges_of.resize(to.corners.size());
-    // Children 4h to 4h + 3 of half-edge h are the quad at its first vertex.
+    // The children 4h to 4h + 3 of half-edge h form the quad at the first vertex of h.
     for_each(halves, [&](std::uint32_t half) {
         const std::uint32_t twin = twins_[half];
         const std::uint32_t before = previous(half);

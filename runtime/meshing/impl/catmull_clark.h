@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Catmull-Clark subdivision of closed meshes (Catmull & Clark 1978, "Recursively generated B-spline
-// surfaces on arbitrary topological meshes"), on half-edges whose children are known by their
-// number (Dupuy & Vanhoey 2021, "A Halfedge Refinement Rule for Parallel Catmull-Clark
-// Subdivision"). Each element depends on its neighbours only, so the result does not depend on
-// the number of threads.
+// surfaces on arbitrary topological meshes"), on half-edges. The number of a half-edge determines
+// the numbers of its children (Dupuy & Vanhoey 2021, "A Halfedge Refinement Rule for Parallel
+// Catmull-Clark Subdivision"). Each element depends on its neighbours only, so the result does not
+// depend on the number of threads.
 #pragma once
 
 #include "runtime/base/large_vector.h"
@@ -19,11 +19,11 @@
 namespace lsys {
 
 /// Faces with any number of corners, counter-clockwise seen from outside. Each vertex has one
-/// texture coordinate, smoothed like its position.
+/// texture coordinate, which is smoothed like its position.
 struct PolygonMesh {
     LargeVector<glm::vec3> positions;
     LargeVector<glm::vec2> texture_coordinates;
-    LargeVector<float> radii; // radii of the stem at the vertices, smoothed too; may be empty
+    LargeVector<float> radii; // of the stem, by vertex; smoothed like positions; may be empty
     LargeVector<std::uint32_t> corners;   // vertices of all faces, one face after the other
     LargeVector<std::uint32_t> face_ends; // end of each face in `corners`
     LargeVector<std::uint32_t> colours;   // colour of each face
@@ -45,7 +45,7 @@ public:
     /// Precondition: fewer than 2^31 corners.
     CatmullClark(PolygonMesh mesh, Workers& workers);
 
-    /// Whether every edge has two faces, in opposite directions: precondition of all functions
+    /// Whether every edge has two faces, in opposite directions. A precondition of all functions
     /// below.
     [[nodiscard]] bool closed() const { return closed_; }
     /// Makes one step of subdivision. Precondition: fewer than 2^29 corners.
@@ -54,7 +54,7 @@ public:
     /// Replaces the positions of all vertices.
     void move_vertices(LargeVector<glm::vec3> positions) { mesh_.positions = std::move(positions); }
 
-    /// Calls visit(face, half) for the faces around a vertex; `half`: the half-edge of the face
+    /// Calls visit(face, half) for the faces around a vertex. `half`: the half-edge of the face
     /// that begins at the vertex.
     template <typename Visit>
     void visit_faces(std::uint32_t vertex, const Visit& visit) const {
@@ -82,15 +82,16 @@ private:
     template <typename Piece>
     void for_each(std::uint64_t count, const Piece& piece);
 
-    // A half-edge goes from a corner of a face to the next one and has the corner's number.
+    // A half-edge goes from a corner of a face to the next corner, and has the number of the first
+    // corner.
     PolygonMesh mesh_;
     Workers& workers_;
     bool closed_ = false;
-    bool quads_ = false;                   // all faces have four corners, stored in order of faces
-    LargeVector<std::uint32_t> faces_;     // by half-edge; empty if all faces are quads
-    LargeVector<std::uint32_t> twins_;     // by half-edge
-    LargeVector<std::uint32_t> edges_;     // by half-edge
-    LargeVector<std::uint32_t> edge_half_; // a half-edge of each edge
+    bool quads_ = false;                     // all faces have four corners and are stored in order
+    LargeVector<std::uint32_t> faces_;       // by half-edge; empty if all faces are quads
+    LargeVector<std::uint32_t> twins_;       // by half-edge
+    LargeVector<std::uint32_t> edges_;       // by half-edge
+    LargeVector<std::uint32_t> edge_half_;   // a half-edge of each edge
     LargeVector<std::uint32_t> vertex_half_; // a half-edge that begins at each vertex
 };
 

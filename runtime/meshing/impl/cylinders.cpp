@@ -25,14 +25,14 @@ constexpr float kMaxRadius = 1e18F;
 
 /// The cone of a segment: rings of `sides` corners, or points.
 struct Cone {
-    std::uint32_t sides = 0; // 0: nothing is drawn
+    std::uint32_t sides = 0; // 0: the segment is not drawn
     float base_radius = 0.0F;
     float tip_radius = 0.0F;
 
     [[nodiscard]] std::uint32_t caps() const {
         return (base_radius > 0.0F ? 1U : 0U) + (tip_radius > 0.0F ? 1U : 0U);
     }
-    /// Rings have a seam, a point has a vertex for each side.
+    /// A ring has one vertex more than sides, for the seam; a point has a vertex for each side.
     [[nodiscard]] std::uint32_t vertices() const {
         return sides == 0 ? 0 : 2 * sides + caps() * (sides + 1);
     }
@@ -46,7 +46,7 @@ Cone cone_of(const Segment& segment, const MeshOptions& options) {
         usable_sides(options.sides != 0 ? options.sides : std::uint32_t{segment.sides});
     Cone cone;
     cone.sides = std::max(whole >> std::min(options.level, kMaxLevels), kMinSides);
-    // Radii too small for floats at this place count as 0.
+    // A radius that is too small for the resolution of floats at this place counts as 0.
     const glm::vec3 end = tip(segment);
     float far = 0.0F;
     for (int i = 0; i < 3; ++i) {
@@ -107,7 +107,7 @@ private:
     struct Ring {
         glm::vec3 centre;
         float radius;
-        glm::vec2 normal; // outwards and along
+        glm::vec2 normal; // components away from the axis and along the axis
         float v;
     };
 
@@ -119,7 +119,7 @@ private:
                 ring_directions_[i].cosine * axes_[2] + ring_directions_[i].sine * axes_[0];
             glm::vec3 across =
                 ring_directions_[i].cosine * axes_[0] - ring_directions_[i].sine * axes_[2];
-            if (point) { // halfway to the next corner
+            if (point) { // the vertex of a side lies halfway to the next corner
                 out += ring_directions_[i + 1].cosine * axes_[2] +
                        ring_directions_[i + 1].sine * axes_[0];
                 out = glm::normalize(out);
@@ -189,7 +189,7 @@ void append_cylinders(const Skeleton& skeleton, const MeshOptions& options, Mesh
     if (groups.items.empty()) {
         return;
     }
-    // Groups are sorted by colour, and so are materials: bark first, then plain colours by index.
+    // Sorting groups by colour sorts materials too: bark first, then plain colours by index.
     std::vector<Piece> pieces;
     std::vector<std::size_t> first_piece;
     for (const Group& group : groups.groups) {

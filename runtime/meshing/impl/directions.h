@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Unit directions of the corners of regular polygons, as constants: the same bits on every machine,
-// independent of its library's cosine.
+// Unit directions of the corners of regular polygons as constants, which have the same bits on
+// every machine, whatever cosine its library computes.
 #pragma once
 
 #include "runtime/turtle/turtle.h"
@@ -37,8 +37,8 @@ constexpr Direction direction_in_octant(std::uint32_t index, std::uint32_t parts
     return {static_cast<float>(cosine), static_cast<float>(sine)};
 }
 
-/// Direction of a corner. Symmetric to the last bit, as all directions are computed from the first
-/// octant.
+/// Direction of a corner. Directions are symmetric to the last bit, because all are computed from
+/// the first octant.
 constexpr Direction direction_of(std::uint32_t corner, std::uint32_t sides) {
     if (corner == sides) {
         return {1.0F, 0.0F};
@@ -76,12 +76,12 @@ inline constexpr auto kDirections = make_directions();
 
 } // namespace detail
 
-/// The `sides` + 1 corners of a polygon of kMinSides to kMaxSides sides; the last is the first.
+/// The corners of a polygon with `sides` sides, kMinSides to kMaxSides, and its first corner again.
 [[nodiscard]] inline const Direction* directions(std::uint32_t sides) {
     return detail::kDirections.data() + detail::first_direction(sides);
 }
 
-/// Clamps a number of sides to kMinSides ... kMaxSides; 0 means 8.
+/// The number of sides, clamped to kMinSides ... kMaxSides; 0 means 8.
 [[nodiscard]] constexpr std::uint32_t usable_sides(std::uint32_t sides) {
     return sides == 0 ? 8 : std::clamp(sides, kMinSides, kMaxSides);
 }

@@ -15,13 +15,13 @@ namespace lsys {
 
 namespace {
 
-// Max rows of vertices of a leaf.
+// Max number of rows of vertices of a leaf.
 constexpr std::size_t kMaxRows = 16;
-// Max turn of a leaf that stands on its edge, radians.
+// Max turn, in radians, of a leaf that stands on its edge.
 constexpr float kSidewaysTurn = 2.1F;
 
-/// Part of the whole turn, 0 to 1, that is reached at a distance from the base (0) to the tip (1).
-/// The midrib bends most at the base.
+/// Fraction of the whole turn that is reached at `distance`, from 0 (the base) to 1 (the tip). The
+/// midrib bends most at the base.
 float part_of_turn(float distance) {
     const float rest = 1.0F - distance;
     return 1.0F - rest * rest;
@@ -50,15 +50,15 @@ void Droop::bend(const ShapePart& part,
                  const glm::quat& frame,
                  float amount,
                  ShapePart& bent) const {
-    // The direction to the ground in the leaf's space, its component across the midrib, and the
-    // axis of the bending.
+    // The direction to the ground in the leaf's space, the component of this direction across the
+    // midrib, and the axis about which the leaf bends.
     const glm::vec3 down = glm::conjugate(frame) * glm::vec3(0.0F, -1.0F, 0.0F);
     glm::vec3 across(down.x, 0.0F, down.z);
     const float length = glm::length(across);
     // A leaf that points straight up bends towards its lower side.
     across = length > 1e-5F ? across / length : glm::vec3(0.0F, 0.0F, -1.0F);
     const glm::vec3 axis(across.z, 0.0F, -across.x);
-    // A blade is stiff sideways: bent further, it would fold at its inner edge.
+    // A blade is stiff sideways: if it bent further, it would fold at its inner edge.
     const float max_turn = glm::mix(std::numbers::pi_v<float>, kSidewaysTurn, std::abs(across.x));
     const float turn = amount * std::min(std::atan2(length, down.y), max_turn);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Float4: four floats in a SIMD register; a glm::vec3 takes the first three.
+// Float4: four floats in a SIMD register. Conversion to a glm::vec3 takes the first three.
 #pragma once
 
 #include <glm/vec3.hpp>

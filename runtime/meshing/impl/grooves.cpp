@@ -9,11 +9,11 @@ namespace lsys {
 namespace {
 
 constexpr float kMaxShift = 0.4F; // max shift of the phase, in grooves
-/// The phase is BarkNoise of a tube with this multiple of the circumference, so it varies 6 times
+/// The phase is the BarkNoise of a tube of this many times the circumference, so it varies 6 times
 /// more slowly than the bumps of the bark.
 constexpr float kShiftCircumference = 6;
 
-/// Signed distance from the middle of the groove: -1 and 1 on the ridges beside it.
+/// Signed distance from the middle of the groove: -1 and 1 on the two ridges beside it.
 float from_middle(float x) {
     return 2.0F * (x - std::floor(x)) - 1.0F;
 }

@@ -11,22 +11,23 @@
 
 namespace lsys {
 
-/// Depth of a groove at phase x, where 1 is one groove: 0 on ridges, at whole x, and -1 halfway
-/// between ridges.
+/// Depth of a groove at phase x, where 1 is one groove: 0 on the ridges, which lie at whole x, and
+/// -1 halfway between two ridges.
 [[nodiscard]] float groove_depth(float x);
 /// The derivative of groove_depth() by x.
 [[nodiscard]] float groove_slope(float x);
 
 class Grooves {
 public:
-    /// `count` grooves around a tube of this circumference, greater than 0. `seed` differs from
-    /// tube to tube. For every seed a ridge begins at arc 0 and turn 0.
+    /// Grooves: `count` of them, around a tube of this circumference, greater than 0. `seed`
+    /// differs from tube to tube. For every seed a ridge passes through turn 0 at arc 0.
     Grooves(std::uint32_t count, float circumference, std::uint32_t seed);
 
     [[nodiscard]] std::uint32_t count() const { return count_; }
-    /// The value, -1 to 0, at `turn` (0 to 1) around the axis and `arc` along it.
+    /// The displacement, -1 to 0, at `turn` (0 to 1) around the axis and at arc length `arc` along
+    /// it.
     [[nodiscard]] NoiseSample at(float turn, double arc) const;
-    /// Shift of the ridges at `arc` since arc 0, in grooves: less than one.
+    /// Shift of the ridges between arc 0 and `arc`, in grooves: less than one groove.
     [[nodiscard]] float ridge_shift(double arc) const;
 
 private:

@@ -10,7 +10,7 @@
 
 namespace lsys {
 
-inline constexpr std::uint64_t kNoGroup = ~std::uint64_t{0}; // key of items to leave out
+inline constexpr std::uint64_t kNoGroup = ~std::uint64_t{0}; // key of items that are left out
 
 struct Group {
     std::uint64_t key = 0;   // of all its items
@@ -23,11 +23,11 @@ struct Groups {
     LargeVector<std::uint32_t> items; // sorted by key, equal keys in ascending order
 };
 
-/// Sorts the items 0 ... count - 1 by key_of(item), which is called twice for each.
+/// Sorts the items 0 ... count - 1 by key_of(item), which is called twice for each item.
 template <typename KeyOf>
 [[nodiscard]] Groups group_items(std::uint64_t count, const KeyOf& key_of) {
-    std::map<std::uint64_t, std::uint64_t> places; // key to count, then to the next free place
-    // Equal keys come in runs, so the last lookup is cached.
+    std::map<std::uint64_t, std::uint64_t> places; // by key: the count, later the next place
+    // Items of equal keys often follow each other, so the last lookup is cached.
     std::uint64_t last_key = kNoGroup;
     std::uint64_t* place = nullptr;
     const auto find = [&](std::uint64_t key) -> std::uint64_t& {

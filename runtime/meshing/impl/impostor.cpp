@@ -23,7 +23,7 @@ namespace {
 
 constexpr int kMinTile = 16; // texels of a side of a picture
 constexpr int kMaxTile = 128;
-constexpr float kMaxTexelsPerPixel = 1.3F; // at the screen size where the impostor is first shown
+constexpr float kMaxTexelsPerPixel = 1.3F; // at the size on screen where the impostor first appears
 constexpr int kMinSamples = 256;           // samples of a side of a picture
 constexpr int kMaxSamples = 512;
 constexpr int kSamplesPerTexel = 8; // along each side, within kMinSamples and kMaxSamples
@@ -59,7 +59,8 @@ int margin_of(int tile) {
     return std::max(tile / 64, 1);
 }
 
-/// The normal of a card at a point with this normal of the plant, both with Z towards the eye.
+/// The normal of a card at a point where the plant has the normal `normal`. Both have Z towards the
+/// eye.
 glm::vec3 normal_on_card(glm::vec3 normal, bool is_upright) {
     // Take the normal of the side of the leaf that is visible. Viewers of tiles and forests look
     // down on upright cards, and see the upper sides of level leaves.
@@ -68,8 +69,9 @@ glm::vec3 normal_on_card(glm::vec3 normal, bool is_upright) {
     }
     normal.z = std::max(normal.z, 0.0F);
     if (is_upright) {
-        // The eye sees cards of three directions, which by themselves spread their normals about
-        // the vertical nearly as much as a plant. So each card keeps only a part of its own spread.
+        // Cards face three directions, so that the normals of three cards spread about the vertical
+        // nearly as much as those of a plant, even if each card had one normal. So each card keeps
+        // only a part of the spread of its own normals.
         const glm::vec2 level(kTurned * normal.x, normal.z);
         const float before = std::sqrt(normal.x * normal.x + normal.z * normal.z);
         const float after = glm::length(level);
@@ -124,8 +126,8 @@ struct Span {
     }
 };
 
-/// A strip of `count` trapezoids around the marked texels, in texels: pairs of a left and a right
-/// corner, from top to bottom. Empty if no texel is marked.
+/// A strip of `count` trapezoids around the marked texels, in texels. The result has a left and a
+/// right corner alternately, from top to bottom. Empty if no texel is marked.
 std::vector<glm::vec2>
 strip_around(int side, const std::vector<std::uint8_t>& marked, std::size_t count) {
     const auto columns = static_cast<std::size_t>(side);
@@ -164,8 +166,8 @@ strip_around(int side, const std::vector<std::uint8_t>& marked, std::size_t coun
     }
     std::vector<glm::vec2> corners;
     for (std::size_t k = 0; k <= count; ++k) {
-        // Between two empty trapezoids the corners are one texel apart, centred below the
-        // previous pair.
+        // Between two empty trapezoids the two corners are one texel apart, centred below the two
+        // corners before them.
         const Span before = k > 0 ? Span{corners[2 * k - 2].x, corners[2 * k - 1].x} : Span{};
         const float middle = 0.5F * (before.left + before.right);
         const Span own = ends[k].is_empty() ? Span{middle - 0.5F, middle + 0.5F} : ends[k];
@@ -175,9 +177,9 @@ strip_around(int side, const std::vector<std::uint8_t>& marked, std::size_t coun
     return corners;
 }
 
-/// The number of trapezoids of each card: `all` in total, distributed as evenly as possible; with
-/// fewer trapezoids than cards, the cards with most texels get one each. `areas`: opaque texels of
-/// each card.
+/// The number of trapezoids of each card: `all` in total, distributed as evenly as possible. If
+/// there are fewer trapezoids than cards, the cards with most opaque texels get one each. `areas`:
+/// number of opaque texels of each card.
 std::vector<std::size_t> trapezoids_of(const std::vector<std::size_t>& areas, std::size_t all) {
     std::vector<std::size_t> order;
     for (std::size_t i = 0; i < areas.size(); ++i) {
@@ -205,11 +207,11 @@ struct ImpostorBaker::Fragment {
     float v = 0.0F;
 };
 
-/// Buffers that are reused from picture to picture.
+/// Buffers that are reused for all pictures.
 struct ImpostorBaker::Canvas {
     DepthBuffer buffer;
     std::vector<Fragment> fragments; // valid for samples with a depth
-    std::vector<glm::vec3> along;    // positions along the axes of the view
+    std::vector<glm::vec3> along;    // positions of the vertices along the axes of the view
     LargeVector<std::uint32_t> indices;
     LinearTextures textures;
 
@@ -245,7 +247,7 @@ void ImpostorBaker::render_slab(const Mesh& mesh, int slab, Canvas& canvas, View
     for (const glm::vec3& at : canvas.along) {
         bounds.add(at);
     }
-    // A flat plant has cards of some width and depth too.
+    // A flat plant has cards with some width and depth, too.
     const glm::vec3 size = bounds.high - bounds.low;
     const auto tile = static_cast<float>(tile_);
     const float min_size = std::max({size.x, size.y, size.z, 1e-6F}) / tile;
@@ -258,8 +260,8 @@ void ImpostorBaker::render_slab(const Mesh& mesh, int slab, Canvas& canvas, View
     const float thickness = 2.0F * half.z / static_cast<float>(slabs_);
     view.low.z += static_cast<float>(slab) * thickness;
     view.high.z = view.low.z + thickness;
-    // Whether depths from `low` to `high` reach into the slab. The first and the last slab include
-    // depths that rounding puts outside.
+    // Whether the range of depths from `low` to `high` overlaps the slab. The first and the last
+    // slab also include depths that rounding puts outside of all slabs.
     const auto is_here = [&](float high, float low) {
         return (high >= 0.0F || slab == 0) && (low < 1.0F || slab + 1 == slabs_);
     };
@@ -311,7 +313,7 @@ void ImpostorBaker::render_slab(const Mesh& mesh, int slab, Canvas& canvas, View
 
     const auto columns = static_cast<std::size_t>(tile_);
     const auto width = static_cast<std::size_t>(buffer.width);
-    const std::size_t samples = width / columns; // along each side
+    const std::size_t samples = width / columns; // samples of a texel, along each side
     view.coverage.resize(texels());
     view.colours.resize(texels());
     view.normals.resize(texels());
@@ -365,7 +367,7 @@ std::vector<std::uint8_t> ImpostorBaker::paint(const View& view,
                                                const glm::vec3& tint,
                                                Texture& colour,
                                                Texture& normal_map) const {
-    std::vector<std::uint32_t> order; // numbers of texels, in the order of covering
+    std::vector<std::uint32_t> order; // numbers of texels, in the order in which they become opaque
     double area = 0.0;
     glm::dvec3 wanted(0.0); // sum of colours
     for (std::uint32_t i = 0; i < texels(); ++i) {
@@ -411,8 +413,8 @@ std::vector<std::uint8_t> ImpostorBaker::paint(const View& view,
             normal_map.texels[to + static_cast<std::size_t>(c)] =
                 unit_byte(0.5F + 0.5F * view.normals[i][c]);
         }
-        // Half opaque at the min coverage of an opaque texel, so that mipmaps of a viewer cover
-        // as much.
+        // A texel of the min coverage of an opaque texel gets half opacity, so that the mipmaps of
+        // a viewer cover as much as the picture.
         const std::uint8_t alpha = unit_byte(0.5F * view.coverage[i] / min_coverage);
         colour.texels[to + 3] = opaque[i] != 0 ? std::max<std::uint8_t>(alpha, kOpaqueByte)
                                                : std::min<std::uint8_t>(alpha, kOpaqueByte - 1);

@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: MIT
-// Impostors: crossed cards with pictures of a plant, for the coarsest levels of detail. There are
-// three upright directions, 60 degrees apart, and one from above. Each direction has one card, or
-// three cards that each show a slab, a third of the depth of the plant. A card is a strip of
-// trapezoids around its opaque texels. All cards share one atlas. The colour picture has the
-// opacity. A texel has the colour and the normal of one sample of the plant, chosen by a hash: a
-// mean normal would point to the eye wherever a texel shows many leaves, and be lit like none of
-// them. The normal map has the normals in the frame of the card, and as alpha the depth: 1 at the
-// back to 255 at the front of the part of the plant that the card shows, with the card halfway
-// between. Front and back of a card are two strips with the same picture. The back has the normals
-// of the front turned about the axis that points up in the picture: reversed normals, as viewers of
-// glTF give to the back of a face, would show the dark undersides of leaves from one of two sides.
+// Impostors: crossed cards with pictures of a plant, for the coarsest levels of detail. Cards face
+// three upright directions, 60 degrees apart, and one direction from above. Each direction has one
+// card, or three cards that each show a slab, a third of the depth of the plant. A card is a strip
+// of trapezoids around its opaque texels. All cards share one atlas. The colour picture contains
+// the opacity. A texel has the colour and the normal of one sample of the plant, chosen by a hash:
+// a mean normal would point to the eye wherever a texel shows many leaves, and would be lit like
+// none of these leaves. The normal map has the normals in the frame of the card. Its alpha is the
+// depth, from 1 at the back to 255 at the front of the part of the plant that the card shows; the
+// card lies halfway between. Front and back of a card are two strips with the same picture. The
+// normals of the back are those of the front, turned about the axis that points up in the picture.
+// Reversed normals, which viewers of glTF give to the back of a face, would show the dark
+// undersides of leaves on one of the two sides.
 #pragma once
 
 #include "runtime/meshing/mesh.h"
@@ -30,20 +31,21 @@ inline constexpr std::uint64_t kMinSlabTriangles = 48;
 class ImpostorBaker {
 public:
     /// Renders the pictures of `mesh`, which has texture coordinates. The pictures are the same on
-    /// every machine. `pixels`: size on screen of the plant's largest extent where the impostor is
-    /// first shown. Pictures have about as many texels, so that viewers do not start with mipmaps,
-    /// in which thin plants vanish. `triangles`: number of triangles of both sides of all cards, at
-    /// least 4.
+    /// every machine. `pixels`: size on screen of the plant's largest extent where the impostor
+    /// first appears. A picture has about as many texels, so that viewers do not begin with
+    /// mipmaps, in which thin plants vanish. `triangles`: number of triangles of both sides of all
+    /// cards, at least 4.
     ImpostorBaker(const Mesh& mesh, float pixels, std::uint64_t triangles);
 
-    /// Makes the cards, which have `triangles` triangles together, rounded down to a multiple of 4;
-    /// an empty card has none. `cover`: area of opaque texels / area of the mesh, in each
-    /// picture. Thin parts that cover less than a texel are opaque in as many texels as they cover
-    /// on average. The mean linear colour of each picture is that of the mesh times `tint`.
+    /// Makes the cards. They have `triangles` triangles in total, rounded down to a multiple of 4;
+    /// a card without opaque texels has none. `cover`: area of opaque texels / area of the mesh, in
+    /// each picture. Thin parts that cover less than a texel are opaque in as many texels as they
+    /// cover on average. The mean linear colour of each picture is the mean linear colour of the
+    /// mesh times `tint`.
     [[nodiscard]] Mesh make(double cover, const glm::vec3& tint) const;
 
 private:
-    /// One picture. Arrays have tile_ by tile_ texels, rows from above.
+    /// One picture. Arrays have tile_ by tile_ texels, row by row from the top.
     struct View {
         glm::vec3 right{};
         glm::vec3 up{};

@@ -13,7 +13,7 @@ namespace lsys {
 
 namespace {
 
-// Turn from one part to the next, as the difference of their unit headings.
+// Wanted turn from one part to the next: length of the difference of their unit headings.
 constexpr double kTurnOfPart = 0.2;
 // An axis turns back where the square of the sum of the two unit headings is at most this.
 constexpr float kTurnsBack = 1e-4F;
@@ -38,8 +38,8 @@ glm::dvec3 unit(const glm::dvec3& v) {
     return length > 0.0 ? v / length : v;
 }
 
-/// Derivative at the joint between two edges for the curve of one of them, which has length `own`
-/// and heading `heading`.
+/// Derivative at the joint between two edges, for the curve of that edge which has length `own` and
+/// heading `heading`.
 glm::dvec3 derivative(
     const glm::vec3& in, const glm::vec3& out, const glm::vec3& heading, float own, float other) {
     if (!joint_tangent(in, out)) {
@@ -64,7 +64,8 @@ Cubic curve_of(const LargeVector<Joint>& joints,
         curve.leaving =
             derivative(before.heading, from.heading, from.heading, from.length, before.length);
     } else if (start) {
-        // The derivative as if an edge of the same length along `tangent` came before.
+        // The derivative that the curve would have if an edge of equal length along `tangent` came
+        // before.
         const glm::dvec3 tangent(start->tangent);
         curve.leaving = glm::dot(straight, tangent) * tangent;
     } else {
@@ -76,14 +77,15 @@ Cubic curve_of(const LargeVector<Joint>& joints,
     return curve;
 }
 
-/// Parameters that divide a curve into parts that turn by equal angles; ends included.
+/// Parameters at which a curve is cut into parts that turn by equal angles; both ends included.
 struct Places {
     std::array<double, kMaxCurveParts + 1> at{};
     std::size_t parts = 1;
 };
 
 Places find_places(const Cubic& curve) {
-    // Turn of the curve from its begin to the middle of each of kSamples equal ranges of t.
+    // Turn of the curve from its begin to the middle of each of kSamples equal ranges of its
+    // parameter.
     std::array<double, kSamples + 2> parameters{};
     std::array<double, kSamples + 2> turns{};
     glm::dvec3 heading = unit(curve.leaving);
@@ -131,11 +133,11 @@ struct Neighbours {
     std::optional<glm::vec3> after;
 };
 
-/// Whether `curve` can replace its edge: no ring crosses the next one, whether the neighbouring
-/// edges become curves or stay straight.
+/// Whether `curve` can replace its edge: no ring crosses the next ring, both if the neighbouring
+/// edges become curves and if they stay straight.
 bool can_draw(const Parts& parts, const Cubic& curve, const Neighbours& beside) {
-    // Normals of two planes of a ring: across the curve, and halfway between the headings of the
-    // adjacent edges.
+    // Normals of two possible planes of a ring: across the curve, and in the bisector of the
+    // adjacent straight edges.
     struct Planes {
         glm::dvec3 curve{};
         glm::dvec3 halfway{};

@@ -22,7 +22,7 @@ constexpr std::size_t kLeafCorners = 8;
 /// Max angle in radians that L3D treats as 0.
 constexpr double kNoTurn = 0.001;
 
-/// The shortest rotation that takes +Y to `heading`. The identity where L3D finds no axis: also for
+/// The shortest rotation that takes +Y to `heading`. The identity if L3D finds no axis, as also for
 /// a heading straight down.
 glm::dquat turn_to(const glm::dvec3& heading) {
     const glm::dvec3 up(0.0, 1.0, 0.0);
@@ -47,7 +47,7 @@ std::uint64_t index_count(const Segment& segment) {
     return 3 * (2 * std::uint64_t{segment.sides} + 2 * (std::uint64_t{segment.sides} - 2));
 }
 
-/// Fills a block from the front.
+/// Writes into a block from its begin.
 class ShapeWriter {
 public:
     explicit ShapeWriter(const MeshBlock& block) : block_(block) {}
@@ -102,7 +102,7 @@ void ShapeWriter::cylinder(const Segment& segment, std::uint32_t number) {
     }
 }
 
-/// Writes a leaf. `bend`: distance of its tip from its plane.
+/// Writes a leaf. `bend`: distance of the tip of the leaf from its plane.
 void ShapeWriter::leaf(const PlacedObject& object, double bend) {
     const std::array<glm::dvec3, kLeafCorners> corners{{
         {0.0, 0.01, 0.0},

@@ -13,8 +13,8 @@ namespace {
 
 constexpr std::uint8_t kHalfOpaque = 128;
 
-/// Linear value of an sRGB value from 0 to 1 (IEC 61966-2-1); the power by Newton's method, as
-/// libraries differ in its last bits.
+/// Linear value of an sRGB value from 0 to 1 (IEC 61966-2-1). Computes the power by Newton's
+/// method, because the last bits of pow() differ between libraries.
 double linear_of(double value) {
     if (value <= 0.04045) {
         return value / 12.92;
@@ -29,8 +29,8 @@ double linear_of(double value) {
     return square * root;
 }
 
-/// sRGB tables: linear value of each byte, and the thresholds at which a linear value rounds to the
-/// next byte.
+/// sRGB tables: the linear value of each byte, and the thresholds from which a linear value rounds
+/// to the next byte.
 struct SrgbTables {
     std::array<float, 256> linear{};
     std::array<float, 255> thresholds{};

@@ -20,7 +20,7 @@ struct LinearTexture {
     std::uint32_t width = 0;
     std::uint32_t height = 0;
     std::vector<std::array<std::uint8_t, 4>> texels; // sRGB, opacity 0 or 255; empty: white
-    std::vector<std::uint8_t> opaque;                // opacities alone, which take less of a cache
+    std::vector<std::uint8_t> opaque;                // opacities alone: fewer bytes than `texels`
 
     /// Linear colour and opacity (0 or 1) at texture coordinates.
     [[nodiscard]] glm::vec4 at(const glm::vec2& place) const;
@@ -29,7 +29,7 @@ struct LinearTexture {
 
 class LinearTextures {
 public:
-    /// The texture of a material; valid as long as this object, which keeps the picture.
+    /// The texture of a material; valid as long as this object, which stores the picture.
     [[nodiscard]] const LinearTexture& texture_of(const Material& material);
 
 private:

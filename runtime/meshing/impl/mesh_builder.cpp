@@ -16,8 +16,8 @@ namespace {
 
 constexpr std::uint64_t kMaxVertices = 0xFFFFFFFFu;
 
-/// Makes room for `needed` elements in `data` and keeps the first `used`. Allocates exactly if none
-/// is kept, else by doubling.
+/// Makes room for `needed` elements in `data` and keeps the first `used` elements. Allocates
+/// exactly `needed` elements if none is kept, else by doubling.
 template <typename Vector>
 std::span<typename Vector::value_type>
 grow(Vector& data, std::uint64_t used, std::uint64_t needed) {
@@ -126,8 +126,8 @@ MeshBuilder::MeshBuilder(const MeshOptions& options, Mesh& mesh) : options_(opti
     mesh.looks = nullptr;
 }
 
-/// Checks the limits and counts the bytes of triangles; sets stop_ and returns false if they do not
-/// fit.
+/// Checks the limits and adds the bytes of triangles to the total. If the limits are exceeded, sets
+/// stop_ and returns false.
 bool MeshBuilder::claim(std::uint64_t vertices, std::uint64_t triangle_bytes) {
     if (stop_) {
         return false;

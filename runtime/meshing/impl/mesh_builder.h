@@ -18,7 +18,7 @@ namespace lsys {
 /// Palette index of objects without a colour of their own.
 inline constexpr std::uint16_t kGreyPalette = 24;
 
-/// Identity of a material. Parts of a mesh are sorted by it.
+/// Identity of a material. Parts of a mesh are sorted by this key.
 struct MaterialKey {
     MaterialKind kind = MaterialKind::Plain;
     ItemColour palette = 0;
@@ -32,17 +32,17 @@ struct MaterialKey {
                std::tie(b.kind, b.palette, b.two_sided, b.cut_out, b.textured, b.picture);
     }
 };
-/// Pictures of a file; each may be null.
+/// Pictures of a mesh file; each may be null.
 struct FilePictures {
     std::shared_ptr<const Texture> colour;
     std::shared_ptr<const Texture> normal_map;
     std::string name; // name of the material
 };
 
-/// The material of wood: textured bark for palette index 0, the plain colour for any other.
+/// The material of wood: textured bark for palette index 0, the plain colour for any other index.
 [[nodiscard]] MaterialKey wood_material(ItemColour palette);
-/// `words`: names of the items drawn with the material, for example "sphere"; a plain material is
-/// named after them.
+/// `words`: names of the items drawn with the material, for example "sphere"; the name of a plain
+/// material consists of them.
 [[nodiscard]] Material make_material(const MaterialKey& key,
                                      std::span<const std::string> words = {});
 
@@ -52,11 +52,11 @@ struct MeshVertex {
     glm::vec2 texture_coordinate{};
     glm::vec4 tangent{};
     ItemColour palette = 0;
-    std::uint32_t segment = kNoSegment; // the segment that carries the vertex
+    std::uint32_t segment = kNoSegment; // segment that moves the vertex
 };
 
-/// Room for new vertices and indices, to be filled completely. Arrays that the options leave out
-/// are empty. Valid until the next call of the builder.
+/// Room for new vertices and indices, which the caller fills completely. Arrays that the options
+/// leave out are empty. Valid until the next call of the builder.
 struct MeshBlock {
     std::uint32_t first_vertex = 0; // offset of indices into the block
     std::span<glm::vec3> positions;
@@ -75,7 +75,7 @@ public:
     struct PartSize {
         MaterialKey material;
         std::uint64_t index_count = 0;
-        std::string word = {}; // name of the items drawn; empty: no name
+        std::string word = {}; // name of the items drawn; empty: the part gets no name
     };
     struct WholePart {
         MaterialKey material;
@@ -83,7 +83,7 @@ public:
         std::string word = {};
     };
 
-    /// Writes into `mesh` and reuses the memory of its vertices. Both arguments outlive the
+    /// Writes into `mesh` and reuses the memory of its vertices. Both arguments must outlive the
     /// builder.
     MeshBuilder(const MeshOptions& options, Mesh& mesh);
     MeshBuilder(const MeshBuilder&) = delete;
@@ -92,7 +92,7 @@ public:
     [[nodiscard]] const MeshOptions& options() const { return options_; }
     /// Sets the pictures of files, by MaterialKey::picture - 1.
     void set_pictures(std::vector<FilePictures> pictures) { pictures_ = std::move(pictures); }
-    /// Sets the looks of colour indexes; null: none.
+    /// Sets the looks of colour indices; null: none.
     void set_looks(std::shared_ptr<const Looks> looks) { mesh_.looks = std::move(looks); }
     /// The Stop that make_mesh() returns; nullopt until a limit is exceeded.
     [[nodiscard]] std::optional<Stop> stop() const { return stop_; }
@@ -113,7 +113,8 @@ public:
                                      MeshBlock& block,
                                      std::vector<std::span<std::uint32_t>>& indices);
 
-    /// The number of the part of a material, for reserve(). `word`: name of the items drawn.
+    /// The number of the part of a material, to be passed to reserve(). `word`: name of the items
+    /// drawn.
     [[nodiscard]] std::uint32_t part(const MaterialKey& material, const std::string& word = {});
     /// Makes room for more vertices and indices of a part. If they do not fit, sets stop() and
     /// returns false.
@@ -141,7 +142,7 @@ private:
     std::uint64_t triangle_bytes_ = 0;
     std::vector<FilePictures> pictures_;
     std::vector<Part> parts_;     // first the parts of place_parts() or reserve_parts()
-    std::size_t first_parts_ = 0; // count of these parts
+    std::size_t first_parts_ = 0; // number of the parts of place_parts() or reserve_parts()
 };
 
 } // namespace lsys

@@ -41,7 +41,7 @@ bool shows_pictures(const UserMesh& mesh) {
            !mesh.texture_coordinates.empty();
 }
 
-/// Writes one part of a shape for many objects.
+/// Writes one part of a shape for each of many objects.
 struct Instances {
     const Skeleton& skeleton;
     std::span<const std::uint32_t> items; // objects
@@ -152,7 +152,8 @@ std::string small_letters(std::string text) {
 } // namespace
 
 std::vector<std::string> object_file_names(const std::vector<std::string>& files) {
-    // Names of the materials of the library and of pictures written beside a mesh file.
+    // Names of the materials of the library, and of the pictures that are written beside a mesh
+    // file.
     std::set<std::string> taken{"", "bark", "bark normals", "leaf", "polygon", "impostor"};
     std::vector<std::string> names;
     for (const std::string& file : files) {
@@ -171,7 +172,7 @@ void append_objects(const Skeleton& skeleton,
                     const std::vector<UserMesh>& user_meshes,
                     const MeshOptions& options,
                     MeshBuilder& builder) {
-    // append_l3d_shapes() draws the leaves with the segments.
+    // append_l3d_shapes() draws leaves, together with the segments.
     const auto is_drawn = [&](const PlacedObject& object) {
         return !(skeleton.l3d_compatible_surface && options.method == MeshMethod::Tubes &&
                  object.kind == TurtleOperation::Leaf);

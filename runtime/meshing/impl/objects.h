@@ -16,9 +16,9 @@ namespace lsys {
 [[nodiscard]] std::vector<std::string> object_file_names(const std::vector<std::string>& files);
 
 /// Appends every object at its place, turned by its frame and scaled by its size; objects of size 0
-/// are left out. A palette index other than 0 replaces the colour of the shape, or of the petals
-/// of FLOWER. `user_meshes`: meshes of Skeleton::mesh_files. LEAF bends towards -Y of the world by
-/// MeshOptions::droop. MeshBuilder::stop() is set if not all objects fit.
+/// are left out. A palette index other than 0 replaces the colour of the shape, or of the petals of
+/// FLOWER. `user_meshes`: meshes of Skeleton::mesh_files. MeshOptions::droop bends LEAF towards -Y
+/// of the world. MeshBuilder::stop() is set if not all objects fit.
 void append_objects(const Skeleton& skeleton,
                     const std::vector<UserMesh>& user_meshes,
                     const MeshOptions& options,

@@ -28,7 +28,8 @@ struct Plane {
 };
 
 bool normalize(glm::dvec3& v) {
-    // Scaled first: squares of coordinates may leave the range of a double.
+    // The vector is scaled first, because squares of its coordinates may exceed the range of a
+    // double.
     const double largest = std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
     if (!(largest > 0.0)) {
         return false;
@@ -42,8 +43,8 @@ std::span<const glm::vec3> corners_of(const Skeleton& skeleton, const Polygon& p
     return std::span(skeleton.corners).subspan(polygon.first_corner, polygon.corner_count);
 }
 
-/// Newell's normal, or the normal of the largest triangle of a fan if the areas cancel each other.
-/// Returns false for a polygon without area.
+/// Newell's normal of a polygon, or if its areas cancel each other, the normal of the largest
+/// triangle of a fan. Returns false for a polygon without area.
 bool find_normal(std::span<const glm::vec3> corners, glm::dvec3& normal) {
     glm::dvec3 largest{0.0};
     double max_length = 0.0;
@@ -91,7 +92,7 @@ bool find_plane(std::span<const glm::vec3> corners, const glm::quat& frame, Plan
     return true;
 }
 
-/// The corners in the plane, seen from the side of the normal.
+/// Projects the corners onto the plane, as seen from the side of the normal.
 void project(std::span<const glm::vec3> corners,
              const Plane& plane,
              std::vector<glm::dvec2>& flat) {
@@ -107,7 +108,7 @@ void project(std::span<const glm::vec3> corners,
 struct Piece {
     std::uint64_t first_item = 0;
     std::uint64_t item_count = 0;
-    std::vector<std::uint32_t> triangles;    // three corners of their polygon per triangle
+    std::vector<std::uint32_t> triangles;    // three corners per triangle, by number in the polygon
     std::vector<std::uint32_t> index_counts; // one per polygon; 0 if it has no area
     std::uint64_t vertex_count = 0;
     std::uint64_t first_vertex = 0; // in the block of the group

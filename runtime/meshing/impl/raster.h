@@ -15,7 +15,7 @@
 
 namespace lsys {
 
-/// The depths of a picture; larger is nearer.
+/// The depths of a picture; a larger depth is nearer to the eye.
 struct DepthBuffer {
     int width = 0;
     int height = 0;
@@ -35,7 +35,8 @@ void raster_triangle(const std::array<glm::vec3, 3>& corners,
                      DepthBuffer& buffer,
                      const Fragment& fragment) {
     const auto& [a, b, c] = corners;
-    // Pixels whose centres can be inside. Most triangles of a plant seen as a whole have none.
+    // Range of the pixels whose centres may lie inside. Most triangles of a plant seen as a whole
+    // contain no centre.
     const auto first = [](float low, int size) {
         const int pixel =
             static_cast<int>(std::min(static_cast<float>(size), std::max(0.0F, low - 0.5F)));
@@ -75,8 +76,8 @@ void raster_triangle(const std::array<glm::vec3, 3>& corners,
         int from = begin_x;
         int to = end_x;
         if (end_x - begin_x >= kWide) {
-            // Cuts the row at about the places where a weight is 0, since thin triangles fill only
-            // a small part of their box.
+            // Limits the row to about the range where all weights are positive, because thin
+            // triangles fill only a small part of their box.
             float low = static_cast<float>(begin_x);
             float high = static_cast<float>(end_x);
             const auto cut = [&](float along, float zero) {

@@ -19,9 +19,9 @@ namespace lsys {
 
 namespace {
 
-// Max joints between the bases of two consecutive segments: two edges of a collar, each cut for
-// noise into at most sixteen. With smooth joints each edge is first cut into at most
-// kMaxCurveParts.
+// Max number of joints between the bases of two consecutive segments: the two edges of a collar may
+// each be cut for noise into at most sixteen pieces. With smooth joints, each edge is first cut
+// into at most kMaxCurveParts parts.
 constexpr std::size_t kMaxBetween = 32;
 constexpr std::uint32_t kUnknown = kNoSegment;
 
@@ -36,7 +36,7 @@ double squared_distance(const glm::vec3& point, const Segment& segment) {
     return glm::dot(rest, rest);
 }
 
-/// A run that owns its joints.
+/// A run together with its joints.
 struct OwnRun {
     Run run;
     std::vector<Joint> joints;
@@ -88,8 +88,9 @@ private:
         }
     }
 
-    /// Finds the segments of a run's joints. Joints and segments are in the same order; a joint
-    /// lies exactly at the base of its segment unless it was inserted between two.
+    /// Finds the segment of each joint of a run. Joints and segments are in the same order; a joint
+    /// lies exactly at the base of its segment, except joints that were inserted between two
+    /// segments.
     void find_places(const std::vector<Joint>& joints) {
         const std::size_t last = joints.size() - 1;
         places_.assign(joints.size(), kUnknown);
@@ -137,7 +138,7 @@ private:
         segments_of_[last] = {chain_[end], chain_[end]};
     }
 
-    /// The last segment before `place` with a length.
+    /// The last segment before `place` whose length is not 0.
     [[nodiscard]] std::uint32_t drawn_before(std::uint32_t place) const {
         std::uint32_t before = place - 1;
         while (before > 0 && !(skeleton_.segments[chain_[before]].length > 0.0F)) {

@@ -21,7 +21,7 @@ namespace lsys {
 
 namespace {
 
-constexpr std::uint32_t kMinSolidSides = 9; // fewer would lose thin parts
+constexpr std::uint32_t kMinSolidSides = 9; // with fewer, thin parts would be lost
 /// The edge of a cell is kCellSides * radius / number of sides of a cross-section.
 constexpr double kCellSides = 7.2;
 /// Default of MeshOptions::min_width, as a fraction of the largest extent of the plant.
@@ -47,7 +47,7 @@ bool is_drawn(const Segment& segment) {
     return segment.base_radius > 0.0F || segment.tip_radius > 0.0F;
 }
 
-/// The bounds of axes of segments and corners of triangles.
+/// Bounds of the axes of segments and of the corners of triangles.
 Bounds3 bounds_of(const Skeleton& skeleton, const Mesh& flat) {
     Bounds3 bounds;
     for (const Segment& segment : skeleton.segments) {
@@ -83,7 +83,7 @@ struct ConePart {
     float tip_radius = 0.0F;
 };
 
-/// Cuts the stems that flare at the ground into cones.
+/// Cuts stems that flare at the ground into cones.
 class Flares {
 public:
     explicit Flares(const Skeleton& skeleton)
@@ -93,8 +93,9 @@ public:
         }
     }
 
-    /// Distance of the base of a segment from the ground along its axis, if the axis is a stem
-    /// shorter than the flare so far; else kFar. Call in the order of segments.
+    /// Distance along the axis from the ground to the base of segment `i`, if its axis begins with
+    /// a stem and the distance is shorter than the flare; else kFar. Call it in the order of
+    /// segments.
     float arc_of(std::size_t i) {
         if (ends_.empty()) {
             return kFar;
@@ -228,7 +229,7 @@ private:
     std::vector<double> volume_; // six times the volume, at the first vertex of each piece
 };
 
-/// Normals of vertices: those of the triangles around them, weighted by area.
+/// Normal of each vertex: the mean of the normals of the triangles around it, weighted by area.
 std::vector<glm::dvec3> normals_of(const SolidSurface& surface) {
     std::vector<glm::dvec3> normals(surface.vertices.size(), glm::dvec3(0.0));
     for (const auto& triangle : surface.triangles) {

@@ -11,20 +11,20 @@ namespace lsys {
 
 namespace {
 
-/// Position, along the axis of a cone, of the ball nearest to a point `along` the axis and `across`
-/// from it.
+/// Position along the axis of a cone of that ball which is nearest to a point; the point is at the
+/// distance `along` along the axis and `across` from the axis.
 double nearest_ball(const SolidShape& cone, double along, double across) {
     if (cone.length == 0.0) {
         return 0.0;
     }
-    if (std::abs(cone.taper) >= 1.0) { // the ball at one end contains the other
+    if (std::abs(cone.taper) >= 1.0) { // one end ball contains the other
         return cone.taper > 0.0 ? 0.0 : cone.length;
     }
     return std::clamp(along - across * cone.ball_shift, 0.0, cone.length);
 }
 
 /// The distance of a point from a triangle. The nearest point of the triangle is on a side that
-/// faces the point, or, if no side does, the projection of the point onto the plane.
+/// faces the point, or, if no side faces it, the projection of the point onto the plane.
 double distance_from(const SolidShape& triangle, const glm::dvec3& point) {
     const glm::dvec3 offset = point - triangle.corners[0];
     const glm::dvec2 at(glm::dot(offset, triangle.axes[0]), glm::dot(offset, triangle.axes[1]));
@@ -76,7 +76,7 @@ SolidShape make_plate(const std::array<glm::dvec3, 3>& corners, double radius) {
     plate.corners = corners;
     plate.base_radius = radius;
     plate.tip_radius = radius;
-    // The longest side is the first axis: it has a direction even if the triangle has no area.
+    // The longest side becomes the first axis: it has a direction even if the triangle has no area.
     glm::dvec3 longest(0.0);
     for (std::size_t i = 0; i < 3; ++i) {
         const glm::dvec3 side = corners[(i + 1) % 3] - corners[i];

@@ -14,21 +14,21 @@
 
 namespace lsys {
 
-/// The union of all balls about an axis, with radii that change linearly from base to tip; or of
-/// all balls of `base_radius` about a triangle.
+/// The union of all balls about an axis, with radii that change linearly from base to tip; or the
+/// union of all balls of `base_radius` about a triangle.
 struct SolidShape {
     std::array<glm::dvec3, 3> corners{}; // corners of a triangle; of a cone, the ends of its axis
     double base_radius = 0.0;
     double tip_radius = 0.0;
     bool is_triangle = false;
     ItemColour palette = 0;
-    std::uint32_t segment = kNoSegment; // the segment that carries the shape
+    std::uint32_t segment = kNoSegment; // segment that moves the shape
     // Members of a cone:
     glm::dvec3 axis{};   // unit length
     double length = 0.0; // length of the axis; 0: a ball
-    double taper = 0.0;  // loss of radius per length
-    /// Distance along the axis, towards the base, from the projection of a point on the axis to the
-    /// ball nearest to the point, per distance of the point from the axis.
+    double taper = 0.0;  // decrease of the radius per length
+    /// Slope of the shift towards the base: for a point at distance d from the axis, the nearest
+    /// ball lies `ball_shift` * d before the projection of the point onto the axis.
     double ball_shift = 0.0;
     double min_radius = 0.0; // radius at the thin end
     /// Members of a triangle: its plane, with corners[0] as origin, and its sides in this plane,
@@ -38,14 +38,14 @@ struct SolidShape {
         glm::dvec2 along{}; // unit length
         double length = 0.0;
     };
-    std::array<glm::dvec3, 3> axes{}; // two in the plane, one across; unit length
+    std::array<glm::dvec3, 3> axes{}; // two axes in the plane, one across it; unit length
     std::array<Side, 3> sides{};
     bool is_flat = false; // the triangle has no area
 };
 
-/// Measures of a shape at a point. `distance`: from the surface, negative within; changes by at
-/// most 1 per metre. `radius`: of the shape near the point, or less where it tapers fast; changes
-/// by at most kMaxTaper per metre.
+/// Measures of a shape at a point. `distance`: from the surface, negative within the shape; changes
+/// by at most 1 per metre. `radius`: radius of the shape near the point, or less where the shape
+/// tapers fast; changes by at most kMaxTaper per metre.
 struct ShapeProbe {
     double distance = 0.0;
     double radius = 0.0;

@@ -14,14 +14,15 @@ namespace lsys {
 namespace {
 
 constexpr float kGroundTolerance = 1e-3F; // max abs(y) of a stem's base, per height of the flare
-// Depth of the ridges at the ground in radii: per growth of the radius by the flare, and the max.
+// Depth of the ridges at the ground, in radii: its ratio to the growth of the radius by the flare,
+// and its max.
 constexpr float kRidgeDepthPerFlare = 0.75F;
 constexpr float kMaxRidgeDepth = 0.6F;
 constexpr float kMeanRidge = 13.0F / 35.0F; // mean of ridge()
 constexpr std::array<float, kMaxRoots> kHeights{1.0F,  0.8F, 1.15F, 0.9F, 1.2F,
                                                 0.75F, 1.1F, 0.85F, 1.05F};
 
-/// A ridge: 1 at whole x, 0 halfway between, narrower than the valleys.
+/// The profile of ridges: 1 at whole x, 0 halfway between; ridges are narrower than valleys.
 float ridge(float x) {
     const float rise = 1.0F + groove_depth(x);
     return rise * rise;

@@ -14,7 +14,7 @@ namespace lsys {
 inline constexpr std::uint32_t kMinShapedSides = 5;
 /// Coarser levels of detail have flares only: no roots, collars or shaped tips.
 inline constexpr std::uint32_t kMaxShapedLevel = 1;
-/// Rings that a flare or collar adds, at most.
+/// Max number of rings that a flare or collar adds.
 inline constexpr std::uint32_t kFlareParts = 6;
 inline constexpr std::uint32_t kCollarParts = 2;
 
@@ -25,7 +25,7 @@ struct BaseWidening {
     float end = 0.0F; // 0: no widening
     float factor = 0.0F;
     float radius = 0.0F;
-    std::uint32_t parts = 0; // edges of equal length between begin and end
+    std::uint32_t parts = 0; // number of edges of equal length between begin and end
 
     [[nodiscard]] float widened(float own, float arc) const {
         const float t = (arc - begin) / (end - begin);
@@ -34,13 +34,15 @@ struct BaseWidening {
     }
 };
 
-/// Whether a segment is the base of a stem at the ground: without parent, at y = 0, rising.
+/// Whether a segment is the base of a stem at the ground: it has no parent, begins at y = 0 and
+/// rises.
 [[nodiscard]] bool stands_on_ground(const Segment& segment, const Flare& flare);
-/// The flare as a widening. Precondition: flare.factor > 1.
+/// The flare as a BaseWidening. Precondition: flare.factor > 1.
 [[nodiscard]] BaseWidening widening_of(const Flare& flare);
 
-/// Buttress roots: ridges around a flare, as a displacement relative to its radius. The mean around
-/// the axis is 0; ridges differ in height, and fade out upwards as the flare does.
+/// Buttress roots: ridges around a flare, as displacements relative to the radius of the flare. The
+/// mean displacement around the axis is 0. Ridges differ in height, and fade out upwards like the
+/// flare.
 class Roots {
 public:
     /// Precondition: the flare has roots.

@@ -12,7 +12,7 @@ namespace lsys {
 namespace {
 
 glm::vec3 around(float radius, float y, float turns) {
-    // Quarter turns are exact, so that the extents of shapes are exact.
+    // Quarter turns have exact sines and cosines, so that the extents of shapes are exact.
     const auto exact = [](double x) { return std::abs(x) < 1e-15 ? 0.0 : x; };
     const double angle = 2.0 * std::numbers::pi * static_cast<double>(turns);
     const auto c = static_cast<float>(exact(std::cos(angle)));
@@ -40,7 +40,7 @@ glm::vec3 any_orthogonal(const glm::vec3& normal) {
 void smooth_normals(std::span<ProfilePoint> profile) {
     std::vector<glm::vec2> pieces;
     for (std::size_t i = 0; i + 1 < profile.size(); ++i) {
-        // Outside is to the right of a profile that rises.
+        // The outside lies to the right of a profile that rises.
         pieces.push_back(glm::normalize(
             glm::vec2(profile[i + 1].y - profile[i].y, profile[i].radius - profile[i + 1].radius)));
     }
@@ -62,7 +62,8 @@ void append_revolution(ShapePart& part,
         rows.push_back(static_cast<std::uint32_t>(part.positions.size()));
         const float v =
             1.0F - (point.y - profile.front().y) / (profile.back().y - profile.front().y);
-        // A pole has a vertex in the middle of each side; a circle repeats the vertex at the seam.
+        // A pole has a vertex in the middle of each side; a circle has its first vertex again at
+        // the seam.
         const bool pole = point.radius == 0.0F;
         for (std::uint32_t i = 0; i < sides + (pole ? 0U : 1U); ++i) {
             const float u =

@@ -23,9 +23,9 @@ void smooth_normals(std::span<ProfilePoint> profile);
 /// Appends the surface that a rising profile makes when it turns about +Y. A point of radius 0 is a
 /// pole. The texture coordinate u goes around, v down.
 void append_revolution(ShapePart& part, std::span<const ProfilePoint> profile, std::uint32_t sides);
-/// A disc of diameter 1 across +Y, its front up or down.
+/// Appends a disc of diameter 1 perpendicular to +Y, with its front up or down.
 void append_disc(ShapePart& part, float y, bool up, std::uint32_t sides);
-/// The cube of side 1 that stands on the origin.
+/// Appends the cube of side 1 that stands on the origin.
 void append_cube(ShapePart& part);
 
 /// Sets normals of vertices from the triangles around them, weighted by area.

@@ -27,32 +27,33 @@ constexpr int kHalvings = 18;
 constexpr int kUnits = 1 << kHalvings; // along the root cube
 constexpr int kMaxGeneration = 3 * kHalvings;
 constexpr int kPieceGeneration = 6; // generation of tetrahedra that are cut in parallel
-/// Growth of the cells per metre from the surface. Neighbours divide their common edge in the same
-/// way if the wanted size changes by less than 0.16 per metre: a bisection reduces kSteps by 0.206;
-/// the middles of two edges of a tetrahedron are at most 0.71 of its longest edge apart; its
-/// longest edge is less than 1.79 times its step.
+/// Growth of the size of cells per metre of distance from the surface. Neighbours cut their common
+/// edge in the same way if the wanted size changes by less than 0.16 per metre. The 0.16 follows
+/// from three numbers: a bisection reduces kSteps by 0.206; the middles of two edges of a
+/// tetrahedron are at most 0.71 of its longest edge apart; its longest edge is less than 1.79 times
+/// its step.
 constexpr double kGrowth = 0.1;
 constexpr double kMaxGrowth = 0.16;
-/// Size of cells at the edge of the base, as a fraction of the size elsewhere: keeps the edge
-/// sharp.
+/// Size of cells at the edge of the flat base, as a fraction of the size elsewhere; small cells
+/// keep the edge sharp.
 constexpr double kBaseCells = 0.25;
 /// Triangles between vertices on a curved surface lie within the solid. Therefore the surface of
 /// cones is moved outwards by kChord * cell^2 / radius, which keeps their volume.
 constexpr double kChord = 0.031;
 /// Lipschitz bound of the distance from the surface: its max change per metre.
 constexpr double kLipschitz = 1.02;
-/// Size of a tetrahedron of generation k, k modulo 3, relative to k = 0: 2^(-k / 3).
+/// Size of a tetrahedron of generation k, by k modulo 3, relative to generation 0: 2^(-k / 3).
 constexpr std::array<double, 3> kSteps{1.0, 0.7937005259840998, 0.6299605249474366};
 /// Min distance of a vertex from the ends of its edge, as a fraction of the length of the edge, so
 /// that no triangle shrinks to a line.
 constexpr double kEdgeMargin = 0.02;
 /// Max distance from the surface, as a fraction of the length of its edge, at which a vertex counts
-/// as on the surface.
+/// as lying on the surface.
 constexpr double kExact = 1e-6;
 
 struct Tetrahedron {
     std::array<Node, 4> nodes{};
-    std::array<double, 4> distances{}; // from the surface
+    std::array<double, 4> distances{}; // of the nodes from the surface
     int tag = 3; // the next bisection cuts the edge from nodes[0] to nodes[tag]
     int generation = 0;
 };
@@ -72,8 +73,8 @@ struct Grid {
     }
 };
 
-/// The bounds of all shapes, with room around them. The ground, or the lowest point, is at a third
-/// of the height, and therefore between the nodes of every generation.
+/// A grid that contains all shapes with room around them. The ground, or the lowest point, lies at
+/// a third of its height, and therefore between the nodes of every generation.
 Grid make_grid(const Solid& solid) {
     glm::dvec3 low(std::numeric_limits<double>::max());
     glm::dvec3 high = -low;
@@ -90,8 +91,8 @@ Grid make_grid(const Solid& solid) {
     const glm::dvec3 extent = high - low;
     Grid grid;
     const double min_side = kRoom * std::max({extent.x, extent.y, extent.z});
-    // Put the step of the thinnest shapes, which are the most frequent, halfway between two
-    // generations.
+    // Puts the step of the thinnest shapes, which are the most frequent, halfway between the steps
+    // of two generations.
     constexpr double kPhase = 0.9;
     grid.side = kPhase * solid.cell * thinnest;
     while (grid.side < min_side) {
@@ -104,7 +105,7 @@ Grid make_grid(const Solid& solid) {
     return grid;
 }
 
-/// A ball around a shape, with the size of its smallest cells.
+/// A ball around a shape, and the size of the smallest cells of the shape.
 struct Ball {
     glm::dvec3 centre{};
     double radius = 0.0;
@@ -123,8 +124,8 @@ std::vector<Ball> make_balls(const Solid& solid) {
         }
         const double thickest = std::max(shape.base_radius, shape.tip_radius);
         const double thinnest = std::min(shape.base_radius, shape.tip_radius);
-        // The surface is moved outwards by kChord times the radius. With a ground, cells near it
-        // are smaller.
+        // The surface is moved outwards by up to kChord times the radius. With a ground, cells near
+        // the ground are smaller.
         ball.radius += (1.0 + kChord) * thickest;
         ball.cell = solid.cell * thinnest * (solid.ground ? kBaseCells : 1.0);
         balls.push_back(ball);
@@ -145,7 +146,7 @@ std::uint64_t key_of(const Node& a, const Node& b) {
            (static_cast<std::uint64_t>(sum.y) << kBits) | static_cast<std::uint64_t>(sum.z);
 }
 
-/// Whether the corners b, c, d are counter-clockwise, seen from the side away from the corner a.
+/// Whether the corners b, c, d are counter-clockwise, seen from the side away from corner a.
 bool is_positive(const std::array<Node, 4>& nodes) {
     const glm::i64vec3 a(nodes[0]);
     const glm::i64vec3 b = glm::i64vec3(nodes[1]) - a;
@@ -168,8 +169,8 @@ public:
     using Visit = std::function<void(const Tetrahedron&, std::span<const std::uint32_t>)>;
 
     /// Visits the tetrahedra that the surface may pass through: those of generation `end`, and
-    /// earlier ones that are small enough. `near`: the shapes that determine distance and size of
-    /// cells within.
+    /// those of earlier generations that are small enough. `near`: the shapes that determine the
+    /// distance and the size of cells within `tetrahedron`.
     void visit_leaves(const Tetrahedron& tetrahedron,
                       std::span<const std::uint32_t> near,
                       int end,
@@ -211,7 +212,7 @@ private:
     [[nodiscard]] Size measure(const SolidShape& shape, const glm::dvec3& point) const {
         const ShapeProbe at = lsys::probe(shape, point);
         double cell = solid_.cell * at.radius;
-        double away = 0.0; // distance from the base
+        double away = 0.0; // height at which `cell` depends on the flat base, else 0
         if (solid_.ground) {
             const double height = std::abs(point.y - *solid_.ground);
             const double at_base = kBaseCells * cell + kGrowth * height;
@@ -228,7 +229,7 @@ private:
         return solid_.ground ? std::max(distance, *solid_.ground - point.y) : distance;
     }
 
-    /// Visits a tetrahedron whose shapes are near_[first, end of near_).
+    /// Visits a tetrahedron whose shapes are near_[first] to the end of near_.
     void descend(const Tetrahedron& tetrahedron,
                  std::size_t first,
                  int end, // NOLINT(bugprone-easily-swappable-parameters)
@@ -249,7 +250,7 @@ private:
             reach = std::max(reach, glm::length(grid_.position(node) - middle));
         }
         // About six tetrahedra share this edge and are bisected at its middle. Most of them need
-        // only the distance of the middle, not the shapes near it.
+        // only the distance at the middle, not the shapes near the middle.
         const std::uint64_t key = key_of(from, to);
         const auto known = middles_.find(key);
         const bool is_new = known == middles_.end();
@@ -278,7 +279,7 @@ private:
         for (std::size_t i = first; i < last; ++i) {
             const Size& at = probes_[i - first];
             // A shape matters for the size of cells only if its cells may be the smallest somewhere
-            // in this tetrahedron. Among many leaves, only the nearest ones matter.
+            // in this tetrahedron. Of many leaves, only the nearest ones matter.
             const bool may_be_nearest =
                 at.distance <= at_middle.distance + 2.0 * kLipschitz * reach;
             const bool may_be_smallest = at.size <= size + 2.0 * kMaxGrowth * reach;
@@ -292,9 +293,9 @@ private:
         near_.resize(last);
     }
 
-    /// The min distance and min size of cells at a point, over the shapes near_[first, last). Sets
-    /// probes_ to the values of each shape, or to lower bounds if the shape is too far away to have
-    /// the min.
+    /// The min distance and the min size of cells at a point, over the shapes near_[first, last).
+    /// Sets probes_ to the values of each shape; for shapes too far away to have the min, to lower
+    /// bounds of the values.
     Size measure_all(std::size_t first, std::size_t last, const glm::dvec3& point) {
         constexpr double kFar = std::numeric_limits<double>::max();
         probes_.resize(last - first);
@@ -338,7 +339,7 @@ private:
         return half;
     }
 
-    /// Finds the shapes that may be the nearest of a point within `reach` of `middle`.
+    /// Finds the shapes that may be nearest to a point within `reach` (m) of `middle`.
     void keep_nearest(const glm::dvec3& middle, double reach, std::span<const std::uint32_t> near) {
         probes_.resize(near.size());
         double nearest = std::numeric_limits<double>::max();
@@ -354,7 +355,8 @@ private:
         }
     }
 
-    /// The vertex of the surface on the edge between a node within the solid and a node outside.
+    /// The vertex where the surface crosses the edge from a node within the solid to a node
+    /// outside.
     std::uint32_t vertex(const Tetrahedron& tetrahedron,
                          std::size_t within,
                          std::size_t outside,
@@ -375,7 +377,7 @@ private:
         double at_high = tetrahedron.distances[outside];
         const double length = glm::length(to - from);
         keep_nearest(0.5 * (from + to), 0.5 * length, near);
-        // Regula falsi, with the weight of an end halved when it stays (Dowell and Jarratt 1971).
+        // Regula falsi; the weight of an end that stays twice is halved (Dowell and Jarratt 1971).
         constexpr int kRounds = 8;
         double t = 0.5;
         int side = 0;
@@ -415,7 +417,7 @@ private:
         surface_.triangles.push_back(turned ? std::array{a, c, b} : std::array{a, b, c});
     }
 
-    /// Adds the triangles that separate the nodes within the solid from those outside.
+    /// Adds the triangles that separate the nodes within the solid from the nodes outside.
     void cut(const Tetrahedron& tetrahedron, std::span<const std::uint32_t> near) {
         // Puts the nodes within the solid first.
         std::array<std::size_t, 4> order{0, 1, 2, 3};
@@ -469,8 +471,8 @@ private:
         overflow_ = overflow_ || left < bytes;
     }
 
-    // Bytes per vertex and triangle, with the table of edges and both copies while pieces are
-    // joined.
+    // Bytes per vertex and per triangle, with the table of edges, and with both copies that exist
+    // while pieces are joined.
     static constexpr std::uint64_t kVertexBytes = 2 * sizeof(SolidVertex) + 96;
     static constexpr std::uint64_t kTriangleBytes = 24;
 
@@ -480,17 +482,17 @@ private:
     std::atomic<std::uint64_t>& bytes_left_;
     bool overflow_ = false;
     std::vector<std::uint32_t>
-        near_; // numbers of shapes, stacked from an ancestor to its descendants
+        near_; // numbers of shapes, stacked: of an ancestor, then of its descendants
     std::vector<Size> probes_;
     std::vector<std::uint32_t> nearest_; // numbers of shapes that may be nearest on an edge
     static constexpr std::size_t kMaxMiddles = 1 << 20;
     std::unordered_map<std::uint64_t, Size> middles_; // by key of the edge
     std::unordered_map<std::uint64_t, std::uint32_t> vertex_of_;
-    std::vector<std::uint64_t> keys_; // keys of the edges on which the vertices lie
+    std::vector<std::uint64_t> keys_; // by vertex: key of the edge on which it lies
     SolidSurface surface_;
 };
 
-/// A tetrahedron with the shapes that matter in it.
+/// A tetrahedron with the shapes that determine distance and size of cells in it.
 struct Piece {
     Tetrahedron tetrahedron;
     std::vector<std::uint32_t> near;
@@ -498,7 +500,7 @@ struct Piece {
     std::vector<std::uint64_t> keys;
 };
 
-/// The six tetrahedra around the diagonal of the root cube, bisected into pieces.
+/// Divides the root cube into six tetrahedra around its diagonal, and bisects these into pieces.
 std::vector<Piece> make_pieces(const Solid& solid,
                                const std::vector<Ball>& balls,
                                const Grid& grid,

@@ -27,7 +27,7 @@ std::uint32_t random_word(std::uint64_t number, std::uint32_t block) {
 
 void order_paths(const Skeleton& skeleton, ThinningOrder& order) {
     const std::size_t count = skeleton.segments.size();
-    std::vector<double> areas(count, 0.0);   // outline of a segment and all its descendants
+    std::vector<double> areas(count, 0.0);   // outline area of a segment and its descendants
     std::vector<double> reaches(count, 0.0); // length of the longest path through a child
     std::vector<std::uint32_t> path_children(count,
                                              kNoSegment); // the child that continues the path
@@ -63,7 +63,8 @@ void order_paths(const Skeleton& skeleton, ThinningOrder& order) {
                          .random = random_word(i, kPathBlock),
                          .number = static_cast<std::uint32_t>(paths.size())});
     }
-    // A path never carries more wood than its parent; with equal areas the parent comes first.
+    // A path has at most as much wood as its parent path; of paths with equal areas the parent
+    // comes first.
     std::sort(paths.begin(), paths.end(), [](const Path& a, const Path& b) {
         return std::tie(b.area, a.order, a.random, a.number) <
                std::tie(a.area, b.order, b.random, b.number);
@@ -107,8 +108,8 @@ void order_foliage(const Skeleton& skeleton, ThinningOrder& order) {
         order.group_of[i] = place->second;
         ++sizes[place->second];
     }
-    // The items of a group are in random order. Item::place is the fraction of the group before an
-    // item; sorting all items by it mixes the groups evenly.
+    // The items of a group are in random order. Item::place is the fraction of the items of its
+    // group that come before it; sorting all items by `place` mixes the groups evenly.
     struct Item {
         std::uint32_t group = 0;
         std::uint32_t random = 0;
@@ -152,8 +153,8 @@ double polygon_area(std::span<const glm::vec3> corners) {
     return 0.5 * glm::length(sum);
 }
 
-/// The radius, at most `max`, to which thinner wood of `thin` is widened so that the sum of the
-/// outline areas of all wood is `area`.
+/// The radius, at most `max`, up to which thinner wood of `thin` is widened so that the outline
+/// areas of all wood add up to `area`.
 double widening_radius(const Skeleton& thin, double area, double max) {
     const auto area_at = [&](double radius) {
         double sum = 0.0;
@@ -175,9 +176,9 @@ double widening_radius(const Skeleton& thin, double area, double max) {
     return low;
 }
 
-/// Copies the wood that stays to `thin`. Segments get the order of their path, so that a path
-/// becomes one tube. `places`: for each segment, its number in `thin` or the number of the nearest
-/// ancestor that stays.
+/// Copies the segments that stay to `thin`. The bracket order of a segment becomes the order of its
+/// path, so that a path becomes one tube. `places`: for each segment its number in `thin`, or the
+/// number of the nearest ancestor that stays.
 void thin_wood(const Skeleton& skeleton,
                const ThinningOrder& order,
                const Thinning& thinning,
@@ -216,7 +217,7 @@ void thin_wood(const Skeleton& skeleton,
     }
 }
 
-/// Factors of size per group that give the items that stay the area of all items.
+/// For each group the factor of size with which the items that stay have the area of all items.
 std::vector<float> growth_of(const Skeleton& skeleton,
                              const ThinningOrder& order,
                              std::uint64_t kept,
@@ -242,7 +243,7 @@ std::vector<float> growth_of(const Skeleton& skeleton,
         total_area[group] += area;
         kept_area[group] += rank < kept ? coarse_area : 0.0;
     }
-    // The area of groups without remaining items is distributed to all other groups.
+    // The area of groups without remaining items is divided among all other groups.
     const double sum_of_areas = std::accumulate(total_area.begin(), total_area.end(), 0.0);
     double represented = 0.0;
     for (std::size_t group = 0; group < total_area.size(); ++group) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Thinning: the order in which a plant loses its parts from level to level, and the skeleton of a
-// level. Remaining parts are enlarged, so that area and mean colour stay (Cook, Halstead, Planck
-// and Ryu, "Stochastic simplification of aggregate detail", ACM TOG 26(3), 2007).
+// level. Remaining parts are enlarged, so that the plant keeps its area and mean colour (Cook,
+// Halstead, Planck and Ryu, "Stochastic simplification of aggregate detail", ACM TOG 26(3), 2007).
 #pragma once
 
 #include "runtime/meshing/mesh.h"
@@ -15,8 +15,8 @@
 
 namespace lsys {
 
-/// Items of foliage that look alike: objects of a kind, file and colour, or polygons of a picture
-/// and a colour.
+/// A group of items of foliage that look alike: objects of one kind, mesh file and colour, or
+/// polygons of one picture and colour.
 struct FoliageGroup {
     bool is_polygons = false;                        // false: objects
     TurtleOperation kind = TurtleOperation::Nothing; // kind of the objects
@@ -26,9 +26,9 @@ struct FoliageGroup {
 /// The ranks of all parts of a plant; parts of low rank stay longest. Items of foliage are numbered
 /// together: objects, then polygons.
 struct ThinningOrder {
-    /// Per segment: the rank of its path. A path goes from the branching point at its parent to the
-    /// tip that is farthest along the wood. Paths that carry most wood come first; each path comes
-    /// after its parent, so the first n paths are connected for every n.
+    /// Per segment: the rank of its path. A path goes from the branching point at its parent path
+    /// to the tip that is farthest along the wood. Paths with the most wood come first. Each path
+    /// comes after its parent, so the first n paths are connected for every n.
     LargeVector<std::uint32_t> path_ranks;
     std::vector<std::uint16_t> path_orders; // by rank: number of ancestors of the path
     /// Items of foliage by rank, in random order: the first n items contain about the same fraction
@@ -60,14 +60,14 @@ struct Thinning {
     std::uint64_t paths = ~std::uint64_t{0};   // number of paths kept, by rank
     std::uint64_t foliage = ~std::uint64_t{0}; // number of items of foliage kept, by rank
     float max_radius = 0.0F;                   // m, max radius to which thin wood is widened
-    float wood_scale = 1.0F;                   // factor of all widths after that
+    float wood_scale = 1.0F;                   // factor of all widths, applied after widening
     float foliage_scale = 1.0F;                // factor of the size of foliage
 };
 
 /// Makes `thin` from `skeleton`, which is the skeleton of `order` in any pose. Thin wood is widened
-/// until its area is that of all wood, or its radius Thinning::max_radius; foliage is scaled about
-/// its centres. `fine` and `coarse`: shapes of the finest level and of this level. `segments`: for
-/// each segment of `thin`, its number in `skeleton`.
+/// until its area is the area of all wood, or its radius is Thinning::max_radius; foliage is scaled
+/// about the centres of its items. `fine` and `coarse`: shapes of the finest level and of this
+/// level. `segments`: for each segment of `thin`, its number in `skeleton`.
 void thin_skeleton(const Skeleton& skeleton,
                    const ThinningOrder& order,
                    const Thinning& thinning,

@@ -11,12 +11,13 @@ namespace lsys {
 
 namespace {
 
-// Coordinates are scaled to 0 ... 1 first; an area below this is rounding.
+// Coordinates are scaled to 0 ... 1 first; an area below this is a rounding error.
 constexpr double kFlat = 1e-13;
-// With fewer corners, comparing an ear with all corners is faster than using an index.
+// Min number of corners for which an index is used: with fewer, comparing an ear with all corners
+// is faster.
 constexpr std::uint32_t kIndexedFrom = 64;
-// About the max number of corners visited in rounds that find no ear. After that, corners are cut
-// off without a search.
+// Approximate max number of corners visited in rounds that find no ear. After that, corners are cut
+// off without a search for ears.
 constexpr std::uint32_t kSearches = 400'000;
 
 double cross(const glm::dvec2& a, const glm::dvec2& b) {
@@ -35,7 +36,7 @@ std::uint32_t spread_bits(std::uint32_t x) {
     return (x | (x << 1)) & 0x55555555u;
 }
 
-/// Morton order of a point of the unit square; rises with both coordinates.
+/// Morton number of a point of the unit square; increases with both coordinates.
 std::uint32_t order_of(const glm::dvec2& point) {
     const auto bits = [](double x) { return spread_bits(static_cast<std::uint32_t>(x * 32767.0)); };
     return bits(point.x) | (bits(point.y) << 1);
@@ -97,7 +98,7 @@ double Triangulator::turn(std::uint32_t node) const {
     return area(nodes_[own.previous].at, own.at, nodes_[own.next].at);
 }
 
-/// Whether all corners turn left, once around.
+/// Whether all corners turn left and the outline goes around once.
 bool Triangulator::is_convex() const {
     int changes = 0;
     bool was_right = false;
@@ -156,8 +157,9 @@ void Triangulator::remove(std::uint32_t node) {
     --remaining_;
 }
 
-/// Whether a corner of the ring blocks `ear`: a reflex corner within the triangle of the ear. A
-/// corner that coincides with a corner of the triangle blocks if one of its edges leads inside.
+/// Whether the corner `node` blocks `ear`: it is reflex and lies within the triangle of the ear. A
+/// corner that coincides with a corner of the triangle blocks if one of its edges leads into the
+/// triangle.
 bool Triangulator::is_blocked_by(std::uint32_t node, std::uint32_t ear) const {
     const Node& own = nodes_[ear];
     if (node == ear || node == own.previous || node == own.next) {
@@ -203,7 +205,7 @@ bool Triangulator::is_ear(std::uint32_t node) const {
     const glm::dvec2 high = glm::max(glm::max(a, own.at), c);
     const std::uint32_t first = order_of(low);
     const std::uint32_t last = order_of(high);
-    // Searches in both directions at once, because blocking corners are near.
+    // Searches in both directions of the Morton order at once, because blocking corners are near.
     std::uint32_t down = own.lower;
     std::uint32_t up = own.higher;
     const auto blocks = [&](std::uint32_t p) {
@@ -277,7 +279,7 @@ void Triangulator::clip(std::vector<std::uint32_t>& triangles) {
     while (remaining_ > 2) {
         const std::uint32_t after = nodes_[node].next;
         if (nodes_[node].at == nodes_[after].at || turn(node) == 0.0) {
-            // Remove a corner that is collinear with its neighbours or coincides with one.
+            // Removes a corner that is collinear with its neighbours or coincides with one of them.
             remove(node);
             node = nodes_[node].previous;
             corners_since_ear = 0;
@@ -285,7 +287,7 @@ void Triangulator::clip(std::vector<std::uint32_t>& triangles) {
             node = cut_convex_corner(node, triangles);
         } else if (is_ear(node)) {
             cut(node, triangles);
-            node = nodes_[after].next; // skipping one makes better triangles than a fan
+            node = nodes_[after].next; // skipping a corner makes better triangles than a fan
             corners_since_ear = 0;
         } else if (++corners_since_ear <= remaining_) {
             node = after;

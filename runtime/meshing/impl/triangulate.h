@@ -18,21 +18,21 @@ namespace lsys {
 /// Reuses its memory from one polygon to the next.
 class Triangulator {
 public:
-    /// Appends triples of numbers of corners, counter-clockwise. Precondition: finite coordinates.
-    /// Each triangle has an area larger than rounding errors.
+    /// Appends three corner numbers per triangle, counter-clockwise. Precondition: finite
+    /// coordinates. Each triangle has an area larger than rounding errors.
     void append(std::span<const glm::dvec2> corners, std::vector<std::uint32_t>& triangles);
 
 private:
     static constexpr std::uint32_t kNone = 0xFFFFFFFFu;
 
-    /// A remaining corner, in the ring of corners and in a list by `order`.
+    /// A corner that is not cut off yet, in the ring of corners and in a list sorted by `order`.
     struct Node {
         glm::dvec2 at{};
         std::uint32_t corner = 0;
         std::uint32_t previous = kNone;
         std::uint32_t next = kNone;
         std::uint32_t order = 0;     // interleaved bits of the coordinates
-        std::uint32_t lower = kNone; // neighbours in this order
+        std::uint32_t lower = kNone; // neighbours in the list sorted by `order`
         std::uint32_t higher = kNone;
     };
 

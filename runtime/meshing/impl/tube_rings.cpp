@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// TubeWriter: writing of rings to the arrays of the mesh.
+// TubeWriter: the functions that write rings to the arrays of the mesh.
 #include "runtime/meshing/impl/bark_noise.h"
 #include "runtime/meshing/impl/directions.h"
 #include "runtime/meshing/impl/float4.h"
@@ -27,8 +27,8 @@ struct Ellipse {
     }
 };
 
-/// Writes `columns` vectors of both ellipses, three floats each. Each vector but the last is stored
-/// as four floats; the next vector overwrites the fourth.
+/// Writes `columns` vectors of both ellipses, three floats each. Every vector except the last is
+/// stored as four floats; the next vector overwrites the fourth float.
 void put_ellipses(glm::vec3* positions,
                   const Ellipse& position,
                   glm::vec3* normals,

@@ -17,7 +17,7 @@ RingCorners TubeTriangles::add_ring(std::uint32_t sides) {
     return ring;
 }
 
-/// Adds a ring and the band between it and the last one.
+/// Adds a ring, and the band of triangles between it and the ring added before.
 void TubeTriangles::link(TriangleList& list, std::uint32_t sides) {
     const RingCorners ring = add_ring(sides);
     if (sides == last_.sides) {
@@ -63,7 +63,7 @@ void TubeTriangles::add(const Run& run) {
         return;
     }
     for (std::uint32_t i = 0; i < closing_rings(run.end); ++i) {
-        if (i == 1 && run.end == TubeEnd::Broken) { // the ring again, with normals of the break
+        if (i == 1 && run.end == TubeEnd::Broken) { // again, with normals of the break
             last_ = add_ring(joints[last].sides);
         } else {
             link(*list, joints[last].sides);

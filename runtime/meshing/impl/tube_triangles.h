@@ -16,10 +16,10 @@ namespace lsys {
 /// Index of each colour in Axes::colours.
 class ColourSlots {
 public:
-    /// `colours`: rising.
+    /// `colours`: ascending.
     explicit ColourSlots(std::span<const ItemColour> colours) : colours_(colours) {}
 
-    /// Precondition: `colour` is one of the colours.
+    /// The index of `colour`. Precondition: `colour` is one of the colours.
     std::uint32_t operator[](ItemColour colour) const {
         if (colours_.size() == 1) {
             return 0;

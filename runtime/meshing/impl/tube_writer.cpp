@@ -18,7 +18,7 @@ namespace {
 
 constexpr float kMaxSlope = 8.0F;
 constexpr std::uint32_t kEdgesPerOrthogonalization =
-    16;                               // edges after which a frame is made orthogonal again
+    16;                               // edges after which the frame is made orthogonal again
 constexpr float kSpread = 0.2F;       // distance of the rings of a bend from its joint, in radii
 constexpr float kBluntHeight = 0.35F; // in radii
 // Radius of the ring between the end of a tube and the top of its half ball, and height of the
@@ -26,12 +26,12 @@ constexpr float kBluntHeight = 0.35F; // in radii
 constexpr float kBallRing = 0.75F;
 constexpr float kBallHeight = 0.62F;
 constexpr float kHalfRoot3 = 0.8660254F;
-// Heights of the corners of a break, in radii of the tube.
+// Min and max height of the corners of a break, in radii of the tube.
 constexpr float kMinSplinter = 0.15F;
 constexpr float kMaxSplinter = 1.1F;
 constexpr std::uint32_t kBreakGeneration = 0xFFFFFFFCu; // docs/language.md section 6.5
-// Weight of the bisector in the first of three tangents of a bend: tan(30 degrees), which is exact
-// for a reversal, whose bisector is 90 degrees away.
+// Weight of the bisector in the first of the three tangents of a bend: tan(30 degrees). Exact for a
+// reversal, whose bisector is at 90 degrees to the edge.
 constexpr float kOuterBisectorWeight = 0.57735F;
 constexpr float kTurnsBack = -0.9F; // max cosine of a bend that counts as a reversal
 // Number of grooves of a tube: the number of sides of its rings at level 0 / kSidesOfGroove, at
@@ -209,8 +209,8 @@ void TubeWriter::advance(const Run& run, std::size_t end) {
     }
 }
 
-/// Rotates the normal of `place` as the shortest rotation turns `in`, the direction of the edge
-/// before a joint, to `out`, the direction of the next edge. Both have unit length.
+/// Rotates the normal of `place` by the shortest rotation from `in`, the direction of the edge
+/// before a joint, to `out`, the direction of the edge after it. Both have unit length.
 void TubeWriter::transport_normal(const glm::vec3& in, const glm::vec3& out, Place& place) {
     if (in == out) {
         return;
@@ -224,8 +224,8 @@ void TubeWriter::transport_normal(const glm::vec3& in, const glm::vec3& out, Pla
         normal = glm::dot(normal, axis) * axis +
                  glm::dot(normal, glm::cross(axis, in)) * glm::cross(axis, out);
     }
-    // Corrects the normal from time to time, so that it is a unit vector across the edge even after
-    // a million steps.
+    // Corrects the normal at regular intervals, so that it is a unit vector across the edge even
+    // after a million edges.
     if (++place.steps % kEdgesPerOrthogonalization == 0) {
         normal -= out * glm::dot(out, normal);
         normal *= 1.5F - 0.5F * glm::dot(normal, normal);
@@ -261,8 +261,8 @@ void TubeWriter::set_mitred(const glm::vec3& in, const glm::vec3& out, Ring& rin
     ring.wide_binormal = binormal - binormal_part * along;
 }
 
-/// Writes two or three rings around a joint, so that the tube bends by at most 60 degrees at each.
-/// The rings lie a little apart, so that no corners coincide on the axis of the bend.
+/// Writes two or three rings around a joint, so that the tube bends by at most 60 degrees at each
+/// ring. The rings lie a little apart, so that no corners coincide on the axis of the bend.
 void TubeWriter::bend(const Joint& before, const Joint& joint, Ring& ring) {
     const glm::vec3& in = before.heading;
     const float cosine = glm::dot(in, joint.heading);
@@ -270,8 +270,8 @@ void TubeWriter::bend(const Joint& before, const Joint& joint, Ring& ring) {
     const glm::vec3 across_in = glm::cross(axis, in);
     const float half_cosine = std::sqrt(std::max(0.5F + 0.5F * cosine, 0.0F));
     const float half_sine = std::sqrt(std::max(0.5F - 0.5F * cosine, 0.0F));
-    // Angle between the first tangent and the edge before, and between the last tangent and the
-    // edge after: a quarter of the bend, or with three rings about a sixth.
+    // Angle between the first tangent and the edge before the joint, and between the last tangent
+    // and the edge after it: a quarter of the bend, or with three rings about a sixth.
     const float share = joint.rings == 2 ? 1.0F : kOuterBisectorWeight;
     const float whole = 1.0F / std::sqrt(1.0F + share * (2.0F * half_cosine + share));
     const float part_cosine = (1.0F + share * half_cosine) * whole;
@@ -287,7 +287,7 @@ void TubeWriter::bend(const Joint& before, const Joint& joint, Ring& ring) {
     const glm::vec3 normal_along = along_axis * axis;
     const glm::vec3 binormal_along = across_axis * axis;
     const float wide = 1.0F / part_cosine;
-    // Writes the ring with the tangent `along` * in + `aside` * across_in.
+    // Writes the ring whose tangent is `along` * in + `aside` * across_in.
     const auto put = [&](float along, float aside) {
         const glm::vec3 mitre = along * across_in - aside * in; // cross product of axis and tangent
         ring.tangent = along * in + aside * across_in;
@@ -318,7 +318,7 @@ void TubeWriter::put_break(const Run& run, Ring& ring) {
         const std::uint64_t first = at_.vertex;
         put_ring(ring);
         for (std::uint32_t column = 0; column < columns; ++column) {
-            const std::uint32_t corner = column == ring.sides ? 0 : column; // the seam repeats it
+            const std::uint32_t corner = column == ring.sides ? 0 : column; // the seam
             const PhiloxBlock words =
                 draw_block(0, kBreakGeneration, run.first_segment, corner / 4);
             const float height =
@@ -334,7 +334,7 @@ void TubeWriter::put_break(const Run& run, Ring& ring) {
     }
 }
 
-/// Closes the run; `ring` is the last one written.
+/// Closes the run; `ring` is the ring written last.
 void TubeWriter::close(const Run& run, Ring& ring) {
     if (run.end == TubeEnd::Point) {
         return;

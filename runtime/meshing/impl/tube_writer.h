@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-// TubeWriter: writes the vertices of the rings of runs. The normal is carried from edge to edge by
-// double reflection (Wang, Juettler, Zheng and Liu, "Computation of rotation minimizing frames",
+// TubeWriter: writes the vertices of the rings of runs. The normal is transported from edge to edge
+// by double reflection (Wang, Juettler, Zheng and Liu, "Computation of rotation minimizing frames",
 // ACM TOG 27(1), 2008, section 4), so that a tube does not twist where the turtle rolls. The normal
 // is perpendicular to the edge, so the first reflection, along the edge, does not change it; only
-// the second, in the plane that halves the bend, is computed. Lines between corners of neighbouring
-// rings are parallel to the edge between them.
+// the second reflection, in the plane that halves the bend, is computed. Lines between corners of
+// neighbouring rings are parallel to the edge between the rings.
 #pragma once
 
 #include "runtime/meshing/impl/axis_reader.h"
@@ -19,14 +19,14 @@ class BarkNoise;
 class Grooves;
 class Roots;
 
-/// Vertices of a ring: one more than sides if there is a seam for texture coordinates.
+/// Number of vertices of a ring: one more than sides if texture coordinates need a seam.
 [[nodiscard]] inline std::uint32_t columns_of(std::uint32_t sides, const MeshOptions& options) {
     return sides + (options.texture_coordinates || options.tangents ? 1U : 0U);
 }
 
 class TubeWriter {
 public:
-    /// `vertex`: the next vertex to write, within the block.
+    /// `vertex`: index in `block` of the next vertex to write.
     TubeWriter(const MeshBlock& block,
                const MeshOptions& options,
                const Flare& flare,
@@ -38,15 +38,15 @@ public:
         std::uint64_t vertex = 0;   // index of the next vertex to write
         double arc = 0.0;           // arc length from the begin of the run
         double circumference = 0.0; // at the mean radius; 0 if not needed
-        glm::vec3 normal{};         // across the edge to the joint: direction of the first corner
-        std::uint32_t steps = 0;    // edges since the begin of the run
+        glm::vec3 normal{};         // across the edge, towards the first corner
+        std::uint32_t steps = 0;    // number of edges since the begin of the run
     };
 
     void write(const Run& run);
     [[nodiscard]] Place begin(const Run& run) const;
-    /// Writes the rings before joint `end` and moves the place there.
+    /// Writes the rings before joint `end` and moves `place` there.
     void write(const Run& run, Place& place, std::size_t end);
-    /// Moves the place up to a joint of the run as write() does, without writing.
+    /// Moves `place` to joint `end` as write() does, without writing vertices.
     void skip(const Run& run, Place& place, std::size_t end) const;
 
     [[nodiscard]] std::uint64_t vertex() const { return at_.vertex; }

@@ -23,31 +23,31 @@ constexpr std::uint64_t kPieces = 64;
 constexpr std::uint64_t kMinPieceSegments = 4096; // segments per piece
 constexpr std::uint64_t kMaxPieceSegments = std::uint64_t{1} << 17;
 constexpr std::uint64_t kMaxLists = std::uint64_t{1} << 20; // max pieces times colours
-constexpr std::size_t kJointsPerSegment = 2;                // estimate, with ends and collars
+constexpr std::size_t kJointsPerSegment = 2;                // estimate, including ends and collars
 constexpr std::size_t kJointsPerPart = 2048;
-constexpr std::size_t kMinLongRun = 4 * kJointsPerPart; // joints of a run that is written in parts
+constexpr std::size_t kMinLongRun = 4 * kJointsPerPart; // min joints of a run written in parts
 static_assert(kMinLongRun <= 0x7FFF);
 
-/// A Run without its joints and their radii.
+/// A Run whose joints and radii are stored in Piece.
 struct KeptRun {
     std::uint32_t first_segment = 0;
-    std::uint16_t joint_count : 15 = 0; // except for long runs
+    std::uint16_t joint_count : 15 = 0; // unused for long runs
     bool has_roots : 1 = false;
     TubeEnd begin = TubeEnd::Flat;
     TubeEnd end = TubeEnd::Blunt;
 };
 
-/// A run with joints of its own that several threads write in parts. Frames are carried from joint
-/// to joint, so each part waits until the part before it has computed its start.
+/// A run with joints of its own that several threads write in parts. The frame is transported from
+/// joint to joint, so each part waits until the part before has computed the frame where it starts.
 struct LongRun {
     std::size_t number = 0;      // index in Piece::runs
-    std::size_t first_joint = 0; // index in Piece::joints, for the next run
+    std::size_t first_joint = 0; // index in Piece::joints of the joints of the next run
     LargeVector<Joint> joints;
     LargeVector<float> radii;
     std::uint64_t first_vertex = 0; // among the vertices of the piece
     std::uint64_t end_vertex = 0;
     std::vector<TubeWriter::Place> places; // the start of each part
-    WaitableCount known{1};                // count of places found so far
+    WaitableCount known{1};                // number of items of `places` that are set
 };
 
 /// A range of segments, and the runs of the axes that begin there.
@@ -146,7 +146,7 @@ struct Task {
     std::size_t part = 0;
 };
 
-/// Tasks in the order of vertices.
+/// Tasks in the order of their vertices.
 std::vector<Task> make_tasks(std::vector<Piece>& pieces, std::uint64_t vertices) {
     std::vector<Task> tasks;
     for (std::size_t i = 0; i < pieces.size(); ++i) {
@@ -182,7 +182,7 @@ std::vector<Task> make_tasks(std::vector<Piece>& pieces, std::uint64_t vertices)
 
 class TaskWriter {
 public:
-    /// `alone`: no other thread writes.
+    /// `alone`: no other thread writes vertices.
     TaskWriter(const Skeleton& skeleton,
                const MeshBlock& block,
                const MeshOptions& options,
@@ -211,7 +211,8 @@ private:
                 .has_roots = kept.has_roots};
     }
 
-    /// Publishes the place of the next part before writing, unless there is no other thread.
+    /// Before writing, publishes the place where the next part starts, unless there is no other
+    /// thread.
     void write_part(LongRun& shared) {
         const Run run = run_of(task_.piece->runs[task_.first_run], shared.joints, shared.radii);
         const std::size_t end = std::min((task_.part + 1) * kJointsPerPart, run.joints.size());
@@ -247,7 +248,7 @@ private:
                                               piece.radii.empty() ? 0 : kept.joint_count)));
             joint += kept.joint_count;
         }
-        // The writer has written as many vertices as the reader has counted.
+        // The number of written vertices must equal the number that the reader has counted.
         LSYS_CHECK(writer_.vertex() == task_.end_vertex, writer_.vertex(), task_.end_vertex);
         if (piece.long_runs.empty()) {
             piece.runs = {};
@@ -296,7 +297,7 @@ void append_tubes(const Skeleton& skeleton, const MeshOptions& options, MeshBuil
     };
     if (alone) {
         workers.for_each(tasks.size(), write);
-    } else { // tasks wait for one another: one that fails must not leave others waiting
+    } else { // noexcept: after an exception, other tasks would wait forever
         workers.for_each(tasks.size(), [&](std::uint64_t i) noexcept { write(i); });
     }
 }

@@ -16,7 +16,7 @@ namespace lsys {
 
 namespace {
 
-/// Pixels per side of the trial views from which the size of all other views is computed.
+/// Pixels per side of the trial views, from which the size of all other views is computed.
 constexpr int kTrialSize = 96;
 constexpr int kMinSize = 80;
 constexpr int kMaxSize = 256;
@@ -26,8 +26,8 @@ constexpr std::size_t kTrialViews = 4;
 constexpr float kCosine15 = 0.9659258F; // of 15 degrees
 constexpr float kSine15 = 0.2588190F;
 constexpr float kDiagonal = 0.7071068F;
-/// Cosine and sine: kTurns of the turn about +Y, kTilts of the elevation of the eye above the
-/// horizon. With these turns no card of an impostor is seen edge-on.
+/// Cosine and sine of the turns about +Y, and of the elevations of the eye above the horizon. With
+/// these turns no card of an impostor is seen edge-on.
 constexpr std::array<std::array<float, 2>, 12> kTurns{{{kCosine15, kSine15},
                                                        {kDiagonal, kDiagonal},
                                                        {kSine15, kCosine15},
@@ -44,7 +44,8 @@ constexpr std::array<std::array<float, 2>, 2> kTilts{{{1.0F, 0.0F}, {0.8F, 0.6F}
 
 constexpr std::uint32_t kRowBits = 0xFFFF; // mask of the row in a cell number, see View::cell()
 constexpr std::size_t kViews = kTurns.size() * kTilts.size();
-/// Step of the views of measure_third(); odd, so that level views and views from above alternate.
+/// The step of the views of measure_third() is odd, so that level views and views from above
+/// alternate.
 constexpr std::size_t kViewStep = 3;
 
 /// A part of a mesh, prepared for drawing.
@@ -111,8 +112,8 @@ public:
             for (std::uint64_t i = surface.part.first_index; i + 2 < end; i += 3) {
                 const std::array<std::uint32_t, 3> corners{drawn.indices[i], drawn.indices[i + 1],
                                                            drawn.indices[i + 2]};
-                // Skip triangles between two neighbouring columns or rows of pixel centres, like
-                // most triangles of a large plant: they cover no centre.
+                // Skips triangles that lie between two neighbouring columns or rows of pixel
+                // centres, as most triangles of a large plant do: they cover no centre.
                 const std::uint32_t spread = (cells_[corners[0]] ^ cells_[corners[1]]) |
                                              (cells_[corners[0]] ^ cells_[corners[2]]);
                 if ((spread & kRowBits) != 0 && (spread & ~kRowBits) != 0) {
@@ -150,7 +151,7 @@ private:
                                             tilt_cosine_ * p.y - tilt_sine_ * near + reach_,
                                             tilt_cosine_ * near + tilt_sine_ * p.y);
     }
-    /// Number of the square between four centres of pixels: its column and its row.
+    /// Number of the square between four pixel centres, composed of its column and its row.
     [[nodiscard]] static std::uint32_t cell(const glm::vec3& place) {
         const auto number = [](float at) {
             return static_cast<std::uint32_t>(std::clamp(at + 0.5F, 0.0F, 1024.0F));
@@ -191,8 +192,8 @@ private:
     std::vector<std::uint32_t> cells_; // cell() of each place
 };
 
-/// Offset of the plant in pixels, 0 to 1. It differs from view to view, so that a trunk in the
-/// middle does not lie between the same pixel centres in all views. R2 sequence (Roberts, "The
+/// Offset of the plant in a view, 0 to 1 pixels. It differs from view to view, so that a trunk in
+/// the middle does not lie between the same pixel centres in all views. R2 sequence (Roberts, "The
 /// unreasonable effectiveness of quasirandom sequences", 2018).
 glm::vec2 offset_of(std::uint64_t view) {
     const glm::vec2 at = static_cast<float>(view + 1) * glm::vec2(0.7548777F, 0.5698403F);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Visible areas: the parts of a picture that wood and foliage cover, with hidden surfaces removed.
-// Levels of detail keep both areas, and with them the mean colour.
+// Visible areas: the areas of a picture that wood and foliage cover, with hidden surfaces removed.
+// Levels of detail keep both areas, and therefore the mean colour.
 #pragma once
 
 #include "runtime/base/workers.h"
@@ -18,7 +18,7 @@ namespace lsys {
 struct VisibleAreas {
     double wood = 0.0;
     double foliage = 0.0;
-    glm::dvec3 colour{0.0}; // linear, sum over the pixels of both
+    glm::dvec3 colour{0.0}; // linear; sum over the pixels of wood and foliage
 
     [[nodiscard]] glm::dvec3 mean_colour() const {
         return all() > 0.0 ? colour / all() : glm::dvec3(0.0);
@@ -31,12 +31,12 @@ struct VisibleAreas {
     }
 };
 
-/// Measures meshes in 24 square views of one frame: from twelve sides, each once level with the
-/// plant and once from above.
+/// Measures meshes in 24 square views of one frame: from twelve horizontal directions, each once
+/// level with the plant and once from above.
 class AreaMeter {
 public:
-    /// Computes the size of the views from trial views of the finest mesh: more pixels for plants
-    /// with thin branches. `threads`: as MeshOptions::threads.
+    /// Computes the size of the views from trial views of the finest mesh: plants with thin
+    /// branches get more pixels. `threads`: as MeshOptions::threads.
     AreaMeter(const Mesh& wood, const Mesh& foliage, const Bounds& frame, std::uint32_t threads);
 
     /// Draws both meshes by pixel centres, with the opacity of pictures and the colours of
@@ -48,7 +48,7 @@ public:
     [[nodiscard]] VisibleAreas measure_third(const Mesh& wood, const Mesh& foliage);
 
 private:
-    /// Areas in `count` views, `step` apart.
+    /// Sums of the areas in `count` views, `step` numbers apart.
     std::vector<VisibleAreas>
     measure_views(const Mesh& wood, const Mesh& foliage, std::size_t count, std::size_t step);
 

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: MIT
-// Mass properties after Crankshaw 2019, section 6.2. In this thesis a segment is a cylinder that
-// turns about its end; here it is the truncated cone that is drawn, a cylinder if the radii are
-// equal. The mass is Segment::mass: given by the author, or the volume of the cone times the density.
+// Mass properties after Crankshaw 2019, section 6.2. In Crankshaw's thesis a segment is a cylinder
+// that turns about its end; here a segment is the truncated cone that is drawn, which is a cylinder
+// if both radii are equal. The mass is Segment::mass, which the author states or which is the
+// volume of the cone times the density.
 //
-// Objects and polygons have no mass in the grammar, but a crown without the mass of its leaves bends
-// too little. So they count as thin sheets of `surface_mass`: an object of size s has s^2 square
-// metres, at half its length; a polygon has its area, at the mean of its corners. Half of the area
+// Objects and polygons have no mass in the grammar, but a crown without the mass of its leaves
+// bends too little. So they count as thin sheets of `surface_mass`: an object of size s has s^2
+// square metres, at half its length; a polygon has its area, at the mean of its corners. Half of
+// the area of a sheet faces the wind, which is the mean over all directions.
 // faces the wind: the mean over all directions.
 #include "runtime/physics/impl/bodies.h"
 
@@ -21,13 +23,14 @@ namespace lsys {
 
 namespace {
 
-constexpr double kExposedShare = 0.5; // part of a sheet's area that faces the wind
-// m/s^2. Under its near load (below) a tip sinks by 9.81 / kGroundSpring = 0.005 of the height of the
-// plant; pose() raises such tips out of the ground.
+constexpr double kExposedShare = 0.5; // fraction of a sheet's area that faces the wind
+// m/s^2. Under its near load, which is defined below, a tip sinks by 9.81 / kGroundSpring = 0.005
+// of the height of the plant; pose() raises such tips out of the ground.
 constexpr double kGroundSpring = 2e3;
-// The near load of a tip is kNearFactor times the sum of the masses beyond it, in which each further
-// body along a branch counts less by the factor kNearShare; at most the whole mass. A chain of 25
-// bodies counts in full, a long chain as 50 bodies.
+// The near load of a tip is kNearFactor times a sum over the masses of the descendants, in which
+// each further body along a branch counts less by the factor kNearShare; it is at most the whole
+// mass of the descendants. The bodies of a chain of 25 count in full, a long chain counts as 50
+// bodies.
 constexpr double kNearShare = 0.97;
 constexpr double kNearFactor = 1.5;
 constexpr double kRounding = 1e-6; // rounding error of positions, relative to the plant's height
@@ -56,7 +59,8 @@ glm::dvec3 heading_of(const glm::quat& frame) {
     return glm::normalize(q * (1.0 / std::sqrt(norm))) * glm::dvec3(0.0, 1.0, 0.0);
 }
 
-/// Sums over the segment, objects and polygons of a body: mass times position, area of sheets.
+/// Sums over the segment, the objects and the polygons of a body: mass times position, and area of
+/// sheets.
 struct BodySums {
     glm::dvec3 first_moment{0.0};
     double sail = 0.0;
@@ -68,7 +72,8 @@ void order_by_depth(const Skeleton& rest, Bodies& out) {
         const std::uint32_t parent = rest.segments[segment].parent;
         return parent < segment ? parent : kNoSegment;
     };
-    // Children of all segments, parent by parent: the children of s end before children[ends[s]].
+    // Children of all segments, parent by parent: the children of segment s end at index ends[s] of
+    // `children`.
     std::vector<std::uint32_t> ends(std::size_t{count} + 1, 0);
     for (std::uint32_t s = 0; s < count; ++s) {
         const std::uint32_t parent = parent_of(s);
@@ -123,7 +128,7 @@ void add_segment(const Segment& segment, Body& body, BodySums& load) {
     body.heading = glm::vec3(axis);
     body.mass = magnitude(segment.mass);
     body.spring = magnitude(segment.spring);
-    // transverse (1 - a a^T) + axial a a^T
+    // The inertia matrix is transverse (1 - a a^T) + axial a a^T.
     body.inertia = point_inertia(body.mass * (cone.transverse - cone.axial), axis);
     body.inertia.add_diagonal(body.mass * cone.axial);
     load.first_moment = body.mass * cone.centre * axis;
@@ -150,8 +155,8 @@ void add_sheet(
     load.sail += kExposedShare * area;
 }
 
-/// The part of `carried`, the mass of each body and its descendants, that the tip of the body bears
-/// on the ground.
+/// The part of the mass `carried` that presses the tip of each body onto the ground. `carried`:
+/// mass of each body and its descendants, in kg.
 std::vector<double> near_loads(const std::vector<Body>& bodies, std::vector<double> carried) {
     std::vector<double> sums(bodies.size(), 0.0);
     for (std::size_t b = bodies.size(); b-- > 0;) {
@@ -164,9 +169,10 @@ std::vector<double> near_loads(const std::vector<Body>& bodies, std::vector<doub
     return carried;
 }
 
-/// Sets the contact of each body with the ground. A tip above the ground at rest may sink until its
-/// radius touches the ground; a tip below the ground with a descendant above the ground may not
-/// sink; other tips are free. `carried`: mass of each body and its descendants, kg.
+/// Sets the contact of each body with the ground. A tip that is above the ground at rest may sink
+/// until its radius touches the ground; a tip that is below the ground at rest, with a descendant
+/// above it, may not sink; all other tips are free. `carried`: mass of each body and its
+/// descendants, in kg.
 void add_ground(const Skeleton& rest, const std::vector<double>& carried, Bodies& out) {
     const std::size_t count = out.bodies.size();
     const std::vector<double> near_load = near_loads(out.bodies, carried);
@@ -206,7 +212,7 @@ UnitCone unit_cone(double length, double base_radius, double tip_radius) {
     if (squares <= 0.0) {
         return {.centre = length / 2.0, .transverse = length * length / 3.0, .axial = 0.0};
     }
-    // Integrals over the height of radius^2 times 1, height, height^2 and radius^2.
+    // Integrals over the height of the cone of radius^2 times 1, height, height^2 and radius^2.
     const double centre = length * (a * a + 2.0 * a * b + 3.0 * b * b) / (4.0 * squares);
     const double height_squared =
         length * length * (a * a + 3.0 * a * b + 6.0 * b * b) / (10.0 * squares);

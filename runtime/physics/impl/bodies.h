@@ -14,17 +14,18 @@
 
 namespace lsys {
 
-/// Clearance of a body without contact with the ground.
+/// Clearance of a body that never touches the ground.
 inline constexpr double kNoGround = std::numeric_limits<double>::infinity();
 
-/// A point, the tip of a body, that the ground supports. Relative to the base at rest.
+/// The tip of a body, as a point that the ground supports. Coordinates are relative to the base at
+/// rest.
 struct Contact {
     glm::dvec3 tip{0.0};
     double clearance = kNoGround; // m, distance by which the tip may sink
     double spring = 0.0;          // N/m
 };
 
-/// A rigid body. Vectors are relative to its base at rest, in the axes of the world.
+/// A rigid body. Vectors are relative to the base of the body at rest, in the axes of the world.
 struct Body {
     std::uint32_t parent = kNoSegment; // index of an earlier body
     std::uint32_t first_child = 0;     // index of a later body
@@ -34,22 +35,22 @@ struct Body {
     Symmetric inertia;      // kg m^2, about the base
     double mass = 0.0;      // kg
     double spring = 0.0;    // N m/rad
-    /// Sum of mass times position over the body and its children, with the whole load of a child at
-    /// the child's base: kg m.
+    /// Sum of mass times position over the body and its children, in kg m; each child counts at its
+    /// base, with the mass of all its descendants.
     glm::dvec3 moment{0.0};
-    // Area that faces the wind, m^2: side * sin(a) + end * cos(a) + sail, where a is the angle
-    // between wind and heading.
+    // The area that faces the wind, in m^2, is side * sin(a) + end * cos(a) + sail, where a is the
+    // angle between wind and heading.
     glm::vec3 heading{0.0F, 1.0F, 0.0F};
     float side = 0.0F;
     float end = 0.0F;
     float sail = 0.0F;
     Contact contact;
-    // Further contacts of bodies of coarse plants: a range of Bodies::contacts.
+    // Range in Bodies::contacts: the further contacts of a body of a coarse plant.
     std::uint32_t first_contact = 0;
     std::uint32_t contact_count = 0;
 };
 
-/// Bodies by depth, and within a depth by their parents, so that siblings are neighbours.
+/// Bodies sorted by depth, and within a depth by their parents, so that siblings are neighbours.
 struct Bodies {
     std::vector<Body> bodies;
     std::vector<std::uint32_t> segments;        // index of the segment of each body
@@ -58,7 +59,7 @@ struct Bodies {
     std::vector<Contact> contacts;              // see Body::first_contact
 };
 
-/// Calls `use` for all contacts of a body with the ground.
+/// Calls `use` for each contact of a body with the ground.
 template <typename Use>
 void for_each_contact(const Bodies& plant, const Body& body, const Use& use) {
     if (body.contact.spring > 0.0) {
@@ -72,13 +73,13 @@ void for_each_contact(const Bodies& plant, const Body& body, const Use& use) {
 /// `surface_mass`: kg per square metre of objects and polygons.
 [[nodiscard]] Bodies make_bodies(const Skeleton& rest, double surface_mass);
 
-/// Mass properties of a solid of uniform density and mass 1 about the middle of its base.
+/// Mass properties of a solid of uniform density and mass 1, relative to the middle of its base.
 struct UnitCone {
     double centre = 0.0;     // m, height of the centre of mass
     double transverse = 0.0; // m^2, inertia about an axis in the base
     double axial = 0.0;      // m^2, inertia about the axis from base to tip
 };
-/// The truncated cone of these radii: a cylinder if they are equal, a thin rod if both are 0.
+/// The truncated cone of these radii in m: a cylinder if they are equal, a thin rod if both are 0.
 [[nodiscard]] UnitCone unit_cone(double length, double base_radius, double tip_radius);
 
 } // namespace lsys

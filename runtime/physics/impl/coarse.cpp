@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // A limp twig loads its branch like a mass at the base of the twig, and a run has the weight of its
-// bodies. So a coarse plant, which also keeps Body::moment and the contacts with the ground, falls
-// like the whole plant.
+// bodies. A coarse plant also keeps Body::moment and the contacts with the ground, so it falls like
+// the whole plant.
 #include "runtime/physics/impl/coarse.h"
 
 #include "runtime/physics/impl/ground.h"
@@ -22,17 +22,17 @@ constexpr std::uint32_t kCoarsest = 500; // approximate bodies of the coarsest p
 constexpr std::uint32_t kGrowth = 4;     // approximate ratio of bodies from plant to plant
 constexpr double kMinGrowth = 3.0;       // min ratio
 // Max of Coarsening::relative_twig_size(). A plant with larger twigs is nearly a chain: most of its
-// weight would be at the end of the kept bodies. Such a plant is cut into runs instead.
+// weight would be at the ends of the bodies that are kept. Such a plant is cut into runs instead.
 constexpr double kMaxRelativeTwig = 32.0;
 
-/// m^2, area of the segment in the wind, mean over all directions.
+/// Area in m^2 of the segment that faces the wind, mean over all directions.
 float mean_area(const Body& body) {
     constexpr float kMeanSine = std::numbers::pi_v<float> / 4.0F;
     constexpr float kMeanCosine = 0.5F;
     return kMeanSine * body.side + kMeanCosine * body.end;
 }
 
-/// Sums over each body and its descendants, by body.
+/// Sums over each body and all its descendants; arrays are indexed by body.
 struct Twigs {
     std::vector<std::uint32_t> sizes; // numbers of bodies
     std::vector<double> masses;       // kg
@@ -56,17 +56,17 @@ Twigs twigs_of(const std::vector<Body>& bodies) {
     return out;
 }
 
-/// Place of body number `i` in a run of `length` bodies: 0 at the base of the run, 1 at its tip.
+/// Position of body number `i` in a run of `length` bodies: 0 at the base of the run, 1 at its tip.
 double place_in_run(std::size_t i, std::size_t length) {
     return (static_cast<double>(i) + 0.5) / static_cast<double>(length);
 }
-/// Weight of the rotation of a body's own run, for a body at `place`; the rest is the weight of the
-/// rotation of the parent run. `joined`: the run continues the parent run, where turned_ahead()
-/// begins the turn.
+/// Weight of the rotation of the body's own run, for a body at `place` in this run. The remaining
+/// weight belongs to the rotation of the parent run. `joined`: the run is the only child of its
+/// parent run, whose last bodies already turn towards it (turned_ahead()).
 double turned_part(double place, bool joined) {
     return std::min(joined ? 0.5 + place : 2.0 * place, 1.0);
 }
-/// Weight of the rotation of the next run, for a body at `place` of the run before it.
+/// Weight of the rotation of the next run, for a body at `place` in the run before it.
 double turned_ahead(double place) {
     return std::max(place - 0.5, 0.0);
 }
@@ -81,7 +81,7 @@ bool is_joined(const CoarsePlant& plant, std::uint32_t run) {
     return parent != kNoSegment && plant.bodies.bodies[parent].child_count == 1;
 }
 
-/// Keeps only the contacts that are farthest in some direction, if there are many contacts.
+/// Keeps only the contacts that are farthest in some direction, if there are many.
 void keep_outermost(std::vector<Contact>& contacts) {
     constexpr std::array<glm::dvec3, 7> kDirections = {
         glm::dvec3(1.0, 0.0, 0.0),  glm::dvec3(0.0, 1.0, 0.0),  glm::dvec3(0.0, 0.0, 1.0),
@@ -107,8 +107,8 @@ void keep_outermost(std::vector<Contact>& contacts) {
     contacts.resize(outer.size());
 }
 
-/// Makes the coarse plant of the bodies that have, with their descendants, at least `min_size`
-/// bodies. Runs have at most `longest` bodies.
+/// Makes the coarse plant that keeps the bodies with at least `min_size` bodies in their subtree.
+/// Runs have at most `longest` bodies.
 class Coarsening {
 public:
     Coarsening(const Bodies& plant,
@@ -117,8 +117,8 @@ public:
                std::uint32_t longest)
         : plant_(&plant), twigs_(&twigs), min_size_(min_size), longest_(longest) {}
 
-    /// Mean size of the twig to which a left-out body belongs, relative to the number of bodies per
-    /// kept body.
+    /// Mean size of the twigs to which bodies that are left out belong, divided by the number of
+    /// bodies per kept body.
     [[nodiscard]] double relative_twig_size() const {
         double kept = 0.0;
         double squares = 0.0;
@@ -137,7 +137,7 @@ public:
 
     [[nodiscard]] std::uint32_t count_runs() const {
         std::uint32_t count = 0;
-        // By body: number of bodies of its run from the base of the run to this body.
+        // By body: number of bodies in its run, from the base of the run to the body itself.
         std::vector<std::uint32_t> lengths(plant_->bodies.size(), 0);
         for (std::uint32_t b = 0; b < plant_->bodies.size(); ++b) {
             if (is_kept(b)) {
@@ -194,7 +194,8 @@ private:
         return only;
     }
 
-    /// Adds the masses of `member`, whose base is at `base`, and of its twigs that are left out.
+    /// Adds to `body` the masses of `member`, whose base is at `base`, and of its twigs that are
+    /// left out.
     void add_masses(const Body& member,
                     const glm::dvec3& base,
                     Body& body,
@@ -216,10 +217,10 @@ private:
         }
     }
 
-    /// Makes the body of a run, and adds the runs that begin at its end.
+    /// Makes the body of the run `run`, and adds the runs that begin at its end to `out`.
     void
     add_run(std::uint32_t run, std::vector<std::uint32_t>& first_bodies, CoarsePlant& out) const {
-        Body body = out.bodies.bodies[run]; // its parent and offset are known
+        Body body = out.bodies.bodies[run]; // parent and offset are already set
         std::vector<Contact> contacts;
         glm::dvec3 first_moment(0.0);
         glm::dvec3 base(0.0); // base of `last`
@@ -276,8 +277,8 @@ private:
         out.bodies.bodies[run] = body;
     }
 
-    /// Sets the spring of each run so that it has the energy of the springs within the run when
-    /// spread_poses() bends them.
+    /// Sets the spring of each run so that its energy equals the energy of the springs within the
+    /// run when spread_poses() bends these.
     void set_springs(CoarsePlant& out) const {
         for (std::uint32_t run = 0; run < out.bodies.bodies.size(); ++run) {
             Body& body = out.bodies.bodies[run];

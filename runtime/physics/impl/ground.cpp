@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// A tip that is above the ground at rest can always be raised above the ground: its base is above the
-// ground, and the tip of a horizontal segment is as high as its base. A base that is not at the tip
-// of its parent is raised separately.
+// A tip that is above the ground at rest can always be raised above the ground: its base is above
+// the ground, and the tip of a horizontal segment is as high as its base. A base that does not lie
+// at the tip of its parent is raised by itself.
 #include "runtime/physics/impl/ground.h"
 
 #include "runtime/base/trigonometry.h"

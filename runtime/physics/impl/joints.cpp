@@ -36,11 +36,11 @@ namespace lsys {
 namespace {
 
 constexpr double kMinInertia = 1e-13;         // relative to the trace: a bound of rounding errors
-constexpr double kMaxTurn = std::numbers::pi; // rad per step: a larger turn has no unique vector
+constexpr double kMaxTurn = std::numbers::pi; // rad per step; vectors of larger turns are ambiguous
 constexpr double kStickingSpeed = 0.01; // m/s; at lower speeds friction is proportional to speed
 
-/// Quadratic and linear form of a body in its spin and the velocity of its base; `push` as in
-/// Reduced.
+/// Quadratic and linear form of a body in its spin and the velocity of its base. `push`: as
+/// Reduced::push.
 struct BodyForms {
     Symmetric spin_spin;
     Rows spin_velocity;
@@ -50,8 +50,8 @@ struct BodyForms {
     glm::dvec3 push{0.0};
 };
 
-/// Adds `factor` times the second derivative, with respect to rotations of `arm`, of the energy
-/// -arm . force of a force at the end of `arm`. See Forces::exactness.
+/// Adds `factor` times a second derivative to `sum`: of the energy -arm . force of a force at the
+/// end of `arm`, with respect to rotations of `arm`. `exactness`: as Forces::exactness.
 void add_stiffness(const glm::dvec3& arm,
                    const glm::dvec3& force,
                    double factor,
@@ -61,7 +61,7 @@ void add_stiffness(const glm::dvec3& arm,
     if (exactness == 0.0) {
         return;
     }
-    // arm . force - (arm force^T + force arm^T) / 2
+    // The true second derivative is arm . force - (arm force^T + force arm^T) / 2.
     const double f = factor * exactness;
     sum.add_diagonal(f * glm::dot(arm, force));
     sum += {-f * arm.x * force.x,
@@ -72,8 +72,8 @@ void add_stiffness(const glm::dvec3& arm,
             -0.5 * f * (arm.y * force.z + arm.z * force.y)};
 }
 
-/// Adds the contact of a tip that is in the ground or reaches the ground within the step: a spring
-/// along Y with its force at the end of the step, and friction along the ground.
+/// Adds the contact of a tip that is in the ground, or reaches it within the step: a spring along Y
+/// with the force that it has at the end of the step, and friction along the ground.
 void add_contact(const Contact& contact,
                  const BodyMotion& motion,
                  const BodyPose& pose,
@@ -113,8 +113,8 @@ void add_contact(const Contact& contact,
     }
 }
 
-/// The quadratic and linear forms of a body for Forces::own_load: the body carries nothing, and its
-/// base stands still.
+/// The quadratic and linear forms of a body for Forces::own_load, where the joint carries no
+/// descendants and the base of the body stands still.
 BodyForms own_load_forms(const Body& body,
                          const BodyMotion& motion,
                          const glm::dquat& turn,
@@ -177,8 +177,8 @@ BodyForms own_forms(const Body& body,
     return own;
 }
 
-/// Adds the forms of a child to its parent. `offset`: from the base of the parent to the base of the
-/// child.
+/// Adds the forms of a child to the forms of its parent. `offset`: from the base of the parent to
+/// the base of the child, in m.
 void add_child(const Reduced& child,
                const glm::dvec3& offset,
                const Forces& forces,
@@ -214,7 +214,7 @@ void add_child(const Reduced& child,
     }
 }
 
-/// Eliminates the body's own spin from its forms.
+/// Eliminates the spin of a body from its forms.
 void eliminate(const BodyForms& own,
                const Body& body,
                const BodyMotion& motion,
@@ -228,7 +228,7 @@ void eliminate(const BodyForms& own,
     inertia.add_diagonal(kMinInertia * std::max(inertia.trace(), 0.0));
     Symmetric joint_matrix; // damping and stiffness of the joint
     joint_matrix.add_diagonal(h * forces.damping + hooke);
-    Rows twist; // joint_matrix + twist couples the spins of the parent and the body
+    Rows twist; // joint_matrix + twist couples the spins of parent and body
     if (forces.exactness > 0.0) {
         // Half the squared angle of exp(v) exp(bend) has the second derivative x cot x in
         // directions normal to the bend, with x = |bend| / 2. The twist comes from
@@ -249,7 +249,7 @@ void eliminate(const BodyForms& own,
         inertia += lift;
         sum += lift;
     }
-    if (!(sum.trace() > 0.0)) { // no inertia, spring or force: the body moves with its parent
+    if (!(sum.trace() > 0.0)) { // no inertia, spring or force: moves with the parent
         joint_matrix.add_diagonal(1.0);
         sum.add_diagonal(1.0);
     }

@@ -15,21 +15,21 @@ namespace lsys {
 class Schedule {
 public:
     Schedule() = default;
-    /// Bodies of depth d are level_ends[d - 1] ... level_ends[d] - 1.
+    /// The bodies of depth d have the numbers level_ends[d - 1] to level_ends[d] - 1.
     explicit Schedule(std::span<const std::uint32_t> level_ends);
 
     [[nodiscard]] std::uint32_t piece_count() const { return pieces_; }
 
-    /// Calls `work(begin, end, piece)` for all bodies, parents before children. Within a piece a
-    /// body may depend on earlier bodies.
+    /// Calls `work(begin, end, piece)` for all bodies, parents before children. A body may depend
+    /// on earlier bodies of its piece.
     template <typename Work>
     void outward(Workers& workers, const Work& work) const {
         for (const Run& run : runs_) {
             do_run(workers, run, work);
         }
     }
-    /// Calls `work` for all bodies, children before parents. Within a piece a body may depend on
-    /// later bodies.
+    /// Calls `work` for all bodies, children before parents. A body may depend on later bodies of
+    /// its piece.
     template <typename Work>
     void inward(Workers& workers, const Work& work) const {
         for (auto run = runs_.rbegin(); run != runs_.rend(); ++run) {
@@ -38,9 +38,10 @@ public:
     }
 
 private:
-    /// One wide depth, whose bodies are independent of each other, or several narrow depths.
+    /// One depth with many bodies, which are independent of each other, or several depths with few
+    /// bodies.
     struct Run {
-        std::uint32_t begin = 0; // bodies [begin, end)
+        std::uint32_t begin = 0; // bodies begin to end - 1
         std::uint32_t end = 0;
         std::uint32_t first_piece = 0;
         std::uint32_t piece_count = 1;

@@ -43,7 +43,7 @@ struct Symmetric {
             a.xy * factor, a.xz * factor, a.yz * factor};
 }
 
-/// The inertia of a point mass: mass (|v|^2 - v v^T).
+/// The inertia about the origin of a point mass at v: mass (|v|^2 - v v^T).
 [[nodiscard]] inline Symmetric point_inertia(double mass, const glm::dvec3& v) {
     return {mass * (v.y * v.y + v.z * v.z),
             mass * (v.x * v.x + v.z * v.z),
@@ -53,7 +53,7 @@ struct Symmetric {
             -mass * v.y * v.z};
 }
 
-/// R a R^T.
+/// The product R a R^T.
 [[nodiscard]] inline Symmetric rotated(const Symmetric& a, const glm::dmat3& r) {
     const glm::dvec3 x(r[0][0], r[1][0], r[2][0]); // rows
     const glm::dvec3 y(r[0][1], r[1][1], r[2][1]);
@@ -65,7 +65,7 @@ struct Symmetric {
             glm::dot(x, ay), glm::dot(x, az), glm::dot(y, az)};
 }
 
-/// Whether `a` is positive definite, with a margin for rounding.
+/// Whether `a` is positive definite by more than rounding errors.
 [[nodiscard]] inline bool is_positive(const Symmetric& a) {
     const double min_pivot = 1e-12 * a.trace();
     if (!(a.xx > min_pivot)) {
@@ -94,7 +94,7 @@ struct Eigenvectors {
                 if (m[p][q] == 0.0) {
                     continue;
                 }
-                // The rotation in the plane of axes p and q that makes m[p][q] 0.
+                // The rotation in the plane of the axes p and q that makes m[p][q] zero.
                 const double ratio = (m[q][q] - m[p][p]) / (2.0 * m[p][q]);
                 const double tangent =
                     std::copysign(1.0, ratio) / (std::abs(ratio) + std::sqrt(1.0 + ratio * ratio));
@@ -119,8 +119,8 @@ struct Eigenvectors {
     return out;
 }
 
-/// The matrix to add to `a` so that each eigenvalue becomes its absolute value, at least 1e-9 of the
-/// largest. The eigenvectors stay.
+/// The matrix that, added to `a`, turns each eigenvalue into its absolute value, but at least 1e-9
+/// of the largest absolute value. The eigenvectors stay the same.
 [[nodiscard]] inline Symmetric lift_to_positive(const Symmetric& a) {
     constexpr double kMinShare = 1e-9;
     const Eigenvectors eigen = eigenvectors_of(a);
@@ -138,8 +138,9 @@ struct Eigenvectors {
     return lift;
 }
 
-/// The inverse of a positive definite matrix by L D L^T. A pivot that rounding has made too small is
-/// raised, so that the result is always positive definite. Precondition: the trace is positive.
+/// The inverse of a positive definite matrix by its L D L^T decomposition. A pivot that rounding
+/// has made too small is raised, so that the result is always positive definite. Precondition: the
+/// trace is positive.
 [[nodiscard]] inline Symmetric inverse(const Symmetric& a) {
     constexpr double kMinPivot = 1e-15; // relative to the trace
     const double scale = 1.0 / a.trace();
@@ -163,7 +164,7 @@ struct Eigenvectors {
             -l21 * i2};
 }
 
-/// A 3 by 3 matrix by rows.
+/// A 3 by 3 matrix, stored row by row.
 struct Rows {
     std::array<glm::dvec3, 3> row{};
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// CellGrid: the squares of an unbounded grid, and unique 32-bit numbers of the places within them. A
-// number contains row, column and place; cells whose numbers would exceed 32 bits are refused.
+// CellGrid: the squares of an unbounded grid, and unique 32-bit numbers of the places within them.
+// A number is composed of row, column and place; cells whose numbers would exceed 32 bits are
+// refused.
 #pragma once
 
 #include "grammar/base/result.h"
@@ -33,8 +34,8 @@ public:
         return cell.column >= -half_ && cell.column < half_ && cell.row >= -half_ &&
                cell.row < half_;
     }
-    /// Distance in m from the origin to the border of the numbered cells, along X or Z, less `cells`
-    /// cells.
+    /// Distance in m, along X or Z, from the origin to the border of the cells that have numbers,
+    /// minus `cells` cells.
     [[nodiscard]] double reach(std::int64_t cells) const {
         return side_ * static_cast<double>(half_ - cells);
     }
@@ -51,7 +52,7 @@ private:
     std::int64_t half_; // number of columns on each side of 0
 };
 
-/// A rectangle of cells from `first` on.
+/// A rectangle of cells; `first` is its cell of lowest column and row.
 struct CellRange {
     Cell first;
     std::int64_t columns = 0;

@@ -15,9 +15,9 @@ namespace lsys {
 
 namespace {
 
-constexpr double kMinSide = 0.25;     // m, of a region: several ulps of any binary32 coordinate
+constexpr double kMinSide = 0.25;     // m, of a region; several ulps of any binary32 coordinate
 constexpr double kMinSpacing = 0.001; // m
-/// Max places to sample in a density map, which may be black nearly everywhere.
+/// Max number of places to sample in a density map, most of which may be black.
 constexpr double kMaxMapPlaces = 1.0e9;
 
 struct Bound {
@@ -111,7 +111,7 @@ Result<void> check_map(const PlacementOptions& options) {
     return options.map_region ? check_region(*options.map_region) : Result<void>();
 }
 
-/// expected_places() for options whose region and species have been checked.
+/// Implements expected_places(). Precondition: region and species of the options have been checked.
 Result<double> count_places(const PlacementOptions& options) {
     const auto check = [](const Bound& bound) -> Result<void> {
         if (!within(bound)) {

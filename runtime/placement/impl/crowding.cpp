@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// A grid for circles of very different sizes: each plant is listed in every square that the
+// A grid for circles of very different sizes. Each plant is listed in every square that the
 // bounding box of its circle touches, so overlapping circles share a square. The area of a square
-// is the ground per plant or the area of the mean box, whichever is larger: there are about as
-// many squares as plants or fewer, and on average a few entries per plant.
+// is the mean area of ground per plant or the mean area of a bounding box, whichever is larger:
+// there are at most about as many squares as plants, and on average a few entries per plant.
 #include "runtime/placement/impl/crowding.h"
 
 #include <algorithm>
@@ -47,14 +47,15 @@ private:
 
 CrowdGrid::CrowdGrid(const Region& region, std::span<const ForestPlant> plants)
     : region_(region), plants_(plants) {
-    double box_area = 0.0; // m^2, bounding squares of all plants
+    double box_area = 0.0; // m^2, sum over the bounding squares of all plants
     for (const ForestPlant& plant : plants) {
         const auto radius = static_cast<double>(plant.radius);
         box_area += 4.0 * radius * radius;
     }
     const double square_area =
         std::max(region.area(), box_area) / std::max(1.0, static_cast<double>(plants.size()));
-    // About as many squares as plants; the bounds by `count` ensure this on long, narrow ground.
+    // There are about as many squares as plants; limiting both numbers by `count` ensures this on
+    // long, narrow ground.
     const double count = static_cast<double>(plants.size()) + 1.0;
     side_ = std::max({std::sqrt(square_area), region.width / count, region.depth / count});
     columns_ = static_cast<std::uint32_t>(region.width / side_) + 1;
@@ -75,7 +76,7 @@ CrowdGrid::CrowdGrid(const Region& region, std::span<const ForestPlant> plants)
     std::uint64_t sum = 0;
     for (std::uint64_t& start : starts_) {
         sum += start;
-        start = sum; // the end of the square's entries, which are filled backwards
+        start = sum; // end of the entries of the square, which are filled in backwards
     }
     entries_.resize(sum);
     for (std::size_t i = 0; i < plants.size(); ++i) {

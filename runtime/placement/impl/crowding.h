@@ -9,7 +9,8 @@
 
 namespace lsys {
 
-/// Whether `a` has the greater product of radius and vigour or, with equal products, sprouted first.
+/// Whether `a` is stronger than `b`: its product of radius and vigour is greater or, with equal
+/// products, it sprouted first.
 [[nodiscard]] inline bool is_stronger(const ForestPlant& a, const ForestPlant& b) {
     const float strength_a = a.radius * a.vigour;
     const float strength_b = b.radius * b.vigour;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// DensityCells: a density map on an unbounded grid. A cell is 4 by 4 squares with one place each; a
-// place has a tree if its rank is below the grey value at the place. The 16 ranks of a cell are
-// stratified, one from each sixteenth of [0, 1) in random order, so that all cells of equal grey have
-// nearly the same number of trees, unlike with independent ranks.
+// DensityCells: a density map on an unbounded grid. A cell has 4 by 4 squares with one place each;
+// a place has a tree if its rank is below the grey value of the map there. The 16 ranks of a cell
+// are stratified: one is drawn from each sixteenth of [0, 1), in random order. So all cells of
+// equal grey have nearly the same number of trees, which independent ranks would not give.
 #include "runtime/placement/impl/cell_grid.h"
 #include "runtime/placement/impl/draws.h"
 #include "runtime/placement/impl/grey_sampler.h"

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-// DensityMap: a density map turned into places by error diffusion (Floyd and Steinberg 1976, "An
+// DensityMap: turns a density map into places by error diffusion (Floyd and Steinberg 1976, "An
 // adaptive algorithm for spatial greyscale"), as Deussen et al. 1998, "Realistic modeling and
 // rendering of plant ecosystems", section 4.2, place plants. The region is divided into squares in
-// which white means one tree. The value of a square is the mean of the map over it plus the error
-// of its neighbours; half a tree or more becomes one, at a random place in the square. The
-// threshold is random around a half and rows run alternately forward and back (Ulichney 1988,
-// "Dithering with blue noise"), which breaks up the patterns of plain error diffusion and keeps
-// the sum.
+// which white means one tree. The value of a square is the mean of the map over the square plus the
+// errors that its neighbours pass on; a value of half a tree or more becomes one tree, at a random
+// place in the square. The threshold varies randomly around a half, and rows are processed
+// alternately forward and backward (Ulichney 1988, "Dithering with blue noise"). Both break up the
+// patterns of plain error diffusion and keep the sum of all values.
 #include "runtime/placement/impl/draws.h"
 #include "runtime/placement/impl/grey_sampler.h"
 #include "runtime/placement/impl/methods.h"
@@ -45,7 +45,7 @@ Squares squares_of(const Region& region, double density) {
 LargeVector<std::uint32_t> diffuse(const PlacementOptions& options, const Squares& squares) {
     const GreySampler grey(*options.density_map, options.map_region.value_or(options.region));
     LargeVector<std::uint32_t> chosen;
-    // A margin square on each side holds the error that is passed beyond the border.
+    // A margin square on each side receives the error that is passed beyond the border.
     std::vector<double> error(squares.columns + 2);
     std::vector<double> next_error(squares.columns + 2);
     for (std::uint32_t row = 0; row < squares.rows; ++row) {
@@ -77,7 +77,7 @@ LargeVector<std::uint32_t> diffuse(const PlacementOptions& options, const Square
             next_error[here] += left * (5.0 / 16.0);
             next_error[ahead] += left * (1.0 / 16.0);
         }
-        // Return the error of the margin squares to the squares at the border.
+        // Moves the error of the margin squares to the squares at the border.
         next_error[1] += next_error.front();
         next_error[squares.columns] += next_error.back();
         next_error[is_forward ? squares.columns : 1] += error[is_forward ? squares.columns + 1 : 0];

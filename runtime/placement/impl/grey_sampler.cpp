@@ -27,7 +27,7 @@ double GreySampler::at(double x, double z) const {
 }
 
 double GreySampler::integral(const Region& region) const {
-    // The region in pixels, clipped to the map.
+    // The region in units of pixels, clipped to the map.
     const auto clip = [](double at, std::uint32_t count) {
         return std::clamp(at, 0.0, static_cast<double>(count));
     };

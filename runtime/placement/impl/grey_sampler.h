@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// GreySampler: samples a map stretched over a region, whose pixels are rectangles of constant grey.
-// The map is black beyond the region.
+// GreySampler: samples a map stretched over a region. Pixels are rectangles of constant grey.
+// Outside of the region the map is black.
 #pragma once
 
 #include "runtime/base/grey_map.h"

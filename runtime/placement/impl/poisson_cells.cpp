@@ -1,16 +1,17 @@
 // SPDX-License-Identifier: MIT
-// PoissonCells: a Poisson disk sample of the whole plane; each region can be computed independently.
-// Each cell of an unbounded grid holds 16 candidates with random ranks. Candidates closer than the
-// spacing are rivals. A round accepts the candidates whose rivals of lower rank have all been
-// rejected, and rejects their rivals (Luby 1986, "A simple parallel algorithm for the maximal
-// independent set problem"; after enough rounds the result is the same as accepting candidates in
-// order of rank). There are only kRounds rounds, so that a candidate depends only on candidates up to
-// 2 kRounds - 1 spacings away. Candidates that are undecided after the last round get no tree: in a
-// test, after 6 rounds 2 of 316,000 trees were missing, after 7 none.
+// PoissonCells: a Poisson disk sample of the whole plane; each region can be computed
+// independently. Each cell of an unbounded grid has 16 candidates with random ranks. Candidates
+// closer to each other than the spacing are rivals. A round accepts the candidates whose rivals of
+// lower rank have all been rejected, and rejects the rivals of accepted candidates (Luby 1986, "A
+// simple parallel algorithm for the maximal independent set problem"; after enough rounds the
+// result is the same as that of accepting candidates in order of rank). There are only kRounds
+// rounds, so that a candidate depends only on candidates up to 2 kRounds - 1 spacings away.
+// Candidates that are undecided after the last round get no tree: in a test, 2 of 316,000 trees
+// were missing after 6 rounds, and none after 7.
 //
-// The code does not run one round after the other: it visits candidates in order of rank, and computes
-// the round of each decision from the earlier candidates (Blelloch, Fineman, Shun
-// 2012, "Greedy sequential maximal independent set and matching are parallel on average").
+// The code does not run one round after the other: it processes candidates in order of rank, and
+// computes the round in which each is decided from the candidates before it (Blelloch, Fineman,
+// Shun 2012, "Greedy sequential maximal independent set and matching are parallel on average").
 #include "runtime/placement/impl/cell_grid.h"
 #include "runtime/placement/impl/draws.h"
 #include "runtime/placement/impl/methods.h"
@@ -29,15 +30,15 @@ constexpr std::uint32_t kPlaceBits = 4;
 constexpr std::uint32_t kCandidates = 1U << kPlaceBits; // per cell
 constexpr std::uint8_t kRounds = 8;
 constexpr std::int64_t kHalo =
-    2 * kRounds - 1;                // width in cells of the ring that a block depends on
+    2 * kRounds - 1;                // width in cells of the ring around a block that affects it
 constexpr std::int64_t kBlock = 64; // cells along each side of a block
-/// Side of a cell divided by the spacing: above 1 by the max rounding error of two candidates
-/// within 2^13 cells of the origin, so that rivals are in neighbouring cells.
+/// Side of a cell divided by the spacing. It exceeds 1 by the max rounding error of two candidates
+/// within 2^13 cells of the origin, so that rivals lie in neighbouring cells.
 constexpr double kCellSide = 1.0 + 0x1p-9;
 
-constexpr std::uint8_t kUndecided = 0xFF; // instead of a round: not accepted, or not rejected
+constexpr std::uint8_t kUndecided = 0xFF; // in place of a round: neither accepted nor rejected
 constexpr float kNowhere = 1.0e30F;       // a coordinate far from all others
-// Max distance of rivals in quarters, where a cell has four quarters.
+// Max distance of rivals along an axis, in quarters of a cell; a cell has 2 by 2 quarters.
 constexpr std::int64_t kNeighbourQuarters = 2;
 
 /// A candidate that is accepted, and its round.
@@ -71,7 +72,7 @@ private:
         const double dz = static_cast<double>(places_[a].y) - static_cast<double>(places_[b].y);
         return dx * dx + dz * dz < squared_spacing_;
     }
-    /// Index in accepted_at_ of the quarter that `candidate` lies in.
+    /// Index in accepted_at_ of the quarter in which `candidate` lies.
     [[nodiscard]] std::size_t quarter_of(std::uint32_t candidate) const {
         const std::int64_t cell = candidate / kCandidates;
         const std::int64_t column = 2 * (cell % cells_.columns) + (quarters_[candidate] & 1);
@@ -91,9 +92,9 @@ private:
     std::vector<std::uint32_t> previous_order_;
     std::vector<std::uint8_t> acceptance_rounds_; // of candidates; kUndecided: not accepted
     std::vector<std::uint8_t> rejection_rounds_;  // of candidates; kUndecided: not rejected
-    /// Accepted candidates by quarter of a cell, in rows, with kNeighbourQuarters more on each
-    /// side. The diagonal of a quarter is shorter than the spacing, so at most one candidate is
-    /// accepted in a quarter.
+    /// Accepted candidates by quarter of a cell, row by row, with kNeighbourQuarters more quarters
+    /// on each side. The diagonal of a quarter is shorter than the spacing, so a quarter has at
+    /// most one accepted candidate.
     std::vector<Accepted> accepted_at_;
     std::int64_t quarters_per_row_ = 0;
 };
@@ -117,7 +118,7 @@ void PoissonBlock::draw_candidates() {
     }
 }
 
-/// Sorts by radix, which keeps the order of equal ranks.
+/// Radix sort, which keeps the order of candidates of equal rank.
 void PoissonBlock::sort_by_rank() {
     constexpr std::uint32_t kDigitBits = 11;
     constexpr std::uint32_t kDigits = 1U << kDigitBits;
@@ -142,8 +143,9 @@ void PoissonBlock::sort_by_rank() {
     }
 }
 
-/// The round after the one that rejects the last rival of lower rank, 1 without such rivals.
-/// kUndecided if this is after round kRounds, or if a rival of lower rank is never rejected.
+/// The round in which a candidate can be accepted: the round after the last one that rejects a
+/// rival of lower rank; 1 without such rivals. kUndecided if this is after round kRounds, or if a
+/// rival of lower rank is never rejected.
 std::uint8_t PoissonBlock::round_without_rivals(std::uint32_t candidate) const {
     const std::int64_t cell = candidate / kCandidates;
     const std::int64_t column = cell % cells_.columns;

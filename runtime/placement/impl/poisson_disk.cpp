@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // PoissonDisk: "Fast Poisson disk sampling in arbitrary dimensions" (Bridson 2007). Around a random
-// point of a list of active points, about 30 points are tried in the ring from r to 2r; the first
-// point that is at least r from all others is added to the list, and an active point without success
-// is removed. Cells of side r / sqrt(2) hold at most one point each. The algorithm is serial; only
-// species and heights are computed by all threads.
+// point of a list of active points, about 30 points are tried in the ring from r to 2r. The first
+// point that is at least r away from all other points is added to the list; if none is, the active
+// point is removed from the list. Cells of side r / sqrt(2) have at most one point each. The
+// algorithm is serial; only species and heights are computed by all threads.
 #include "runtime/placement/impl/draws.h"
 #include "runtime/placement/impl/methods.h"
 
@@ -20,9 +20,9 @@ namespace lsys {
 
 namespace {
 
-/// Blocks of draws per active point, with two attempts each. Attempts are points of the square around
-/// the ring, which avoids sines. A share of 0.589 is in the ring: on average 30.6 of 52 attempts,
-/// where the paper has k = 30.
+/// Number of blocks of draws per active point; each has two attempts. Attempts are points of the
+/// square around the ring, which needs no sines. A fraction of 0.589 of them is in the ring: on
+/// average 30.6 of 52 attempts; the paper has k = 30.
 constexpr std::uint32_t kBlocks = 26;
 constexpr std::int64_t kReach = 2; // distance in cells within which points may be too close
 constexpr std::uint32_t kNoPoint = 0xFFFFFFFFu;

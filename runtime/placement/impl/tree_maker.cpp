@@ -46,7 +46,7 @@ std::uint32_t TreeMaker::choose_species(std::uint32_t word, float x, float heigh
         }
     }
     double left = unit(word) * shares;
-    std::uint32_t last = kNoSpecies; // chosen if rounding leaves a remainder
+    std::uint32_t last = kNoSpecies; // the result if rounding leaves `left` at 0 or above
     for (std::size_t i = 0; i < species.size(); ++i) {
         if (species[i].share <= 0.0 || (has_limits_ && !fits(species[i], height, slope))) {
             continue;

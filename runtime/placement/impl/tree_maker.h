@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// TreeMaker: makes a tree from a place and a number: chooses species, yaw and scale.
+// TreeMaker: makes a tree from a place and a number. Chooses species, yaw and scale.
 #pragma once
 
 #include "runtime/base/random.h"
@@ -30,7 +30,7 @@ public:
     [[nodiscard]] bool can_live(std::uint16_t species, float x, float z) const;
     /// Sets shares[s] to the probability that a place has a tree of species s.
     void shares_at(float x, float z, std::span<double> shares) const;
-    /// The tree `number` of a known species, without position. Sets the age as for all methods
+    /// The tree `number` of a given species, without position. Its age is set as for all methods
     /// except Domination.
     [[nodiscard]] Tree appearance_of(std::uint32_t number, std::uint16_t species) const;
     /// The stage at which the tree `number` starts.
@@ -47,12 +47,12 @@ private:
     const PlacementOptions& options_;
     const Terrain& terrain_;
     double total_share_ = 0.0; // sum over all species
-    bool has_limits_ = false;  // some species cannot live everywhere
+    bool has_limits_ = false;  // whether limits keep some species out of some places
     bool has_steepest_ = false;
 };
 
-/// Appends the trees of pieces 0 ... pieces - 1, in that order, and sums up their reports. Never
-/// holds more than a few pieces besides `placement`.
+/// Appends the trees of the pieces 0 to `pieces` - 1, in this order, and adds up their reports.
+/// Never stores more than a few pieces besides `placement`.
 void collect_trees(Workers& workers,
                    std::uint64_t pieces,
                    const std::function<void(std::uint64_t, TreeChunk&)>& piece,

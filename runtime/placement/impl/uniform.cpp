@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Uniform: place i has draws 0 and 1 at position i as coordinates. A place where no species can
-// live has no tree, so numbers do not depend on the terrain.
+// Uniform: the coordinates of place i are the draws 0 and 1 at position i. A place where no species
+// can live gets no tree, so the numbers of trees do not depend on the terrain.
 #include "runtime/placement/impl/draws.h"
 #include "runtime/placement/impl/methods.h"
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // UniformCells: a Poisson process of constant density, cell by cell (Devroye 1986, "Non-uniform
-// random variate generation", chapter VI.1). The size of cells is chosen for a mean of 16 places per
-// cell. So one table of the Poisson distribution serves every density, and no result depends on the
-// exp() of the machine.
+// random variate generation", chapter VI.1). The size of cells is such that a cell has 16 places on
+// average. So one table of the Poisson distribution serves every density, and no result depends on
+// the exp() of the machine.
 #include "runtime/placement/impl/cell_grid.h"
 #include "runtime/placement/impl/draws.h"
 #include "runtime/placement/impl/methods.h"

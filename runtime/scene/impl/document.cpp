@@ -40,7 +40,8 @@ std::uint32_t character_length(std::string_view text) {
     return length;
 }
 
-/// Converts places of toml++, which counts lines and code points from 1, to offsets of bytes.
+/// Converts positions of toml++, which counts lines and code points from 1, to byte offsets in the
+/// file.
 class Places {
 public:
     Places(FileId file, const SourceFile& source) : file_(file), source_(source) {}
@@ -82,8 +83,9 @@ private:
     std::vector<std::uint32_t> offsets_; // offset of each character of the line, then of its end
 };
 
-/// Max depth of stored values; bounds the recursion here and in ~SceneValue(). Valid scenes are less
-/// deep: a deeper scene has an unknown key or a wrong value above this depth, which is reported.
+/// Max depth of stored values. Limits the recursion here and in ~SceneValue(). Valid scenes are
+/// less deep: in a deeper scene the readers of tables report an unknown key or a wrong value above
+/// this depth.
 constexpr std::uint32_t kMaxLevels = 32;
 
 SceneValue convert(const toml::node& node, std::uint32_t level, Places& places);
@@ -149,7 +151,7 @@ SceneValue convert(const toml::node& node, std::uint32_t level, Places& places) 
     return value;
 }
 
-/// A message of toml++, "Error while parsing WHAT: REASON", with its 'x' written as `x`.
+/// A message of toml++, "Error while parsing WHAT: REASON", in parts, with 'x' rewritten as `x`.
 struct TomlMessage {
     std::string what; // "string", "key-value pair"; may be empty
     std::string reason;
@@ -173,7 +175,8 @@ TomlMessage split_toml_message(std::string_view description) {
     return message;
 }
 
-/// Help for an unquoted text: its line with quotes added, `file = "oak.lsys"`, or an example.
+/// Help for a text without quotes: its line with quotes added, such as `file = "oak.lsys"`, or an
+/// example line.
 std::string quotes_help(const Places& places, SourceSpan span) {
     const std::string_view text = places.text();
     const std::size_t newline =
@@ -221,8 +224,8 @@ void report_syntax(const toml::parse_error& error, Places& places, Diagnostics& 
     }
 }
 
-/// Max parts of a key. toml++ and the reader of its tables recurse over the parts of a key; toml++
-/// limits the depth of values, but not of keys.
+/// Max number of parts of a dotted key. toml++ and the conversion of its tables recurse over the
+/// parts; toml++ limits the depth of values, but not of keys.
 constexpr std::uint32_t kMaxKeyParts = 16;
 
 bool is_bare(char c) {
@@ -245,7 +248,7 @@ std::size_t end_of_string(std::string_view text, std::size_t at) {
         end += text[end] == '\\' && quote == '"' ? 2U : 1U;
     }
     end = std::min(end + closing.size(), text.size());
-    // Up to two quotes before the closing three belong to the string.
+    // Up to two quotes directly before the closing three are part of the string.
     for (int more = 0; is_multiline && more < 2 && end < text.size() && text[end] == quote;
          ++more) {
         ++end;

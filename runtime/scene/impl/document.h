@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A TOML file as a tree of values with their places in bytes. Keys are in the order of the text.
+// Reads a TOML file as a tree of values with their byte positions. Keys are in the order of the
+// text.
 #pragma once
 
 #include "grammar/base/diagnostic.h"
@@ -33,7 +34,7 @@ struct SceneEntry {
     SceneValue value;
 };
 
-/// The kind as words for messages, such as "a text" or "a list".
+/// The kind as words in messages, such as "a text" or "a list".
 [[nodiscard]] std::string_view kind_text(SceneValueKind kind);
 
 /// The entry of `key`, or nullptr.

@@ -21,7 +21,7 @@ struct MethodRow {
     bool years = false;
 };
 
-// In the order of PlacementMethod.
+// In the order of the enumerators of PlacementMethod.
 constexpr std::array<MethodRow, 8> kMethods{{
     {.name = "uniform", .count = true},
     {.name = "poisson-disk", .spacing = true},
@@ -35,7 +35,7 @@ constexpr std::array<MethodRow, 8> kMethods{{
 
 constexpr std::uint64_t kDefaultCount = 1000;
 constexpr double kDefaultSpacing = 5.0;  // m
-constexpr double kDefaultDensity = 0.04; // 400 per hectare
+constexpr double kDefaultDensity = 0.04; // trees per m2: 400 per hectare
 constexpr std::uint32_t kDefaultYears = 100;
 constexpr double kMinSpacing = 0.001; // m
 
@@ -78,13 +78,14 @@ void read_placement_table(const SceneValue* table, Scene& scene, Diagnostics& di
         names[i] = kMethods[i].name;
     }
     const auto found = reader.choice("method", names);
-    const bool accepts_all = reader.has("method") && !found; // invalid method: accept all keys
+    const bool accepts_all = reader.has("method") && !found; // unknown method: allow all keys
     placement.method = static_cast<PlacementMethod>(found.value_or(0));
     placement.region = scene.terrain.region;
     const MethodRow& method = kMethods[found.value_or(0)];
     const std::string reason =
         fmt::format("the method `{}` reads {}", method.name, keys_of(method));
-    /// Whether the method reads `key`; if not, reports the key if present.
+    /// Returns whether the method reads `key`, which is `wanted`; if it does not, reports the key
+    /// if present.
     const auto reads = [&](bool wanted, std::string_view key) {
         if (!wanted) {
             static_cast<void>(reader.entry(key));

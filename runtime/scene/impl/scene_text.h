@@ -12,9 +12,10 @@
 
 namespace lsys {
 
-/// The table of the whole text; its spans are offsets in `text`. Error: it is not TOML.
+/// Reads the table of the whole text; spans of its values are offsets in `text`. Error: the text is
+/// not TOML.
 [[nodiscard]] Result<SceneValue> read_scene_table(std::string_view text);
-/// The scene; nothing if it has errors.
+/// Reads the scene in the text; nullopt if it has errors.
 [[nodiscard]] std::optional<Scene> read_scene(std::string_view text);
 
 } // namespace lsys

@@ -24,7 +24,7 @@ constexpr std::uint64_t kMaxInteger63 = std::numeric_limits<std::int64_t>::max()
 constexpr double kMaxFloat = static_cast<double>(std::numeric_limits<float>::max());
 constexpr std::size_t kMaxStages = 256;
 constexpr double kMaxSeedsPerYear = 254.0;
-// In the order of StageStart.
+// In the order of the enumerators of StageStart.
 constexpr std::array<std::string_view, 2> kStarts{"first", "random"};
 constexpr std::array<std::string_view, 2> kSurroundingsChoices{"ignored", "sensed"};
 
@@ -39,7 +39,7 @@ float float_of(double value) {
     return static_cast<float>(value);
 }
 
-/// A species being read, and its reader.
+/// A species that is being read, and the reader of its table.
 struct SpeciesReader {
     TableReader reader;
     SceneSpecies& species;
@@ -54,7 +54,7 @@ struct SpeciesReader {
     }
 };
 
-/// The value as the text of a `#set`; none for kinds that `#set` does not take.
+/// The value as the text of a `#set`; nullopt for kinds of values that `#set` does not accept.
 std::optional<std::string> setting_text(const SceneValue& value) {
     switch (value.kind) {
     case SceneValueKind::Text:
@@ -123,7 +123,7 @@ void read_grammar(SpeciesReader& from) {
     if (auto name = from.reader.text("name")) {
         from.species.name = std::move(*name);
     } else if (from.reader.has("name")) {
-        from.species.name.clear(); // the bad name was reported
+        from.species.name.clear(); // the wrong name has been reported
     }
     if (const SceneValue* const settings = from.reader.table("settings")) {
         for (const SceneEntry& entry : settings->entries) {

@@ -20,7 +20,7 @@ struct KeyPlace {
     std::string_view table;
 };
 
-/// The table that a key belongs to, for the message about a key in a wrong table.
+/// The table that a key belongs to. Messages about a key in a wrong table name it.
 constexpr KeyPlace kPlaces[] = {
     {"kind", "[terrain]"},
     {"size", "[terrain]"},
@@ -80,7 +80,7 @@ constexpr KeyPlace kPlaces[] = {
     {"memory", "the file, above its tables"},
 };
 
-/// The shortest text that reads back equal; whole numbers with commas.
+/// The shortest text that reads back as the same number; whole numbers have thousands separators.
 std::string number_text(double value) {
     if (value == std::floor(value) && std::abs(value) < 1e15) {
         return (value < 0.0 ? "-" : "") +
@@ -141,7 +141,7 @@ TableReader::number_of(const SceneValue& value, std::string_view what, const Num
     }
     const double number = value.real;
     const bool enough = range.excludes_min ? number > range.min : number >= range.min;
-    if (!(enough && number <= range.max)) { // NaN fails, too
+    if (!(enough && number <= range.max)) { // also true for NaN
         report_bad_value(value.span, fmt::format("{} is {}; it must {}", what, number_text(number),
                                                  range_text(range)));
         return std::nullopt;
@@ -289,7 +289,7 @@ const SceneValue* TableReader::table(std::string_view key) {
 Diagnostic& TableReader::report_missing(std::string_view key, std::string_view subject) {
     SourceSpan at = span();
     if (name_.empty()) {
-        at.end = at.begin; // the file has no heading to underline
+        at.end = at.begin; // there is no heading to underline
     }
     Diagnostic& error = diagnostics_.add(DiagnosticCode::MissingSceneKey, at,
                                          fmt::format("{} has no `{}`", subject, key));

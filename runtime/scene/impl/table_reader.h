@@ -48,10 +48,10 @@ public:
     /// The index of the value in `names`.
     [[nodiscard]] std::optional<std::size_t> choice(std::string_view key,
                                                     std::span<const std::string_view> names);
-    /// `[first, second]`; with `lone` a single number for both is accepted too.
+    /// A list `[first, second]`; with `lone` also a single number, which is then both values.
     [[nodiscard]] std::optional<std::array<double, 2>>
     pair(std::string_view key, const NumberRange& range, bool lone);
-    /// pair() whose first number is not above the second.
+    /// Like pair(), but reports an error if the first number is above the second.
     [[nodiscard]] std::optional<std::array<double, 2>> ordered_pair(std::string_view key,
                                                                     const NumberRange& range);
     [[nodiscard]] const SceneValue* table(std::string_view key);

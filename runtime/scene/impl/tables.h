@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Readers of the tables of a scene file. After a mistake they continue with the default, so that
-// all mistakes are found at once. `table` is nullptr if the file lacks the table.
+// Readers of the tables of a scene file. After a mistake a reader continues with the default value,
+// so that all mistakes are found at once. `table` is nullptr if the file lacks the table.
 #pragma once
 
 #include "grammar/base/diagnostic.h"

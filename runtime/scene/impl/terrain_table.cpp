@@ -15,7 +15,7 @@ constexpr std::string_view kKinds[] = {"flat", "noise",
                                        "height-map"};            // in the order of TerrainKind
 constexpr std::string_view kFilters[] = {"bilinear", "bicubic"}; // in the order of HeightFilter
 constexpr NumberRange kAltitude{-kMaxCoordinate, kMaxCoordinate, false, "m"};
-constexpr double kMinSide = 0.25; // m, the min side of a placement
+constexpr double kMinSide = 0.25; // m, the min side of a region in which trees are placed
 /// Max pixels of one side of a map, whose other side has at least 2.
 constexpr double kMaxMapSide = static_cast<double>(kMaxMapPixels) / 2.0;
 

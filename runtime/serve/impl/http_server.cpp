@@ -47,8 +47,8 @@ constexpr std::uint32_t kMaxHeaderBytes = 16 * 1024;
 
 class Session;
 
-/// Members that all sessions use. Only the thread of the network uses them, except `service`, which
-/// the threads of `pool` call too.
+/// Members that all sessions use. Only the network thread uses them, except `service`, which the
+/// threads of `pool` call, too.
 struct Shared {
     TileService& service;
     std::set<Session*> sessions;
@@ -88,7 +88,8 @@ public:
                              self->answer(error);
                          });
     }
-    /// Ends the connection, after a response in progress.
+    /// Closes the connection if it waits for a request; otherwise it is closed after the current
+    /// response.
     void stop() {
         if (is_idle_) {
             close();
@@ -122,7 +123,7 @@ private:
         }
         asio::post(shared_.pool, [self = shared_from_this()]() mutable {
             self->respond();
-            // Sessions end on the thread of the network.
+            // write() runs on the network thread, where sessions also end.
             asio::io_context& network = self->shared_.network;
             asio::post(network, [self = std::move(self)] { self->write(); });
         });
@@ -216,7 +217,7 @@ public:
             if (shared_.is_stopping) {
                 return;
             }
-            if (error) { // no descriptor is left, for example
+            if (error) { // for example, no file descriptor is left
                 retry_.expires_after(kPollInterval);
                 retry_.async_wait([this](beast::error_code) { accept(); });
                 return;
@@ -248,7 +249,7 @@ private:
     std::uint32_t max_connections_;
 };
 
-/// Asks should_stop() until it is time to stop, then closes the connections.
+/// Calls should_stop() periodically; once it returns true, closes the connections.
 class Stopper {
 public:
     Stopper(Shared& shared, Listener& listener, const std::function<bool()>& should_stop)
@@ -317,7 +318,7 @@ Result<void> serve_tiles(TileService& service,
     while (!shared.network.stopped()) {
         try {
             shared.network.run();
-        } catch (const std::bad_alloc&) { // cuts the connection; other connections continue
+        } catch (const std::bad_alloc&) { // closes this connection; the others continue
         }
     }
     shared.pool.join();

@@ -10,7 +10,7 @@ namespace lsys {
 
 namespace {
 
-/// A place between the samples `index` (part = 0) and `index` + 1 (part = 1).
+/// A position between the samples `index` (at `part` = 0) and `index` + 1 (at `part` = 1).
 struct Place {
     std::uint32_t index = 0;
     double part = 0.0;
@@ -34,7 +34,7 @@ double cubic(const std::array<double, 4>& p, double t) {
                             t * (3.0 * (p[1] - p[2]) + p[3] - p[0])));
 }
 
-/// Samples index - 1 to index + 2; those beyond the border are extrapolated linearly.
+/// The samples index - 1 to index + 2; samples beyond the border are extrapolated linearly.
 template <typename Sample>
 std::array<double, 4> four_samples(std::uint32_t index, std::uint32_t count, const Sample& sample) {
     const double second = sample(index);

@@ -9,8 +9,8 @@ namespace lsys {
 
 namespace {
 
-/// Weight of the far lattice point at a fraction of a cell, with the order of operations of
-/// stb_perlin.
+/// Weight of the lattice point above a place at the fraction `a` of a cell, with the order of
+/// operations of stb_perlin.
 float fade(float a) {
     return ((a * 6.0F - 15.0F) * a + 10.0F) * a * a * a;
 }
@@ -19,7 +19,7 @@ float mix(float a, float b, float part) {
     return a + (b - a) * part;
 }
 
-/// Points of a row in one lattice cell.
+/// Consecutive points of a row of the grid that lie in one lattice cell.
 struct NoiseRun {
     const float* offsets; // along X
     const float* weights; // along X
@@ -27,10 +27,10 @@ struct NoiseRun {
     std::size_t count;
 };
 
-/// The noise of a lattice point at a place of the row: along_x * (distance along X) + rest.
+/// Contribution of a lattice point to the noise along a row: along_x * (distance along X) + rest.
 struct RowProduct {
     float along_x;
-    float rest; // product along Z
+    float rest; // z component of the gradient times the distance along Z
 };
 
 /// The four lattice points of a cell, and the constants of a row.
@@ -81,8 +81,9 @@ NoiseAxis::NoiseAxis(std::span<const float> places) {
 }
 
 NoiseLayer::NoiseLayer(float height) {
-    // Near a lattice point the noise is the gradient times the distance, up to an error of third
-    // order. The distances along X and Z differ so much that one value shows both components.
+    // Near a lattice point the noise is the dot product of gradient and distance, up to an error of
+    // third order. The distance along X is 32 times the distance along Z, so that one noise value
+    // determines both components of the gradient.
     constexpr float kNear = 0x1p-7F;
     constexpr float kNearest = 0x1p-12F;
     const auto lattice = std::make_shared<Lattice>();

@@ -18,7 +18,8 @@ float coordinate(double lowest, double side, std::uint32_t index, std::uint32_t 
     return static_cast<float>(lowest + side * (static_cast<double>(index) / cells));
 }
 
-/// Distance of `place` from the corner of its tile, as a fraction of the side.
+/// Distance of `place` from the begin of the tile that contains it, as a fraction of the side of a
+/// tile.
 double part_of_tile(double place, double origin, double side) {
     const double tiles = (place - origin) / side;
     return tiles - std::floor(tiles);
@@ -60,7 +61,8 @@ Result<Mesh> make_terrain_mesh(const Terrain& terrain, const TerrainMeshOptions&
     const double texture_depth = tiled                        ? pictures.depth
                                  : options.texture_size > 0.0 ? options.texture_size
                                                               : region.depth;
-    // Whole tiles are subtracted, because small texture coordinates are more exact.
+    // Whole tiles are subtracted first, because floats represent small texture coordinates more
+    // exactly.
     const double first_u = tiled ? part_of_tile(region.x, pictures.origin_x, pictures.width) : 0.0;
     const double first_v = tiled ? part_of_tile(region.z, pictures.origin_z, pictures.depth) : 0.0;
 

@@ -7,8 +7,8 @@ namespace lsys {
 
 namespace {
 
-/// `base` to the power of `exponent`, interpolated linearly between whole exponents. std::pow
-/// differs between machines.
+/// `base` to the power of `exponent`, interpolated linearly between whole exponents, because
+/// std::pow differs between machines.
 double power(double base, double exponent) {
     auto whole = static_cast<std::uint64_t>(exponent);
     const double rest = exponent - static_cast<double>(whole);

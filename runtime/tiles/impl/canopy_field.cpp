@@ -31,7 +31,7 @@ CanopyField::at_corner(std::uint32_t level, std::int64_t column, std::int64_t ro
     CrownSums sums;
     double area = 0.0;
     for (std::int64_t i = 0; i < 4; ++i) {
-        // A random place in each cell. All tiles at the corner draw the same place.
+        // A random place in each cell. All tiles that share the corner draw the same place.
         const std::int64_t cell_column = column - 1 + i % 2;
         const std::int64_t cell_row = row - 1 + i / 2;
         const std::uint64_t word =

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// CanopyField: the canopy of a placement on an unbounded grid, from the expected numbers of trees, so
-// that no tree is placed.
+// CanopyField: the canopy of a placement on an unbounded grid. Computed from the expected numbers
+// of trees, so no tree has to be placed.
 #pragma once
 
 #include "runtime/placement/density_field.h"
@@ -14,11 +14,12 @@ namespace lsys {
 
 class CanopyField {
 public:
-    /// `crowns`: by species, the mean tree. `field` and `grid` must outlive the canopy.
+    /// `crowns`: by species, the sums for the mean tree. `field` and `grid` must outlive the
+    /// canopy.
     CanopyField(const DensityField& field, std::vector<CrownSums> crowns, const TileGrid& grid);
 
-    /// Means of the four cells at a corner of cells; a tile has kCanopyCells by kCanopyCells cells.
-    /// Corners are numbered over the whole level.
+    /// Means of the four cells that meet at a corner of cells. A tile has kCanopyCells by
+    /// kCanopyCells cells; corners are numbered over the whole level.
     [[nodiscard]] CanopyPoint
     at_corner(std::uint32_t level, std::int64_t column, std::int64_t row) const;
 

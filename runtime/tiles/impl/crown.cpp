@@ -16,10 +16,10 @@ namespace lsys {
 
 namespace {
 
-/// Mean appearance of a material.
+/// Mean appearance of the triangles of a material.
 struct Shade {
     glm::dvec3 colour{1.0};
-    double opacity = 1.0; // opaque fraction of the area of its triangles
+    double opacity = 1.0; // opaque fraction of the area of the triangles
 };
 
 double opacity_of(const Texture& picture) {
@@ -114,7 +114,8 @@ Crown crown_of(const Mesh& mesh) {
                                                            w2 * (at[2].y - at[0].y));
                     Sample& sample = samples[static_cast<std::size_t>(row) * kCrownLines +
                                              static_cast<std::size_t>(column)];
-                    // A triangle with holes covers its opaque fraction of the area left uncovered.
+                    // A triangle with holes covers its opaque fraction of the area that is not
+                    // covered yet.
                     sample.cover = 1.0 - (1.0 - sample.cover) * (1.0 - shade.opacity);
                     if (height > sample.height) {
                         sample.height = height;

@@ -20,7 +20,7 @@ constexpr double kB = kA * (1.0 - kF);     // m, semi-minor axis
 constexpr double kE2 = kF * (2.0 - kF);    // square of the eccentricity
 constexpr double kDegree = std::numbers::pi / 180.0;
 
-/// The angle of the point (x, y) above the X axis, -pi to pi.
+/// The angle in radians from the X axis to the point (x, y), -pi to pi.
 double angle_of(double y, double x) {
     if (x >= 0.0) {
         return arc_tangent(y, x);
@@ -139,7 +139,7 @@ glm::dvec3 TileFrame::exact(double x, double y, double z) const {
 }
 
 TileFrame::Place TileFrame::exact_place(double x, double z) const {
-    constexpr double kRise = 1024.0; // m; places are linear in the altitude
+    constexpr double kRise = 1024.0; // m; places depend linearly on the altitude
     const glm::dvec3 foot = exact(x, 0.0, z);
     return {foot, (exact(x, kRise, z) - foot) / kRise};
 }
@@ -148,7 +148,8 @@ TileFrame::Place TileFrame::at(double x, double z) const {
     if (!is_interpolated_) {
         return exact_place(x, z);
     }
-    // Polynomials of degree 2 that are 1 at one of the nodes 0, 1/2 and 1.
+    // The three polynomials of degree 2 that are 1 at one of the nodes 0, 1/2 and 1, and 0 at the
+    // others.
     const auto weights = [](double t) {
         return std::array<double, kNodes>{(1.0 - t) * (1.0 - 2.0 * t), 4.0 * t * (1.0 - t),
                                           t * (2.0 * t - 1.0)};

@@ -26,9 +26,9 @@ Mesh make_patch(const PatchPlan& plan) {
     };
     const double step_x = plan.region.width / cells;
     const double step_z = plan.region.depth / cells;
-    const std::uint32_t wide = side + 2; // with the border of one cell
+    const std::uint32_t wide = side + 2; // vertices along a side, with a border of one cell
     const std::vector<double>& heights = plan.heights;
-    const std::size_t first_low = std::size_t{side} * side; // lower ends of skirts
+    const std::size_t first_low = std::size_t{side} * side; // first lower end of a skirt
     const std::size_t vertices = first_low + std::size_t{4} * cells;
     mesh.positions.resize(vertices);
     mesh.normals.resize(vertices);
@@ -46,7 +46,7 @@ Mesh make_patch(const PatchPlan& plan) {
             mesh.texture_coordinates[vertex] = plan.texture(column, row, x, z);
         }
     }
-    // Triangles are counter-clockwise seen from above; diagonals alternate, as on the ground of
+    // Triangles are counter-clockwise seen from above. Diagonals alternate in direction, as in
     // make_terrain_mesh().
     LargeVector<std::uint32_t> indices;
     indices.resize(std::size_t{6} * cells * cells + std::size_t{24} * cells);
@@ -69,7 +69,8 @@ Mesh make_patch(const PatchPlan& plan) {
             }
         }
     }
-    // The border, counter-clockwise seen from above: along the south, east, north and west.
+    // The vertices of the border, counter-clockwise seen from above: south, east, north and west
+    // side.
     std::vector<std::uint32_t> border(std::size_t{4} * cells);
     for (std::uint32_t i = 0; i < cells; ++i) {
         border[i] = cells * side + i;

@@ -20,20 +20,22 @@ struct PatchPlan {
     std::uint32_t cells = 1; // along each side
     Region region;           // of the scene
     const TileFrame& frame;
-    double skirt = 0.0; // m, depth of the skirt
+    double skirt = 0.0; // m, depth of the skirt below the surface
     Material material;
-    /// Altitudes in m at patch_places() along X and Z, in rows along X.
+    /// Altitudes in m of the ground at patch_places() along X and Z; rows run along X.
     std::vector<double> heights;
-    /// Texture coordinates at column and row, 0 to `cells`, whose place in the scene is (x, z).
+    /// Returns the texture coordinates of the vertex at column and row, each 0 to `cells`, whose
+    /// place in the scene is (x, z).
     std::function<glm::vec2(std::uint32_t column, std::uint32_t row, double x, double z)> texture;
 };
 
-/// Places of the vertices of a patch along an axis, and of one cell before and after it, for normals.
+/// Coordinates along one axis of the vertices of a patch, and of one further cell at both ends,
+/// which is needed for normals.
 [[nodiscard]] std::vector<double> patch_places(double first, double length, std::uint32_t cells);
 
 /// The mesh in the frame of the tile, with +Y up. Its triangles depend on the number of cells alone.
 [[nodiscard]] Mesh make_patch(const PatchPlan& plan);
-/// A level patch, whose triangles are those of all patches with this number of cells.
+/// A level patch. Its triangles are the same as those of all patches with this number of cells.
 [[nodiscard]] Mesh make_level_patch(std::uint32_t cells);
 
 /// Converts (east, north, up) to (east, up, south), because glTF has +Y up.

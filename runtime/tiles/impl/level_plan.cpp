@@ -9,15 +9,16 @@ namespace lsys {
 
 namespace {
 
-/// A tile with too many triangles is not divided if its quarters would have fewer trees on average.
+/// Min mean number of trees in the quarters of a tile: with fewer, a tile with too many triangles
+/// is not divided.
 constexpr double kMinTileTrees = 4.0;
 constexpr double kGroundError = 0.1;        // m, tolerated error of the ground in every tile
-constexpr std::uint32_t kEmptyLevels = 2;   // levels without content, see leave_out_content()
-constexpr std::uint32_t kGroundCells = 128; // max along a side of a tile with trees
-/// If the side of a tile is this many times its error, clients that allow an error of 16 pixels in
-/// views of about 1,000 pixels show the tile at a distance of about one side.
+constexpr std::uint32_t kEmptyLevels = 2;   // empty levels, see leave_out_content()
+constexpr std::uint32_t kGroundCells = 128; // max number of cells along a side of a tile with trees
+/// Ratio of the side of a tile to its error. With this ratio, clients that allow an error of 16
+/// pixels in views of about 1,000 pixels show the tile at a distance of about one side.
 constexpr double kSidesOfError = 64.0;
-constexpr double kCoarser = 1.5; // factor of errors if a level has too many triangles or branches
+constexpr double kCoarser = 1.5; // factor by which errors are raised if a level has too much
 
 class Planner {
 public:
@@ -60,10 +61,10 @@ public:
     }
 
 private:
-    /// Means of a tree of a level.
+    /// Means over the trees of a level.
     struct Means {
         double triangles = 0.0;
-        double heroes = 0.0; // instances of plants and branches
+        double heroes = 0.0; // number of plants and branches that are drawn
     };
 
     [[nodiscard]] double error_of(const Hero& hero, std::size_t detail) const {
@@ -90,7 +91,7 @@ private:
         const ForestStage& stage = needs_.forest.species[hero.species].stages[hero.stage];
         return !hero.is_alone && stage.cache.instances[hero.instance].slot == 0;
     }
-    /// Triangles per tree, if all plants have the same number of trees.
+    /// Mean number of triangles per tree if the same number of trees stands for each plant.
     [[nodiscard]] double mean_triangles(std::span<const std::size_t> detail) const {
         double sum = 0.0;
         std::size_t plants = 0;
@@ -103,7 +104,7 @@ private:
         }
         return sum / static_cast<double>(std::max<std::size_t>(plants, 1));
     }
-    /// Means over LevelNeeds::sample_trees, shown as `level` says.
+    /// Means over LevelNeeds::sample_trees, if they are shown as `level` states.
     [[nodiscard]] Means means_of(const LevelDetail& level) const {
         Means sum;
         for (const Tree& tree : needs_.sample_trees) {
@@ -123,13 +124,13 @@ private:
             static_cast<double>(std::max<std::size_t>(needs_.sample_trees.size(), 1));
         return {sum.triangles / trees, sum.heroes / trees};
     }
-    /// Shows a hero with its stand-ins if no branch is then off by more than `deviation`, in levels
-    /// of detail within `error`.
+    /// Shows each hero with its stand-ins if no branch is off by more than `deviation` (m) then,
+    /// and in the coarsest level of detail whose error is within `error` (m).
     [[nodiscard]] LevelDetail detail_with_branches(double deviation, double error) const {
         LevelDetail level;
         level.detail.assign(needs_.heroes.size(), kNotShown);
         level.is_whole.resize(needs_.heroes.size());
-        std::vector<std::size_t> pending; // heroes whose exits have not been visited yet
+        std::vector<std::size_t> pending; // heroes whose exits have not been followed yet
         std::vector<bool> seen(needs_.heroes.size());
         const auto see = [&](std::size_t whole) {
             if (!seen[whole]) {
@@ -167,7 +168,7 @@ private:
         }
         return level;
     }
-    /// Whether all trees are plants with stand-ins.
+    /// Whether each tree is shown as a plant with stand-ins.
     [[nodiscard]] bool shows_plants(const LevelDetail& level) const {
         for (std::size_t i = 0; i < needs_.heroes.size(); ++i) {
             if (is_plant(needs_.heroes[i]) && !level.is_whole[i]) {
@@ -184,9 +185,9 @@ private:
         return trees * means.triangles > budget_ ||
                (means.heroes > 1.0 && trees * means.heroes > static_cast<double>(kMaxTileBranches));
     }
-    /// The finest level: the first whose trees are within the limits of triangles and branches, or
-    /// too few to be divided, and whose ground is within its tolerated error; at most
-    /// kMaxTileLevel.
+    /// The number of the finest level, at most kMaxTileLevel. It is the first level whose tiles are
+    /// within the limits of triangles and branches, or have too few trees to be divided, and whose
+    /// ground is within its tolerated error.
     [[nodiscard]] std::uint32_t depth_of() const {
         Means means{mean_triangles(finest_), 1.0};
         if (has_branches()) {
@@ -238,8 +239,8 @@ private:
         return std::max(error, ground_errors_[number]);
     }
 
-    /// Shows each tree as a plant, in a coarser level of detail than the next finer level if there
-    /// are too many triangles.
+    /// Shows each tree as a plant. A plant gets the level of detail of the next finer level, or a
+    /// coarser one if that has too many triangles.
     void choose_plants(std::uint32_t number) {
         const bool is_finest = number == plan_.finest();
         LevelDetail& level = plan_.details[number];
@@ -262,8 +263,9 @@ private:
         }
     }
 
-    /// Shows trees as branches, and branches with stand-ins where the error of the level allows.
-    /// Sets the mean number of triangles of a tree. Returns false if all trees can be plants.
+    /// Shows trees as branches, and branches with stand-ins where the error of the level allows it.
+    /// Sets `triangles` to the mean number of triangles of a tree. Returns false if each tree can
+    /// be shown as a plant.
     bool plan_branches(std::uint32_t number, double& triangles) {
         const TileLevel& level = plan_.levels[number];
         const bool is_finest = number == plan_.finest();
@@ -282,7 +284,8 @@ private:
                 branch_error_ = error;
                 return true;
             }
-            // Stand-ins reduce the branches, and at last the triangles too.
+            // More stand-ins reduce the number of branches and, in the end, the number of
+            // triangles, too.
             if (level.trees * means.heroes > static_cast<double>(kMaxTileBranches) ||
                 error >= deviation) {
                 deviation *= kCoarser;
@@ -292,8 +295,8 @@ private:
         }
     }
 
-    /// Cells along the side of the ground: the least power of two below kGroundCells whose error is
-    /// at most `allowed`; kGroundCells if there is none.
+    /// Number of cells along a side of the ground: the smallest power of two below kGroundCells
+    /// whose error is at most `allowed` (m); kGroundCells if there is none.
     [[nodiscard]] std::uint32_t ground_cells(double side, double allowed) const {
         std::uint32_t cells = kGroundCells;
         while (cells > 1 && needs_.terrain.mesh_error(2.0 * side / cells) <= allowed) {
@@ -303,7 +306,8 @@ private:
     }
 
     /// Removes the content of the first two levels if more than two levels show a canopy, because
-    /// clients load the tiles around a view at every level. The coarsest content is then 16 tiles.
+    /// clients load the tiles around a view at every level. The coarsest content then consists of
+    /// 16 tiles.
     void leave_out_content() {
         for (std::uint32_t number = 0; number < kEmptyLevels; ++number) {
             if (plan_.first_tree_level > kEmptyLevels) {
@@ -313,7 +317,7 @@ private:
         }
     }
 
-    /// A skirt reaches down to the surface of a neighbour of the next coarser level.
+    /// Makes skirts so deep that they reach the surface of a neighbour of the next coarser level.
     void set_skirts() {
         for (std::uint32_t number = 0; number <= plan_.finest(); ++number) {
             const TileLevel& level = plan_.levels[number];
@@ -327,8 +331,8 @@ private:
     const LevelNeeds& needs_;
     double budget_;                     // max triangles of a tile
     double tolerated_;                  // max error of the trees of the nearest tiles in m
-    double branch_error_ = 0.0;         // m, of branches, of the last planned level
-    std::vector<std::size_t> finest_;   // by hero: level of detail of the nearest tiles
+    double branch_error_ = 0.0;         // m, error of the branches in the last planned level
+    std::vector<std::size_t> finest_;   // by hero: level of detail in the nearest tiles
     std::vector<double> ground_errors_; // by level
     LevelPlan plan_;
 };

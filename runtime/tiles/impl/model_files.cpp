@@ -13,7 +13,8 @@ namespace lsys {
 
 namespace {
 
-/// A file ends when it has this size, so that clients get a forest of many species in pieces.
+/// Size in bytes at which a file ends, so that clients get the models of a forest of many species
+/// in pieces.
 constexpr std::size_t kModelFileBytes = std::size_t{1} << 20;
 constexpr std::size_t kAlignment = 8;
 
@@ -60,7 +61,8 @@ private:
     [[nodiscard]] std::string path() const {
         return fmt::format("models/{}-{}.bin", level_, part_);
     }
-    /// Adds bytes to the file; returns their place. The size of the file is set by complete().
+    /// Adds bytes to the current file and returns their place. complete() sets the size of the file
+    /// later.
     FilePart put(const std::string& bytes) {
         FilePart part{"../../" + path(), 0, buffer_.size(), bytes.size()};
         buffer_ += bytes;
@@ -70,7 +72,7 @@ private:
     MeshDocument add(const Mesh& mesh, const ExportInfo& info) {
         MeshDocument model = make_mesh_document(mesh, info);
         waiting_bytes_ += model.data.size();
-        std::map<std::string, FilePart> parts; // by the name that the document has for a picture
+        std::map<std::string, FilePart> parts; // by the name of the picture in the document
         for (const PictureFile& picture : tile_pictures(mesh)) {
             auto known = pictures_.find(picture.bytes);
             if (known == pictures_.end()) {
@@ -96,7 +98,8 @@ private:
             ++part_;
         }
     }
-    /// Sets the sizes of files, which are known at their end.
+    /// Sets the sizes of the files that `model` refers to, which are known only when the files are
+    /// complete.
     void complete(MeshDocument& model) const {
         if (model.json.is_null()) {
             return;
@@ -108,13 +111,13 @@ private:
     }
 
     ModelFiles made_;
-    std::uint32_t level_ = 0;                    // of the quadtree, of the current file
-    std::size_t part_ = 0;                       // number of the current file of the level
+    std::uint32_t level_ = 0;                    // level of the quadtree of the file
+    std::size_t part_ = 0;                       // number of the current file within the level
     std::string buffer_;                         // pictures of the current file, then its meshes
     std::vector<MeshDocument*> waiting_;         // meshes that end_file() adds to the current file
-    std::size_t waiting_bytes_ = 0;              // size of `waiting_` before join_buffers()
-    std::map<std::string, FilePart> pictures_;   // by their bytes
-    std::map<std::string, std::uint64_t> sizes_; // of files, by URI
+    std::size_t waiting_bytes_ = 0;              // bytes of `waiting_` before join_buffers()
+    std::map<std::string, FilePart> pictures_;   // places of pictures, by the bytes of the picture
+    std::map<std::string, std::uint64_t> sizes_; // sizes of the files, by URI
 };
 
 } // namespace
@@ -134,7 +137,7 @@ std::vector<PictureFile> tile_pictures(const Mesh& mesh) {
     Outcome<std::vector<PictureFile>> pictures =
         make_picture_files(mesh, ExportFormat::Gltf, tile_part_info("", ""));
     if (!pictures) {
-        throw std::bad_alloc(); // make_picture_files() stops for no other reason
+        throw std::bad_alloc(); // the only reason for which make_picture_files() stops
     }
     return std::move(pictures.value());
 }

@@ -19,7 +19,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr std::size_t kAlignment = 8; // bytes; of JSON and data in a subtree file, and of views
+constexpr std::size_t kAlignment = 8; // bytes, of JSON, data and views in a subtree file
 
 template <typename T>
 void append(std::string& bytes, T value) {
@@ -32,7 +32,8 @@ void pad(std::string& bytes, char filler) {
     bytes.resize((bytes.size() + kAlignment - 1) / kAlignment * kAlignment, filler);
 }
 
-/// The tile at a place on the Z-order curve of the tiles `depth` levels below `root`.
+/// The tile number `place` on the Z-order curve through the tiles that are `depth` levels below
+/// `root`.
 TileId tile_below(const TileId& root, std::uint32_t depth, std::uint32_t place) {
     TileId tile{root.level + depth, root.column << depth, root.row << depth};
     for (std::uint32_t bit = 0; bit < depth; ++bit) {
@@ -92,7 +93,8 @@ private:
         return tile.level < plan_.levels.size() && plan_.grid.has_ground(tile);
     }
 
-    /// A box in the frame of the root of the quadtree: middle and three half axes.
+    /// Appends the box of a tile, in the frame of the root of the quadtree: its middle and three
+    /// half axes.
     void append_box(const TileId& tile, std::string& boxes) const {
         const TileBox box = plan_.boxes.box_of(tile);
         const glm::dmat4 to_root = frame_in_root(plan_.boxes, tile);
@@ -105,7 +107,8 @@ private:
         };
         append_vector(middle);
         for (int axis = 0; axis < 3; ++axis) {
-            // Larger by 1 mm, as in tilesets, and by the rounding of numbers to binary32.
+            // Boxes are enlarged by 1 mm, as in tilesets, and by the rounding error of numbers in
+            // binary32.
             constexpr double kRounding = 0x1p-22;
             const double reach =
                 std::max({std::abs(middle.x), std::abs(middle.y), std::abs(middle.z)}) +
@@ -114,7 +117,7 @@ private:
         }
     }
 
-    /// The availability of tiles: a constant, or a stream of bits.
+    /// The availability of tiles: a constant if all bits are equal, else a stream of bits.
     Json json_of(const std::vector<bool>& bits) {
         const auto count = std::count(bits.begin(), bits.end(), true);
         if (count == 0 || static_cast<std::size_t>(count) == bits.size()) {
@@ -147,13 +150,13 @@ private:
 
     const TilesetPlan& plan_;
     const TileId& root_;
-    std::uint32_t depth_; // levels of the subtree
+    std::uint32_t depth_; // number of levels of the subtree
     Json views_ = Json::array();
     std::string data_;
 };
 
-/// The whole square, which clients cut into quarters. The axes are turned by 180 degrees about the
-/// first, so that rows are counted from the north.
+/// The box of the whole square, which clients divide into quarters. Its axes are turned by 180
+/// degrees about the first axis, so that rows are counted from the north.
 Json square_of(const TilesetPlan& plan) {
     const TileBox box = plan.boxes.box_of({});
     const double side = 0.5 * plan.grid.square().width;
@@ -164,9 +167,9 @@ Json square_of(const TilesetPlan& plan) {
             0.0,  0.0,   rounded_for_tileset(-height)};
 }
 
-/// The min error of the root with which each level with content gets at least its own error if the
-/// error halves from level to level. Levels without content do not count: with their error, the
-/// side of the ground, a client would load the finest tiles everywhere.
+/// The min error in m of the root with which each level with content gets at least its own error,
+/// if the error halves from level to level. Levels without content do not count: their error is the
+/// side of the ground, with which a client would load the finest tiles everywhere.
 double implied_error(const std::vector<TileLevel>& levels) {
     double error = 0.0;
     double factor = 1.0;

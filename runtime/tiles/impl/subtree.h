@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Implicit tiling of 3D Tiles 1.1 (OGC 22-025r4, section 7.9): one tile in tileset.json stands for
-// the whole quadtree, and binary subtree files say which tiles exist. Subtrees have the boxes and
-// errors of their tiles as metadata. Without metadata a client derives loose values from the tile
-// above: a quarter of its box, and half of its error.
+// the whole quadtree, and binary subtree files list the tiles that exist. Metadata of the subtrees
+// contain the boxes and errors of their tiles. A client that ignores the metadata derives looser
+// values from the tile above: a quarter of its box and half of its error.
 #pragma once
 
 #include "runtime/tiles/impl/tileset.h"
@@ -14,7 +14,7 @@
 namespace lsys {
 
 /// Number of levels of each subtree of a quadtree with `levels` levels: at most five, so that a
-/// file has at most 341 tiles, and as even as possible.
+/// file has at most 341 tiles, and as equal as possible for all subtrees.
 [[nodiscard]] constexpr std::uint32_t subtree_levels(std::uint32_t levels) {
     constexpr std::uint32_t kMaxSubtreeLevels = 5;
     const std::uint32_t subtrees = (levels + kMaxSubtreeLevels - 1) / kMaxSubtreeLevels;

@@ -10,7 +10,7 @@ namespace lsys {
 
 namespace {
 
-constexpr std::uint32_t kSamples = 8;   // cells along a side in which the ground is sampled
+constexpr std::uint32_t kSamples = 8;   // cells along a side, where the ground is sampled
 constexpr double kLeastRadius = 6.33e6; // m, less than any radius of curvature of WGS 84
 
 } // namespace
@@ -27,7 +27,8 @@ TileBoxes::TileBoxes(const Terrain& terrain,
                      const std::vector<double>& skirts)
     : terrain_(terrain), earth_(earth), grid_(grid), reach_(reach), ground_margins_(skirts.size()),
       depths_(skirts) {
-    // From the finest level up, because a box contains the boxes of the tiles below it.
+    // Begins with the finest level, because the box of a tile contains the boxes of the tiles below
+    // it.
     double margin = 0.0;
     double depth = reach.below;
     for (std::size_t level = skirts.size(); level-- > 0;) {
@@ -73,8 +74,8 @@ TileBox TileBoxes::box_of(const TileId& tile) const {
     }
     add(region.x + region.width / 2.0, region.z + region.depth / 2.0);
     if (earth_.is_curved()) {
-        // Arcs between these points, and tilted boxes of the tiles below, protrude by at most the
-        // square of the diagonal of the region over the diameter of the Earth.
+        // Arcs between these points and tilted boxes of the tiles below protrude by at most the
+        // square of the diagonal of the region divided by the diameter of the Earth.
         const double width = region.width + 2.0 * reach_.around;
         const double depth = region.depth + 2.0 * reach_.around;
         const glm::dvec3 slack((width * width + depth * depth) / (2.0 * kLeastRadius));

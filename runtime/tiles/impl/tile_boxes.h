@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// TileBoxes: boxes that contain all that a tile and the tiles below it draw. They come from bounds of
-// the ground and of the trees, not from the contents, so that a tileset can be made before its tiles.
+// TileBoxes: boxes that contain all that a tile and the tiles below it draw. They are computed from
+// bounds of the ground and of the trees, not from the contents, so that a tileset can be made
+// before its tiles.
 #pragma once
 
 #include "runtime/terrain/terrain.h"
@@ -16,7 +17,7 @@
 
 namespace lsys {
 
-/// A box along the axes of a frame.
+/// A box whose sides are parallel to the axes of a frame.
 struct TileBox {
     glm::dvec3 low{std::numeric_limits<double>::infinity()};
     glm::dvec3 high{-std::numeric_limits<double>::infinity()};
@@ -24,7 +25,7 @@ struct TileBox {
     void add(const glm::dvec3& point);
 };
 
-/// Distances in m that trees reach at most from their places.
+/// Max distances in m from the place of a tree to its points.
 struct TreeReach {
     double around = 0.0; // in horizontal directions
     double below = 0.0;  // below the place
@@ -41,7 +42,7 @@ public:
               const std::vector<double>& skirts);
 
     [[nodiscard]] glm::dmat4 frame_of(const TileId& tile) const;
-    /// The box of a tile with ground, in its frame.
+    /// The box, in the frame of the tile, of a tile that has ground.
     [[nodiscard]] TileBox box_of(const TileId& tile) const;
 
 private:
@@ -49,8 +50,8 @@ private:
     const GroundFrame& earth_;
     const TileGrid& grid_;
     TreeReach reach_;
-    std::vector<double> ground_margins_; // m, by level: errors of the sampled ground
-    std::vector<double> depths_;         // m, by level: below the ground
+    std::vector<double> ground_margins_; // m, by level: max error of sampled ground heights
+    std::vector<double> depths_;         // m, by level: max depth of tiles below the ground
 };
 
 } // namespace lsys

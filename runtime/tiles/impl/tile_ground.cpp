@@ -15,10 +15,10 @@ namespace lsys {
 
 namespace {
 
-constexpr std::uint32_t kSide = kCanopyCells + 1; // points along a side of a canopy
-constexpr std::int64_t kWide = kSide + 2;         // with a border of one cell, for normals
+constexpr std::uint32_t kSide = kCanopyCells + 1; // number of points along a side of a canopy
+constexpr std::int64_t kWide = kSide + 2;         // kSide with a border of one cell, for normals
 
-/// Heights of the bare ground at the places of a patch.
+/// Heights in m of the bare ground at the places of a patch.
 std::vector<double> ground_heights(const Terrain& terrain, const PatchPlan& plan) {
     const auto places = [&plan](double first, double length) {
         const std::vector<double> exact = patch_places(first, length, plan.cells);
@@ -29,7 +29,7 @@ std::vector<double> ground_heights(const Terrain& terrain, const PatchPlan& plan
     return {heights.begin(), heights.end()};
 }
 
-/// The ground with its repeated picture, or in one colour.
+/// Makes the ground with its repeated picture, or in one colour.
 Mesh make_bare_ground(const TileGround& ground, PatchPlan& plan) {
     const GroundPictures& pictures = ground.pictures;
     const Region& region = plan.region;
@@ -50,7 +50,8 @@ Mesh make_bare_ground(const TileGround& ground, PatchPlan& plan) {
     return make_patch(plan);
 }
 
-/// Ground and crowns, with a picture of their colours: one texel for each vertex.
+/// Makes ground and crowns as one surface, with a picture of its colours: one texel for each
+/// vertex.
 Mesh make_canopy(const TileGround& ground, PatchPlan& plan) {
     const TileId& tile = ground.tile;
     const double cell = ground.grid.side(tile.level) / kCanopyCells;

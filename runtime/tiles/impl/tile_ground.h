@@ -15,25 +15,26 @@
 
 namespace lsys {
 
-/// The canopy at a corner of cells of a level: (level, column, row). A tile has kCanopyCells by
+/// Returns the canopy at the corner (column, row) of cells of a level. A tile has kCanopyCells by
 /// kCanopyCells cells.
 using CanopyAtCorner =
     std::function<CanopyPoint(std::uint32_t level, std::int64_t column, std::int64_t row)>;
 
-/// A tile and what its surface depends on.
+/// A tile, and the values from which its surface is made.
 struct TileGround {
     const Terrain& terrain;
     const GroundPictures& pictures;
-    glm::dvec3 colour; // linear, mean of the ground
+    glm::dvec3 colour; // linear; mean colour of the ground
     const TileFrame& frame;
     const TileGrid& grid;
-    const CanopyAtCorner& canopy_at; // empty: the ground alone
+    const CanopyAtCorner& canopy_at; // empty: the surface is the ground alone
     TileId tile;
-    std::uint32_t cells = 1; // along a side; kCanopyCells with a canopy
+    std::uint32_t cells = 1; // cells along a side; with a canopy kCanopyCells
     double skirt = 0.0;      // m
 };
 
-/// The mesh, in the frame of the tile with +Y up. With a canopy its material has a picture of its own.
+/// Makes the mesh, in the frame of the tile with +Y up. With a canopy its material has a picture of
+/// its own.
 [[nodiscard]] Mesh make_tile_ground(const TileGround& ground);
 
 } // namespace lsys

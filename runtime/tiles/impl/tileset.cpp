@@ -21,7 +21,7 @@ namespace {
 
 Json json_of(const TileBox& box) {
     const glm::dvec3 middle = 0.5 * (box.low + box.high);
-    // One millimetre larger, because numbers of tiles and tilesets are rounded.
+    // Boxes are enlarged by one millimetre, because numbers in tiles and tilesets are rounded.
     const glm::dvec3 half = 0.5 * (box.high - box.low) + glm::dvec3(1e-3);
     return {rounded_for_tileset(middle.x),
             rounded_for_tileset(middle.y),
@@ -53,7 +53,8 @@ public:
         }
         Json tileset;
         tileset["asset"] = {{"version", "1.1"}, {"extras", {{"generator", plan_.generator}}}};
-        // The error if the tileset is not shown; for the root tileset the side of the ground.
+        // The error that a client makes by not showing the tileset. For the root tileset it is the
+        // side of the ground.
         tileset["geometricError"] = rounded_for_tileset(
             root_.level == 0 ? plan_.grid.square().width : plan_.levels[root_.level].error);
         tileset["root"] = std::move(node);
@@ -61,7 +62,8 @@ public:
     }
 
 private:
-    /// A tile that the tileset lists, with the tiles below it, without a transform.
+    /// Makes the JSON of a tile without its transform, and of the tiles below it that this tileset
+    /// lists.
     Json node_of(const TileId& tile) {
         Json node = bounds_of(tile);
         if (plan_.levels[tile.level].has_content) {
@@ -69,7 +71,7 @@ private:
         }
         node["refine"] = "REPLACE";
         if (has_nested_tileset(tile.level, static_cast<std::uint32_t>(plan_.levels.size()) - 1)) {
-            // One reference for all tiles below, so that a client requests one tileset when it
+            // One child stands for all tiles below, so that a client requests one tileset when it
             // refines this tile, and none before.
             Json below = bounds_of(tile);
             below["content"]["uri"] = path_to(TileForest::tileset_path(tile));
@@ -104,7 +106,8 @@ private:
         node["geometricError"] = rounded_for_tileset(plan_.levels[tile.level].error);
         return node;
     }
-    /// Tilesets other than tileset.json are two folders deeper.
+    /// The path from this tileset to a file. Tilesets other than tileset.json lie two folders
+    /// deeper.
     [[nodiscard]] std::string path_to(const std::string& path) const {
         return root_.level == 0 ? path : "../../" + path;
     }

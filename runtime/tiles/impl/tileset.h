@@ -14,9 +14,9 @@
 
 namespace lsys {
 
-inline constexpr std::uint32_t kListedLevels = 3; // number of levels that most tilesets list
-/// Whether tiles of a level, apart from level 0, have a tileset of the tiles below them. The
-/// tileset of level 0 lists one to five levels, or three to five if there are other tilesets.
+inline constexpr std::uint32_t kListedLevels = 3; // number of levels that a tileset usually lists
+/// Whether the tiles of a level other than level 0 have a tileset that lists the tiles below them.
+/// The tileset of level 0 lists one to five levels, or three to five if there are other tilesets.
 [[nodiscard]] constexpr bool has_nested_tileset(std::uint32_t level, std::uint32_t finest) {
     return level > 1 && level < finest && finest > 4 && (finest - level) % kListedLevels == 0;
 }

@@ -15,10 +15,10 @@ namespace lsys {
 
 namespace {
 
-constexpr double kMargin = 0.5; // m, around a tile; more than the rounding error of its borders
+constexpr double kMargin = 0.5; // m, added around a tile; above the rounding error of its borders
 
-/// The position of a tile on the Z-order curve. The tiles below a tile are consecutive,
-/// at every level of the quadtree.
+/// The position of a tile on the Z-order curve. At every level of the quadtree, the tiles below a
+/// tile have consecutive positions.
 std::uint64_t morton_code(const TileId& tile) {
     std::uint64_t number = 0;
     for (unsigned bit = 0; bit <= kMaxTileLevel; ++bit) {
@@ -28,7 +28,7 @@ std::uint64_t morton_code(const TileId& tile) {
     return number;
 }
 
-/// The position on the Z-order curve of the tile of level kMaxTileLevel in which a tree stands.
+/// The position on the Z-order curve of the tile of level kMaxTileLevel that contains the tree.
 std::uint64_t morton_code(const TileGrid& grid, const Tree& tree) {
     return morton_code(grid.tile_at(kMaxTileLevel, tree.position.x, tree.position.z));
 }
@@ -93,7 +93,7 @@ std::vector<Tree> CellTrees::trees_of(const TileId& tile) const {
     const Result<Placement> placed = place_trees(options, terrain_);
     LSYS_CHECK(placed, tile.level, tile.column, tile.row);
     std::vector<Tree> trees;
-    std::vector<Tree> all; // with the trees of the halo; empty if no species senses
+    std::vector<Tree> all; // trees of tile and halo; empty if no species senses
     for (const Tree& tree : placed.value().trees) {
         const glm::vec3& at = tree.position;
         if (!options_.region.contains(at.x, at.z)) {
@@ -118,7 +118,7 @@ Result<void> CellTrees::check(const PlacementOptions& options, const Terrain& te
     if (const Result<double> places = expected_places(options); !places) {
         return places.error();
     }
-    // Places trees at the corners of the region, where the cell numbers are largest.
+    // Tries to place trees at the corners of the region, where the numbers of cells are largest.
     for (int corner = 0; corner < 4; ++corner) {
         PlacementOptions piece = options;
         const Region& all = options.region;

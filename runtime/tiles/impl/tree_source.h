@@ -22,8 +22,8 @@ public:
     TreeSource(const TreeSource&) = delete;
     TreeSource& operator=(const TreeSource&) = delete;
 
-    /// The trees that stand in a tile, by ascending number. May be called from several threads.
-    /// Throws std::bad_alloc.
+    /// The trees that stand in a tile, sorted by number. May be called from several threads. Throws
+    /// std::bad_alloc.
     [[nodiscard]] virtual std::vector<Tree> trees_of(const TileId& tile) const = 0;
 };
 
@@ -32,7 +32,8 @@ public:
 void sort_by_tile(const TileGrid& grid, LargeVector<Tree>& trees);
 [[nodiscard]] bool is_sorted_by_tile(const TileGrid& grid, std::span<const Tree> trees);
 
-/// Trees that have been placed and sorted by sort_by_tile(); they and `grid` must outlive the source.
+/// Trees that have been placed and sorted by sort_by_tile(). `trees` and `grid` must outlive the
+/// source.
 class PlacedTrees : public TreeSource {
 public:
     PlacedTrees(std::span<const Tree> trees, const TileGrid& grid) : trees_(trees), grid_(grid) {}
@@ -43,12 +44,12 @@ private:
     const TileGrid& grid_;
 };
 
-/// Trees of a placement on an unbounded grid.
+/// Trees of a placement on an unbounded grid; places the trees of each tile on request.
 class CellTrees : public TreeSource {
 public:
-    /// Preconditions: is_tileable(options.method), and check() has no error. `kinds`: the species
-    /// of the trees; its trees are not used. `terrain`, `sizer`, `kinds`, `grid` and the objects
-    /// that `options` refers to must outlive the source.
+    /// Preconditions: is_tileable(options.method), and check() returns no error. `kinds`: a forest
+    /// with the species of the trees; its trees are not used. `terrain`, `sizer`, `kinds`, `grid`
+    /// and the objects that `options` refers to must outlive the source.
     CellTrees(const PlacementOptions& options,
               const Terrain& terrain,
               const TreeSizer& sizer,
@@ -66,7 +67,7 @@ private:
     const TreeSizer& sizer_;
     const Forest& kinds_;
     const TileGrid& grid_;
-    double halo_ = 0.0; // m, around a tile: trees in it can be neighbours of trees of the tile
+    double halo_ = 0.0; // m, width of the border in which neighbours can stand
 };
 
 } // namespace lsys

@@ -10,7 +10,7 @@
 
 namespace lsys {
 
-/// The file "main.lsys" and the files that it may include.
+/// Parses the file "main.lsys", and other files that it may include.
 class Parsed {
 public:
     explicit Parsed(std::string text, std::map<std::string, std::string> files = {})
@@ -41,7 +41,7 @@ public:
         return out;
     }
 
-    /// The file after all machine-applicable fixes.
+    /// The file after all machine-applicable fixes are applied.
     [[nodiscard]] std::string fixed() {
         diagnostics.sort_by_place();
         std::map<std::uint32_t, Edit> edits; // by place

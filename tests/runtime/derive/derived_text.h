@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Grammars as text, derived by all methods.
+// Derives grammars that are given as text, by all methods of the runtime.
 #pragma once
 
 #include "tests/compiler/compile_text.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Environments in tests: clouds of places, and the answers of an environment to them.
+// Environments in tests: random places, and the answers of an environment at these places.
 #pragma once
 
 #include "runtime/base/workers.h"
@@ -23,7 +23,7 @@ class Draws {
 public:
     explicit Draws(std::uint64_t seed) : engine_(seed) {}
 
-    /// From 0 to 1, without 1.
+    /// A random number from 0 to below 1.
     double unit() { return static_cast<double>(engine_() >> 11) * 0x1p-53; }
     double between(double low, double high) { return low + (high - low) * unit(); }
     std::size_t below(std::size_t end) { return engine_() % end; }
@@ -57,7 +57,7 @@ struct Resources {
     bool is_cancelled = false;
 };
 
-/// Asks the environment that `make` returns.
+/// The answers of the environment that `make` returns.
 template <typename Make>
 Answers ask(const Make& make,
             const std::vector<SensePlace>& places,

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Random places, and environments that answer at them, for the tests of environments.
+// Random places, and environments that answer at these places, for tests of environments.
 #pragma once
 
 #include "runtime/environment/environment.h"
@@ -22,7 +22,7 @@ public:
     [[nodiscard]] std::uint32_t below(std::uint32_t count) {
         return static_cast<std::uint32_t>(engine_()) % count;
     }
-    /// Uniform, from `low` to `high`.
+    /// A uniform random number from `low` to `high`.
     [[nodiscard]] double between(double low, double high) {
         return low + (high - low) * (static_cast<double>(engine_()) * 0x1p-32);
     }
@@ -36,7 +36,8 @@ private:
     std::mt19937 engine_;
 };
 
-/// Places of a word: some at random, some on a grid (which makes ties), some equal to another.
+/// Places of a word. Some are random, some lie on a grid, so that distances are equal, and some are
+/// equal to another place.
 inline std::vector<SensePlace> random_places(TestRandom& random, std::size_t count, double half) {
     std::vector<SensePlace> places;
     for (std::size_t i = 0; i < count; ++i) {
@@ -65,7 +66,8 @@ inline SensedWord word_of(const std::vector<SensePlace>& places) {
     return word;
 }
 
-/// Four numbers for each place. Fails the test if there is no answer.
+/// The answers of an environment: four numbers for each place. Fails the test if there is no
+/// answer.
 inline std::vector<float> answers_of(Environment& environment,
                                      const std::vector<SensePlace>& places) {
     std::vector<float> answers(places.size() * 4, -77.0F);
@@ -74,7 +76,7 @@ inline std::vector<float> answers_of(Environment& environment,
     return answers;
 }
 
-/// Whether two answers have the same bits.
+/// Whether both answers have the same bits.
 inline bool same_bits(const std::vector<float>& a, const std::vector<float>& b) {
     if (a.size() != b.size()) {
         return false;

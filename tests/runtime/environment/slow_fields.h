@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Slow, direct versions of the environments of kinds Shadow, Sky and Map, written from
-// docs/language.md section 13 alone: pyramids voxel by voxel, rays cell by cell, every organ for
-// every cell.
+// Slow, direct implementations of the environments of kinds Shadow, Sky and Map, written from
+// docs/language.md section 13 alone. They visit pyramids voxel by voxel, rays cell by cell, and
+// every organ for every cell.
 #pragma once
 
 #include "runtime/base/exact_functions.h"
@@ -27,7 +27,7 @@ inline std::vector<float> rounded(const std::vector<double>& numbers) {
     return result;
 }
 
-/// Number of pyramids that cover a voxel with a layer.
+/// Counts, for each layer, the pyramids that cover a voxel with this layer.
 class Pyramids {
 public:
     void add(const Voxel& tip, std::int64_t levels) {
@@ -58,7 +58,7 @@ shadow_at(const Pyramids& pyramids, const Voxel& voxel, const BytecodeEnvironmen
     for (std::int64_t layer = 0; layer <= std::int64_t{declared.levels}; ++layer) {
         s += a * power * static_cast<double>(pyramids.count(voxel, layer));
         for (std::size_t axis = 0; axis < 3; ++axis) {
-            std::array<std::int64_t, 4> d{}; // by squared distance
+            std::array<std::int64_t, 4> d{}; // number by squared distance
             for (std::int64_t x = -1; x <= 1; ++x) {
                 for (std::int64_t y = -1; y <= 1; ++y) {
                     for (std::int64_t z = -1; z <= 1; ++z) {
@@ -114,7 +114,7 @@ inline Voxel sky_cell(const Vector3& point, double cell) {
     return voxel;
 }
 
-/// The depth along one ray, which ends above or beside all organs.
+/// The optical depth along one ray, which ends above or beside all organs.
 inline double sky_depth(const BytecodeEnvironment& declared,
                         const std::vector<SensedOrgan>& organs,
                         const Vector3& place,
@@ -186,7 +186,7 @@ inline std::vector<float> sky(const BytecodeEnvironment& declared,
     return rounded(numbers);
 }
 
-/// The value of a pixel; pixels beyond the border are those of the border.
+/// The value of a pixel; outside of the picture, the value of the nearest pixel at the border.
 inline double pixel(const EnvironmentPicture& picture, double column, double row) {
     const double last_column = static_cast<double>(picture.columns) - 1.0;
     const double last_row = static_cast<double>(picture.rows) - 1.0;
@@ -201,7 +201,7 @@ inline std::vector<float> map(const BytecodeEnvironment& declared,
     const auto wide = [](float number) { return static_cast<double>(number); };
     std::vector<double> numbers;
     for (const SensePlace& place : places) {
-        // In pixels, from the centre of the first one.
+        // In pixels, from the centre of the first pixel.
         const double x =
             ((place.position[0] - wide(declared.at[0])) / wide(declared.size[0]) + 0.5) *
                 static_cast<double>(picture.columns) -

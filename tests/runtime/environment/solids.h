@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Meshes for the tests of environments.
+// Meshes that tests of environments use.
 #pragma once
 
 #include "runtime/environment/environment.h"
@@ -10,7 +10,8 @@
 
 namespace lsys::environments {
 
-/// A cube from `low` to `low` + `edge`, its faces seen anticlockwise from outside.
+/// A cube from `low` to `low` + `edge` in all axes. Its faces are counter-clockwise seen from
+/// outside.
 inline EnvironmentMesh cube_mesh(const Vector3& low, double edge) {
     EnvironmentMesh mesh;
     for (std::uint32_t corner = 0; corner < 8; ++corner) {
@@ -26,7 +27,7 @@ inline EnvironmentMesh cube_mesh(const Vector3& low, double edge) {
     return mesh;
 }
 
-/// A sphere of `rings` by 2 * `rings` quads; those at the poles are triangles.
+/// A sphere of `rings` by 2 * `rings` quads; the quads at the poles are triangles.
 inline EnvironmentMesh sphere_mesh(const Vector3& middle, double radius, std::uint32_t rings) {
     constexpr double kPi = 3.14159265358979323846;
     EnvironmentMesh mesh;

@@ -23,7 +23,8 @@ using Json = nlohmann::json;
 class Editor {
 public:
     explicit Editor(Json capabilities) : Editor(std::move(capabilities), {}) {}
-    /// `files`: the texts on disk, by absolute path. The folder of the editor is `/p`.
+    /// `files`: the texts of files on disk, by absolute path. The editor has opened the folder
+    /// `/p`.
     Editor(Json capabilities, std::map<std::string, std::string> files)
         : files_(std::make_shared<std::map<std::string, std::string>>(std::move(files))) {
         LanguageServerHost host;
@@ -65,7 +66,8 @@ public:
         notify("initialized", Json::object());
     }
 
-    /// The result of a request; an error response throws its whole object as text.
+    /// Sends a request and returns its result. If the response is an error, throws the error object
+    /// as text.
     Json request(const std::string& method, Json params) {
         const Json response = raw_request(method, std::move(params));
         if (response.contains("error")) {
@@ -73,13 +75,13 @@ public:
         }
         return response.at("result");
     }
-    /// The response of a request.
+    /// Sends a request and returns its whole response.
     Json raw_request(const std::string& method, Json params) {
         const int id = ++id_;
         send({{"jsonrpc", "2.0"}, {"id", id}, {"method", method}, {"params", std::move(params)}});
         return responses.at(id);
     }
-    /// The code of the error of a request.
+    /// Sends a request that must fail; returns the code of its error.
     int error_code(const std::string& method, Json params) {
         return raw_request(method, std::move(params)).at("error").at("code").get<int>();
     }
@@ -90,7 +92,7 @@ public:
         send({{"jsonrpc", "2.0"}, {"method", method}, {"params", std::move(params)}});
     }
     void send(const Json& message) { send_all({message}); }
-    /// Sends messages that arrive together.
+    /// Sends several messages that arrive at the server at the same time.
     void send_all(const std::vector<Json>& messages) {
         std::vector<ReadMessage> bodies;
         for (const Json& message : messages) {
@@ -98,7 +100,7 @@ public:
         }
         take(bodies);
     }
-    /// Passes messages to the server and sorts its answers.
+    /// Passes messages to the server and stores what it answers, by kind.
     void take(const std::vector<ReadMessage>& bodies) {
         for (const std::string& body : server_->receive(bodies)) {
             const Json message = Json::parse(body);
@@ -119,7 +121,7 @@ public:
                {{"textDocument",
                  {{"uri", uri(path)}, {"languageId", "lsys"}, {"version", 1}, {"text", text}}}});
     }
-    /// Replaces the whole text.
+    /// Replaces the whole text of a file.
     void change(const std::string& path, const std::string& text) {
         notify("textDocument/didChange",
                {{"textDocument", {{"uri", uri(path)}, {"version", ++version_}}},
@@ -138,8 +140,8 @@ public:
     }
     static Json in(const std::string& path) { return {{"textDocument", {{"uri", uri(path)}}}}; }
 
-    /// The text after the edits of a WorkspaceEdit or of a list of TextEdits, all within lines of
-    /// ASCII.
+    /// The text after the edits of a WorkspaceEdit or of a list of TextEdits. Precondition: edited
+    /// lines are ASCII, and no edit spans several lines.
     static std::string applied(std::string text, const Json& edits) {
         std::vector<Json> last_first(edits.begin(), edits.end());
         const auto offset = [&](const Json& place) {
@@ -163,9 +165,9 @@ public:
     std::map<std::string, std::string>& files() { return *files_; }
     LanguageServer& server() { return *server_; }
 
-    Json answer; // to `initialize`
+    Json answer; // result of `initialize`
     std::map<int, Json> responses;
-    std::map<std::string, Json> diagnostics; // published, by URI
+    std::map<std::string, Json> diagnostics; // as last published, by URI
     int publish_count = 0;
     std::vector<Json> others;
 

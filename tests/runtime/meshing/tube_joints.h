@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The joints of tubes, for tests of the radii and curves of stems.
+// The joints of tubes, for tests of radii and curves of stems.
 #pragma once
 
 #include "runtime/base/workers.h"

@@ -28,8 +28,8 @@ grey_map(std::uint32_t columns, std::uint32_t rows, const std::vector<std::uint1
     return map;
 }
 
-/// A map whose columns get brighter from black to white and whose rows get brighter from half to full
-/// brightness.
+/// A map that becomes brighter from black to white along its columns, and from half to full
+/// brightness along its rows.
 inline GreyMap sloped_map(std::uint32_t columns, std::uint32_t rows) {
     std::vector<std::uint16_t> values;
     for (std::uint32_t row = 0; row < rows; ++row) {
@@ -41,8 +41,8 @@ inline GreyMap sloped_map(std::uint32_t columns, std::uint32_t rows) {
     return grey_map(columns, rows, values);
 }
 
-/// A few thousand trees of two species on `side` by `side` m around the origin. `map` must outlive
-/// the value.
+/// Options for a few thousand trees of two species on `side` by `side` m around the origin. `map`
+/// must outlive the result.
 inline PlacementOptions small_forest(PlacementMethod method, const GreyMap& map, double side) {
     PlacementOptions options;
     options.key = 7;

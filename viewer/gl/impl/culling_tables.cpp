@@ -15,7 +15,7 @@ namespace lsys::view {
 
 namespace {
 
-// Sizes in words, and offsets in a form; also in shaders/culling_tables.glsl.
+// Sizes and offsets in words of the records of a form; also in shaders/culling_tables.glsl.
 constexpr std::size_t kFormWords = 32;
 constexpr std::size_t kInstanceWords = 16;
 constexpr std::size_t kExitWords = 8;
@@ -26,7 +26,7 @@ constexpr std::size_t kSlotsAt = 15;
 constexpr std::size_t kInstancesAt = 16;
 constexpr std::size_t kExitsAt = 17;
 
-/// Max depth and count of the instances that can fill a slot.
+/// Max depth of nested instances, and max number of instances, of a branch that fills a slot.
 struct SlotSize {
     std::uint32_t depth = 0;
     std::uint64_t branches = 0;
@@ -52,11 +52,12 @@ SlotSize size_from_exits(const InstanceCache& cache,
     return size;
 }
 
-/// Size of slot 0, of whole plants.
+/// SlotSize of slot 0, which whole plants fill.
 SlotSize size_of_plants(const InstanceCache& cache) {
     std::vector<SlotSize> sizes(cache.slots.size());
     std::vector<bool> begun(cache.slots.size());
-    // Each item: a slot, and whether the sizes of the slots at its exits are known.
+    // Each item is a slot, and whether the sizes of the slots at the exits of its instances are
+    // known.
     std::vector<std::pair<std::uint32_t, bool>> pending{{0, false}};
     while (!pending.empty()) {
         const auto [index, is_known] = pending.back();

@@ -12,22 +12,23 @@
 
 namespace lsys::view {
 
-/// Max depth of nested instances that shaders/culling_walk.glsl expands.
+/// Max depth of nested instances for which shaders/culling_walk.glsl has room.
 inline constexpr std::uint32_t kMaxWalkDepth = 64;
 
 struct CullingTables {
     std::vector<std::uint32_t> words;
-    /// Keys of branches: one for each form, group (see kBranchGroups) and instance.
+    /// Keys number the branches: there is one key for each form, group (see kBranchGroups) and
+    /// instance.
     std::vector<std::uint32_t> first_keys; // first key of each form
     std::uint32_t key_count = 0;
-    /// Max branches of one tree; at most 2^32 - 1.
+    /// Max number of branches of a tree; at most 2^32 - 1.
     std::uint32_t max_branches = 0;
 };
 
 /// Groups of branches: one for each level of detail, and one for blended trees of each level.
 inline constexpr std::uint32_t kBranchGroups = 2 * kTreeLevels;
 
-/// Nullopt: instances are nested deeper than kMaxWalkDepth.
+/// Returns nullopt if instances are nested deeper than kMaxWalkDepth.
 [[nodiscard]] std::optional<CullingTables> make_culling_tables(const ForestModel& model);
 
 } // namespace lsys::view

@@ -37,7 +37,7 @@ void GLAPIENTRY on_message(GLenum /*source*/,
     if (type != GL_DEBUG_TYPE_ERROR && severity != GL_DEBUG_SEVERITY_HIGH) {
         return;
     }
-    // The callback receives a pointer to const; the registered pointer is not const.
+    // OpenGL passes a pointer to const, although the pointer that was registered is not const.
     static_cast<Device*>(const_cast<void*>(device))
         ->report(length < 0 ? std::string(message)
                             : std::string(message, static_cast<std::size_t>(length)));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Device: shared state of all objects of one OpenGL context: count of live objects, to detect
-// leaks, and errors of the driver. Must outlive the objects.
+// Device: state that all objects of one OpenGL context share: the number of live objects, which
+// shows leaks, and errors of the driver. Must outlive the objects.
 #pragma once
 
 #include <cstdint>
@@ -12,24 +12,23 @@ namespace lsys::view {
 
 class Device {
 public:
-    /// Uses the current context and installs its debug callback.
+    /// Uses the current context, and installs a debug callback in it.
     Device();
     ~Device();
     Device(const Device&) = delete;
     Device& operator=(const Device&) = delete;
 
-    /// Count of the objects of OpenGL, such as buffers and textures, that were made and not
-    /// deleted.
+    /// Number of OpenGL objects, such as buffers and textures, that were made and not deleted.
     [[nodiscard]] std::uint64_t live_objects() const { return live_; }
     /// The first kMaxErrors messages that the driver reported for this device.
     [[nodiscard]] const std::vector<std::string>& errors() const { return errors_; }
-    /// Bytes sent to buffers and textures of this device.
+    /// Number of bytes sent to buffers and textures of this device.
     [[nodiscard]] std::uint64_t uploaded_bytes() const { return uploaded_; }
 
-    /// Whether the processor draws, as llvmpipe does.
+    /// Whether the CPU draws, as llvmpipe does.
     [[nodiscard]] bool is_software() const { return is_software_; }
 
-    /// Macro QUALITY of shaders that are compiled from now on: 0 to 2.
+    /// Macro QUALITY, 0 to 2, of all shaders that are compiled from now on.
     [[nodiscard]] std::uint32_t quality() const { return quality_; }
     void set_quality(std::uint32_t quality) { quality_ = quality; }
 
@@ -38,8 +37,8 @@ public:
     void add_upload(std::uint64_t bytes) { uploaded_ += bytes; }
     void report(std::string message);
 
-    /// Call between passes. A software renderer keeps the triangles of a pass in memory until it
-    /// draws them. end_pass() makes it draw, and waits until it is at most one pass behind.
+    /// Call between passes. A software renderer stores the triangles of a pass until it draws them.
+    /// end_pass() makes it draw them, and waits until it is at most one pass behind.
     void end_pass();
 
     [[nodiscard]] std::string renderer() const; // "llvmpipe (LLVM 15.0.6, 256 bits), OpenGL 4.5"

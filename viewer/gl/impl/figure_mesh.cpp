@@ -11,14 +11,15 @@ namespace lsys::view {
 
 namespace {
 
-/// A limb between two round ends, m. `depth` scales it along Z around its axis.
+/// A limb between two round ends; lengths in m. `depth`: factor of its extent along Z, from its
+/// axis.
 struct Limb {
     glm::vec3 low;
     float low_radius;
     glm::vec3 high;
     float high_radius;
     float depth;
-    bool has_mirror; // one on each side of the body
+    bool has_mirror; // the body has a mirrored copy of it
 };
 // Proportions of a standing adult: legs 0.9 m, arms to the middle of the thigh, head 0.23 m.
 constexpr std::array<Limb, 8> kLimbs = {{
@@ -34,7 +35,7 @@ constexpr std::array<Limb, 8> kLimbs = {{
 constexpr std::uint32_t kSides = 12;
 constexpr std::uint32_t kRings = 10; // half of them around each end
 
-/// Appends a limb, mirrored in X with `side` -1.
+/// Appends a limb; with `side` -1 its mirror image in X.
 void add_limb(const Limb& limb, float side, const glm::vec3& feet, Mesh& mesh) {
     const glm::vec3 axis = glm::normalize(limb.high - limb.low);
     const glm::vec3 across = glm::normalize(glm::cross(axis, glm::vec3(0.3F, 0.1F, 1.0F)));
@@ -43,7 +44,8 @@ void add_limb(const Limb& limb, float side, const glm::vec3& feet, Mesh& mesh) {
     constexpr float kPi = std::numbers::pi_v<float>;
     for (std::uint32_t ring = 0; ring < kRings; ++ring) {
         const bool is_high = ring >= kRings / 2;
-        // Latitude from -90 degrees at the low end to 90 at the high one; the equator twice.
+        // Latitude from -90 degrees at the low end to 90 degrees at the high end; both rings at the
+        // middle are equators.
         const float step =
             static_cast<float>(ring - (is_high ? 1U : 0U)) / static_cast<float>(kRings - 2);
         const float latitude = kPi * (step - 0.5F);
@@ -91,7 +93,7 @@ Mesh make_figure_mesh(const glm::vec3& feet) {
     mesh.texture_coordinates.resize(mesh.positions.size());
     mesh.tangents.resize(mesh.positions.size());
     Material cloth;
-    cloth.colour = {0.30F, 0.05F, 0.03F, 1.0F}; // seen against leaves, ground and sky
+    cloth.colour = {0.30F, 0.05F, 0.03F, 1.0F}; // visible against leaves, ground and sky
     mesh.materials = {cloth};
     mesh.parts = {{0, 0, mesh.indices.size()}};
     return mesh;

@@ -23,7 +23,7 @@ namespace lsys::view {
 
 namespace {
 
-// Bindings in forest.glsl and branch.vert.glsl.
+// Binding points in forest.glsl and branch.vert.glsl.
 constexpr GLuint kBranches = 0;
 constexpr GLuint kTrees = 1;
 constexpr GLuint kForms = 2;
@@ -66,8 +66,8 @@ struct TreeRecord {
 };
 static_assert(sizeof(TreeRecord) == 24);
 
-/// Spare records for added trees. When they are used up, the device copies the records to a larger
-/// buffer.
+/// Number of spare records for added trees. When they are used up, the device copies all records to
+/// a larger buffer.
 constexpr std::size_t kRoomForTrees = std::size_t{1} << 14U;
 
 TreeRecord record_of(const LodTree& tree, const Tree& full) {
@@ -78,7 +78,7 @@ TreeRecord record_of(const LodTree& tree, const Tree& full) {
     return {tree.position, tree.scale, phase << 16U | yaw, impostor << 16U | tree.form};
 }
 
-/// Hash for comparing uploads.
+/// Combines the hash of items with `digest`, to find out whether an upload would change anything.
 template <typename T>
 std::uint64_t digest_of(std::span<const T> items, std::uint64_t digest) {
     return combine_bytes(digest, {reinterpret_cast<const char*>(items.data()), items.size_bytes()});
@@ -102,14 +102,15 @@ bool has_pictures(const Material& material) {
     return material.picture != nullptr || material.normal_map != nullptr;
 }
 
-/// Appends the records of materials, equal ones once; returns their indices.
+/// Appends the records of materials, equal records only once. Returns their indices.
 std::vector<std::uint16_t> add_materials(const std::vector<Material>& materials,
                                          std::vector<MaterialRecord>& records) {
     std::vector<std::uint16_t> numbers;
     for (const Material& material : materials) {
         MaterialRecord record;
         record.colour = glm::vec3(material.colour);
-        // Thin: leaves, petals, and two-sided meshes from files, which are mostly leaves.
+        // Thin materials are leaves, petals, and two-sided materials of mesh files, most of which
+        // are leaves.
         const bool is_thin = material.two_sided || material.kind == MaterialKind::Leaf ||
                              material.kind == MaterialKind::Flower;
         const auto translucency = static_cast<std::uint32_t>(translucency_step(material, is_thin));
@@ -131,7 +132,7 @@ std::vector<std::uint16_t> add_materials(const std::vector<Material>& materials,
     return numbers;
 }
 
-// Texture units of branch.frag.glsl and leaf.frag.glsl.
+// Numbers of texture units in branch.frag.glsl and leaf.frag.glsl.
 constexpr GLuint kBarkTexture = 1;
 constexpr GLuint kLeafTexture = 2;
 constexpr GLuint kNormalMapTexture = 5;
@@ -350,7 +351,7 @@ void ForestBuffers::upload_forms(const ForestModel& model, const ImpostorPlan& p
 
 void ForestBuffers::set_colours(const ForestModel& model, BranchColours by) {
     colour_digests_.assign(model.forms.size(), 0);
-    // One word per tree form. The forms of clusters have no branches and need none.
+    // One word per tree form. Forms of clusters have no branches, so they need no word.
     std::vector<std::uint32_t> words(model.forms.size(), 0);
     const std::vector<LegendEntry> legend = legend_of(model, by);
     for (std::size_t f = 0; !legend.empty() && f < model.forms.size(); ++f) {
@@ -397,7 +398,7 @@ void ForestBuffers::upload_changed_trees(const ForestLod& lod, std::span<const T
                 records.push_back(record_of(tree, lod.tree_of(t)));
             }
         }
-        if (records.size() == span.count) { // else the square has been removed again
+        if (records.size() == span.count) { // else the square was removed in the meantime
             current_->trees.write(std::span<const TreeRecord>(records),
                                   span.first * sizeof(TreeRecord));
         }
@@ -412,8 +413,8 @@ void ForestBuffers::upload_clusters(const ForestLod& lod) {
         const auto number = lod.model().streamed == nullptr
                                 ? static_cast<std::uint32_t>(records.size())
                                 : cell.seed;
-        // Clusters are rotated by quarter turns at random, which keep their squares aligned with
-        // the cells.
+        // Each cluster is rotated by a random number of quarter turns, which keep its square
+        // aligned with its cell.
         const std::uint32_t drawn = golden_multiple(number);
         const std::uint32_t yaw = drawn >> 30U << 14U;
         const std::uint32_t phase = drawn & 0xFFFF0000U;
@@ -483,7 +484,7 @@ ForestBuffers::command_templates(const std::vector<std::uint32_t>& first_keys) c
         for (const bool blends : {false, true}) {
             CommandRange& range = templates.ranges.emplace_back();
             range.first = static_cast<std::uint32_t>(templates.commands.size());
-            // Finer levels first, as in ForestLod::list_runs().
+            // Finer levels are drawn first, as in ForestLod::list_runs().
             for (std::uint32_t group = blends ? kTreeLevels : 0;
                  group < (blends ? 2 * kTreeLevels : kTreeLevels); ++group) {
                 for (std::size_t f = 0; f < form_levels_.size(); ++f) {
@@ -545,7 +546,7 @@ std::uint64_t ForestBuffers::draw_pictures(GLuint solid,
         if (picture.normal_map) {
             glBindTextureUnit(kNormalMapTexture, picture.normal_map.name());
         }
-        glDisable(GL_CULL_FACE); // meshes of files have two sides
+        glDisable(GL_CULL_FACE); // meshes from files are two-sided
         draws += draw(kBranchClasses + i, blends);
     }
     return draws;

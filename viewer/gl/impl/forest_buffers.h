@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // ForestBuffers: meshes, trees and forms of a forest on the device, in the layout of
-// shaders/forest.glsl. One vertex and one index buffer for all forms, levels and instances.
+// shaders/forest.glsl. All forms, levels and instances share one vertex buffer and one index
+// buffer.
 #pragma once
 
 #include "viewer/gl/impl/material_textures.h"
@@ -19,18 +20,19 @@
 
 namespace lsys::view {
 
-/// Draw class of branch triangles.
+/// Class of branch triangles that are drawn by one program.
 enum class BranchClass : std::uint8_t {
     OneSided,
     TwoSided,
     Plain,  // two-sided leaves of one colour
     CutOut, // two-sided leaves with an alpha mask
 };
-/// Count of these classes; each picture of a mesh file is a further class.
+/// Number of these classes; each picture of a mesh file is a further class.
 inline constexpr std::size_t kBranchClasses = 4;
 
-/// Buffers that uploads and draws use. Impostor: for baking, which happens between pictures of the
-/// forest. Shadow: branches that cast shadows near the eye; trees are taken from Forest.
+/// Set of buffers that uploads and draws use. Impostor: for baking, which happens between pictures
+/// of the forest. Shadow: for branches that cast shadows near the eye; its trees are those of
+/// Forest.
 enum class BufferSet : std::uint8_t { Forest, Impostor, Shadow };
 
 struct DrawCommand {         // layout of glMultiDrawElementsIndirect
@@ -42,23 +44,23 @@ struct DrawCommand {         // layout of glMultiDrawElementsIndirect
 };
 static_assert(sizeof(DrawCommand) == 20);
 
-/// Commands of a draw class in a common buffer.
+/// Range of the commands of a draw class in a common buffer.
 struct CommandRange {
     std::uint32_t first = 0;
     std::uint32_t count = 0;
 };
 
-/// Commands of all branches that a picture may draw, without counts of instances.
+/// Commands of all branches that a picture may draw, with instance counts of 0.
 struct CommandTemplates {
     std::vector<DrawCommand> commands;
-    std::vector<std::uint32_t> keys;  // by command; see CullingTables
+    std::vector<std::uint32_t> keys;  // by command: key as in CullingTables
     std::vector<CommandRange> ranges; // by ForestBuffers::command_index()
 };
 
-/// Buffers that compute shaders have written, for the draws of a forest.
+/// Buffers that compute shaders have written and draws of a forest read.
 struct DeviceDraws {
-    GLuint branches = 0; // PoolBranch
-    GLuint entries = 0;  // pairs of a key and a BranchEntry
+    GLuint branches = 0; // buffer of PoolBranch
+    GLuint entries = 0;  // buffer of pairs of a key and a BranchEntry
     GLuint commands = 0;
     std::vector<CommandRange> ranges; // as CommandTemplates::ranges
 };
@@ -69,53 +71,54 @@ public:
     ForestBuffers(const ForestBuffers&) = delete;
     ForestBuffers& operator=(const ForestBuffers&) = delete;
 
-    /// Selects the buffers of all further calls.
+    /// Selects the set of buffers that all further calls use.
     void use(BufferSet set);
 
-    /// Uploads meshes, forms, materials and pictures; releases the meshes of the model.
+    /// Uploads meshes, forms, materials and pictures; frees the meshes of the model.
     void upload(ForestModel& model, const ImpostorPlan& plan, const MaterialTextures& textures);
     /// Uploads forms again, for other trees of the same meshes. Precondition: upload() was called.
     void upload_forms(const ForestModel& model, const ImpostorPlan& plan);
     /// Sets the colours of the branches. Precondition: upload() was called.
     void set_colours(const ForestModel& model, BranchColours by);
-    /// Uploads all trees, and clusters as trees of their cluster forms.
+    /// Uploads all trees; clusters are uploaded as trees of their cluster forms.
     void upload_trees(const ForestLod& lod);
-    /// Uploads trees and all clusters of a streamed forest.
+    /// Uploads the changed trees and all clusters of a streamed forest.
     void upload_changed_trees(const ForestLod& lod, std::span<const TreeSpan> changed);
-    /// Uploads branches written by the pool.
+    /// Uploads the branches that the pool has written since the last call.
     void upload_branches(BranchPool& pool);
-    /// Uploads one tree, which may be an added one.
+    /// Uploads one tree, which may be an added tree.
     void upload_tree(const ForestLod& lod, std::uint32_t number);
     /// Replaces the trees, for baking of impostors.
     void set_trees(std::span<const Tree> trees, std::uint32_t form);
     /// Replaces the branches, for baking of impostors.
     void set_branches(std::span<const PoolBranch> branches);
-    /// Uploads the lists of branches and the draw commands of each class.
+    /// Uploads the lists of branches, and the draw commands of each class.
     void upload_commands(const DrawLists& lists);
-    /// `first_keys`: CullingTables::first_keys.
+    /// Makes the commands. `first_keys`: CullingTables::first_keys.
     [[nodiscard]] CommandTemplates
     command_templates(const std::vector<std::uint32_t>& first_keys) const;
-    /// Draws forests with these commands instead of uploaded ones, until they are null.
+    /// Draws forests with these commands instead of the uploaded commands, until it is called with
+    /// null.
     void use_device_draws(const DeviceDraws* draws) { device_draws_ = draws; }
-    /// Buffer of the records of trees.
+    /// Name of the buffer with the records of trees.
     [[nodiscard]] GLuint trees() const { return forest_.trees.name(); }
 
-    /// Draws a class with the bound program of branch.*.glsl; returns the count of draw calls.
-    /// `blends`: runs of blended trees; the program needs BLENDS.
+    /// Draws a class with the bound program of branch.*.glsl; returns the number of draw calls.
+    /// `blends`: draws runs of blended trees; the program must be compiled with BLENDS.
     std::uint64_t draw(BranchClass kind, bool blends = false) const;
-    /// Draws the branches whose material has a picture file: with the program `cut_out` if the
-    /// picture has transparent texels, `bumpy_cut_out` if it has a normal map too, else with
-    /// `solid`. Binds these programs and textures of bark, leaves and normal maps; returns the
-    /// count of draw calls.
+    /// Draws the branches whose material has a picture file. Uses the program `cut_out` if the
+    /// picture has transparent texels, `bumpy_cut_out` if it also has a normal map, else `solid`.
+    /// Binds these programs, and the textures of bark, leaves and normal maps. Returns the number
+    /// of draw calls.
     std::uint64_t
     draw_pictures(GLuint solid, GLuint cut_out, GLuint bumpy_cut_out, bool blends) const;
     void bind_storage() const;
-    /// Rebinds storage so that tree indices of later draws mean clusters. Call after
+    /// Rebinds storage so that in later draws the index of a tree means a cluster. Call it after
     /// bind_storage().
     void bind_clusters() const;
 
     [[nodiscard]] std::uint64_t mesh_bytes() const { return mesh_bytes_; }
-    /// Memory of the textures of picture files.
+    /// Bytes of memory of the textures of picture files.
     [[nodiscard]] std::uint64_t texture_bytes() const { return texture_bytes_; }
     [[nodiscard]] std::uint64_t tree_bytes() const {
         return forest_.trees.capacity() + clusters_.capacity();
@@ -135,11 +138,11 @@ private:
         std::int32_t base_vertex = 0;
         std::vector<IndexRange> ranges; // by instance, then by class
     };
-    /// Pictures of a file on the device.
+    /// Textures of the pictures of a material.
     struct BranchPicture {
         std::shared_ptr<const Texture> colour_file;
         std::shared_ptr<const Texture> normal_map_file;
-        TextureObject colour; // empty: the material has only a normal map
+        TextureObject colour; // empty: there is only a normal map
         TextureObject normal_map;
         bool has_holes = false;
     };
@@ -148,7 +151,7 @@ private:
         Buffer buffer;
         std::uint32_t count = 0;
     };
-    /// Buffers of a BufferSet.
+    /// The buffers of a BufferSet.
     struct DrawBuffers {
         Buffer trees;
         Buffer branches;
@@ -184,7 +187,7 @@ private:
     DrawBuffers impostor_;
     DrawBuffers shadow_;
     DrawBuffers* current_ = &forest_;
-    std::vector<float> boxes_;                  // by form: half side of the box of its vertices, m
+    std::vector<float> boxes_;                  // m, by form: half side of its vertices' box
     std::vector<std::uint64_t> mesh_digests_;   // by form
     std::vector<std::uint64_t> colour_digests_; // by form; 0: natural
     std::vector<std::array<FormLevel, kTreeLevels>> form_levels_;

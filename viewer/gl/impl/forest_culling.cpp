@@ -17,12 +17,12 @@ namespace lsys::view {
 
 namespace {
 
-// Bindings in shaders/culling*.glsl.
+// Binding points in shaders/culling*.glsl.
 constexpr GLuint kBlockBinding = 1;
 constexpr GLuint kBranches = 0;
 constexpr GLuint kTrees = 1;
 constexpr GLuint kTables = 2;
-constexpr GLuint kIdentities = 3; // the rays of the horizon while it is made
+constexpr GLuint kIdentities = 3; // also of the rays of the horizon while it is made
 constexpr GLuint kCells = 4;
 constexpr GLuint kState = 5;
 constexpr GLuint kCodes = 6;
@@ -41,12 +41,12 @@ constexpr GLuint kCommands = 19;
 constexpr GLuint kHeightsTexture = 1;
 constexpr GLuint kHorizonTexture = 6;
 
-constexpr std::uint32_t kBlock = 256;     // elements of a workgroup
-constexpr std::uint32_t kSortPart = 2048; // branches of a workgroup that sorts
+constexpr std::uint32_t kBlock = 256;     // number of elements that a workgroup handles
+constexpr std::uint32_t kSortPart = 2048; // number of branches that a workgroup sorts
 constexpr std::uint32_t kDigitBits = 8;
 constexpr std::uint32_t kDetailSteps = 6;
 constexpr std::uint32_t kMaxCandidates = 1U << 20U;
-constexpr std::uint32_t kRoomForTrees = 1U << 14U; // spare records for added trees
+constexpr std::uint32_t kRoomForTrees = 1U << 14U; // number of spare records for added trees
 constexpr std::size_t kIdentityBytes = 12;
 constexpr std::size_t kCellBytes = 48;
 constexpr std::size_t kNearBytes = 48;
@@ -67,7 +67,7 @@ Identity identity_of(const ForestLod& lod, std::uint32_t number) {
             lod.lod_tree(number).is_removed() ? kRemoved : 0};
 }
 
-/// A cell in the layout of shaders/culling_cells.comp.glsl.
+/// The record of a cell, in the layout of shaders/culling_cells.comp.glsl.
 using CellRecord = std::array<std::uint32_t, 12>;
 static_assert(sizeof(CellRecord) == kCellBytes);
 
@@ -288,7 +288,7 @@ void ForestCulling::apply_changes(const ForestLod& lod) {
     std::sort(changed_.begin(), changed_.end());
     changed_.erase(std::unique(changed_.begin(), changed_.end()), changed_.end());
     grow_lists(lod.tree_count());
-    // Changes go into a buffer of their own and are copied from there: see Buffer::write().
+    // Changes are written to a separate buffer and copied from there, see Buffer::write().
     std::vector<std::uint32_t> words;
     struct Copy {
         const Buffer* to;
@@ -318,7 +318,7 @@ void ForestCulling::apply_changes(const ForestLod& lod) {
 }
 
 void ForestCulling::begin(const ForestLod& lod, const ForestBuffers& buffers, Block& block) {
-    // Shaders of the previous picture have written the buffers that are cleared or copied to.
+    // Orders the clears and copies below after the writes by shaders of the previous picture.
     glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
     apply_changes(lod);
     block.trees = {static_cast<std::uint32_t>(lod.cells().size()),
@@ -441,7 +441,7 @@ void ForestCulling::select(const ForestLod& lod, const ForestBuffers& buffers, c
                       view.options.level_blend, 0.0F};
     block.limits = {static_cast<std::uint32_t>(view.options.max_triangles),
                     static_cast<std::uint32_t>(view.options.max_triangles >> 32U), 0, 0};
-    // Seen from below, the ground is invisible and occludes nothing.
+    // For an eye below the ground, the ground is invisible and occludes nothing.
     const bool occludes = view.ground != nullptr && view.ground->eye_height() > 0.0F;
     if (occludes) {
         block.ground = {1.0F, view.ground->eye_height(), 0.0F, 0.0F};

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // ForestCulling: chooses the trees and branches of a picture on the device, as ForestLod::select()
-// does on the CPU. Compute shaders (shaders/culling*.comp.glsl) cull cells and trees by view and
+// does on the CPU. Compute shaders (shaders/culling*.comp.glsl) cull cells and trees by frustum and
 // horizon, find the LOD band of each tree, expand near trees into branches, and write the commands
-// of indirect draws. The CPU work of a picture does not depend on the number of trees.
+// of indirect draws. The CPU time of a picture does not depend on the number of trees.
 #pragma once
 
 #include "grammar/base/result.h"
@@ -25,19 +25,20 @@
 
 namespace lsys::view {
 
-/// Limits of OpenGL that decide whether compute shaders can choose trees.
+/// Limits of the OpenGL context on which it depends whether compute shaders can choose trees.
 struct CullingLimits {
     std::int32_t storage_bindings = 0; // GL_MAX_SHADER_STORAGE_BUFFER_BINDINGS
     std::int32_t storage_blocks = 0;   // GL_MAX_COMPUTE_SHADER_STORAGE_BLOCKS
     std::int32_t invocations = 0;      // GL_MAX_COMPUTE_WORK_GROUP_INVOCATIONS
 };
-/// The first limit that is too low for the compute shaders, as text; nullopt: all suffice.
+/// A text that names the first limit that is too low for the compute shaders; nullopt: all limits
+/// suffice.
 [[nodiscard]] std::optional<std::string> lacking_for_culling(const CullingLimits& limits);
 /// Limits of the current context.
 [[nodiscard]] CullingLimits culling_limits();
 
-/// Counts that the shaders make, in the layout of State in shaders/culling.glsl, which describes
-/// the fields without a comment here.
+/// Counts that the shaders compute, in the layout of State in shaders/culling.glsl, which also
+/// describes the members that have no comment here.
 struct CullingState {
     std::array<std::uint32_t, 24> dispatches{};
     std::array<std::uint32_t, 16> draws{};
@@ -54,20 +55,20 @@ struct CullingState {
     float detail = 1.0F;
     std::array<std::uint32_t, kTreeLevels> level_counts{};
     std::array<std::uint32_t, 2> triangles{};
-    std::uint32_t coarser_used = 0;  // branches drawn once more, in a coarser level
+    std::uint32_t coarser_used = 0;  // branches that are also drawn in a coarser level
     std::uint32_t level_blended = 0; // trees drawn in two levels of branches
 
     [[nodiscard]] std::uint64_t triangle_count() const {
         return std::uint64_t{triangles[1]} << 32U | triangles[0];
     }
-    /// Impostors of trees, or of clusters.
+    /// Number of impostors of trees, or with `clusters` of clusters.
     [[nodiscard]] std::uint64_t impostor_count(bool clusters) const {
         const std::size_t at = clusters ? 8 : 0;
         return std::uint64_t{draws[at + 1]} + draws[at + 5];
     }
 };
 
-/// Lists of a picture read back from the device, for tests.
+/// Lists of a picture, read back from the device for tests.
 struct CulledLists {
     CullingState state;
     std::vector<ImpostorEntry> trees;
@@ -80,43 +81,46 @@ class ForestCulling {
 public:
     explicit ForestCulling(Device& device);
 
-    /// Error: a shader does not compile; the old ones stay in use.
+    /// Error: a shader does not compile; the old shaders stay in use.
     [[nodiscard]] Result<void> reload(const ShaderSource& shaders);
     [[nodiscard]] bool has_programs() const { return static_cast<bool>(programs_.sum); }
-    /// Uploads cells, trees and tables. Returns false if the forest is beyond kMaxWalkDepth.
-    /// `buffers`: the buffers of the same forest.
+    /// Uploads cells, trees and tables. Returns false if instances are nested deeper than
+    /// kMaxWalkDepth. `buffers`: the buffers of the same forest.
     [[nodiscard]] bool show(const ForestLod& lod, ForestBuffers& buffers);
     /// Records a change of a tree, which the next select() uploads.
     void change_tree(std::uint32_t number);
 
-    /// Parameters of a picture. `ground`: occluder, or null. `heights`: height texture of
-    /// the ground.
+    /// Parameters of a picture. `ground`: the occluder, or null. `heights`: texture with the
+    /// heights of the ground.
     struct View {
         Frustum frustum;
         LodOptions options;
         const TerrainLod* ground = nullptr;
         GLuint heights = 0;
     };
-    /// Makes the lists of a picture.
+    /// Computes the lists of a picture on the device.
     void select(const ForestLod& lod, const ForestBuffers& buffers, const View& view);
-    /// Lists the trees of all cells that overlap a box seen from above. Replaces other lists.
+    /// Lists the trees of all cells that overlap a box, seen from above. The lists of the picture
+    /// are overwritten.
     void select_casters(const ForestLod& lod, const ForestBuffers& buffers, const Bounds& box);
 
-    /// Draws for ForestBuffers.
+    /// The draws, for ForestBuffers::use_device_draws().
     [[nodiscard]] const DeviceDraws& draws() const { return draws_; }
-    /// Buffer of ImpostorEntry of trees or of clusters.
+    /// Name of the buffer of ImpostorEntry: of clusters, or of trees.
     [[nodiscard]] GLuint entries(bool clusters) const {
         return clusters ? cluster_entries_.name() : tree_entries_.name();
     }
-    /// Buffer of draw commands for impostors.
+    /// Name of the buffer with draw commands for impostors.
     [[nodiscard]] GLuint impostor_commands() const { return state_.name(); }
-    /// Offset in impostor_commands(), bytes, of two commands: for whole and for blended impostors.
+    /// Offset in bytes in impostor_commands() of two commands: for whole impostors and for blended
+    /// impostors.
     [[nodiscard]] static std::size_t impostor_command(bool clusters);
 
-    /// Counts of the last picture that the device has finished; null: none. Does not wait.
+    /// Counts of the last picture that the device has finished; null: it has finished none. Does
+    /// not wait.
     [[nodiscard]] const CullingState* finished_state() const;
     [[nodiscard]] double gpu_milliseconds() { return timer_.milliseconds(); }
-    /// A branch of the last picture. Waits until the device has listed the branches.
+    /// A branch of the last picture. Waits until the device has made the list of branches.
     [[nodiscard]] PoolBranch branch(std::uint32_t slot) const;
     [[nodiscard]] CulledLists read_lists() const;
     [[nodiscard]] std::uint64_t byte_count() const;
@@ -146,7 +150,7 @@ private:
     void upload_identities(const ForestLod& lod);
     void grow_lists(std::uint32_t trees);
     void apply_changes(const ForestLod& lod);
-    /// Uploads the parameters and binds all buffers.
+    /// Uploads the parameters, and binds all buffers.
     void begin(const ForestLod& lod, const ForestBuffers& buffers, Block& block);
     void make_horizon(const View& view);
     void list_trees(std::uint32_t cells);
@@ -157,7 +161,7 @@ private:
     MappedBuffer blocks_;
     MappedBuffer states_;
     GpuTimer timer_;
-    CullingTables table_layout_; // `words` is empty: tables_ has them
+    CullingTables table_layout_; // its member `words` is empty: tables_ has these words
     Buffer rays_;
     Buffer tables_;
     Buffer identities_;
@@ -186,7 +190,7 @@ private:
     std::uint32_t max_candidates_ = 0;
     std::uint32_t max_branches_ = 0;
     std::uint32_t sort_passes_ = 1;
-    // Viewpoint of the slopes in horizon_.
+    // Eye for which the slopes in horizon_ were computed.
     std::optional<glm::vec3> horizon_eye_;
     std::vector<glm::ivec2> horizon_origins_;
 };

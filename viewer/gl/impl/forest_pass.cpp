@@ -31,16 +31,16 @@ constexpr GLuint kNormals = 4;
 constexpr GLuint kBoxes = 4; // in impostor.vert.glsl
 constexpr GLuint kNormalMapTexture = 5;
 constexpr GLint kPickedContent = 20; // in pick.frag.glsl
-// Half side of the shadow map near the ground, and its max, m.
+// Min of half the side in m of the shadow map, near the ground; and its max.
 constexpr float kMinShadowRange = 45.0F;
 constexpr float kMinFarShadowRange = 120.0F;
 constexpr float kMaxShadowRange = 400.0F;
-constexpr float kGroundBeyond = 3000.0F; // m, range of the ground beyond the forest
+constexpr float kGroundBeyond = 3000.0F; // m, range of the ground around the forest
 
-/// Bounding box of the casters between heights `low` and `high` (m) that can cast a shadow into the
-/// map. `shadow_from_world`: matrix of shadow_matrix().
+/// Bounding box of the casters, between the heights `low` and `high` (m), that can cast a shadow
+/// into the map. `shadow_from_world`: matrix of shadow_matrix().
 Bounds casters_of(const glm::mat4& shadow_from_world, float low, float high) {
-    constexpr float kMinDepth = -3.0F; // in depths of the map: limits the box for a low sun
+    constexpr float kMinDepth = -3.0F; // in depths of the map; limits the box when the sun is low
     const glm::mat4 world_from_shadow = glm::inverse(shadow_from_world);
     Bounds casters;
     for (const float x : {-1.0F, 1.0F}) {
@@ -234,7 +234,7 @@ Frame ForestPass::localised(const Frame& frame, bool& moved) {
 }
 
 std::array<float, 2> ForestPass::altitudes_near(const glm::vec2& middle, float half) const {
-    constexpr int kSteps = 8; // along each side
+    constexpr int kSteps = 8; // number of samples along each side
     const glm::dvec3& origin = lod_->origin();
     std::array<float, 2> range = {std::numeric_limits<float>::max(),
                                   std::numeric_limits<float>::lowest()};
@@ -247,7 +247,7 @@ std::array<float, 2> ForestPass::altitudes_near(const glm::vec2& middle, float h
             range = {std::min(range[0], height), std::max(range[1], height)};
         }
     }
-    // Ground between the samples may be lower or higher.
+    // The ground between the samples may be lower or higher than the samples.
     const float margin = 0.25F * (range[1] - range[0]);
     return {range[0] - margin, range[1] + margin + model_.streamed->tallest};
 }
@@ -258,13 +258,13 @@ Bounds ForestPass::shadow_bounds(const Frame& frame) {
     const float ground =
         model_.terrain->height(static_cast<float>(eye.x), static_cast<float>(eye.z));
     const float above = std::max(camera.eye.y - ground, 0.0F);
-    // From QUALITY 1 on other maps show the shadows near the eye.
+    // With QUALITY 1 and 2, other maps have the shadows near the eye.
     float half = device_->quality() > 0 ? kMinFarShadowRange : kMinShadowRange;
     while (half < kMaxShadowRange && half < 1.2F * above) {
         half *= 1.5F;
     }
-    // Centre of the shadow map: ahead of the eye, at most as far as the ground in the middle of the
-    // view.
+    // Centre of the shadow map: ahead of the eye, but at most as far away as the ground in the
+    // middle of the view.
     const glm::vec3 along = forward_of(camera);
     const glm::vec2 flat(along.x, along.z);
     const float length = glm::length(flat);
@@ -286,7 +286,7 @@ Bounds ForestPass::shadow_bounds(const Frame& frame) {
     caster_altitudes_ = {all.low.y, all.high.y};
     lit.add({middle.x - half, all.low.y, middle.y - half});
     lit.add({middle.x + half, all.high.y, middle.y + half});
-    // Clip to the forest.
+    // Clips the box to the forest.
     lit.low = glm::max(lit.low, all.low - glm::vec3(half * 0.25F, 0.0F, half * 0.25F));
     lit.high = glm::min(lit.high, all.high + glm::vec3(half * 0.25F, 0.0F, half * 0.25F));
     if (lit.low.x >= lit.high.x || lit.low.z >= lit.high.z) {
@@ -303,7 +303,7 @@ void ForestPass::prepare(const Frame& frame) {
     options.max_expansions = frame.max_expansions;
     options.wind = frame.wind;
     options.tree_range = frame.tree_range;
-    constexpr float kStill = 1e-4F; // m/s
+    constexpr float kStill = 1e-4F; // m/s; slower wind counts as none
     is_windy_ = glm::length(frame.wind.velocity) >= kStill;
     wind_ = frame.wind;
     has_one_sample_ = frame.samples == 1;
@@ -312,7 +312,7 @@ void ForestPass::prepare(const Frame& frame) {
     terrain_.prepare(frustum_, frame.tree_range);
     const Clock::time_point start = Clock::now();
     const double cpu_start = platform::thread_cpu_seconds();
-    // Wireframes occlude nothing.
+    // With wireframes, the ground occludes nothing.
     const bool ground_occludes = frame.style != PlantStyle::Wireframe;
     if (is_culled_on_device_) {
         view_ = {frustum_, options, ground_occludes ? terrain_.lod() : nullptr, terrain_.heights()};
@@ -352,8 +352,8 @@ void ForestPass::draw_impostors(std::span<const ImpostorEntry> trees, FrameStats
         return;
     }
     quad_trees_.fill(trees);
-    // Depth pass first: most of a quad is empty and lighting is expensive, so light only visible
-    // texels. A software renderer continues to shade after `discard`.
+    // Draws depths first, so that only visible texels are lit: most of a quad is empty, and
+    // lighting is expensive. A software renderer continues to shade a pixel after `discard`.
     glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
     const auto whole = static_cast<std::size_t>(
         std::partition_point(trees.begin(), trees.end(),
@@ -405,7 +405,7 @@ std::uint64_t ForestPass::draw_device_quads(const ProgramObject& program,
 }
 
 void ForestPass::draw_device_impostors(bool clusters, FrameStats& stats) {
-    // Depth pass first, as in draw_impostors().
+    // Draws depths first, as in draw_impostors().
     glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
     stats.draws += draw_device_quads(impostor_depth(false), clusters, 0, 1);
     stats.draws += draw_device_quads(impostor_depth(true), clusters, 1, 1);
@@ -496,7 +496,7 @@ glm::vec4 ForestPass::draw_crowns(const glm::vec3& eye) {
 }
 
 float ForestPass::exposure_below_crowns(const glm::vec3& eye) const {
-    constexpr float kMax = 2.2F; // below closed crowns
+    constexpr float kMax = 2.2F; // max of the exposure factor, below closed crowns
     const float cover = lod_->crown_cover(eye);
     return 1.0F + (kMax - 1.0F) * cover * cover;
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// ForestPass: draws a forest: branches of near trees, impostors of far ones, ground and shadows. At
-// most 16 draw calls for any number of trees, and two for each picture of a mesh file.
+// ForestPass: draws a forest: branches of near trees, impostors of far trees, ground and shadows.
+// For any number of trees it needs at most 16 draw calls, and two more for each picture of a mesh
+// file.
 #pragma once
 
 #include "grammar/base/result.h"
@@ -28,59 +29,62 @@
 
 namespace lsys::view {
 
-/// Count of the shadow maps near the eye.
+/// Number of shadow maps near the eye.
 inline constexpr std::size_t kNearMaps = 2;
 
 class ForestPass {
 public:
     explicit ForestPass(Device& device);
 
-    /// Error: a shader does not compile; the old ones stay in use.
+    /// Error: a shader does not compile; the old shaders stay in use.
     [[nodiscard]] Result<void> reload(const ShaderSource& shaders);
-    /// Replaces the forest. Old impostors stand in until new ones are baked. Forest and terrain
-    /// must live until the next call or the end of the pass.
+    /// Replaces the forest. Old impostors are drawn until new ones are baked. The forest and the
+    /// terrain of `model` must live until the next call or the end of the pass.
     void show(ForestModel model, const MaterialTextures& textures);
-    /// Chooses trees and branches of later forests by compute shaders, or on the CPU. Error: a
+    /// Sets whether compute shaders or the CPU choose trees and branches of later forests. Error: a
     /// shader does not compile.
     [[nodiscard]] Result<void> cull_on_device(bool on_device, const ShaderSource& shaders);
-    /// Whether compute shaders choose the trees of the forest shown. Streamed forests and forests
-    /// with deeply nested instances are left to the CPU.
+    /// Whether compute shaders choose the trees of the forest that is shown. The CPU chooses the
+    /// trees of streamed forests and of forests with deeply nested instances.
     [[nodiscard]] bool is_culled_on_device() const { return is_culled_on_device_; }
-    /// Updates the trees of the forest after a change. Clusters are drawn once their new impostors
-    /// are baked.
+    /// Updates the trees of the forest after a change. Clusters are drawn again when their new
+    /// impostors are baked.
     void update_trees();
     /// Bakes missing impostors for about `seconds`. Returns whether all are done.
     [[nodiscard]] bool bake_impostors(double seconds, MaterialTextures& textures);
     [[nodiscard]] bool has_stand_ins() const { return impostors_.is_filled(); }
     /// Colours the branches of this forest and of all later ones.
     void set_colours(BranchColours by);
-    /// Adds or removes a tree: ForestLod::change_tree().
+    /// Adds or removes a tree, as ForestLod::change_tree() does.
     void change_tree(std::uint32_t index, const Tree& tree, bool alive);
-    /// Adds and removes squares of a streamed forest. Returns the box of the trees that changed.
+    /// Adds and removes squares of a streamed forest. Returns the box of the trees that were added
+    /// or removed.
     [[nodiscard]] Bounds change_squares(const SquareChanges& changes);
-    /// The frame with a camera relative to the origin of the forest. In a streamed forest, moves the
-    /// origin to the nearest_origin() of the eye first; returns in `moved` whether it did.
+    /// The frame with its camera relative to the origin of the forest. In a streamed forest, first
+    /// moves the origin to nearest_origin() of the eye; sets `moved` to whether the origin has
+    /// changed.
     [[nodiscard]] Frame localised(const Frame& frame, bool& moved);
     /// The place of the world, m, to which all places of the forest are relative.
     [[nodiscard]] glm::dvec3 origin() const { return lod_->origin(); }
     [[nodiscard]] const Bounds& bounds() const { return lod_->bounds(); }
 
-    /// Box of the shadow map for a camera; changes only in large steps of the camera.
+    /// Box that the shadow map must show for the camera of a frame; it changes only when the camera
+    /// has moved far.
     [[nodiscard]] Bounds shadow_bounds(const Frame& frame);
-    /// Selects trees and branches for the frame and uploads them, unless compute shaders select
-    /// them later.
+    /// Selects trees and branches for a frame and uploads them. If compute shaders select, only
+    /// sets their parameters.
     void prepare(const Frame& frame);
     /// Draws all casters into the bound shadow map.
     void draw_shadows(const glm::mat4& shadow_from_world, ForestFrameStats& stats);
-    /// Draws the crowns around the eye, seen from above, into a texture for shaders/crowns.glsl, and
-    /// binds it. Call after prepare(). Returns FrameBlock::crowns.
+    /// Draws the crowns around the eye, seen from above, into a texture for shaders/crowns.glsl,
+    /// and binds this texture. Call it after prepare(). Returns the value of FrameBlock::crowns.
     [[nodiscard]] glm::vec4 draw_crowns(const glm::vec3& eye);
-    /// Factor of the exposure for an eye below crowns, which adapts to their shade. Call after
-    /// prepare().
+    /// Factor of the exposure for an eye below crowns, which has adapted to their shade. Call it
+    /// after prepare().
     [[nodiscard]] float exposure_below_crowns(const glm::vec3& eye) const;
-    /// Draws the trees in shadow map number `map` (below kNearMaps) as branches of a level into the
-    /// bound framebuffer, moved by the wind of the prepared frame. The bound FrameBlock must have
-    /// `shadow_from_world` as its view_projection.
+    /// Draws the trees in shadow map number `map` (below kNearMaps), as branches of the level
+    /// `level`, into the bound framebuffer. The wind of the prepared frame moves them.
+    /// Precondition: the view_projection of the bound FrameBlock is `shadow_from_world`.
     void draw_near_shadows(std::size_t map,
                            const glm::mat4& shadow_from_world,
                            std::uint32_t level,
@@ -88,23 +92,23 @@ public:
     /// Draws into the bound framebuffer. Texture unit 0 must hold the shadow map.
     void draw(MaterialTextures& textures, ForestFrameStats& stats);
 
-    /// Compiles the programs of draw_picked() at the first call. Error: a shader does not compile.
+    /// Compiles the programs of draw_picked() in the first call. Error: a shader does not compile.
     [[nodiscard]] Result<void> compile_pick_programs(const ShaderSource& shaders);
-    /// Draws the kind and index of the part that each pixel shows into the bound framebuffer. Call
-    /// after prepare().
+    /// Draws into the bound framebuffer, for each pixel, kind and index of the part that the pixel
+    /// shows. Call it after prepare().
     void draw_picked(MaterialTextures& textures);
-    /// The part for a kind and an index that draw_picked() has written.
+    /// The part whose kind and index draw_picked() has written.
     [[nodiscard]] Picked picked(PickedKind kind, std::uint32_t index) const;
     /// Numbers of the living trees of a form.
     [[nodiscard]] std::vector<std::uint32_t> trees_of(std::uint32_t form) const;
 
     [[nodiscard]] ForestSizes sizes() const;
-    /// Sets counts and times of the last picture that the device has finished, if compute shaders
-    /// have selected its trees.
+    /// If compute shaders have selected the trees, sets counts and times of the last picture that
+    /// the device has finished.
     void collect_device_stats(ForestFrameStats& stats);
 
 private:
-    /// Branches of a shadow map near the eye, kept until map, wind or trees change.
+    /// Branches in a shadow map near the eye; they stay valid until map, wind or trees change.
     struct NearCasters {
         glm::mat4 shadow_from_world{0.0F};
         Wind wind;
@@ -114,20 +118,22 @@ private:
 
     void
     list_casters(const glm::mat4& shadow_from_world, std::uint32_t level, NearCasters& casters);
-    /// Forgets near_casters_ and crown_area_. Call when trees have changed or moved.
+    /// Clears near_casters_ and crown_area_. Call it when trees have changed or moved.
     void forget_near_trees();
-    /// Lowest and highest place of ground and trees near the middle of a shadow map.
+    /// Lowest and highest altitude in m of ground and trees near the middle of a shadow map.
     [[nodiscard]] std::array<float, 2> altitudes_near(const glm::vec2& middle, float half) const;
     [[nodiscard]] const ForestPrograms& programs() const { return programs_[is_windy_ ? 1 : 0]; }
-    /// Program of the depth pass of impostors, for the samples of the prepared frame.
+    /// Program that draws depths of impostors, for the samples per pixel of the prepared frame.
     [[nodiscard]] const ProgramObject& impostor_depth(bool blends) const;
     void draw_branches(const BranchPrograms& programs, bool blends, FrameStats& stats);
-    /// Draws impostors of trees or clusters.
+    /// Draws impostors of trees or, if `trees` are entries of clusters, of clusters.
     void draw_impostors(std::span<const ImpostorEntry> trees, FrameStats& stats);
-    /// Draws quads of quad_trees_; returns the count of draw calls.
+    /// Draws the quads first ... first + count - 1 of quad_trees_. Returns the number of draw
+    /// calls.
     std::uint64_t draw_quads(const ProgramObject& program, std::size_t first, std::size_t count);
-    /// Draws impostors that compute shaders have listed: `count` commands from `first` on, 0: whole
-    /// ones, 1: blended ones. Returns the count of draw calls.
+    /// Draws impostors that compute shaders have listed: the commands first ... first + count - 1,
+    /// where command 0 draws whole impostors and command 1 blended impostors. Returns the number of
+    /// draw calls.
     std::uint64_t draw_device_quads(const ProgramObject& program,
                                     bool clusters,
                                     std::uint32_t first,
@@ -135,7 +141,7 @@ private:
     void bind_quads(const ProgramObject& program, GLuint entries);
     void draw_device_impostors(bool clusters, FrameStats& stats);
     void draw_picked_impostors(const ForestPickPrograms& picks, bool clusters);
-    /// Lets compute shaders select the trees and branches of the prepared frame.
+    /// Makes compute shaders select the trees and branches of the prepared frame.
     void select_on_device();
     void show_on_device();
     void set_stats(const DrawLists& lists, ForestFrameStats& stats) const;
@@ -152,11 +158,11 @@ private:
     bool has_one_sample_ = false; // whether the prepared frame has one sample per pixel
     Wind wind_;                   // wind of the prepared frame
     std::array<NearCasters, kNearMaps> near_casters_;
-    // Map of crowns: made when first needed.
+    // The members below belong to the map of crowns, which is made when it is first needed.
     ProgramObject crown_program_;
     TextureObject crowns_;
     Framebuffer crown_target_;
-    glm::vec4 crown_area_{0.0F}; // area that the map shows; 0: out of date
+    glm::vec4 crown_area_{0.0F}; // area of the crown map; 0: it must be drawn again
     ForestModel model_;
     std::unique_ptr<ForestLod> lod_;
     ForestBuffers buffers_;
@@ -168,20 +174,20 @@ private:
     GroundHorizon horizon_;
     const DrawLists* lists_ = nullptr;
     bool has_clusters_ = false; // the atlas has layers of clusters
-    // The cluster impostors show the previous trees until all are baked again.
+    // The impostors of clusters show the previous trees until all of them are baked again.
     bool has_old_clusters_ = false;
     GpuTimer branches_timer_;
     GpuTimer impostors_timer_;
     GpuTimer terrain_timer_;
     GpuTimer shadow_timer_;
-    std::array<float, 2> caster_altitudes_{}; // lowest, highest, for the last shadow_bounds()
+    std::array<float, 2> caster_altitudes_{}; // m, lowest and highest, in the last shadow_bounds()
     double bake_seconds_ = 0.0;
     double upload_seconds_ = 0.0;
     double cull_seconds_ = 0.0;
     double cull_cpu_seconds_ = 0.0;
     std::unique_ptr<ForestCulling> culling_; // null until the first cull_on_device(true)
     bool culls_on_device_ = false;           // compute shaders choose the trees of later forests
-    bool is_culled_on_device_ = false;       // they choose the trees of the forest shown
+    bool is_culled_on_device_ = false;       // for the forest that is shown
     ForestCulling::View view_;               // parameters of the prepared frame
 };
 

@@ -8,7 +8,7 @@
 
 namespace lsys::view {
 
-/// Programs by draw class, for ForestBuffers::draw().
+/// Programs of the draw classes, for ForestBuffers::draw().
 struct BranchPrograms {
     ProgramObject solid; // BranchClass::OneSided, TwoSided, and opaque picture files
     ProgramObject plain;
@@ -19,21 +19,22 @@ struct BranchPrograms {
 
 struct ForestPrograms {
     BranchPrograms branches;
-    ProgramObject impostor_depth; // depth pass before the colour pass
-    // Variants for entries drawn in two LOD bands; `impostor` draws the colours of both.
+    ProgramObject impostor_depth; // draws depths before the colours are drawn
+    // Variants for trees that are drawn in two LOD bands at once; `impostor` draws the colours of
+    // whole and blended impostors.
     BranchPrograms blending_branches;
     ProgramObject blending_impostor_depth;
-    // The depth passes of frames with one sample per pixel.
+    // Programs that draw depths, for frames with one sample per pixel.
     ProgramObject one_sample_impostor_depth;
     ProgramObject one_sample_blending_impostor_depth;
     ProgramObject impostor;
     ProgramObject impostor_shadow;
-    // Casters of the shadow maps near the eye; from Quality::Medium on.
+    // Draws casters into the shadow maps near the eye; from Quality::Medium on.
     ProgramObject caster;
     ProgramObject cut_out_caster;
 };
 
-/// Programs that write kind and index of the part that a pixel shows: shaders/pick.frag.glsl.
+/// Programs that write kind and index of the part that each pixel shows: shaders/pick.frag.glsl.
 struct ForestPickPrograms {
     ProgramObject branch; // all classes but cut-out leaves
     ProgramObject cut_out;
@@ -43,11 +44,11 @@ struct ForestPickPrograms {
     ProgramObject blending_impostor;
 };
 
-/// `windy` and errors: as for make_forest_programs().
+/// `windy` and errors: as in make_forest_programs().
 [[nodiscard]] Result<ForestPickPrograms>
 make_pick_programs(Device& device, const ShaderSource& shaders, bool windy);
 
-/// `windy`: trees sway; a variant without wind is faster. Error: a shader does not compile.
+/// `windy`: whether trees sway; programs without wind are faster. Error: a shader does not compile.
 [[nodiscard]] Result<ForestPrograms>
 make_forest_programs(Device& device, const ShaderSource& shaders, bool windy);
 

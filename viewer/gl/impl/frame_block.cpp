@@ -19,7 +19,7 @@ FrameBlock make_frame_block(const Frame& frame,
     const auto height = static_cast<float>(frame.height);
     const auto part_width = static_cast<float>(area.width);
     const auto part_height = static_cast<float>(area.height);
-    // Scale the area to clip space.
+    // Scales the area to the whole clip space.
     glm::mat4 part(1.0F);
     part[0][0] = width / part_width;
     part[1][1] = height / part_height;
@@ -56,7 +56,7 @@ glm::mat4 shadow_matrix(const Bounds& bounds, const glm::vec3& to_sun, std::uint
     const float texel = 2.0F * radius / static_cast<float>(texels);
     at.x = std::round(at.x / texel) * texel;
     at.y = std::round(at.y / texel) * texel;
-    // Depth 0 at one radius before the centre, 1 at one radius behind it.
+    // Depth is 0 at one radius before the centre and 1 at one radius behind it.
     glm::mat4 matrix(0.0F);
     matrix[0][0] = 1.0F / radius;
     matrix[1][1] = 1.0F / radius;

@@ -29,14 +29,16 @@ struct FrameBlock {
 };
 static_assert(sizeof(FrameBlock) == 5 * 64 + 10 * 16);
 
-/// Uniforms of the part of a picture within `area`. `shadow_texels`: side of the shadow map.
+/// Uniforms for the part of a picture within `area`. `shadow_texels`: texels along a side of the
+/// shadow map.
 [[nodiscard]] FrameBlock make_frame_block(const Frame& frame,
                                           const PixelArea& area,
                                           const glm::mat4& shadow_from_world,
                                           std::uint32_t shadow_texels);
 
-/// Shadow map matrix of a box for light from `to_sun`; depth 0 is nearest to the sun. `texels`:
-/// side of the map; the matrix moves in whole texels, so that shadows do not shimmer.
+/// Matrix of the shadow map of a box, for light from `to_sun`; depth 0 is nearest to the sun.
+/// `texels`: texels along a side of the map; the matrix moves by whole texels, so that shadows do
+/// not shimmer.
 [[nodiscard]] glm::mat4
 shadow_matrix(const Bounds& bounds, const glm::vec3& to_sun, std::uint32_t texels);
 

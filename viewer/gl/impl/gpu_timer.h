@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// GpuTimer: time that the device takes for a span of commands, by timer queries. Results arrive
-// some pictures later, unless the device has finished.
+// GpuTimer: measures by timer queries how long the device takes for a span of commands. Results
+// arrive some pictures later, unless the device has finished already.
 #pragma once
 
 #include "viewer/gl/impl/objects.h"
@@ -20,7 +20,7 @@ public:
 
     void begin();
     void end();
-    /// Milliseconds of the last span with a result; does not wait. 0: none.
+    /// Milliseconds of the last span whose result has arrived; 0: none has. Does not wait.
     [[nodiscard]] double milliseconds();
 
 private:

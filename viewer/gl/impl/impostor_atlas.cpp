@@ -23,18 +23,19 @@ namespace {
 constexpr std::uint32_t kSupersampling = 2; // along a side
 constexpr std::uint32_t kWidth = ImpostorAtlas::kYaws * ImpostorAtlas::kTile;
 constexpr std::uint32_t kHeight = ImpostorAtlas::kElevations * ImpostorAtlas::kTile;
-constexpr GLsizei kLevels = 6; // mip levels; tiles of the last have 4 texels a side
+constexpr GLsizei kLevels = 6; // mip levels; tiles of the last have sides of 4 texels
 constexpr std::array<float, ImpostorAtlas::kElevations> kElevationAngles = {0.0F, 0.6108652F,
                                                                             1.3089969F};
-/// Margin of opaque_box() in texels: the opaque texels of coarse mip levels reach beyond those of
-/// fine levels.
+/// Margin of opaque_box() in texels, because opaque texels of coarse mip levels extend beyond those
+/// of fine levels.
 constexpr float kBoxMargin = 2.5F;
 constexpr GLint kCentre = 2;
 constexpr GLint kToEye = 3;
 constexpr GLint kRight = 4;
 constexpr GLint kUp = 5;
 
-/// The cylinder of the form to which `layer` belongs; the layers of a form are contiguous.
+/// The cylinder of the form to which the layer `layer` belongs; the layers of a form are
+/// consecutive.
 const Cylinder& cylinder_of(const ImpostorPlan& plan, std::uint32_t layer) {
     return std::find_if(plan.forms.rbegin(), plan.forms.rend(),
                         [layer](const ImpostorForm& each) { return each.first_layer <= layer; })
@@ -54,7 +55,7 @@ void copy_layer(const TextureObject& from,
     }
 }
 
-/// Hash of the visible contents of a layer; never 0.
+/// Hash of all that a layer shows; never 0.
 std::uint64_t key_of(const ImpostorLayer& impostor,
                      const Cylinder& cylinder,
                      const ForestModel& model,
@@ -76,7 +77,7 @@ std::uint64_t key_of(const ImpostorLayer& impostor,
     return key | 1U;
 }
 
-/// Draw lists of the branches of a layer.
+/// Draw lists with the branches that a layer shows.
 DrawLists lists_of(const TreeForm& form,
                    std::uint32_t form_index,
                    std::uint32_t level,
@@ -128,7 +129,7 @@ void ImpostorAtlas::find_missing() {
             pending_.push_back(layer);
         }
     }
-    // First bake one layer of each form that has no picture yet.
+    // Bakes first one layer of each form that has no picture yet.
     const auto waits = [this](std::uint32_t layer) {
         for (std::uint32_t other = 0; other < layers_; ++other) {
             const bool is_earlier = other < layer && keys_[other] != target_keys_[other];
@@ -251,7 +252,7 @@ glm::vec3 ImpostorAtlas::mean_colour_from_above(std::span<const float> parts) co
     for (std::size_t layer = 0; layer < plan_.layers.size(); ++layer) {
         const ImpostorLayer& impostor = plan_.layers[layer];
         if (impostor.trees.size() != 1) {
-            continue; // a cluster
+            continue; // a form of a cluster, which does not count
         }
         const auto part = static_cast<double>(parts[impostor.form]);
         for (std::size_t texel = kFirstRow * kRow; texel < kRows * kRow; ++texel) {
@@ -332,7 +333,7 @@ void ImpostorAtlas::begin(const ForestModel& model,
 ImpostorAtlas::BakeState ImpostorAtlas::make_bake_state() const {
     BakeState bake;
     const auto width = static_cast<GLsizei>(kWidth * kSupersampling);
-    const auto height = static_cast<GLsizei>(kTile * kSupersampling); // one elevation
+    const auto height = static_cast<GLsizei>(kTile * kSupersampling); // of one elevation
     bake.target = make_framebuffer(*device_);
     constexpr std::array<GLenum, 3> kFormats = {GL_RGBA8, GL_RGBA8, GL_DEPTH_COMPONENT32F};
     constexpr std::array<GLenum, 3> kPoints = {GL_COLOR_ATTACHMENT0, GL_COLOR_ATTACHMENT1,

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// ImpostorAtlas: texture array of impostors. A layer for each impostor of a form, with tiles for
-// kYaws directions at kElevations elevations; shaders/impostor.glsl has the same numbers.
+// ImpostorAtlas: the texture array of impostors. Each impostor of a form has a layer, with tiles
+// for kYaws directions at kElevations elevations; shaders/impostor.glsl has the same numbers.
 #pragma once
 
 #include "grammar/base/result.h"
@@ -31,33 +31,36 @@ public:
 
     /// Recompiles the shaders; impostors stay until they are baked again.
     [[nodiscard]] Result<void> reload(const ShaderSource& shaders);
-    /// Starts a new plan. Unchanged layers are kept and not baked again; new layers are empty until
-    /// they or others of their form are baked. The first missing layer of each form is baked first.
+    /// Starts a new plan. Unchanged layers stay and are not baked again; new layers are empty until
+    /// they or other layers of their form are baked. The first missing layer of each form is baked
+    /// first.
     void begin(const ForestModel& model, ImpostorPlan plan, const ForestBuffers& buffers);
     [[nodiscard]] bool is_done() const { return pending_.empty(); }
-    /// Whether each layer has a picture: its own, or until then another one of its form.
+    /// Whether each layer has a picture: its own or, until this is baked, that of another layer of
+    /// its form.
     [[nodiscard]] bool is_filled() const;
-    /// Bakes one elevation of one missing layer. Changes bound programs, textures, framebuffer.
+    /// Bakes one elevation of one missing layer. Changes the bound programs, textures and
+    /// framebuffer.
     void step(const ForestModel& model, ForestBuffers& buffers, MaterialTextures& textures);
 
     [[nodiscard]] GLuint albedos() const { return albedos_.name(); }
     [[nodiscard]] GLuint normals() const { return normals_.name(); }
-    /// Buffer of opaque_box() of each tile, by layer, elevation and yaw.
+    /// Name of the buffer that has opaque_box() of each tile, by layer, elevation and yaw.
     [[nodiscard]] GLuint boxes() const { return box_buffer_.name(); }
-    /// Mean colour, linear RGB, of trees seen from above. `parts`: weight of each form. Precondition:
-    /// is_done().
+    /// Mean colour (linear RGB) of trees seen from above. `parts`: weight of each form.
+    /// Precondition: is_done().
     [[nodiscard]] glm::vec3 mean_colour_from_above(std::span<const float> parts) const;
     [[nodiscard]] std::uint64_t texture_bytes() const { return texture_bytes_; }
     [[nodiscard]] std::uint32_t layers() const { return layers_; }
 
 private:
-    /// Targets of baking; kept while layers are missing.
+    /// Textures and framebuffers for baking; they exist while layers are missing.
     struct BakeState {
         Framebuffer target;
         std::array<Renderbuffer, 3> storage; // albedos, normals, depths
         Buffer frame;
         ImpostorTexels row;      // one elevation, supersampled
-        ImpostorTexels finished; // elevations of the layer
+        ImpostorTexels finished; // the baked elevations of the layer
         std::uint32_t elevation = 0;
     };
 
@@ -66,7 +69,7 @@ private:
     void find_missing();
     void make_layers(const std::vector<std::uint64_t>& keys);
     [[nodiscard]] BakeState make_bake_state() const;
-    /// Sets up meshes and commands of a layer.
+    /// Sets up meshes and draw commands for a layer.
     void begin_layer(std::uint32_t layer, const ForestModel& model, ForestBuffers& buffers) const;
     /// Draws the tiles of one elevation.
     void draw_elevation(const Cylinder& form,
@@ -76,9 +79,9 @@ private:
                         Buffer& frame) const;
     void upload_layer(std::uint32_t layer, ImpostorTexels picture);
     void find_boxes(std::uint32_t layer, std::span<const std::uint8_t> albedos);
-    /// Copies a baked layer to the empty layers of its form.
+    /// Copies a baked layer to the layers of its form that are empty.
     void stand_in(std::uint32_t layer);
-    /// Whether two layers show trees of one form, or clusters of one form.
+    /// Whether two layers show trees of the same form, or clusters of the same form.
     [[nodiscard]] bool are_alike(std::uint32_t a, std::uint32_t b) const;
 
     Device* device_;
@@ -89,10 +92,10 @@ private:
     std::vector<LayerBoxes> boxes_; // by layer
     Buffer box_buffer_;
     ImpostorPlan plan_;
-    std::vector<std::uint64_t> keys_;        // hash of the contents of each layer; 0: empty
-    std::vector<std::uint64_t> target_keys_; // hash of the wanted contents
+    std::vector<std::uint64_t> keys_;        // by layer: hash of what it shows; 0: empty
+    std::vector<std::uint64_t> target_keys_; // by layer: hash of what it shall show
     std::vector<std::uint8_t> filled_;       // by layer: whether it has a picture
-    std::vector<std::uint32_t> pending_;     // layers to bake, the next one last
+    std::vector<std::uint32_t> pending_;     // layers to bake; the next is last
     std::optional<BakeState> bake_;
     std::uint32_t layers_ = 0;
     std::uint64_t texture_bytes_ = 0;

@@ -33,7 +33,7 @@ void LineSet::upload(std::span<const LineVertex> lines) {
 std::uint64_t LineSet::draw() const {
     glBindVertexArray(array_.name());
     std::uint64_t draws = 0;
-    // A draw call has at most 31 bits for its count of vertices; each draws whole lines.
+    // The vertex count of a draw call has at most 31 bits; each call must draw whole lines.
     constexpr std::uint64_t kMax = std::numeric_limits<GLsizei>::max() - 1;
     for (std::uint64_t first = 0; first < count_; first += kMax) {
         glDrawArrays(GL_LINES, static_cast<GLint>(first),

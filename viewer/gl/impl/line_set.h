@@ -15,7 +15,7 @@ public:
     explicit LineSet(Device& device);
 
     void upload(std::span<const LineVertex> lines);
-    /// Draws with the bound program of shaders/line; returns the count of draw calls.
+    /// Draws with the bound program of shaders/line. Returns the number of draw calls.
     std::uint64_t draw() const;
 
     [[nodiscard]] const Bounds& bounds() const { return bounds_; }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// MappedBuffer: a buffer that stays mapped into the memory of the process, in parts that are used in
-// turn, so that neither the process nor the device waits for the other.
+// MappedBuffer: a buffer that stays mapped into the memory of the process. It has several parts
+// that are used in turn, so that neither the process nor the device waits for the other.
 #pragma once
 
 #include "viewer/gl/impl/objects.h"
@@ -24,16 +24,16 @@ public:
     MappedBuffer& operator=(const MappedBuffer&) = delete;
 
     [[nodiscard]] GLuint name() const { return object_.name(); }
-    /// Begins the next part; waits until the device has finished with it.
+    /// Makes the next part the current part; waits until the device has finished with it.
     void begin();
-    /// Call after the commands that use the current part.
+    /// Call it after the commands that use the current part.
     void end();
     /// Offset of the current part in bytes.
     [[nodiscard]] GLintptr offset() const { return static_cast<GLintptr>(part_ * part_bytes_); }
     /// Memory of the current part. Precondition: begin() was called.
     [[nodiscard]] std::byte* data() const { return memory_ + part_ * part_bytes_; }
-    /// Memory of the last part with which the device has finished, without waiting; null: there is
-    /// none.
+    /// Memory of the last part with which the device has finished; null: there is none. Does not
+    /// wait.
     [[nodiscard]] const std::byte* last_finished() const;
 
 private:
@@ -43,7 +43,7 @@ private:
     Object<BufferKind> object_;
     std::byte* memory_ = nullptr;
     std::size_t part_ = 0;
-    std::array<GLsync, kParts> fences_{}; // null: the part was not used
+    std::array<GLsync, kParts> fences_{}; // null: the part has not been used
 };
 
 } // namespace lsys::view

@@ -14,7 +14,7 @@ namespace {
 
 constexpr float kOpaque = 0.5F; // min opacity of opaque texels
 
-/// Fraction of opaque texels after scaling opacities by `factor`.
+/// Fraction of texels that are opaque after their opacities are scaled by `factor`.
 double coverage(const std::vector<std::uint8_t>& texels, float factor) {
     std::size_t opaque_count = 0;
     for (std::size_t i = 3; i < texels.size(); i += 4) {
@@ -23,7 +23,7 @@ double coverage(const std::vector<std::uint8_t>& texels, float factor) {
     return 4.0 * static_cast<double>(opaque_count) / static_cast<double>(texels.size());
 }
 
-/// Next mip level; colours are weighted by opacity.
+/// The next mip level; colours are means weighted by opacity.
 Texture halved(const Texture& texture) {
     Texture half;
     half.width = std::max(texture.width / 2, 1U);
@@ -57,8 +57,8 @@ Texture halved(const Texture& texture) {
     return half;
 }
 
-/// Scales opacities to the coverage `wanted`; otherwise leaves vanish with distance (Castano 2010,
-/// "Computing Alpha Mipmaps").
+/// Scales opacities so that the fraction `wanted` of the texels is opaque; otherwise leaves would
+/// vanish at a distance (Castano 2010, "Computing Alpha Mipmaps").
 void keep_coverage(Texture& texture, double wanted) {
     float low = 0.25F;
     float high = 8.0F;

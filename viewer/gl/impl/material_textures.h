@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// MaterialTextures: textures of runtime/meshing/texture.h on the device, made on first use.
+// MaterialTextures: the textures of runtime/meshing/texture.h on the device, each made on first
+// use.
 #pragma once
 
 #include "runtime/meshing/texture.h"
@@ -9,8 +10,8 @@
 
 namespace lsys::view {
 
-/// Part of the light from behind that passes through, in 1/256. `is_thin`: if the material sets no
-/// translucency, half of the light passes.
+/// Fraction, in 1/256, of the light from behind that passes through a material. `is_thin`: half of
+/// the light passes if the material sets no translucency.
 [[nodiscard]] int translucency_step(const Material& material, bool is_thin);
 
 class MaterialTextures {
@@ -20,12 +21,12 @@ public:
     /// Colour texture of a kind of material. Precondition: has_texture(kind).
     [[nodiscard]] GLuint base_colour(MaterialKind kind);
     [[nodiscard]] GLuint bark_normals();
-    /// Texture of a picture file. If it has transparent texels, all mip levels have the same
-    /// fraction of opaque texels.
+    /// Makes the texture of a picture file. If the picture has transparent texels, all mip levels
+    /// have the same fraction of opaque texels.
     [[nodiscard]] TextureObject make(const Texture& picture) const;
-    /// Texture of a picture file without its opacity: all texels are opaque.
+    /// Makes the texture of a picture file without its opacity: all texels are opaque.
     [[nodiscard]] TextureObject make_opaque(const Texture& picture) const;
-    /// Texture of a picture file of normals.
+    /// Makes the texture of a normal map from a file.
     [[nodiscard]] TextureObject make_normals(const Texture& picture) const;
 
 private:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Owners of OpenGL objects. Each is counted by its Device. Move only.
+// Owners of OpenGL objects, which their Device counts. Move only.
 #pragma once
 
 #include "viewer/gl/impl/device.h"
@@ -94,9 +94,9 @@ using ProgramObject = Object<ProgramKind>;
     return {device, name};
 }
 
-/// A buffer on the device. Filling replaces its object instead of overwriting the contents, so bind
-/// it afterwards: NVIDIA drivers (580) execute two writes of one range in the wrong order when no
-/// draw call reads the range between them.
+/// A buffer on the device. fill() replaces the OpenGL object instead of overwriting its contents,
+/// so bind the buffer afterwards: NVIDIA drivers (580) execute two writes of one range in the wrong
+/// order if no draw call reads the range between them.
 class Buffer {
 public:
     Buffer() = default;
@@ -105,9 +105,9 @@ public:
     [[nodiscard]] GLuint name() const { return object_.name(); }
     [[nodiscard]] std::size_t capacity() const { return capacity_; }
 
-    /// Replaces the object by one with room for `bytes`, to be filled by write().
+    /// Replaces the object by one with room for `bytes` bytes, to be filled by write().
     void allocate(std::size_t bytes) { replace(bytes, nullptr); }
-    /// Ensures room for `bytes`; keeps the contents.
+    /// Ensures room for `bytes` bytes; keeps the contents.
     void grow(std::size_t bytes) {
         if (bytes <= capacity_ && object_) {
             return;
@@ -119,7 +119,8 @@ public:
             glCopyNamedBufferSubData(before.name(), name(), 0, 0, static_cast<GLsizeiptr>(held));
         }
     }
-    /// Writes a range. Precondition: a draw call has read the range since its last write, if any.
+    /// Writes a range. Precondition: if the range was written before, a draw call has read it
+    /// since.
     template <typename T>
     void write(std::span<const T> items, std::size_t offset_bytes = 0) {
         if (items.empty()) {
@@ -129,7 +130,7 @@ public:
                              static_cast<GLsizeiptr>(items.size_bytes()), items.data());
         device_->add_upload(items.size_bytes());
     }
-    /// Replaces the object by one with these contents.
+    /// Replaces the object by one that contains `items`.
     template <typename T>
     void fill(std::span<const T> items) {
         replace(items.size_bytes(), items.empty() ? nullptr : items.data());

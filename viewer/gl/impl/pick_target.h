@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// PickTarget: offscreen framebuffer of one pixel, which holds kind and index of the part that the
-// pixel shows, instead of a colour.
+// PickTarget: an offscreen framebuffer of one pixel. Instead of a colour, the pixel has kind and
+// index of the part that it shows.
 #pragma once
 
 #include "viewer/gl/impl/objects.h"
@@ -11,7 +11,7 @@ namespace lsys::view {
 
 class PickTarget {
 public:
-    /// Values written by shaders/pick.frag.glsl; all 0 if nothing was drawn.
+    /// Values that shaders/pick.frag.glsl writes; all are 0 if nothing was drawn.
     struct Content {
         std::uint32_t kind = 0;  // PickedKind
         std::uint32_t index = 0; // of the triangle, tree, cluster or branch; see PickedKind
@@ -20,7 +20,7 @@ public:
 
     explicit PickTarget(Device& device);
 
-    /// Binds and clears.
+    /// Binds the framebuffer and clears it.
     void begin() const;
     [[nodiscard]] Content read() const;
 

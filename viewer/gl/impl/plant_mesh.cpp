@@ -14,7 +14,7 @@ struct Attribute {
     GLint floats;
 };
 constexpr std::array<Attribute, 4> kAttributes = {{{0, 3}, {1, 3}, {2, 2}, {3, 4}}};
-// Uniforms and bindings of mesh.frag.glsl.
+// Locations of uniforms, and binding points, in mesh.frag.glsl.
 constexpr GLint kColour = 0;
 constexpr GLint kKind = 1;
 constexpr GLint kFirstTriangle = 2; // in pick.frag.glsl
@@ -99,7 +99,7 @@ std::uint64_t PlantMesh::draw(MaterialTextures& textures, Pass pass) const {
                               normal_map ? normal_map.name() : textures.bark_normals());
         }
         (material.two_sided ? glDisable : glEnable)(GL_CULL_FACE);
-        // A draw call has at most 31 bits for its count of indices; each draws whole triangles.
+        // The index count of a draw call has at most 31 bits; each call must draw whole triangles.
         constexpr std::uint64_t kMax = std::numeric_limits<GLsizei>::max() / 3 * std::uint64_t{3};
         for (std::uint64_t first = 0; first < part.index_count; first += kMax) {
             const std::uint64_t count = std::min(part.index_count - first, kMax);

@@ -15,10 +15,10 @@ class PlantMesh {
 public:
     explicit PlantMesh(Device& device);
 
-    /// Reuses buffers that are large enough.
+    /// Uploads a mesh; reuses buffers that are large enough.
     void upload(const Mesh& mesh, const MaterialTextures& textures);
     enum class Pass : std::uint8_t { Colour, Shadow, Pick };
-    /// Draws with the bound program of shaders/mesh, shadow or pick; returns the count of draw
+    /// Draws with the bound program of shaders/mesh, shadow or pick. Returns the number of draw
     /// calls.
     std::uint64_t draw(MaterialTextures& textures, Pass pass) const;
 

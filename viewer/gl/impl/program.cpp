@@ -17,10 +17,10 @@ namespace {
 
 struct Assembly {
     std::string text;
-    std::vector<std::string> files; // index: the number in `#line`
+    std::vector<std::string> files; // its index is the file number in `#line`
 };
 
-/// Appends a file and its includes, each once, to `assembly`.
+/// Appends a file and the files that it includes to `assembly`, each once.
 Result<void> assemble(const ShaderSource& source, std::string_view name, Assembly& assembly) {
     if (std::find(assembly.files.begin(), assembly.files.end(), name) != assembly.files.end()) {
         return {};

@@ -13,7 +13,7 @@
 namespace lsys::view {
 
 /// Makes a program of a vertex and a fragment shader. `defines`: lines of `#define`, inserted
-/// before their texts.
+/// before the text of each shader.
 [[nodiscard]] Result<ProgramObject> make_program(Device& device,
                                                  const ShaderSource& source,
                                                  std::string_view vertex,

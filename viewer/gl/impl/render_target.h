@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// RenderTarget: offscreen framebuffer of a picture.
+// RenderTarget: the offscreen framebuffer of a picture.
 #pragma once
 
 #include "viewer/gl/impl/objects.h"
@@ -14,16 +14,17 @@ class RenderTarget {
 public:
     explicit RenderTarget(Device& device) : device_(&device) {}
 
-    /// Resizes if needed, binds and clears colour and depth.
+    /// Resizes the framebuffer if needed, binds it, and clears colour and depth.
     void begin(std::uint32_t width, std::uint32_t height, std::uint32_t samples);
-    /// Resolves samples; required before the functions below.
+    /// Resolves the samples of the last picture; required before the functions below.
     void resolve();
-    /// Mixes the picture into a mean, with a weight up to 1, which begins a new mean. `copy`: program
-    /// of shaders/copy; an empty vertex array must be bound. Changes the bound framebuffer.
+    /// Mixes the last picture into a mean with weight `weight`, up to 1; 1 begins a new mean.
+    /// `copy`: program of shaders/copy; an empty vertex array must be bound. Changes the bound
+    /// framebuffer.
     void accumulate(const ProgramObject& copy, float weight);
-    /// Reads the last picture, or with `mean` the mean: rows from top to bottom, RGBA.
+    /// Reads the last picture or, with `mean`, the mean: RGBA, rows from top to bottom.
     void read(std::vector<std::uint8_t>& pixels, bool mean) const;
-    /// Copies the last picture, or with `mean` the mean, to a part of the window's framebuffer.
+    /// Copies the last picture or, with `mean`, the mean to a part of the window's framebuffer.
     void present(const PixelArea& area, bool mean) const;
 
 private:
@@ -40,7 +41,7 @@ private:
     Framebuffer drawn_;
     Renderbuffer resolved_colour_;
     Framebuffer resolved_;
-    TextureObject last_; // copy of the last picture; made when first needed, like the mean
+    TextureObject last_; // copy of the last picture; made, like the mean, when first needed
     Renderbuffer mean_colour_;
     Framebuffer mean_;
 };

@@ -10,7 +10,7 @@ namespace lsys::view {
 
 namespace {
 
-// Uniform locations of sense.*.glsl.
+// Locations of uniforms in sense.*.glsl.
 constexpr GLint kDiameter = 0;
 constexpr GLint kPrimitive = 1;
 
@@ -52,7 +52,7 @@ void SensePass::draw(FrameStats& stats) const {
     glEnable(GL_PROGRAM_POINT_SIZE);
     // Colours are multiplied by their alpha.
     glBlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
-    // A multiple of 6, so that each draw call has whole triangles and lines.
+    // A multiple of 6, so that each draw call draws whole triangles and lines.
     constexpr std::size_t kMax = std::numeric_limits<GLsizei>::max() / 6 * 6;
     for (const SenseGroup& group : groups_) {
         const bool is_surface = group.primitive == SensePrimitive::Triangles;

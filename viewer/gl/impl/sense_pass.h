@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// SensePass: draws what a plant senses (SenseDrawing).
+// SensePass: draws the SenseDrawing of a plant.
 #pragma once
 
 #include "viewer/gl/impl/objects.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Compiler logs of shaders assembled from several files.
+// Replaces file numbers in compiler logs of shaders that consist of several files.
 #pragma once
 
 #include <span>

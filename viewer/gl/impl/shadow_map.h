@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// ShadowMap: depth texture seen from the sun, reused until its contents change.
+// ShadowMap: depth texture seen from the sun; it is drawn again only when its contents change.
 #pragma once
 
 #include "viewer/gl/impl/objects.h"
@@ -17,7 +17,7 @@ public:
     [[nodiscard]] std::uint32_t texels() const { return texels_; }
     [[nodiscard]] GLuint texture() const { return depth_.name(); }
 
-    /// Whether the map must be redrawn for `matrix`.
+    /// Whether the map must be drawn again to show the view of `matrix`.
     [[nodiscard]] bool is_stale(const glm::mat4& matrix) const {
         return stale_ || matrix != matrix_;
     }

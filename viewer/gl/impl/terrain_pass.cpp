@@ -15,7 +15,7 @@ namespace lsys::view {
 
 namespace {
 
-// Uniforms and bindings of terrain.*.glsl.
+// Locations of uniforms, and binding points, in terrain.*.glsl.
 constexpr GLuint kHeights = 1;
 constexpr GLuint kNoise = 2;
 constexpr GLint kOrigins = 0;
@@ -32,11 +32,11 @@ constexpr GLint kNoiseShifts = 21; // 3 locations
 constexpr GLint kCanopy = 24;
 constexpr GLint kCanopyRange = 25;
 constexpr std::array<double, 3> kNoiseTiles = {173.0, 37.0, 3.1}; // m, in ground_look.glsl
-constexpr double kWidestTile = 611.0;                             // m, of the turned tile
+constexpr double kWidestTile = 611.0;                             // m, of the rotated tile
 constexpr std::uint32_t kNoiseTexels = 128;
 constexpr GLsizei kPatchIndices = 6 * kPatchCells * kPatchCells;
 
-/// Tileable value noise, 0 to 1, in octaves.
+/// Tileable value noise, 0 to 1: a sum of octaves.
 float noise_at(std::uint32_t x, std::uint32_t y, std::uint32_t channel) {
     float sum = 0.0F;
     float weight = 0.0F;
@@ -60,7 +60,7 @@ float noise_at(std::uint32_t x, std::uint32_t y, std::uint32_t channel) {
         weight += part;
         part *= 0.6F;
     }
-    // Raise the contrast: sums cluster around the mean.
+    // Raises the contrast, because sums of octaves are mostly near the mean.
     return std::clamp(0.5F + 1.6F * (sum / weight - 0.5F), 0.0F, 1.0F);
 }
 
@@ -224,7 +224,7 @@ void TerrainPass::set_noise() const {
 }
 
 void TerrainPass::draw_grass(FrameStats& stats) const {
-    // Uniforms of grass.vert.glsl.
+    // Locations of uniforms in grass.vert.glsl.
     constexpr GLint kHeightsOrigin = 0;
     constexpr GLint kLattice = 1;
     constexpr GLint kSides = 2;
@@ -239,7 +239,7 @@ void TerrainPass::draw_grass(FrameStats& stats) const {
     const auto cell_of = [&](double place) {
         return static_cast<GLint>(std::floor(place / kCell));
     };
-    const auto lattice_of = [&](double place) { // modulo 2^32, as the shader adds numbers of cells
+    const auto lattice_of = [&](double place) { // modulo 2^32, as in the shader
         return static_cast<GLint>(
             static_cast<std::uint32_t>(static_cast<std::int64_t>(std::round(place / kCell))));
     };
@@ -263,7 +263,8 @@ FrameStats TerrainPass::draw() {
     const ProgramObject& program = programs_[(colour_ ? 1U : 0U) + (has_canopy ? 2U : 0U)];
     glUseProgram(program.name());
     if (colour_) {
-        // A corner of a tile near the origin: binary32 is too coarse for far coordinates.
+        // Corner of a tile near the origin, because binary32 is too coarse for coordinates far from
+        // it.
         const auto corner = [](double first, double origin, double size) {
             return static_cast<float>(origin == 0.0 ? first : std::fmod(first - origin, size));
         };
@@ -278,7 +279,7 @@ FrameStats TerrainPass::draw() {
         set_noise();
     }
     if (has_canopy) {
-        // The colour of the canopy begins before the trees end, so that no border is visible.
+        // The colour of the canopy appears before the trees end, so that no border is visible.
         constexpr float kBegin = 0.45F;
         constexpr float kEnd = 0.95F;
         glUniform3f(kCanopy, canopy_.r, canopy_.g, canopy_.b);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// TerrainPass: draws the ground of a forest with a texture of heights around the camera and one
-// small grid, drawn once per patch of a TerrainLod.
+// TerrainPass: draws the ground of a forest with a texture of heights around the camera, and one
+// small grid that is drawn once per patch of a TerrainLod.
 #pragma once
 
 #include "grammar/base/result.h"
@@ -19,19 +19,19 @@ class TerrainPass {
 public:
     explicit TerrainPass(Device& device);
 
-    /// Error: a shader does not compile; the old one stays in use.
+    /// Error: a shader does not compile; the old shader stays in use.
     [[nodiscard]] Result<void> reload(const ShaderSource& shaders);
     /// Replaces the ground. `cover` may be empty. `terrain` must live until the next call or the
-    /// end of the pass. Pictures that are shown already are not uploaded again.
+    /// end of the pass. Pictures that are already shown are not uploaded again.
     void show(const Terrain& terrain,
               const GroundPictures& pictures,
               float view_distance,
               GroundCover cover,
               const MaterialTextures& textures);
-    /// Sets the place of the world to which cameras are relative: TerrainLod::set_origin().
+    /// Sets the place in the world to which cameras are relative, as TerrainLod::set_origin() does.
     void set_origin(const glm::dvec3& origin);
-    /// Selects patches for a camera and uploads new heights. Beyond `tree_range`, m, the ground has
-    /// the colour of the canopy where it has cover; infinity: nowhere.
+    /// Selects patches for a camera and uploads new heights. Ground with cover that is farther away
+    /// than `tree_range` (m) gets the colour of the canopy; infinity: no ground does.
     void prepare(const Frustum& frustum, float tree_range);
     /// Sets the colour of the canopy, linear RGB.
     void set_canopy(const glm::vec3& colour) { canopy_ = colour; }
@@ -41,10 +41,10 @@ public:
     FrameStats draw_with(const ProgramObject& program);
 
     [[nodiscard]] const TerrainLod* lod() const { return lod_.get(); }
-    /// Texture of heights, a layer per level of lod().
+    /// Name of the texture of heights; it has a layer for each level of lod().
     [[nodiscard]] GLuint heights() const { return heights_.name(); }
     [[nodiscard]] std::uint64_t texture_bytes() const;
-    /// Heights of a level read back from the device, in rows.
+    /// Heights of a level, read back from the device row by row.
     [[nodiscard]] std::vector<float> read_heights(std::uint32_t level) const;
 
 private:
@@ -53,14 +53,15 @@ private:
 
     Device* device_;
     std::unique_ptr<TerrainLod> lod_;
-    /// The ground: with pictures at odd indices, with a canopy from index 2 on.
+    /// Programs of the ground: those with odd indices use pictures, those from index 2 on draw a
+    /// canopy.
     std::array<ProgramObject, 4> programs_;
     ProgramObject grass_program_; // from QUALITY 1 on
     glm::vec3 eye_{0.0F};         // eye for which patches were selected
     GroundPictures pictures_;
     TextureObject colour_;
     TextureObject normals_;
-    glm::vec3 mean_{0.0F}; // linear RGB, mean of the colour picture
+    glm::vec3 mean_{0.0F}; // linear RGB, mean of the ground's colour picture
     TextureObject heights_;
     TextureObject covers_; // empty without cover
     glm::vec3 canopy_{0.0F};

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Replaces dlclose(), so that programs with sanitizers keep all libraries loaded. Sanitizers cannot
-// name functions of an unloaded driver, and count memory that its variables point to as leaked.
+// Replaces dlclose() in programs with sanitizers, so that all libraries stay loaded. Sanitizers
+// cannot name functions of a driver that was unloaded, and report memory as leaked to which only
+// variables of that driver point.
 
 extern "C" __attribute__((visibility("default"))) int dlclose(void* /*library*/) noexcept {
     return 0;
