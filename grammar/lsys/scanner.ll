@@ -9,6 +9,7 @@
 %option prefix="lsys_yy" extra-type="lsys::ParseSession*"
 
 %{
+#include "grammar/base/scanner_memory.h"
 #include "grammar/lsys/impl/expression_tokens.h"
 #include "grammar/lsys/impl/lookahead.h"
 #include "grammar/lsys/impl/module_tokens.h"
@@ -624,8 +625,9 @@ CONTROL [\x01-\x08\x0B\x0C\x0E-\x1F\x7F]
 namespace lsys::lsys_grammar {
 
 Scanning::Scanning(ParseSession& session) {
-    const int failed = lsys_yylex_init_extra(&session, &scanner_);
-    LSYS_CHECK(failed == 0);
+    if (lsys_yylex_init_extra(&session, &scanner_) != 0) {
+        throw std::bad_alloc();
+    }
     const std::string_view text = session.scanned.text;
     lsys_yy_scan_bytes(text.data(), static_cast<int>(text.size()), scanner_);
 }

@@ -19,6 +19,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <new>
 #include <optional>
 #include <string>
 #include <vector>
@@ -192,7 +193,7 @@ nlohmann::ordered_json json_size(const GenerationSize& size) {
 }
 
 /// The height of the plant in m; nothing if the plant has too many modules, drawing fails or
-/// nothing is visible. Folds the bytecode of the grammar (fold_modules()).
+/// nothing is visible. Folds the bytecode of the grammar (fold_modules()). Throws std::bad_alloc.
 std::optional<double> find_height(const StatsCommand& command,
                                   const Count& modules,
                                   Grammar& grammar,
@@ -206,6 +207,9 @@ std::optional<double> find_height(const StatsCommand& command,
     options.generations = command.grammar.generations;
     options.height = command.height;
     const Outcome<Plant> plant = grow_plant(options, grammar, make_project(console, command.run));
+    if (!plant && plant.stop() == Stop::OutOfMemory) {
+        throw std::bad_alloc();
+    }
     if (!plant || bounds_of(plant.value().skeleton).empty) {
         return std::nullopt;
     }

@@ -4,6 +4,7 @@
 #include "grammar/base/counted_text.h"
 #include "grammar/base/paths.h"
 #include "runtime/base/size_text.h"
+#include "runtime/platform/file.h"
 #include "runtime/program/files.h"
 
 #include <fmt/format.h>
@@ -95,6 +96,10 @@ void TilesetFolder::make() {
 }
 
 void TilesetFolder::write(std::uint64_t number) {
+    if (number == root() && !is_stopped()) {
+        // The root shows that the tileset is complete, also after a power failure.
+        platform::store_file_system(command_.output);
+    }
     const auto section = std::find_if(sections_.begin(), sections_.end(),
                                       [number](const Section& each) { return number < each.end; });
     const std::uint64_t index =
@@ -143,7 +148,8 @@ void TilesetFolder::write_file_at(const std::string& path, const Make& make) {
     if (is_stopped_) {
         return;
     }
-    if (const Result<void> written = lsys::write_file(whole, bytes, console_); !written) {
+    if (const Result<void> written = lsys::write_file(whole, bytes, console_, Storing::BySystem);
+        !written) {
         stop(written.error());
         return;
     }

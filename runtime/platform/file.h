@@ -81,6 +81,10 @@ struct ByteCount {
 [[nodiscard]] ByteCount read_some(const File& file, char* bytes, std::size_t size);
 /// Writes up to `size` bytes.
 [[nodiscard]] ByteCount write_some(const File& file, const char* bytes, std::size_t size);
+/// Waits until the bytes of the file are on the disk; no error where a file system cannot do so.
+[[nodiscard]] Reason store(const File& file);
+/// Waits until all bytes written to the file system of this file or folder are on the disk.
+void store_file_system(const std::string& path);
 
 /// Removes a file, if it exists. Callable in signal handlers.
 void remove_file(const char* path) noexcept;

@@ -225,8 +225,8 @@ Result<void> Output::make_temporary(bool exists, unsigned permissions) {
         std::string name = target_ + '.' + random_letters();
         const Reason reason = platform::create_file(name, exists, file_);
         if (reason == 0) {
-            slot_ = register_temporary(name);
-            temporary_ = std::move(name);
+            temporary_ = std::move(name); // the destructor removes it if the next call throws
+            slot_ = register_temporary(temporary_);
         } else if (reason != EEXIST) {
             return failure(reason);
         }
@@ -301,21 +301,24 @@ Result<void> Output::write(std::string_view text) {
     return {};
 }
 
-Result<void> Output::finish() {
+Result<void> Output::finish(Storing storing) {
     if (std::exchange(is_finished_, true)) {
         return {};
     }
     if (!file_.is_open()) {
         return console_->flush();
     }
-    if (const Reason reason = file_.close(); reason != 0) {
-        return failure(reason);
+    // After a power failure the name must not stand for a file whose bytes were never stored.
+    const bool stores = storing == Storing::BeforeNaming && !temporary_.empty();
+    Reason reason = stores ? platform::store(file_) : 0;
+    if (const Reason closed = file_.close(); reason == 0) {
+        reason = closed;
     }
-    return {};
+    return reason == 0 ? Result<void>() : failure(reason);
 }
 
-Result<void> Output::commit() {
-    if (Result<void> finished = finish(); !finished) {
+Result<void> Output::commit(Storing storing) {
+    if (Result<void> finished = finish(storing); !finished) {
         return finished;
     }
     if (temporary_.empty()) {
@@ -379,7 +382,10 @@ Result<void> commit_all(std::vector<Output>& outputs) {
     return {};
 }
 
-Result<void> write_file(const std::string& path, std::string_view text, const Console& console) {
+Result<void> write_file(const std::string& path,
+                        std::string_view text,
+                        const Console& console,
+                        Storing storing) {
     Result<Output> output = Output::open(path, console);
     if (!output) {
         return output.error();
@@ -387,7 +393,7 @@ Result<void> write_file(const std::string& path, std::string_view text, const Co
     if (Result<void> written = output.value().write(text); !written) {
         return written;
     }
-    return output.value().commit();
+    return output.value().commit(storing);
 }
 
 } // namespace lsys

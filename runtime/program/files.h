@@ -48,6 +48,12 @@ void report_complete_frames(const std::string& path,
                             std::uint32_t count,
                             const Console& console);
 
+/// When the bytes of a file are put on the disk.
+enum class Storing : std::uint8_t {
+    BeforeNaming, // a power failure never leaves an incomplete file
+    BySystem,     // later, for files of a set that is stored as a whole
+};
+
 /// A file being written. A regular file appears under its name, or replaces an existing one, only
 /// at commit(); without a commit() nothing changes. Move only.
 class Output {
@@ -63,10 +69,10 @@ public:
     /// Opens a file that must not exist, not even as a dangling link: an Error here or at commit().
     [[nodiscard]] static Result<Output> create(const std::string& path, const Console& console);
     [[nodiscard]] Result<void> write(std::string_view text);
-    /// Closes the file under its temporary name. Idempotent.
-    [[nodiscard]] Result<void> finish();
-    /// Closes the file and gives it its name.
-    [[nodiscard]] Result<void> commit();
+    /// Stores the bytes on the disk and closes the file under its temporary name. Idempotent.
+    [[nodiscard]] Result<void> finish(Storing storing = Storing::BeforeNaming);
+    /// Finishes the file and gives it its name.
+    [[nodiscard]] Result<void> commit(Storing storing = Storing::BeforeNaming);
 
 private:
     friend Result<void> commit_all(std::vector<Output>& outputs);
@@ -97,6 +103,9 @@ private:
 
 /// Opens, writes and commits a file.
 [[nodiscard]] Result<void>
-write_file(const std::string& path, std::string_view text, const Console& console);
+write_file(const std::string& path,
+           std::string_view text,
+           const Console& console,
+           Storing storing = Storing::BeforeNaming);
 
 } // namespace lsys

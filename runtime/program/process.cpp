@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "runtime/program/process.h"
 
+#include "runtime/base/out_of_memory.h"
 #include "runtime/platform/process.h"
 #include "runtime/program/console.h"
 #include "runtime/program/temporaries.h"
@@ -8,7 +9,6 @@
 #include <cstdlib>
 #include <iostream>
 #include <string>
-#include <vector>
 
 namespace lsys {
 
@@ -23,10 +23,11 @@ int run_process(int argc,
     platform::handle_end_requests(remove_temporaries);
     std::ios::sync_with_stdio(false);
     std::cin.tie(nullptr);
-    const std::vector<std::string> arguments = platform::process_arguments(argc, argv);
+    const Io io{std::cin, std::cout, std::cerr, platform::error_stream_is_terminal(),
+                &platform::end_requested(), program, revision};
     const int status =
-        run(arguments, {std::cin, std::cout, std::cerr, platform::error_stream_is_terminal(),
-                        &platform::end_requested(), program, revision});
+        catch_out_of_memory([&] { return run(platform::process_arguments(argc, argv), io); },
+                            [&] { return report_out_of_memory(io); });
     const int end_status = platform::end_status();
     const bool was_ended = status == static_cast<int>(ExitStatus::Interrupted) && end_status != 0;
     return was_ended ? end_status : status;

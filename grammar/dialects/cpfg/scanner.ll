@@ -8,6 +8,7 @@
 %option prefix="cpfg_yy" extra-type="lsys::CpfgSession*"
 
 %{
+#include "grammar/base/scanner_memory.h"
 #include "cpfg/parser.h"
 #include "grammar/dialects/cpfg/session.h"
 
@@ -188,8 +189,9 @@ NUMBER  ([0-9]+("."[0-9]*)?|"."[0-9]+)([eE][+-]?[0-9]+)?
 namespace lsys {
 
 CpfgScanning::CpfgScanning(CpfgSession& session, std::string_view text) {
-    const int failed = cpfg_yylex_init_extra(&session, &scanner_);
-    LSYS_CHECK(failed == 0);
+    if (cpfg_yylex_init_extra(&session, &scanner_) != 0) {
+        throw std::bad_alloc();
+    }
     cpfg_yy_scan_bytes(text.data(), static_cast<int>(text.size()), scanner_);
 }
 

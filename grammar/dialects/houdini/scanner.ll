@@ -12,6 +12,7 @@
 %x COMMENT
 
 %{
+#include "grammar/base/scanner_memory.h"
 #include "grammar/dialects/houdini/session.h"
 #include "houdini/parser.h"
 
@@ -131,8 +132,9 @@ namespace lsys {
 
 /// Scans the text with a line end appended, since the last line may lack one.
 HoudiniScanning::HoudiniScanning(HoudiniSession& session, std::string_view text) {
-    const int failed = houdini_yylex_init_extra(&session, &scanner_);
-    LSYS_CHECK(failed == 0);
+    if (houdini_yylex_init_extra(&session, &scanner_) != 0) {
+        throw std::bad_alloc();
+    }
     const std::string lines = std::string(text) + "\n";
     houdini_yy_scan_bytes(lines.data(), static_cast<int>(lines.size()), scanner_);
 }

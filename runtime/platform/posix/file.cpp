@@ -118,6 +118,28 @@ ByteCount write_some(const File& file, const char* bytes, std::size_t size) {
     return byte_count(::write(file.descriptor(), bytes, size));
 }
 
+Reason store(const File& file) {
+    // File systems without this function report EINVAL, ENOSYS or ENOTSUP.
+    while (::fsync(file.descriptor()) != 0) {
+        if (errno != EINTR) {
+            return errno == EINVAL || errno == ENOSYS || errno == ENOTSUP ? 0 : errno;
+        }
+    }
+    return 0;
+}
+
+void store_file_system(const std::string& path) {
+#if defined(__linux__)
+    File file;
+    if (open_to_read(path, false, file) == 0 && ::syncfs(file.descriptor()) == 0) {
+        return;
+    }
+#else
+    static_cast<void>(path);
+#endif
+    ::sync();
+}
+
 void remove_file(const char* path) noexcept {
     ::unlink(path);
 }

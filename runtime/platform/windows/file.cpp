@@ -215,6 +215,14 @@ ByteCount read_some(const File& file, char* bytes, std::size_t size) {
     return count < 0 ? ByteCount{0, errno} : ByteCount{static_cast<std::size_t>(count), 0};
 }
 
+Reason store(const File& file) {
+    return ::_commit(file.descriptor()) == 0 || errno == EINVAL ? 0 : errno;
+}
+
+void store_file_system(const std::string& /*path*/) {
+    // Only administrators may store a whole volume.
+}
+
 ByteCount write_some(const File& file, const char* bytes, std::size_t size) {
     const int count =
         ::_write(file.descriptor(), bytes, static_cast<unsigned>(std::min(size, kMaxCount)));
