@@ -54,7 +54,7 @@ void add_modules(const SensedEnvironment& sensed, SensedPart& part) {
     const std::uint32_t fixed = answer_size(part.kind);
     std::size_t first = 0;
     for (std::size_t i = 0; i < sensed.modules.size(); ++i) {
-        const std::uint32_t size = fixed == kUnknownAnswer ? sensed.sizes[i] : fixed;
+        const std::uint32_t size = fixed == kUnknownAnswerSize ? sensed.sizes[i] : fixed;
         part.modules.push_back({sensed.modules[i].position, sensed.places[i],
                                 std::span<const float>(part.answers).subspan(first, size)});
         first += size;
