@@ -35,14 +35,14 @@ LSYS_COUNTED_ENUM(EnvironmentKind,
 LSYS_COUNTED_ENUM(SpaceShape, Box, Ball, Dome, Cone, Mesh);
 
 /// Numbers of an answer of each kind. Program: the program decides, so the number is unknown.
-inline constexpr std::uint32_t kUnknownAnswer = 0xFFFFFFFFu;
+inline constexpr std::uint32_t kUnknownAnswerSize = 0xFFFFFFFFu;
 [[nodiscard]] constexpr std::uint32_t answer_size(EnvironmentKind kind) {
     switch (kind) {
     case EnvironmentKind::Sky:
     case EnvironmentKind::Map:
         return 1;
     case EnvironmentKind::Program:
-        return kUnknownAnswer;
+        return kUnknownAnswerSize;
     default:
         return 4;
     }

@@ -28,37 +28,37 @@ constexpr float kLargest = std::numeric_limits<float>::max();
 using Form = EnvironmentKeyForm;
 using Fields = BytecodeEnvironment;
 
-constexpr EnvironmentKey number(std::string_view word,
-                                std::uint32_t kinds,
-                                float Fields::*field,
-                                std::string_view wanted,
-                                std::string_view meaning) {
+constexpr EnvironmentKey number_key(std::string_view word,
+                                    std::uint32_t kinds,
+                                    float Fields::*field,
+                                    std::string_view wanted,
+                                    std::string_view meaning) {
     EnvironmentKey key{word, kinds, 0, Form::Number, -kLargest, kLargest, false, wanted, meaning};
     key.number = field;
     return key;
 }
-constexpr EnvironmentKey whole(std::string_view word,
-                               std::uint32_t kinds,
-                               std::uint32_t Fields::*field,
-                               std::string_view wanted,
-                               std::string_view meaning) {
+constexpr EnvironmentKey whole_number_key(std::string_view word,
+                                          std::uint32_t kinds,
+                                          std::uint32_t Fields::*field,
+                                          std::string_view wanted,
+                                          std::string_view meaning) {
     EnvironmentKey key{word, kinds, 0, Form::WholeNumber, 0, 0, false, wanted, meaning};
     key.whole = field;
     return key;
 }
-constexpr EnvironmentKey vector(std::string_view word,
-                                std::uint32_t kinds,
-                                std::array<float, 3> Fields::*field,
-                                std::string_view meaning) {
+constexpr EnvironmentKey vector_key(std::string_view word,
+                                    std::uint32_t kinds,
+                                    std::array<float, 3> Fields::*field,
+                                    std::string_view meaning) {
     EnvironmentKey key{word, kinds, 0, Form::Vector, -kLargest, kLargest, false, "", meaning};
     key.vector = field;
     return key;
 }
-constexpr EnvironmentKey other(std::string_view word,
-                               std::uint32_t kinds,
-                               Form form,
-                               std::string_view wanted,
-                               std::string_view meaning) {
+constexpr EnvironmentKey other_key(std::string_view word,
+                                   std::uint32_t kinds,
+                                   Form form,
+                                   std::string_view wanted,
+                                   std::string_view meaning) {
     return {word, kinds, 0, form, -kLargest, kLargest, false, wanted, meaning};
 }
 constexpr EnvironmentKey above_0(EnvironmentKey key, float max = kLargest) {
@@ -73,90 +73,91 @@ constexpr EnvironmentKey from(EnvironmentKey key, float min, float max = kLarges
     return key;
 }
 constexpr EnvironmentKey required(EnvironmentKey key) {
-    key.required = key.kinds;
+    key.required_kinds = key.kinds;
     return key;
 }
 
 constexpr std::array<EnvironmentKey, 18> kEnvironmentKeys{
-    above_0(number("cell",
-                   kShadow | kSky,
-                   &Fields::cell,
-                   "a length in metres above 0",
-                   "edge of a voxel, in metres")),
-    from(whole("levels",
-               kShadow,
-               &Fields::levels,
-               "a whole number from 0 to 255",
-               "layers of voxels that a place shades below its own"),
+    above_0(number_key("cell",
+                       kShadow | kSky,
+                       &Fields::cell,
+                       "a length in metres above 0",
+                       "edge of a voxel, in metres")),
+    from(whole_number_key("levels",
+                          kShadow,
+                          &Fields::levels,
+                          "a whole number from 0 to 255",
+                          "layers of voxels that a place shades below its own"),
          0.0F,
          kMaxShadowLevels),
-    from(number("strength",
-                kShadow,
-                &Fields::strength,
-                "a number from 0 on",
-                "shadow of a place in its own voxel"),
+    from(number_key("strength",
+                    kShadow,
+                    &Fields::strength,
+                    "a number from 0 on",
+                    "shadow of a place in its own voxel"),
          0.0F),
-    above_0(number("ratio",
-                   kShadow,
-                   &Fields::ratio,
-                   "a number above 0",
-                   "shadow of a layer, divided by that of the layer below")),
-    from(number("extinction",
-                kSky,
-                &Fields::extinction,
-                "a number from 0 on",
-                "extinction of light by leaf area"),
+    above_0(number_key("ratio",
+                       kShadow,
+                       &Fields::ratio,
+                       "a number above 0",
+                       "shadow of a layer, divided by that of the layer below")),
+    from(number_key("extinction",
+                    kSky,
+                    &Fields::extinction,
+                    "a number from 0 on",
+                    "extinction of light by leaf area"),
          0.0F),
-    from(whole("directions",
-               kSky,
-               &Fields::directions,
-               "a whole number from 1 to 4,096",
-               "directions of the sky"),
+    from(whole_number_key("directions",
+                          kSky,
+                          &Fields::directions,
+                          "a whole number from 1 to 4,096",
+                          "directions of the sky"),
          1.0F,
          kMaxSkyDirections),
-    required(other("shape",
-                   kSpace,
-                   Form::Shape,
-                   "`box`, `ball`, `dome`, `cone` or the name of a mesh file in quotes",
-                   "what holds the markers")),
-    required(above_0(vector("size", kSpace | kMap, &Fields::size, "extent along the axes"))),
-    vector("at",
-           kSpace | kMap,
-           &Fields::at,
-           "where it stands: the middle of the base, or of the picture"),
-    required(from(whole("count",
-                        kSpace,
-                        &Fields::count,
-                        "a whole number from 1 to 67,108,864",
-                        "number of markers"),
+    required(other_key("shape",
+                       kSpace,
+                       Form::Shape,
+                       "`box`, `ball`, `dome`, `cone` or the name of a mesh file in quotes",
+                       "what holds the markers")),
+    required(above_0(vector_key("size", kSpace | kMap, &Fields::size, "extent along the axes"))),
+    vector_key("at",
+               kSpace | kMap,
+               &Fields::at,
+               "where it stands: the middle of the base, or of the picture"),
+    required(from(whole_number_key("count",
+                                   kSpace,
+                                   &Fields::count,
+                                   "a whole number from 1 to 67,108,864",
+                                   "number of markers"),
                   1.0F,
                   kMaxMarkers)),
-    required(above_0(number("radius",
-                            kSpace | kCrowd,
-                            &Fields::radius,
-                            "a length in metres above 0",
-                            "how far a place sees, in metres"))),
-    above_0(number("angle",
-                   kSpace,
-                   &Fields::angle,
-                   "an angle in degrees above 0, up to 360",
-                   "full opening of the cone in which a place sees"),
+    required(above_0(number_key("radius",
+                                kSpace | kCrowd,
+                                &Fields::radius,
+                                "a length in metres above 0",
+                                "how far a place sees, in metres"))),
+    above_0(number_key("angle",
+                       kSpace,
+                       &Fields::angle,
+                       "an angle in degrees above 0, up to 360",
+                       "full opening of the cone in which a place sees"),
             360.0F),
-    required(from(number("kill",
-                         kSpace,
-                         &Fields::kill,
-                         "a length in metres from 0 on",
-                         "markers nearer than this to a place vanish"),
+    required(from(number_key("kill",
+                             kSpace,
+                             &Fields::kill,
+                             "a length in metres from 0 on",
+                             "markers nearer than this to a place vanish"),
                   0.0F)),
-    other("mesh", kSolid, Form::Meshes, "the name of a mesh file in quotes", "a surface"),
-    other("plane",
-          kSolid,
-          Form::Plane,
-          "four numbers: a, b, c and d of a x + b y + c z + d = 0",
-          "a plane, solid where a x + b y + c z + d is negative"),
-    required(other("file", kMap, Form::Picture, "the name of a PNG file in quotes", "the picture")),
-    number("low", kMap, &Fields::low, "a number", "value of black"),
-    number("high", kMap, &Fields::high, "a number", "value of white"),
+    other_key("mesh", kSolid, Form::Meshes, "the name of a mesh file in quotes", "a surface"),
+    other_key("plane",
+              kSolid,
+              Form::Plane,
+              "four numbers: a, b, c and d of a x + b y + c z + d = 0",
+              "a plane, solid where a x + b y + c z + d is negative"),
+    required(
+        other_key("file", kMap, Form::Picture, "the name of a PNG file in quotes", "the picture")),
+    number_key("low", kMap, &Fields::low, "a number", "value of black"),
+    number_key("high", kMap, &Fields::high, "a number", "value of white"),
 };
 
 constexpr std::array<std::string_view, kCountOf<SpaceShape>> kShapeNames{"box", "ball", "dome",
@@ -324,7 +325,7 @@ std::string environment_text(const BytecodeEnvironment& environment) {
 }
 
 std::string default_text(const EnvironmentKey& key) {
-    if (key.required != 0 || key.may_repeat()) {
+    if (key.required_kinds != 0 || key.may_repeat()) {
         return {};
     }
     std::string text;

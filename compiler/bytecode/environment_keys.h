@@ -26,8 +26,9 @@ enum class EnvironmentKeyForm : std::uint8_t {
 
 struct EnvironmentKey {
     std::string_view word;
-    std::uint32_t kinds = 0;    // bits of the kinds that have the key
-    std::uint32_t required = 0; // bits of the kinds that need the key; `size`: except with a mesh
+    std::uint32_t kinds = 0; // bits of the kinds that have the key
+    /// Bits of the kinds that need the key; `size`: except with a mesh.
+    std::uint32_t required_kinds = 0;
     EnvironmentKeyForm form{};
     // The range of a number, or of each part of a vector.
     float min = 0.0F;
@@ -44,7 +45,7 @@ struct EnvironmentKey {
         return (kinds >> static_cast<std::uint32_t>(kind) & 1U) != 0;
     }
     [[nodiscard]] bool is_required_by(EnvironmentKind kind) const {
-        return (required >> static_cast<std::uint32_t>(kind) & 1U) != 0;
+        return (required_kinds >> static_cast<std::uint32_t>(kind) & 1U) != 0;
     }
     [[nodiscard]] bool may_repeat() const {
         return form == EnvironmentKeyForm::Plane || form == EnvironmentKeyForm::Meshes;

@@ -300,13 +300,15 @@ std::optional<ConditionGrid> GridBuilder::finish(std::uint64_t max_points) {
     for (bool changed = true; changed;) {
         changed = false;
         for (const auto& [a, b] : pairs_) {
-            std::vector<std::int32_t> both = cuts_[a];
-            both.insert(both.end(), cuts_[b].begin(), cuts_[b].end());
-            std::sort(both.begin(), both.end());
-            both.erase(std::unique(both.begin(), both.end()), both.end());
-            changed = changed || both.size() != cuts_[a].size() || both.size() != cuts_[b].size();
-            cuts_[a] = both;
-            cuts_[b] = std::move(both);
+            std::vector<std::int32_t> merged_cuts = cuts_[a];
+            merged_cuts.insert(merged_cuts.end(), cuts_[b].begin(), cuts_[b].end());
+            std::sort(merged_cuts.begin(), merged_cuts.end());
+            merged_cuts.erase(std::unique(merged_cuts.begin(), merged_cuts.end()),
+                              merged_cuts.end());
+            changed = changed || merged_cuts.size() != cuts_[a].size() ||
+                      merged_cuts.size() != cuts_[b].size();
+            cuts_[a] = merged_cuts;
+            cuts_[b] = std::move(merged_cuts);
         }
     }
     ConditionGrid grid;

@@ -335,8 +335,8 @@ void AstBuilder::mark_incomplete() {
     ast_.incomplete = true;
 }
 
-bool AstBuilder::finish_statement(SourceSpan span, bool keep) {
-    const bool kept = keep && !is_discarded_ && check_room(span);
+bool AstBuilder::finish_statement(SourceSpan span, bool is_complete) {
+    const bool kept = is_complete && !is_discarded_ && check_room(span);
     if (!kept) {
         rollback();
         ast_.incomplete = true;

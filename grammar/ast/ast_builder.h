@@ -136,7 +136,7 @@ public:
 
     /// Ends the current statement: keeps its nodes, or rolls the nodes back and marks the Ast as
     /// incomplete. Returns whether the statement was kept.
-    bool finish_statement(SourceSpan span, bool keep);
+    bool finish_statement(SourceSpan span, bool is_complete);
     /// Protects all present nodes from rollbacks, for example the nodes of an included file.
     void set_watermark();
 

@@ -131,14 +131,14 @@ private:
         std::size_t cell = 0;
         bool in_head = true;
         for (Piece piece; reader.next(piece);) {
-            std::uint32_t blanks = piece.blank_before ? 1 : 0;
+            std::uint32_t blanks = piece.has_blank_before ? 1 : 0;
             if (piece.begins_cell && cell + 1 < kCells) {
                 blanks += row.cells[cell];
                 ++cell;
             }
-            const bool begins_list = piece.in_list && in_head;
+            const bool begins_list = piece.is_in_list && in_head;
             in_head = in_head && !begins_list;
-            piece.own_line = piece.own_line || (begins_list && row.list_below);
+            piece.begins_line = piece.begins_line || (begins_list && row.list_below);
             writer.add(piece, blanks, in_head ? breaks_head : !begins_list);
         }
         writer.finish();

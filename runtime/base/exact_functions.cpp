@@ -38,9 +38,9 @@ DoubleDouble exact_sum(double a, double b) {
 
 /// Exact product, if neither overflows nor underflows (Dekker 1971, by Veltkamp's splitting).
 DoubleDouble exact_product(double a, double b) {
-    constexpr double kSplit = 0x1p27 + 1.0;
+    constexpr double kVeltkampFactor = 0x1p27 + 1.0;
     const auto high_half = [](double x) {
-        const double scaled = kSplit * x;
+        const double scaled = kVeltkampFactor * x;
         return scaled - (scaled - x);
     };
     const double a_high = high_half(a);

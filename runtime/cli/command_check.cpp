@@ -115,13 +115,13 @@ std::size_t count_fixes(const Diagnostics& diagnostics) {
     return count;
 }
 
-/// The bytes of the file `changed` before the repair.
-Result<std::string> original_text(const std::string& changed,
+/// The bytes of the file `changed_path` before the repair.
+Result<std::string> original_text(const std::string& changed_path,
                                   const std::string& path,
                                   const GrammarText& text,
                                   const Project& project) {
-    return changed == shown_path(path) ? Result<std::string>(text.bytes)
-                                       : make_include_loader(project)(changed);
+    return changed_path == shown_path(path) ? Result<std::string>(text.bytes)
+                                            : make_include_loader(project)(changed_path);
 }
 
 ExitStatus fix_file(const std::string& path,

@@ -104,7 +104,7 @@ void add_tile_options(CLI::App& app, TileScene& command) {
         ->type_name("N");
     app.add_flag("--implicit", options.implicit,
                  "Implicit tiling: small binary files list the tiles, instead of tilesets of JSON");
-    add_parsed(app, "--error", options.error, tolerated_error,
+    add_parsed(app, "--error", options.max_error, tolerated_error,
                "Error of the trees of the nearest tiles in metres (default 0.05); 0: all triangles")
         ->type_name("METRES");
 }

@@ -45,8 +45,9 @@ struct RuntimeError {
     SymbolId symbol = kNoSymbol;  // the symbol of the module
     std::vector<float> parameters; // the parameters of the module
     float value = 0.0F;            // for NotFinite, OutOfBounds and errors of weights
-    float minimum = 0.0F; // for RangeReversed, RangeTooWide; the first argument of BadDistribution
-    float maximum = 0.0F; // the second argument of BadDistribution
+    /// Arguments of the range or distribution, for RangeReversed, RangeTooWide and BadDistribution.
+    float first_argument = 0.0F;
+    float second_argument = 0.0F;
     Opcode opcode = Opcode::Range;     // for BadDistribution
     std::uint32_t global = kNone;      // for OutOfBounds and errors while globals are drawn
     bool in_condition = false;         // true: in a condition or weight; false: in an argument

@@ -216,14 +216,15 @@ Diagnostic bad_range(const RuntimeError& error, const Bytecode& bytecode) {
     const bool reversed = error.kind == RuntimeErrorKind::RangeReversed;
     std::string why = "its minimum lies above its maximum";
     if (!reversed) {
-        why = std::isfinite(error.minimum) && std::isfinite(error.maximum)
+        why = std::isfinite(error.first_argument) && std::isfinite(error.second_argument)
                   ? "its width overflows binary32"
                   : "its bounds must be finite";
     }
-    Diagnostic diagnostic = make_diagnostic(
-        DiagnosticCode::BadRangeBounds, {},
-        fmt::format("the range {{{}, {}}} of {} cannot be drawn from: {}", number(error.minimum),
-                    number(error.maximum), owner(error, bytecode), why));
+    Diagnostic diagnostic =
+        make_diagnostic(DiagnosticCode::BadRangeBounds, {},
+                        fmt::format("the range {{{}, {}}} of {} cannot be drawn from: {}",
+                                    number(error.first_argument), number(error.second_argument),
+                                    owner(error, bytecode), why));
     note_module(diagnostic, error, bytecode);
     if (reversed) {
         diagnostic.help.emplace_back("order the bounds with `min` and `max`");
@@ -232,12 +233,13 @@ Diagnostic bad_range(const RuntimeError& error, const Bytecode& bytecode) {
 }
 
 Diagnostic bad_distribution(const RuntimeError& error, const Bytecode& bytecode) {
-    const DistributionFault fault = check_distribution(error.opcode, error.minimum, error.maximum);
+    const DistributionFault fault =
+        check_distribution(error.opcode, error.first_argument, error.second_argument);
     const std::string call =
         info(error.opcode).pops == 1
-            ? fmt::format("{}({})", info(error.opcode).mnemonic, number(error.minimum))
-            : fmt::format("{}({}, {})", info(error.opcode).mnemonic, number(error.minimum),
-                          number(error.maximum));
+            ? fmt::format("{}({})", info(error.opcode).mnemonic, number(error.first_argument))
+            : fmt::format("{}({}, {})", info(error.opcode).mnemonic, number(error.first_argument),
+                          number(error.second_argument));
     Diagnostic diagnostic =
         make_diagnostic(DiagnosticCode::BadDistribution, {},
                         fmt::format("`{}` of {} cannot be drawn from: {}", call,
@@ -251,7 +253,7 @@ Diagnostic bad_distribution(const RuntimeError& error, const Bytecode& bytecode)
     case DistributionFault::Mean:
         if (error.opcode == Opcode::Poisson) {
             diagnostic.help.push_back(
-                error.minimum < 0.0F
+                error.first_argument < 0.0F
                     ? fmt::format("{}let it end at 0: write `{}(max(0, ...))`",
                                   has_step ? "`step()` grows by 1 in each generation: " : "", name)
                     : fmt::format("bound it: write `{}(min(700, ...))`", name));

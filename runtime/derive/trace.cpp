@@ -100,7 +100,7 @@ struct StepTracer::State {
     bool ok = true;
 
     /// Whether the predecessor of a production of the pass begins with `symbol`.
-    [[nodiscard]] bool concerns(SymbolId symbol) const {
+    [[nodiscard]] bool may_rewrite(SymbolId symbol) const {
         return std::any_of(
             pass_productions.begin(), pass_productions.end(), [&](std::uint32_t index) {
                 const TableRange predecessor = bytecode.productions[index].predecessor;
@@ -138,7 +138,7 @@ struct StepTracer::State {
     [[nodiscard]] bool is_explained(const TracedPass& pass, std::uint64_t position) const {
         return (pass.facts.kind == DerivationPass::Kind::Rewrite &&
                 bytecode.settings.rewriting != RewritingMode::Sequential) ||
-               concerns(pass.word.symbol(position));
+               may_rewrite(pass.word.symbol(position));
     }
 
     void begin_productions(const TracedPass& pass) {
@@ -165,7 +165,7 @@ struct StepTracer::State {
         for (std::uint64_t i = 0; next < tracked.size();) {
             const bool is_tracked = tracked[next].position == i;
             std::optional<ModuleTrace> match;
-            if (concerns(pass.word.symbol(i)) || (is_tracked && is_explained(pass, i))) {
+            if (may_rewrite(pass.word.symbol(i)) || (is_tracked && is_explained(pass, i))) {
                 match = explain_module(pass, pass_productions, i);
             }
             if (is_tracked) {

@@ -127,13 +127,13 @@ public:
     [[nodiscard]] bool connect(std::uint32_t a, std::uint32_t b, bool turned) {
         const std::uint32_t root_a = find(a);
         const std::uint32_t root_b = find(b);
-        const std::uint8_t apart =
+        const std::uint8_t has_other_parity =
             static_cast<std::uint8_t>(turned_[a] ^ turned_[b] ^ (turned ? 1 : 0));
         if (root_a == root_b) {
-            return apart == 0;
+            return has_other_parity == 0;
         }
         parent_[std::max(root_a, root_b)] = std::min(root_a, root_b);
-        turned_[std::max(root_a, root_b)] = apart;
+        turned_[std::max(root_a, root_b)] = has_other_parity;
         return true;
     }
 

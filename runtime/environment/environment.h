@@ -74,11 +74,11 @@ struct EnvironmentFiles {
 
 /// The reason why an environment has no answers.
 struct EnvironmentFailure {
-    Stop stop = Stop::Diagnosed; // or OutOfMemory, Limit, Cancelled
-    std::string text;            // Diagnosed: the reason, "its program has ended"
-    std::string help;            // advice for the author, or empty
-    std::uint64_t bytes = 0;     // Limit: memory that the answers would take
-    std::size_t place = 0;       // Diagnosed: index of the place that has no answer
+    Stop stop = Stop::Diagnosed;  // or OutOfMemory, Limit, Cancelled
+    std::string text;             // Diagnosed: the reason, "its program has ended"
+    std::string help;             // advice for the author, or empty
+    std::uint64_t bytes = 0;      // Limit: memory that the answers would take
+    std::size_t failed_place = 0; // Diagnosed: index of the place that has no answer
 };
 
 /// Resources of an environment. They must outlive the environment.
@@ -102,8 +102,8 @@ public:
     /// Computes the answers at all places of the word: answers[i * size + k] is number k of the
     /// answer at places[i], where `size` is answer_size() of the kind. Numbers are computed in
     /// binary64 and rounded once to binary32; -0 becomes 0. `answers` has places.size() * size
-    /// elements; a kind with kUnknownAnswer resizes it and sets `sizes` to the number of numbers
-    /// for each place.
+    /// elements; a kind with kUnknownAnswerSize resizes it and sets `sizes` to the number of
+    /// numbers for each place.
     [[nodiscard]] virtual std::optional<EnvironmentFailure> answer(
         const SensedWord& word, std::vector<float>& answers, std::vector<std::uint32_t>& sizes) = 0;
     /// The data that the environment keeps from one word to the next, as bytes for a saved state.

@@ -41,14 +41,14 @@ public:
 private:
     /// A position along one axis of the picture: the two pixels around it, and the fraction of the
     /// way from the centre of the first to that of the second.
-    struct Between {
+    struct PixelPair {
         std::size_t first = 0;
         std::size_t second = 0;
         double part = 0.0; // 0 at the centre of `first`, 1 at the centre of `second`
     };
 
     /// `distance`: from the middle of the picture, m; `size`: width of all `pixels` pixels, m.
-    [[nodiscard]] static Between between(double distance, double size, std::uint32_t pixels) {
+    [[nodiscard]] static PixelPair pixels_at(double distance, double size, std::uint32_t pixels) {
         const double last = static_cast<double>(pixels - 1);
         const double at = (distance / size + 0.5) * static_cast<double>(pixels) - 0.5;
         if (!(at > 0.0)) {
@@ -64,10 +64,10 @@ private:
 
     [[nodiscard]] double value(double x, double z) const {
         const auto wide = [](float number) { return static_cast<double>(number); };
-        const Between column =
-            between(x - wide(declared_.at[0]), wide(declared_.size[0]), picture_.columns);
-        const Between row =
-            between(z - wide(declared_.at[1]), wide(declared_.size[1]), picture_.rows);
+        const PixelPair column =
+            pixels_at(x - wide(declared_.at[0]), wide(declared_.size[0]), picture_.columns);
+        const PixelPair row =
+            pixels_at(z - wide(declared_.at[1]), wide(declared_.size[1]), picture_.rows);
         const auto along = [&](std::size_t of_row) {
             const double* const pixels = picture_.values.data() + of_row * picture_.columns;
             const double first = pixels[column.first];

@@ -152,15 +152,15 @@ public:
     std::optional<EnvironmentFailure> answer(const SensedWord& word,
                                              std::vector<float>& answers,
                                              std::vector<std::uint32_t>& sizes) override {
-        // Max bytes of a line of answers: kLine, and kQuery more per query.
-        constexpr std::uint64_t kLine = std::uint64_t{1} << 20;
-        constexpr std::uint64_t kQuery = 4096;
+        // Max bytes of a line of answers: kMaxLineBytes, and kMaxBytesPerQuery more per query.
+        constexpr std::uint64_t kMaxLineBytes = std::uint64_t{1} << 20;
+        constexpr std::uint64_t kMaxBytesPerQuery = 4096;
         if (word.places.empty()) {
             return std::nullopt;
         }
         std::string line;
-        std::optional<ProgramFailure> failed =
-            program_->ask(query_line(word), kLine + kQuery * word.places.size(), line);
+        std::optional<ProgramFailure> failed = program_->ask(
+            query_line(word), kMaxLineBytes + kMaxBytesPerQuery * word.places.size(), line);
         if (!failed) {
             if (std::optional<std::string> reason =
                     read_answers(line, word.places.size(), answers, sizes)) {

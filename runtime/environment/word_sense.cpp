@@ -71,22 +71,23 @@ public:
     }
 
     void sense(const SenseModule& module, const SensingPose& pose) override {
-        const Asked asked = senses_[module.code];
-        switch (asked.sense) {
+        const SenseOfCode sense_of_code = senses_[module.code];
+        switch (sense_of_code.sense) {
         case Sense::Position:
-            return write(module, asked.count, pose.position, 1.0);
+            return write(module, sense_of_code.count, pose.position, 1.0);
         case Sense::Heading:
-            return write(module, asked.count, pose.heading, 1.0);
+            return write(module, sense_of_code.count, pose.heading, 1.0);
         case Sense::Up:
-            return write(module, asked.count, pose.up, 1.0);
+            return write(module, sense_of_code.count, pose.up, 1.0);
         case Sense::Right:
-            return write(module, asked.count, pose.right, 1.0);
+            return write(module, sense_of_code.count, pose.right, 1.0);
         case Sense::Left:
-            return write(module, asked.count, pose.right, -1.0);
+            return write(module, sense_of_code.count, pose.right, -1.0);
         default:
             break;
         }
-        SensedEnvironment& environment = owner_.sensed_[static_cast<std::size_t>(asked.sense)];
+        SensedEnvironment& environment =
+            owner_.sensed_[static_cast<std::size_t>(sense_of_code.sense)];
         environment.modules.push_back(module);
         environment.places.push_back({pose.position, pose.heading, pose.up});
     }
@@ -99,7 +100,7 @@ public:
     float value = 0.0F; // the first value of that answer that is not finite
 
 private:
-    struct Asked {
+    struct SenseOfCode {
         Sense sense = Sense::Nothing;
         std::uint32_t count = 0; // numbers of the answer for which the module has parameters
     };
@@ -121,7 +122,7 @@ private:
     EnvironmentSense& owner_;
     const Bytecode& bytecode_;
     std::span<float> parameters_;
-    std::vector<Asked> senses_; // by code
+    std::vector<SenseOfCode> senses_; // by code
 };
 
 EnvironmentSense::EnvironmentSense(const Bytecode& bytecode, SenseOptions options)
@@ -188,9 +189,10 @@ std::optional<Stop> EnvironmentSense::end_failed(std::size_t index,
                                                  std::uint32_t age,
                                                  DerivationEnd& end) const {
     if (failure.stop == Stop::Diagnosed) {
-        const bool has_module = word != nullptr && failure.place < sensed_[index].modules.size();
+        const bool has_module =
+            word != nullptr && failure.failed_place < sensed_[index].modules.size();
         end.error = has_module ? error_at(RuntimeErrorKind::SenseFailed, bytecode_,
-                                          sensed_[index].modules[failure.place], *word, age)
+                                          sensed_[index].modules[failure.failed_place], *word, age)
                                : RuntimeError{};
         end.error.kind = RuntimeErrorKind::SenseFailed;
         end.error.generation = word == nullptr ? kStartGeneration : age;
@@ -246,7 +248,7 @@ EnvironmentSense::ask(std::size_t index, Word& word, std::uint32_t age, Derivati
         if (!is_finite(place.position) || !is_finite(place.heading) || !is_finite(place.up)) {
             EnvironmentFailure failure;
             failure.text = "the position of the turtle is infinite or not a number";
-            failure.place = i;
+            failure.failed_place = i;
             return end_failed(index, std::move(failure), &word, age, end);
         }
     }
@@ -263,22 +265,22 @@ EnvironmentSense::ask(std::size_t index, Word& word, std::uint32_t age, Derivati
         first.push_back(static_cast<std::uint32_t>(parameters.size()));
     }
     sensed.sizes.clear();
-    sensed.answers.assign(size == kUnknownAnswer ? 0 : sensed.places.size() * size, 0.0F);
-    SensedWord asked{age, sensed.places, organs_, parameters, first};
+    sensed.answers.assign(size == kUnknownAnswerSize ? 0 : sensed.places.size() * size, 0.0F);
+    SensedWord sensed_word{age, sensed.places, organs_, parameters, first};
     std::vector<SensePlace> all_places; // also places of neighbours, whose answers are dropped
     std::vector<SensedOrgan> all_organs;
     if (options_.neighbours != nullptr && kind == EnvironmentKind::Shadow) {
         all_places = sensed.places;
         options_.neighbours->append_places(age, index, all_places);
         sensed.answers.resize(all_places.size() * size);
-        asked.places = all_places;
+        sensed_word.places = all_places;
     } else if (options_.neighbours != nullptr && kind == EnvironmentKind::Sky) {
         all_organs = organs_;
         options_.neighbours->append_organs(age, all_organs);
-        asked.organs = all_organs;
+        sensed_word.organs = all_organs;
     }
     if (std::optional<EnvironmentFailure> failure =
-            environments_[index]->answer(asked, sensed.answers, sensed.sizes)) {
+            environments_[index]->answer(sensed_word, sensed.answers, sensed.sizes)) {
         return end_failed(index, std::move(*failure), &word, age, end);
     }
     if (!all_places.empty()) {
@@ -297,7 +299,7 @@ std::optional<Stop> EnvironmentSense::write(std::size_t index,
     const float* answer = sensed.answers.data();
     for (std::size_t i = 0; i < sensed.modules.size(); ++i) {
         const SenseModule& module = sensed.modules[i];
-        const std::uint32_t size = fixed == kUnknownAnswer ? sensed.sizes[i] : fixed;
+        const std::uint32_t size = fixed == kUnknownAnswerSize ? sensed.sizes[i] : fixed;
         const std::uint32_t count = std::min(size, bytecode_.stored_parameters(module.code));
         for (std::uint32_t k = 0; k < count; ++k) {
             if (!std::isfinite(answer[k])) {

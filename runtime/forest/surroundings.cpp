@@ -149,7 +149,7 @@ double crown_radius(const Forest& forest, const Tree& tree) {
            species.stages[forest.first_stage_of(tree)].crown_radius;
 }
 
-float open_yaw(const Forest& forest, const Tree& tree) {
+float random_yaw(const Forest& forest, const Tree& tree) {
     const PhiloxBlock words = philox4x32(
         {std::bit_cast<std::uint32_t>(tree.position.x),
          std::bit_cast<std::uint32_t>(tree.position.z), kOpenYawGeneration, tree.number},
@@ -185,7 +185,7 @@ void sense_tree(const Forest& forest,
                         }
                     });
     if (offsets.empty()) {
-        tree.yaw = open_yaw(forest, tree);
+        tree.yaw = random_yaw(forest, tree);
         set_surroundings(tree, static_cast<std::uint32_t>(Surroundings::Open));
         return;
     }

@@ -52,14 +52,14 @@ constexpr double kLastTriangles = 45.0; // wanted triangles of the last level wi
 constexpr double kLastCardTriangles = 24.0; // wanted triangles of the last level with impostors
 // A level with at most this many triangles may be followed by an impostor if the next mesh would
 // look poor.
-constexpr std::uint64_t kMaxBeforePoor = 450;
+constexpr std::uint64_t kMaxTrianglesBeforePoor = 450;
 // A mesh looks poor if wood of the plant is, on average, more than this many pixels away from the
 // wood that the mesh keeps.
 constexpr double kPoorPixels = 0.8;
-constexpr std::uint64_t kMaxBeforeCards = 100; // with fewer triangles only cards follow
-constexpr std::uint64_t kMinBeforeCards = 20;  // max triangles of a mesh that ends the chain
-constexpr std::uint64_t kMinBeforeFewer = 40;  // max triangles of cards that end the chain
-constexpr double kMaxCardTriangles = 400.0;    // max triangles of an impostor
+constexpr std::uint64_t kMaxTrianglesBeforeCards = 100; // with fewer triangles only cards follow
+constexpr std::uint64_t kMaxLastMeshTriangles = 20; // max triangles of a mesh that ends the chain
+constexpr std::uint64_t kMaxLastCardTriangles = 40; // max triangles of cards that end the chain
+constexpr double kMaxCardTriangles = 400.0;         // max triangles of an impostor
 constexpr double kCloseCount = 0.04; // accepted relative difference from the planned triangles
 // A mesh is thinned to the max triangles of the next level if it has at most this multiple of it.
 constexpr double kNearMax = 1.35;
@@ -68,16 +68,18 @@ constexpr int kMaxEqualSteps = 3; // max number of steps to the last level that 
 constexpr std::array<double, 6> kTriangleFactors{1.0, 0.9, 1.1, 0.82, 1.18, 0.72};
 constexpr int kRootSteps = 40; // bisections in Planner::factor_from()
 constexpr int kSeekSteps = 8;  // max bisections in Planner::seek()
-constexpr int kStraighterTries = 6;
-constexpr int kMaxStraightenings = 48;
-constexpr float kStraightening = 1.15F; // factor of MeshOptions::axis_error per straightening
-constexpr int kRestoringTries = 14;
-constexpr std::uint64_t kMorePaths = 8; // max number of paths that restore() adds
-constexpr double kMaxOfPaths = 4000.0;  // max triangles of levels to which restore() adds paths
-constexpr double kFairCount = 0.1;      // kCloseCount of levels to which restore() has added paths
-constexpr float kRestoring = 1.3F;      // factor of MeshOptions::axis_error per try
-constexpr double kMeanErrorPart = 0.3;  // mean error of an axis / MeshOptions::axis_error
-constexpr float kMaxDeviations = 4.0F;  // max MeshOptions::deviation / axis_error
+constexpr int kMaxAxisErrorTries = 6;
+constexpr int kMaxAxisErrorRaises = 48;
+constexpr float kAxisErrorRaise = 1.15F; // factor of MeshOptions::axis_error per raise
+constexpr int kMaxRestoringTries = 14;
+constexpr std::uint64_t kMaxAddedPaths = 8; // by restore_triangle_count()
+// Max triangles of levels to which restore_triangle_count() adds paths.
+constexpr double kMaxTrianglesForPaths = 4000.0;
+// kCloseCount of levels to which restore_triangle_count() has added paths.
+constexpr double kFairCount = 0.1;
+constexpr float kRestoringFactor = 1.3F; // factor of MeshOptions::axis_error per try
+constexpr double kMeanErrorPart = 0.3;   // mean error of an axis / MeshOptions::axis_error
+constexpr float kMaxDeviations = 4.0F;   // max MeshOptions::deviation / axis_error
 constexpr double kMinMove = 1e-12; // min product of a step and its effect to update derivatives
 // Max ratio of the radius of widened wood to DetailLevel::error: the wood is then two pixels wide.
 constexpr float kMaxRadiusErrors = 2.0F;
@@ -163,19 +165,20 @@ public:
         last_ = chain.pictures ? kLastCardTriangles : kLastTriangles;
         while (result.levels.size() <= chain.last && !stop_) {
             const std::uint64_t end = !chain.pictures     ? kMinDetailTriangles
-                                      : level.is_impostor ? kMinBeforeFewer
-                                                          : kMinBeforeCards;
+                                      : level.is_impostor ? kMaxLastCardTriangles
+                                                          : kMaxLastMeshTriangles;
             if (level.triangles <= end) {
                 break;
             }
             DetailLevel next = level;
-            if (!level.is_impostor && (!chain.pictures || level.triangles > kMaxBeforeCards)) {
+            if (!level.is_impostor &&
+                (!chain.pictures || level.triangles > kMaxTrianglesBeforeCards)) {
                 next = coarser(level);
             }
             if (chain.pictures) {
                 const DetailLevel cards = cards_after(level);
                 const bool is_forced = next.triangles >= level.triangles;
-                const bool is_poor = level.triangles <= kMaxBeforePoor && shows_loss(next);
+                const bool is_poor = level.triangles <= kMaxTrianglesBeforePoor && looks_poor(next);
                 const double off = ratio_excess(level, cards);
                 if (is_forced || off < ratio_excess(level, next) || (is_poor && off == 0.0)) {
                     next = cards;
@@ -371,7 +374,7 @@ private:
             tried.wood_scale = static_cast<float>(scales.x);
             tried.foliage_scale = static_cast<float>(scales.y);
             if (i > 0 && !is_fixed) {
-                restore(planned, finer, tried);
+                restore_triangle_count(planned, finer, tried);
             }
             const VisibleAreas now = areas_of(tried, third);
             const VisibleAreas& fine = third ? third_ : areas_;
@@ -419,7 +422,7 @@ private:
         float low = 0.0F; // an axis_error with too many triangles; `high`: with too few
         float high = std::numeric_limits<float>::infinity();
         float& error = tried.options.axis_error;
-        for (int i = 0; i < kRestoringTries && !stop_; ++i) {
+        for (int i = 0; i < kMaxRestoringTries && !stop_; ++i) {
             tried.triangles = exact_triangles(tried);
             const auto now = static_cast<double>(tried.triangles);
             const double off = std::abs(now - wanted);
@@ -433,8 +436,8 @@ private:
             (now < wanted ? high : low) = error;
             const bool is_between = low > 0.0F && high < std::numeric_limits<float>::infinity();
             error = is_between   ? 0.5F * (low + high)
-                    : low > 0.0F ? kRestoring * error
-                                 : error / kRestoring;
+                    : low > 0.0F ? kRestoringFactor * error
+                                 : error / kRestoringFactor;
         }
     }
 
@@ -442,7 +445,9 @@ private:
     /// Widened wood has fewer joints, because a thicker branch may deviate more. This function adds
     /// joints again; if that does not suffice, it adds paths and foliage, at most as many as the
     /// level `before` has.
-    void restore(const DetailLevel& planned, const DetailLevel& before, DetailLevel& level) {
+    void restore_triangle_count(const DetailLevel& planned,
+                                const DetailLevel& before,
+                                DetailLevel& level) {
         level.options.axis_error = planned.options.axis_error;
         level.paths = planned.paths;
         level.foliage = planned.foliage;
@@ -454,7 +459,7 @@ private:
         // jumps and may miss the wanted number. A few more paths bring it closer to the wanted
         // number.
         const std::uint64_t max_paths =
-            std::min(before.paths, level.paths + std::min(level.paths, kMorePaths));
+            std::min(before.paths, level.paths + std::min(level.paths, kMaxAddedPaths));
         double min_difference = std::numeric_limits<double>::infinity();
         DetailLevel tried = level;
         for (; tried.paths <= max_paths && !stop_; ++tried.paths) {
@@ -462,7 +467,7 @@ private:
             seek_joints(wanted, min_difference, tried, level);
             if (min_difference <=
                     (tried.paths == planned.paths ? kCloseCount : kFairCount) * wanted ||
-                wanted > kMaxOfPaths) {
+                wanted > kMaxTrianglesForPaths) {
                 break;
             }
         }
@@ -574,7 +579,7 @@ private:
 
     /// Whether an impostor looks more like the plant than `level`, because the level has a few
     /// enlarged leaves or lacks too many branches.
-    bool shows_loss(const DetailLevel& level) const {
+    bool looks_poor(const DetailLevel& level) const {
         return !order_.foliage.empty() ||
                mean_distances_[level.paths] > kPoorPixels * 2.0 * static_cast<double>(level.error);
     }
@@ -582,7 +587,7 @@ private:
     /// The impostor that follows the level `before`.
     DetailLevel cards_after(const DetailLevel& before) const {
         const auto all = static_cast<double>(before.triangles);
-        const double factor = before.triangles <= kMaxBeforeCards
+        const double factor = before.triangles <= kMaxTrianglesBeforeCards
                                   ? std::clamp(all / last_, kLowFactor, kMaxFactor)
                                   : factor_from(all);
         const double wanted = std::min(all / factor, kMaxCardTriangles);
@@ -792,20 +797,20 @@ private:
         }
         if (level.paths > 0) {
             thin_paths(level, std::max(wanted - left, 0.0));
-            straighten_for_paths(level, std::max(wanted - left, 0.0));
+            raise_axis_error_for_paths(level, std::max(wanted - left, 0.0));
         }
         return level;
     }
 
     /// Leaves out more joints, so that more paths can stay, as long as this lowers the mean
     /// distance of the drawn wood from the plant's wood.
-    void straighten_for_paths(DetailLevel& level, double wanted) {
+    void raise_axis_error_for_paths(DetailLevel& level, double wanted) {
         const auto cost = [this](const DetailLevel& of) {
             return mean_distances_[of.paths] +
                    kMeanErrorPart * static_cast<double>(of.options.axis_error);
         };
         DetailLevel tried = level;
-        for (int i = 0; i < kStraighterTries && !stop_ &&
+        for (int i = 0; i < kMaxAxisErrorTries && !stop_ &&
                         mean_distances_[level.paths] >
                             kMeanErrorPart * static_cast<double>(tried.options.axis_error);
              ++i) {
@@ -849,7 +854,7 @@ private:
         }
         if (low == 0) {
             level.paths = 1;
-            straighten(level, wanted);
+            raise_axis_error(level, wanted);
             return;
         }
         // Take the number of paths for which triangles / `wanted` is nearer to 1.
@@ -859,13 +864,13 @@ private:
     }
 
     /// Raises axis_error until the wood has at most `wanted` triangles.
-    void straighten(DetailLevel& level, double wanted) {
+    void raise_axis_error(DetailLevel& level, double wanted) {
         auto now = static_cast<double>(wood_triangles(level));
-        for (int i = 0; i < kMaxStraightenings && now > wanted && !stop_; ++i) {
+        for (int i = 0; i < kMaxAxisErrorRaises && now > wanted && !stop_; ++i) {
             if (level.options.axis_error > extent_) {
                 break;
             }
-            level.options.axis_error *= kStraightening;
+            level.options.axis_error *= kAxisErrorRaise;
             now = static_cast<double>(wood_triangles(level));
         }
     }

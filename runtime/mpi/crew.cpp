@@ -18,7 +18,7 @@ void write_or_stop(lsc::TilesetFolder& folder, const Work& work) {
 } // namespace
 
 Crew::Crew(lsc::TilesetFolder& folder, std::uint32_t threads)
-    : folder_(folder), workers_(threads + 1), low_(threads) {
+    : folder_(folder), workers_(threads + 1), min_queued_files_(threads) {
     workers_.start();
     has_helpers_ = workers_.count() > 1;
     writing_ = workers_.count() - 1;
@@ -53,8 +53,8 @@ bool Crew::is_finished() const {
 
 void Crew::wait(std::chrono::milliseconds time) {
     if (has_helpers_ || queue_.left() == 0 || folder_.is_stopped()) {
-        const bool is_low = is_closed_ || queue_.left() < low_;
-        queue_.wait_below(is_low ? 0 : low_, time);
+        const bool is_low = is_closed_ || queue_.left() < min_queued_files_;
+        queue_.wait_below(is_low ? 0 : min_queued_files_, time);
         return;
     }
     if (const std::optional<std::uint64_t> number = queue_.take_now()) {

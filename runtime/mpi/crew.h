@@ -29,9 +29,13 @@ public:
     /// close().
     void close();
     /// Whether the threads will soon have no file left.
-    [[nodiscard]] bool wants_files() const { return !is_closed_ && queue_.left() < low_; }
+    [[nodiscard]] bool wants_files() const {
+        return !is_closed_ && queue_.left() < min_queued_files_;
+    }
     /// The number of files to request.
-    [[nodiscard]] std::uint64_t wanted() const { return kFilesPerThread * low_; }
+    [[nodiscard]] std::uint64_t file_count_to_request() const {
+        return kFilesPerThread * min_queued_files_;
+    }
     /// Whether all added files are written, or the folder has stopped after an error or an
     /// interruption (TilesetFolder::is_stopped()) and no thread writes any more. Call it only after
     /// close().
@@ -47,7 +51,8 @@ private:
     lsc::TilesetFolder& folder_;
     Workers workers_; // the threads that write, and the calling thread
     NumberQueue queue_;
-    std::uint64_t low_; // number of threads; with fewer files left, wants_files() is true
+    /// Number of threads; with fewer files left, wants_files() is true.
+    std::uint64_t min_queued_files_;
     std::atomic<std::uint32_t> writing_{0};
     bool has_helpers_ = false;
     bool is_closed_ = false;

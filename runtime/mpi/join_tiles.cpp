@@ -62,8 +62,8 @@ private:
         }
         if (!has_asked_ && crew.wants_files()) {
             const lsc::TileTotals totals = folder.totals();
-            ranks_.send(0, MessageKind::Request, {plan_, crew.wanted(), totals.files, totals.bytes},
-                        "");
+            ranks_.send(0, MessageKind::Request,
+                        {plan_, crew.file_count_to_request(), totals.files, totals.bytes}, "");
             has_asked_ = true;
         }
         if (crew.is_finished()) {

@@ -98,7 +98,7 @@ private:
             crew.close();
         }
         if (crew.wants_files()) {
-            const auto [begin, end] = take_files(crew.wanted());
+            const auto [begin, end] = take_files(crew.file_count_to_request());
             crew.add(begin, end);
         }
         states_[0].totals = folder.totals();

@@ -67,9 +67,9 @@ constexpr double kDragCoefficient = 1.1; // approximate value of long cylinders 
 constexpr double kFriction = 0.5;        // approximate value of bark on soil
 constexpr int kTrials = 12;              // max number of fractions of a step that are tried
 constexpr int kExactTrials = 2;          // replaces kTrials if Forces::exactness > 0
-constexpr double kTrialShare = 0.25;     // ratio of a tried fraction to the fraction tried before
+constexpr double kTrialRatio = 0.25;     // ratio of a tried fraction to the fraction tried before
 constexpr double kRounding = 1e-12;      // relative to Energies::potential_magnitude
-constexpr double kRestStep = 1e6;        // s, step of settle(), so long that inertia is negligible
+constexpr double kSettleStep = 1e6;      // s, step of settle(), so long that inertia is negligible
 // A plant that slides in settle() is at rest when friction with this coefficient, lower than that
 // of ice, would stop it: the energy lost in about the last ten rounds is compared with the work of
 // friction in these rounds. Each round multiplies the weight of older rounds by kRememberedShare.
@@ -362,7 +362,7 @@ struct PlantPhysics::State {
             if (share > 0.0 &&
                 !(is_finite &&
                   energies.potential <= allowed + kRounding * energies.potential_magnitude)) {
-                share *= kTrialShare;
+                share *= kTrialRatio;
                 continue;
             }
             const double left = std::max(allowed - energies.potential, 0.0);
@@ -508,7 +508,7 @@ bool PlantPhysics::settle(double tolerance, std::uint32_t max_rounds) {
         return true;
     }
     Forces rest_forces = s.forces;
-    rest_forces.step = kRestStep;
+    rest_forces.step = kSettleStep;
     rest_forces.damping = 0.0;
     rest_forces.friction = 0.0;
     scale_velocities(s.plant, 0.0, s.workers);
@@ -554,7 +554,7 @@ void PlantPhysics::pose(Skeleton& out) const {
         const glm::dvec3 arm = glm::dvec3(point) - glm::dvec3(s.rest.segments[segment].base);
         return glm::vec3(glm::dvec3(point) + pose.shift + (pose.turn * arm - arm));
     };
-    const auto turned = [&](std::uint32_t segment, const glm::quat& frame) {
+    const auto turned_frame = [&](std::uint32_t segment, const glm::quat& frame) {
         const glm::dquat& turn = poses[s.plant.rest.body_of_segment[segment]].turn;
         return turn == glm::dquat(1.0, 0.0, 0.0, 0.0)
                    ? frame
@@ -563,13 +563,13 @@ void PlantPhysics::pose(Skeleton& out) const {
     for (std::uint32_t i = 0; i < out.segments.size(); ++i) {
         Segment& segment = out.segments[i];
         segment.base = moved(i, segment.base);
-        segment.frame = turned(i, segment.frame);
+        segment.frame = turned_frame(i, segment.frame);
     }
     for (PlacedObject& object : out.objects) {
         if (object.parent < out.segments.size()) {
             const PlacedObject before = object;
             object.position = moved(object.parent, object.position);
-            object.frame = turned(object.parent, object.frame);
+            object.frame = turned_frame(object.parent, object.frame);
             if (s.options.ground) {
                 lay_on_ground(before, object);
             }
@@ -583,7 +583,7 @@ void PlantPhysics::pose(Skeleton& out) const {
                 corner = moved(polygon.parent, corner);
                 corner.y = s.options.ground && before >= 0.0F ? std::max(corner.y, 0.0F) : corner.y;
             }
-            polygon.frame = turned(polygon.parent, polygon.frame);
+            polygon.frame = turned_frame(polygon.parent, polygon.frame);
         }
     }
 }

@@ -56,17 +56,17 @@ bool drop_variety_notes(const SceneSpecies& species,
                         NotedAxioms& noted,
                         Diagnostics& diagnostics) {
     Diagnostics left;
-    bool found = false;
+    bool has_variety_note = false;
     for (const Diagnostic& diagnostic : diagnostics.all()) {
         const bool is_variety_note = diagnostic.code == DiagnosticCode::NoVariety;
-        found = found || is_variety_note;
+        has_variety_note = has_variety_note || is_variety_note;
         if (!is_variety_note || (species.cache.heroes != 1 && is_wanted &&
                                  noted.emplace(path, diagnostic.span.begin).second)) {
             left.add(diagnostic);
         }
     }
     diagnostics = std::move(left);
-    return found;
+    return has_variety_note;
 }
 
 /// Makes a scene with one species per grammar.
@@ -209,7 +209,8 @@ struct GrownStage {
     std::shared_ptr<const SourceMap> sources;
     AxiomPlace axiom;
     bool can_reuse_branches = false; // some branch can be replaced by a recorded one
-    bool is_blind = false; // the scene wants it to sense neighbours, but no environment reads shade
+    /// The scene wants it to sense neighbours, but no environment reads shade.
+    bool cannot_sense_neighbours = false;
     std::vector<BranchOrigin> origins; // by instance; empty for a stage without `origins_of`
 };
 
@@ -287,7 +288,7 @@ Outcome<GrownStage> grow_stage(const SceneSpecies& species,
         return step.end();
     }
     if (species.senses_surroundings && !senses_shade(grammar.bytecode)) {
-        grown.is_blind = true;
+        grown.cannot_sense_neighbours = true;
         return step.done(std::move(grown));
     }
     const std::unique_ptr<EnvironmentSense> own_senses = senses.make(grammar.bytecode);
@@ -381,10 +382,10 @@ void measure_crowns(ForestSpecies& species) {
 }
 
 /// Ends the step with an error: `species` cannot sense its surroundings.
-Step::Ended end_blind(const SceneSpecies& species,
-                      const std::string& path,
-                      const LoadedScene& loaded,
-                      Step& step) {
+Step::Ended end_without_senses(const SceneSpecies& species,
+                               const std::string& path,
+                               const LoadedScene& loaded,
+                               Step& step) {
     std::string message =
         fmt::format("`{}` senses neither shadow nor sky, so its plants cannot depend on the trees "
                     "around them",
@@ -556,8 +557,8 @@ grow_species(const LoadedScene& loaded, const Project& project, const PreviousFo
                 return step.end(stage.stop());
             }
             last = std::move(stage.value());
-            if (last.is_blind) {
-                return end_blind(species, path, loaded, step);
+            if (last.cannot_sense_neighbours) {
+                return end_without_senses(species, path, loaded, step);
             }
             std::move(last.stages.begin(), last.stages.end(),
                       std::back_inserter(forest_species.stages));

@@ -71,9 +71,9 @@ void add_instance(const Mesh& mesh, InstanceMeshes& all, LargeVector<std::uint32
 /// Viewpoint outside the forest, near the tree that is outermost in the direction of the initial
 /// camera of lsview.
 glm::vec3 edge_viewpoint(const Forest& forest, const std::vector<float>& heights) {
-    constexpr float kOutside = 3.5F;           // horizontal distance / height of the tallest tree
-    constexpr float kAbove = 2.0F;             // vertical distance / height of the tallest tree
-    const glm::vec2 outward(0.5665F, 0.8241F); // of length 1
+    constexpr float kHorizontalDistance = 3.5F; // horizontal distance / height of the tallest tree
+    constexpr float kVerticalDistance = 2.0F;   // vertical distance / height of the tallest tree
+    const glm::vec2 outward(0.5665F, 0.8241F);  // of length 1
     float farthest = -std::numeric_limits<float>::infinity();
     glm::vec3 edge(0.0F);
     float height = 0.0F;
@@ -86,8 +86,8 @@ glm::vec3 edge_viewpoint(const Forest& forest, const std::vector<float>& heights
             edge = at;
         }
     }
-    const glm::vec2 away = kOutside * height * outward;
-    return edge + glm::vec3(away.x, kAbove * height, away.y);
+    const glm::vec2 away = kHorizontalDistance * height * outward;
+    return edge + glm::vec3(away.x, kVerticalDistance * height, away.y);
 }
 
 std::size_t level_for(const DetailLevels& levels, float pixels) {

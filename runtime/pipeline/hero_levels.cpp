@@ -48,7 +48,7 @@ std::optional<Stop> visit_heroes(const GrownForest& grown,
 /// An instance to make a Hero of.
 struct Part {
     std::uint32_t instance = 0;
-    bool is_alone = false; // Hero::is_alone
+    bool ends_at_exits = false; // Hero::ends_at_exits
 };
 using ListParts = std::function<std::vector<Part>(const InstanceCache& cache)>;
 
@@ -70,9 +70,9 @@ Outcome<std::vector<Hero>> plan_parts(const GrownForest& grown,
                 hero.species = s;
                 hero.stage = i;
                 hero.instance = part.instance;
-                hero.is_alone = part.is_alone;
-                hero.skeleton =
-                    part.is_alone ? skeletons.alone(part.instance) : skeletons.whole(part.instance);
+                hero.ends_at_exits = part.ends_at_exits;
+                hero.skeleton = part.ends_at_exits ? skeletons.alone(part.instance)
+                                                   : skeletons.whole(part.instance);
             }
         }
     }
@@ -146,7 +146,7 @@ Outcome<void> mesh_heroes(const GrownForest& grown,
         [&grown](Hero& hero, const std::vector<UserMesh>& files, const MeshOptions& alone) {
             const InstanceCache& cache =
                 grown.forest.species[hero.species].stages[hero.stage].cache;
-            const bool is_plant = !hero.is_alone && cache.instances[hero.instance].slot == 0;
+            const bool is_plant = !hero.ends_at_exits && cache.instances[hero.instance].slot == 0;
             const DetailChain& chain = is_plant ? kPlantChain : kBranchChain;
             std::optional<Stop> failed =
                 fit_detail_levels(hero.skeleton, files, alone, chain, hero.in_use, hero.levels);

@@ -24,7 +24,7 @@ struct Hero {
     std::uint32_t instance = 0; // index in the instances of the stage's cache
     /// Whether the hero is drawn only up to the exits of its instance. If false, stand-ins continue
     /// the hero at the exits (PartSkeletons).
-    bool is_alone = false;
+    bool ends_at_exits = false;
     Skeleton skeleton; // in the coordinates of the heroes in the cache
     DetailLevels levels;
     Bounds bounds;            // bounds of level 0
@@ -45,8 +45,8 @@ struct Hero {
 plan_heroes(const GrownForest& grown, const MeshOptions& options, const Project& project);
 
 /// Heroes for the branches that trees are assembled from: each instance of a branch, with stand-ins
-/// at its exits, and each instance with exits once more with Hero::is_alone. Omits instances that
-/// no tree can use. Levels have no impostor. Otherwise like plan_heroes().
+/// at its exits, and each instance with exits once more with Hero::ends_at_exits. Omits instances
+/// that no tree can use. Levels have no impostor. Otherwise like plan_heroes().
 [[nodiscard]] Outcome<std::vector<Hero>>
 plan_branches(const GrownForest& grown, const MeshOptions& options, const Project& project);
 

@@ -52,12 +52,12 @@ void add_areas(const std::vector<SensedOrgan>& organs, SensedPart& part) {
 void add_modules(const SensedEnvironment& sensed, SensedPart& part) {
     part.answers = sensed.answers;
     const std::uint32_t fixed = answer_size(part.kind);
-    std::size_t first = 0;
+    std::size_t first_answer = 0;
     for (std::size_t i = 0; i < sensed.modules.size(); ++i) {
-        const std::uint32_t size = fixed == kUnknownAnswer ? sensed.sizes[i] : fixed;
+        const std::uint32_t size = fixed == kUnknownAnswerSize ? sensed.sizes[i] : fixed;
         part.modules.push_back({sensed.modules[i].position, sensed.places[i],
-                                std::span<const float>(part.answers).subspan(first, size)});
-        first += size;
+                                std::span<const float>(part.answers).subspan(first_answer, size)});
+        first_answer += size;
     }
 }
 

@@ -237,7 +237,7 @@ TileResponse TileService::answer(const TileRequest& request) {
     }
     const std::string path = target.empty() ? "index.html" : std::string(target);
     const bool wants_part = !request.range.empty() && request.method == "GET";
-    Representation file;
+    EncodedFile file;
     if (!find(path, !wants_part && accepts_gzip(request.accept_encoding), file)) {
         return text_response(404, "no such file\n");
     }
@@ -278,7 +278,7 @@ TileResponse TileService::answer(const TileRequest& request) {
 }
 
 /// Finds or makes the file at `path`; returns false if the forest has no such file.
-bool TileService::find(const std::string& path, bool wants_packed, Representation& file) {
+bool TileService::find(const std::string& path, bool wants_packed, EncodedFile& file) {
     std::shared_ptr<Entry> entry;
     std::optional<MadeFile> made; // none: a shared file
     const auto shared = shared_.find(path);

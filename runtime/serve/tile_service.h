@@ -86,7 +86,7 @@ private:
         FileKind kind = FileKind::Content;
     };
     /// A file in the form in which it is sent.
-    struct Representation {
+    struct EncodedFile {
         std::shared_ptr<const std::string> body;
         std::string tag;
         std::string_view type; // media type
@@ -94,7 +94,7 @@ private:
     };
 
     [[nodiscard]] TileResponse answer(const TileRequest& request);
-    [[nodiscard]] bool find(const std::string& path, bool wants_packed, Representation& file);
+    [[nodiscard]] bool find(const std::string& path, bool wants_packed, EncodedFile& file);
     [[nodiscard]] std::optional<MadeFile> made_file(std::string_view path) const;
     [[nodiscard]] std::string make(const MadeFile& file) const;
     [[nodiscard]] std::shared_ptr<Entry> entry_of(const std::string& path);

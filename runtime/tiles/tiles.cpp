@@ -321,7 +321,7 @@ void TileForest::State::plan_levels() {
         const TreeBounds& of_stage = bounds[hero.species][hero.stage];
         const double deviation = of_stage.deviation[hero.instance];
         const double scale = max_scales[hero.species];
-        deviations.push_back(hero.is_alone ? 0.0 : deviation);
+        deviations.push_back(hero.ends_at_exits ? 0.0 : deviation);
         // The surface of a coarser level of detail exceeds the finest surface by at most its error.
         const double margin = static_cast<double>(hero.levels.levels.back().error);
         if (instance.exit_count > 0 || instance.slot != 0) {
@@ -555,7 +555,7 @@ double TileForest::State::height_of(const Tree& tree) const {
 bool TileForest::State::is_plant(std::size_t hero) const {
     const Hero& each = heroes[hero];
     const InstanceCache& cache = grown.forest.species[each.species].stages[each.stage].cache;
-    return !each.is_alone && cache.instances[each.instance].slot == 0;
+    return !each.ends_at_exits && cache.instances[each.instance].slot == 0;
 }
 
 /// Some trees, over which means are computed: sample trees of each species of a placement on an

@@ -43,7 +43,7 @@ struct TileOptions {
     /// nullopt: the tileset has coordinates of its own.
     std::optional<GeoPlace> origin;
     std::uint64_t triangles = kTileTriangles; // max of a tile with the mean number of trees
-    float error = kTileError;                 // m, max error of the trees in the nearest tiles
+    float max_error = kTileError;             // m, max error of the trees in the nearest tiles
     /// Use implicit tiling: subtree files list the tiles, and contents have the coordinates of the
     /// root.
     bool implicit = false;

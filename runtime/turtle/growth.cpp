@@ -18,7 +18,7 @@ namespace {
 /// The value of a quantity in the earlier drawing, at index 0, and in the later drawing, at index
 /// 1.
 template <typename T>
-using Ends = std::array<T, 2>;
+using BeforeAndAfter = std::array<T, 2>;
 
 /// A frame and the point that children start from.
 struct Joint {
@@ -28,23 +28,23 @@ struct Joint {
 
 /// The motion of an item, relative to its parent.
 struct Motion {
-    Ends<glm::quat> turn;
-    Ends<glm::vec3> offset;            // vector from the parent's tip, in the parent's frame
+    BeforeAndAfter<glm::quat> turn;
+    BeforeAndAfter<glm::vec3> offset;  // vector from the parent's tip, in the parent's frame
     std::uint32_t parent = kNoSegment; // index in State::segments
     bool eases = false;                // grows from size 0 or shrinks to size 0
 };
 
 struct MovingSegment {
     Motion motion;
-    Ends<float> length{};
-    Ends<float> base_radius{};
-    Ends<float> tip_radius{};
+    BeforeAndAfter<float> length{};
+    BeforeAndAfter<float> base_radius{};
+    BeforeAndAfter<float> tip_radius{};
     bool is_apart = false; // linked in `after` only: there may be a gap to its parent before time 1
 };
 
 struct MovingObject {
     Motion motion;
-    Ends<float> size{};
+    BeforeAndAfter<float> size{};
 };
 
 struct MovingPolygon {
@@ -57,18 +57,18 @@ double interpolated(float before, float after, double part) {
            part * (static_cast<double>(after) - static_cast<double>(before));
 }
 
-glm::dvec3 interpolated(const Ends<glm::vec3>& ends, double part) {
+glm::dvec3 interpolated(const BeforeAndAfter<glm::vec3>& ends, double part) {
     return glm::dvec3(ends[0]) + part * (glm::dvec3(ends[1]) - glm::dvec3(ends[0]));
 }
 
 /// Precondition: use_shorter_turn(ends) was called.
-glm::dquat interpolated(const Ends<glm::quat>& ends, double part) {
+glm::dquat interpolated(const BeforeAndAfter<glm::quat>& ends, double part) {
     return glm::normalize(glm::dquat(ends[0]) * (1.0 - part) + glm::dquat(ends[1]) * part);
 }
 
 /// Negates the later turn if the rotation between the two is then shorter: a quaternion and its
 /// negative are the same turn.
-void use_shorter_turn(Ends<glm::quat>& turn) {
+void use_shorter_turn(BeforeAndAfter<glm::quat>& turn) {
     if (glm::dot(turn[0], turn[1]) < 0.0F) {
         turn[1] = -turn[1];
     }
@@ -96,12 +96,12 @@ struct SkeletonGrowth::State {
     LargeVector<MovingObject> objects;
     LargeVector<MovingPolygon> polygons;
     /// Vectors from the parent's tip, in the parent's frame.
-    LargeVector<Ends<glm::vec3>> corners;
+    LargeVector<BeforeAndAfter<glm::vec3>> corners;
     LargeVector<std::uint32_t> shrinking_segments; // indexes in `before`
     LargeVector<std::uint32_t> shrinking_objects;
     LargeVector<std::uint32_t> shrinking_polygons;
     // Used only by the constructor.
-    LargeVector<Ends<Joint>> joints;         // by index in `segments`
+    LargeVector<BeforeAndAfter<Joint>> joints; // by index in `segments`
     LargeVector<std::uint32_t> new_segments; // by segment of `before`: index in `segments`, or none
 
     [[nodiscard]] Joint joint(std::uint32_t segment, std::size_t end) const {
@@ -131,7 +131,7 @@ struct SkeletonGrowth::State {
     }
 
     void add_joints(const MovingSegment& moving) {
-        Ends<Joint> made;
+        BeforeAndAfter<Joint> made;
         for (const std::size_t end : {std::size_t{0}, std::size_t{1}}) {
             const Joint from = joint(moving.motion.parent, end);
             made[end].frame = glm::normalize(from.frame * glm::dquat(moving.motion.turn[end]));
@@ -259,7 +259,7 @@ struct SkeletonGrowth::State {
         const glm::vec3 vanished =
             parent == kNoSegment ? local_corner(*first, parent, end) : glm::vec3(0.0F);
         for (std::uint32_t i = 0; i < count; ++i) {
-            Ends<glm::vec3>& corner = corners.emplace_back();
+            BeforeAndAfter<glm::vec3>& corner = corners.emplace_back();
             corner[end] = local_corner(first[i], parent, end);
             corner[1 - end] = vanished;
         }
@@ -450,7 +450,7 @@ std::uint64_t SkeletonGrowth::byte_count() const {
            state_->segments.size() * sizeof(MovingSegment) +
            state_->objects.size() * sizeof(MovingObject) +
            state_->polygons.size() * sizeof(MovingPolygon) +
-           state_->corners.size() * sizeof(Ends<glm::vec3>);
+           state_->corners.size() * sizeof(BeforeAndAfter<glm::vec3>);
 }
 
 } // namespace lsys

@@ -237,16 +237,16 @@ std::optional<Stop> Turtle::reserve(const Word& word) {
         }
     };
     word.visit(count);
-    const bool origins = word.keeps_origins();
+    const bool keeps_origins = word.keeps_origins();
     const std::uint64_t bytes = segments * sizeof(Segment) + objects * sizeof(PlacedObject) +
-                                (origins ? (segments + objects) * sizeof(Origin) : 0);
+                                (keeps_origins ? (segments + objects) * sizeof(Origin) : 0);
     if (bytes > state.options.max_bytes) {
         return state.end.stop = Stop::Limit;
     }
     state.within_memory([&] {
         state.skeleton.segments.reserve(std::min(segments, kMaxSkeletonItems));
         state.skeleton.objects.reserve(std::min(objects, kMaxSkeletonItems));
-        if (origins) {
+        if (keeps_origins) {
             state.skeleton.segment_origins.reserve(std::min(segments, kMaxSkeletonItems));
             state.skeleton.object_origins.reserve(std::min(objects, kMaxSkeletonItems));
         }

@@ -112,7 +112,7 @@ const Species& ProductionMaker::any_species(bool letters) {
 
 const Species& ProductionMaker::active_species(bool letters) {
     while (true) {
-        const std::size_t turn = turn_++ % plan_.active.size();
+        const std::size_t turn = next_active_species_++ % plan_.active.size();
         const Species& species = random_.percent(70)   ? plan_.active[turn]
                                  : random_.percent(75) ? random_.pick(plan_.active)
                                                        : random_.pick(plan_.species);

@@ -56,7 +56,7 @@ private:
     ExpressionMaker expressions_;
     const Constants& constants_;
     // Index of the species that the next production rewrites; each active species gets its turn.
-    std::size_t turn_ = 0;
+    std::size_t next_active_species_ = 0;
     // Skeletons from which successors are often made, and from which contexts are cut, so that
     // contexts match words.
     std::vector<Skeleton> skeletons_;

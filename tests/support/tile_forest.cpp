@@ -31,7 +31,7 @@ TileForest make_forest(const std::string& file, SceneOverrides overrides, TileOp
     overrides.method = PlacementMethod::Jittered;
     overrides.spacing = 4.0;
     Outcome<LoadedScene> scene = load_scene({file}, overrides, project);
-    options.error = 0.0F;
+    options.max_error = 0.0F;
     options.generator = "tests";
     if (scene) {
         Outcome<TileForest> forest = make_tile_forest(std::move(scene.value()), options, project);

@@ -152,11 +152,11 @@ sheet_cells(std::uint64_t seed, const std::vector<Constant>& params, const Names
 }
 
 SheetSize sheet_cell_size(std::uint32_t window_width, std::uint32_t window_height) {
-    constexpr std::uint32_t kAside = 42; // width of borders and gaps, pixels
-    constexpr std::uint32_t kAbove = 66; // height of borders, gaps and the line of text above
+    constexpr std::uint32_t kBorderWidth = 42;  // width of borders and gaps, pixels
+    constexpr std::uint32_t kHeaderHeight = 66; // borders, gaps and the line of text, pixels
     constexpr auto kSide = static_cast<std::uint32_t>(kSheetSide);
-    return {std::max(window_width, kAside + kSide) / kSide - kAside / kSide,
-            std::max(window_height, kAbove + kSide) / kSide - kAbove / kSide};
+    return {std::max(window_width, kBorderWidth + kSide) / kSide - kBorderWidth / kSide,
+            std::max(window_height, kHeaderHeight + kSide) / kSide - kHeaderHeight / kSide};
 }
 
 void take_cell(const SheetCell& cell, PlantEdits& edits) {

@@ -448,13 +448,13 @@ void Controls::apply(const WindowInput& input,
 }
 
 void Controls::click(const WindowInput& input, const PixelArea& area, View& view) {
-    constexpr float kStill = 3.0F; // pixels of motion that still count as a click
+    constexpr float kMaxClickMotion = 3.0F; // pixels of motion that still count as a click
     for (const PointerEvent& event : input.pointer_events) {
         if (event.kind == PointerEvent::Kind::Press) {
             pressed_ = event.place;
             continue;
         }
-        if (pressed_ && glm::distance(*pressed_, event.place) > kStill) {
+        if (pressed_ && glm::distance(*pressed_, event.place) > kMaxClickMotion) {
             pressed_.reset(); // dragged too far for a click
         }
         if (event.kind == PointerEvent::Kind::Release && pressed_) {

@@ -19,7 +19,7 @@ namespace fs = std::filesystem;
 
 using platform::stamp_of;
 
-constexpr int kMaxDelay = 10; // max delay of a report / Options::quiet
+constexpr int kMaxDelayRatio = 10; // max delay of a report / Options::quiet
 /// Max interval of polls on systems without events of files.
 constexpr std::chrono::milliseconds kPollWithoutEvents{100};
 
@@ -186,10 +186,10 @@ struct FileWatch::State {
                 check_stamps(now);
             }
             // Reports when no event has come for `quiet` or, in folders with constant writes, after
-            // kMaxDelay.
+            // kMaxDelayRatio.
             const auto first = first_change();
-            if (first &&
-                ((in_change && waited.timed_out) || now - *first > kMaxDelay * options.quiet)) {
+            if (first && ((in_change && waited.timed_out) ||
+                          now - *first > kMaxDelayRatio * options.quiet)) {
                 report(now);
             }
         }

@@ -274,8 +274,9 @@ void ForestView::swap(ForestOutcome outcome) {
     grown_.reset();
     forget_picked();
     legend_ = legend_of(document_->model, shown_colours_);
-    const bool is_other = before == nullptr || before->files.front() != document->files.front();
-    if (is_other) {
+    const bool opens_other_scene =
+        before == nullptr || before->files.front() != document->files.front();
+    if (opens_other_scene) {
         painting_.clear();
         steps_.clear();
         undone_.clear();
@@ -303,7 +304,7 @@ void ForestView::swap(ForestOutcome outcome) {
     }
     settings.brush.species = static_cast<std::uint16_t>(
         std::min<std::size_t>(settings.brush.species, document_->scene.species.size() - 1));
-    if (is_other) {
+    if (opens_other_scene) {
         const PlacementSpecies& first = placement.species.front();
         settings.brush.min_scale = first.min_scale;
         settings.brush.max_scale = first.max_scale;

@@ -84,8 +84,8 @@ std::string samples_folder() {
     if (!error) {
         std::filesystem::path around = program.parent_path();
         folders.push_back(around.parent_path() / "share/lsc/samples");
-        constexpr int kLevels = 4; // folders from build/PRESET/tests up to the sources
-        for (int level = 0; level < kLevels; ++level) {
+        constexpr int kMaxParentFolders = 4; // folders from build/PRESET/tests up to the sources
+        for (int level = 0; level < kMaxParentFolders; ++level) {
             folders.push_back(around / "samples");
             around = around.parent_path();
         }

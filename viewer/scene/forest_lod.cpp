@@ -158,9 +158,9 @@ void ForestLod::find_within(const Bounds& box, std::vector<std::uint32_t>& trees
 }
 
 float ForestLod::crown_cover(const glm::vec3& eye) const {
-    constexpr float kRange = 15.0F; // m
-    constexpr float kLow = 1.0F;    // m above the eye: lower tops of crowns do not count
-    constexpr float kHigh = 5.0F;   // m above the eye: higher tops count in full
+    constexpr float kRange = 15.0F;  // m
+    constexpr float kMinTop = 1.0F;  // m above the eye: lower tops of crowns do not count
+    constexpr float kFullTop = 5.0F; // m above the eye: higher tops count in full
     Bounds box;
     box.add(eye - kRange);
     box.add(eye + kRange);
@@ -174,8 +174,8 @@ float ForestLod::crown_cover(const glm::vec3& eye) const {
         const float nearness = std::max(1.0F - glm::dot(away, away) / (kRange * kRange), 0.0F);
         const float top = tree.position.y + tree.scale * form.high - eye.y;
         const float radius = tree.scale * form.radius;
-        covered +=
-            nearness * std::clamp((top - kLow) / (kHigh - kLow), 0.0F, 1.0F) * radius * radius;
+        covered += nearness * std::clamp((top - kMinTop) / (kFullTop - kMinTop), 0.0F, 1.0F) *
+                   radius * radius;
     }
     constexpr float kMeanNearness = 0.5F; // mean of `nearness` within the range
     return 1.0F - std::exp(-covered / (kMeanNearness * kRange * kRange));
@@ -216,7 +216,7 @@ void ForestLod::list_whole_trees(std::span<const std::uint32_t> trees,
 }
 
 /// Replaces yaw and form of a tree of the forest in `cell` after its surroundings have changed.
-void ForestLod::turn_tree(std::uint32_t number, const Tree& tree, ForestCell& cell) {
+void ForestLod::replace_yaw_and_form(std::uint32_t number, const Tree& tree, ForestCell& cell) {
     pool_.forget(number);
     turned_[number] = tree;
     const bool is_removed = trees_[number].is_removed();
@@ -259,7 +259,7 @@ std::uint32_t ForestLod::change_tree(std::uint32_t index, const Tree& tree, bool
     }
     if (alive && std::bit_cast<std::uint32_t>(placed_tree(number).yaw) !=
                      std::bit_cast<std::uint32_t>(tree.yaw)) {
-        turn_tree(number, tree, cell);
+        replace_yaw_and_form(number, tree, cell);
     }
     if (trees_[number].is_removed() == alive) {
         trees_[number].impostor ^= LodTree::kRemoved;

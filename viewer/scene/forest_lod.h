@@ -296,7 +296,7 @@ private:
         const auto turned = turned_.empty() ? turned_.end() : turned_.find(number);
         return turned == turned_.end() ? model_.forest->trees[trees_[number].tree] : turned->second;
     }
-    void turn_tree(std::uint32_t number, const Tree& tree, ForestCell& cell);
+    void replace_yaw_and_form(std::uint32_t number, const Tree& tree, ForestCell& cell);
     [[nodiscard]] Tree streamed_tree(std::uint32_t number) const;
     /// Finds a free range of `count` trees in trees_. Returns its first index.
     [[nodiscard]] std::uint32_t allocate_trees(std::uint32_t count);

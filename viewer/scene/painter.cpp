@@ -201,7 +201,7 @@ void Painter::set_alive(std::uint32_t index, bool alive) {
 void Painter::record(std::uint32_t index, bool alive) {
     set_alive(index, alive);
     log_.push_back({index, alive});
-    changes_.push_back(log_.back());
+    last_changes_.push_back(log_.back());
 }
 
 /// Adds a painted tree that no stroke has added yet.
@@ -252,12 +252,12 @@ void Painter::begin_stroke() {
 }
 
 std::span<const TreeChange> Painter::paint(float x, float z, const Brush& brush) {
-    changes_.clear();
+    last_changes_.clear();
     if (done_ == 0 || done_ != strokes_.size()) {
         begin_stroke();
     }
     if (!(brush.radius > 0.0F && brush.density > 0.0F)) {
-        return changes_;
+        return last_changes_;
     }
     const float spacing = std::sqrt(kJammed / brush.density);
     const double room = std::numbers::pi * static_cast<double>(brush.radius) *
@@ -281,18 +281,18 @@ std::span<const TreeChange> Painter::paint(float x, float z, const Brush& brush)
         add(paint);
         record(tree_count() - 1, true);
     }
-    return changes_;
+    return last_changes_;
 }
 
 std::span<const TreeChange> Painter::plant(float x, float z, const Brush& brush) {
-    changes_.clear();
+    last_changes_.clear();
     if (done_ == 0 || done_ != strokes_.size()) {
         begin_stroke();
     }
     constexpr float kSamePlace = 0.05F; // m
     if (!region_.contains(x, z) || painted_.size() == kMaxPainted ||
         any_near(x, z, kSamePlace, [](std::uint32_t) { return true; })) {
-        return changes_;
+        return last_changes_;
     }
     const PhiloxBlock words = draw_block(key_, kPaintGeneration, draws_++, 0);
     PaintedTree paint;
@@ -303,11 +303,11 @@ std::span<const TreeChange> Painter::plant(float x, float z, const Brush& brush)
     paint.scale = brush.min_scale + (brush.max_scale - brush.min_scale) * unit_interval(words[3]);
     add(paint);
     record(tree_count() - 1, true);
-    return changes_;
+    return last_changes_;
 }
 
 std::span<const TreeChange> Painter::erase(float x, float z, float radius) {
-    changes_.clear();
+    last_changes_.clear();
     if (done_ == 0 || done_ != strokes_.size()) {
         begin_stroke();
     }
@@ -319,31 +319,31 @@ std::span<const TreeChange> Painter::erase(float x, float z, float radius) {
     for (const std::uint32_t index : gone) {
         record(index, false);
     }
-    return changes_;
+    return last_changes_;
 }
 
 std::span<const TreeChange> Painter::undo() {
-    changes_.clear();
+    last_changes_.clear();
     if (can_undo()) {
         --done_;
         for (std::size_t i = end_of(done_); i-- > strokes_[done_].first;) {
             set_alive(log_[i].index, !log_[i].alive);
-            changes_.push_back({log_[i].index, !log_[i].alive});
+            last_changes_.push_back({log_[i].index, !log_[i].alive});
         }
     }
-    return changes_;
+    return last_changes_;
 }
 
 std::span<const TreeChange> Painter::redo() {
-    changes_.clear();
+    last_changes_.clear();
     if (can_redo()) {
         for (std::size_t i = strokes_[done_].first; i < end_of(done_); ++i) {
             set_alive(log_[i].index, log_[i].alive);
-            changes_.push_back(log_[i]);
+            last_changes_.push_back(log_[i]);
         }
         ++done_;
     }
-    return changes_;
+    return last_changes_;
 }
 
 Painting Painter::painting() const {

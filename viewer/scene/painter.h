@@ -143,7 +143,7 @@ private:
     std::vector<Stroke> strokes_;
     std::size_t done_ = 0;  // number of strokes that are not undone
     std::size_t saved_ = 0; // done_ when last saved; kNone: that state cannot return
-    std::vector<TreeChange> changes_;
+    std::vector<TreeChange> last_changes_;
     std::vector<std::uint32_t> sensed_; // result of sense_around()
 };
 

@@ -249,7 +249,7 @@ void GrowthWalk::write(const SequenceRule& rule, const Count& matches) {
     work_ += rule.max_written.size();
 }
 
-void GrowthWalk::pass(const Rule& rule) {
+void GrowthWalk::apply(const Rule& rule) {
     ++work_;
     if (rule.sequence != kNone) {
         const SequenceRule& sequence = sequences_[rule.sequence];
@@ -313,13 +313,13 @@ void GrowthWalk::advance() {
     case RewritingMode::Sequential:
         index_by_symbol();
         for (const Rule& rule : rules_) {
-            pass(rule);
+            apply(rule);
         }
         break;
     case RewritingMode::Cyclic:
         if (!rules_.empty()) {
             index_by_symbol();
-            pass(rules_[age_ % rules_.size()]);
+            apply(rules_[age_ % rules_.size()]);
         }
         break;
     }

@@ -70,7 +70,7 @@ private:
         return i < counts.size() ? counts[i] : Count{};
     }
     void list_rules();
-    void pass(const Rule& rule);
+    void apply(const Rule& rule);
     void rewrite(std::span<const ClassId> ids);
     void subtract_replaced(const SequenceRule& rule, const Count& matches);
     void write(const SequenceRule& rule, const Count& matches);

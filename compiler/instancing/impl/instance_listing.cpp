@@ -154,14 +154,14 @@ private:
             const std::string_view name = names_.text(program_.symbol(module.symbol).name);
             const SourceSpan written =
                 module_name_span(sources_, word.file, module.begin, name, program_.written_names);
-            const bool quoted = sources_.text(written).starts_with('`') && name != "`";
+            const bool is_quoted = sources_.text(written).starts_with('`') && name != "`";
             end = written.end;
             if (program_.symbol(module.symbol).parameter_count != 0) {
                 end = static_cast<std::uint32_t>(end_of_arguments(text, end));
             }
             out_ += before[i];
             // A module with the name of an instancing operation is written in back quotes.
-            if (name == "$" && !quoted) {
+            if (name == "$" && !is_quoted) {
                 out_ += "`$`";
                 out_ += text.substr(module.begin + 1, end - module.begin - 1);
             } else {

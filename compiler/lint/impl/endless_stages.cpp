@@ -84,7 +84,7 @@ private:
     void remove_ending() {
         endless_ = is_certain_;
         // By production: number of endless modules in its successor.
-        std::vector<std::uint32_t> kept(program_.productions.size(), 0);
+        std::vector<std::uint32_t> endless_counts(program_.productions.size(), 0);
         std::vector<SymbolId> removed;
         const GroupedLists writers(program_.symbols.size(), [&](auto&& add_to) {
             for (const std::vector<std::uint32_t>& list : tried_) {
@@ -98,13 +98,14 @@ private:
         });
         for (std::size_t s = 0; s < endless_.size(); ++s) {
             for (const std::uint32_t p : writers[s]) {
-                kept[p] += endless_[s] ? 1U : 0U;
+                endless_counts[p] += endless_[s] ? 1U : 0U;
             }
         }
         const auto check = [&](std::size_t s) {
             const std::vector<std::uint32_t>& list = tried_[s];
-            if (endless_[s] && std::any_of(list.begin(), list.end(),
-                                           [&](std::uint32_t p) { return kept[p] == 0; })) {
+            if (endless_[s] && std::any_of(list.begin(), list.end(), [&](std::uint32_t p) {
+                    return endless_counts[p] == 0;
+                })) {
                 endless_[s] = false;
                 removed.push_back(SymbolId{static_cast<std::uint32_t>(s)});
             }
@@ -116,7 +117,7 @@ private:
             const auto s = static_cast<std::size_t>(removed.back());
             removed.pop_back();
             for (const std::uint32_t p : writers[s]) {
-                --kept[p];
+                --endless_counts[p];
                 check(static_cast<std::size_t>(
                     program_.productions[p].predecessor.items.front().symbol));
             }

@@ -101,10 +101,11 @@ private:
                             quoted(input_.name(row.name))));
             warning.help.push_back(fmt::format(
                 "give it parameters, which sensing overwrites: `{}{}`", input_.name(row.name),
-                zeros(asks_environment(row.sense)
-                          ? answer_size(program_.environments[static_cast<std::size_t>(row.sense)]
-                                            .values.kind)
-                          : 3)));
+                zero_arguments(
+                    asks_environment(row.sense)
+                        ? answer_size(program_.environments[static_cast<std::size_t>(row.sense)]
+                                          .values.kind)
+                        : 3)));
         });
     }
 

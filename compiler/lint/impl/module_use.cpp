@@ -20,9 +20,9 @@ ModuleUse find_module_use(const Program& program) {
     for (std::uint32_t s = 0; s < symbols; ++s) {
         use.by_name[static_cast<std::uint32_t>(program.symbols[s].name)].push_back(SymbolId{s});
     }
-    const auto add_places = [&](const ProgramWord& word, bool occurs) {
+    const auto add_places = [&](const ProgramWord& word, bool is_reachable) {
         // A place in a reachable word also counts as a place in any word.
-        std::vector<ModuleMention>& known = occurs ? use.first_place : use.any_place;
+        std::vector<ModuleMention>& known = is_reachable ? use.first_place : use.any_place;
         for_each_symbol(program, word, [&](std::size_t index, SymbolId symbol) {
             const auto s = static_cast<std::size_t>(symbol);
             if (known[s].word == nullptr) {

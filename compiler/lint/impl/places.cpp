@@ -85,7 +85,7 @@ bool is_meant_as_probability(const CheckInput& input, const Production& producti
            text.find_first_of("123456789") != std::string_view::npos;
 }
 
-std::string zeros(std::uint32_t count) {
+std::string zero_arguments(std::uint32_t count) {
     std::string text = "(0";
     for (std::uint32_t i = 1; i < count; ++i) {
         text += ", 0";

@@ -26,6 +26,6 @@ argument_spans(const CheckInput& input, const ProgramWord& word, std::size_t ind
 [[nodiscard]] SourceSpan item_span(const Production& production, const ProgramPatternItem& item);
 
 /// "(0, 0, 0, 0)": first values for an answer of `count` numbers.
-[[nodiscard]] std::string zeros(std::uint32_t count);
+[[nodiscard]] std::string zero_arguments(std::uint32_t count);
 
 } // namespace lsys

@@ -71,7 +71,7 @@ void check_environments(const CheckInput& input, Diagnostics& diagnostics) {
             "write a module `?{}{}` where the plant senses, or remove the statement", name,
             environment.values.kind == EnvironmentKind::Program
                 ? std::string("(x)")
-                : zeros(answer_size(environment.values.kind))));
+                : zero_arguments(answer_size(environment.values.kind))));
     }
 }
 

@@ -106,7 +106,7 @@ private:
     Variables globals_;
     Variables state_;                             // values of changing globals in this production
     std::map<std::string, ForeignId> increments_; // per global: amount that each step adds
-    std::set<std::string> reset_; // globals that each step assigns before reading them
+    std::set<std::string> assigned_each_step_; // globals that each step assigns before reading them
     std::map<std::string, Array> arrays_;
     /// Names of functions in .lsys, by index in curves_; only of curves that expressions call.
     std::map<std::size_t, std::string> curve_names_;

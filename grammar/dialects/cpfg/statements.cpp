@@ -73,7 +73,7 @@ void CpfgExpressions::classify_changed_globals() {
         if (added != kNoForeign) {
             increments_[variable] = added;
         } else if (is_assigned_first(session_.start_each, variable).value_or(false)) {
-            reset_.insert(variable);
+            assigned_each_step_.insert(variable);
         }
     }
     // Rename the constants of changing variables, whose own names are for local values.
@@ -86,10 +86,11 @@ void CpfgExpressions::classify_changed_globals() {
     for (std::size_t before = changed_globals_.size() + 1; before != unknown.size();) {
         before = unknown.size();
         for (const std::string& variable : changed_globals_) {
-            const bool known = increments_.count(variable) != 0 || reset_.count(variable) != 0;
+            const bool known =
+                increments_.count(variable) != 0 || assigned_each_step_.count(variable) != 0;
             if (!known || depends(session_.start_each, variable, unknown) ||
                 depends(session_.end_each, variable, unknown)) {
-                reset_.erase(variable);
+                assigned_each_step_.erase(variable);
                 unknown.insert(variable);
             }
         }
@@ -211,7 +212,7 @@ void CpfgExpressions::enter_step() {
     in_step_ = false;
     quiet_ = was_quiet;
     for (const auto& [variable, value] : std::exchange(variables_, {})) {
-        if (increments_.count(variable) == 0 && reset_.count(variable) == 0) {
+        if (increments_.count(variable) == 0 && assigned_each_step_.count(variable) == 0) {
             continue;
         }
         if (stage_ == Stage::Decompose) { // the axiom is decomposed before any step

@@ -95,8 +95,9 @@ ForeignId HoudiniExpressions::name(const ForeignNode& node, const HoudiniScope& 
     const bool in_premise = scope.place == HoudiniPlace::Premise;
     if (scope.rule != nullptr && names_parameter(*scope.rule, name)) {
         const bool is_zero =
-            scope.zeros != nullptr &&
-            std::find(scope.zeros->begin(), scope.zeros->end(), name) != scope.zeros->end();
+            scope.omitted_parameters != nullptr &&
+            std::find(scope.omitted_parameters->begin(), scope.omitted_parameters->end(), name) !=
+                scope.omitted_parameters->end();
         return is_zero ? tree_.number("0", node.span) : tree_.name(name, node.span);
     }
     if (name == "a") {

@@ -18,8 +18,9 @@ enum class HoudiniPlace : std::uint8_t { Premise, Successor, Condition, Probabil
 
 struct HoudiniScope {
     HoudiniPlace place{};
-    const HoudiniRule* rule = nullptr;            // null in the premise
-    const std::vector<std::string_view>* zeros{}; // parameters that this variant of the rule lacks
+    const HoudiniRule* rule = nullptr; // null in the premise
+    /// Parameters that this variant of the rule lacks.
+    const std::vector<std::string_view>* omitted_parameters = nullptr;
 };
 
 class HoudiniExpressions {

@@ -158,7 +158,7 @@ void HoudiniWriter::write_formals(const HoudiniModule& head, std::uint32_t count
         }
     }
     for (std::size_t i = count; i < head.arguments.size(); ++i) {
-        zeros_.push_back(text(session_.node(head.arguments[i]).span));
+        omitted_parameters_.push_back(text(session_.node(head.arguments[i]).span));
     }
     if (has_age) {
         translation_.put(count == 0 ? "(g" : ", g", place);
@@ -184,7 +184,7 @@ void HoudiniWriter::write_variant(const HoudiniRule& rule,
                                   const std::string& name) {
     std::size_t slot = 0;
     fresh_ = 0;
-    zeros_.clear();
+    omitted_parameters_.clear();
     translation_.put("#" + name + " : ", rule.span);
     if (!rule.left.empty()) {
         write_pattern(rule.left, counts, slot);
@@ -204,20 +204,22 @@ void HoudiniWriter::write_variant(const HoudiniRule& rule,
         expressions_.warn_random(rule.span);
         translation_.put("* ~ " + chance->second, rule.span);
     } else if (rule.condition != kNoForeign) {
-        write_expression(rule.condition, {HoudiniPlace::Condition, &rule, &zeros_});
+        write_expression(rule.condition, {HoudiniPlace::Condition, &rule, &omitted_parameters_});
     } else if (!weighted) {
         translation_.put("*", rule.span);
     }
     if (weighted) {
         translation_.put(" ~ ", rule.span);
         if (rule.probability != kNoForeign) {
-            write_expression(rule.probability, {HoudiniPlace::Probability, &rule, &zeros_});
+            write_expression(rule.probability,
+                             {HoudiniPlace::Probability, &rule, &omitted_parameters_});
         } else {
             translation_.put("1", rule.span);
         }
     }
     const std::size_t first = tree_.locals().size();
-    const Word word = lower_word(rule.successor, {HoudiniPlace::Successor, &rule, &zeros_});
+    const Word word =
+        lower_word(rule.successor, {HoudiniPlace::Successor, &rule, &omitted_parameters_});
     std::set<std::string> taken{"value_b", "value_c", "value_d", "g"};
     taken.insert(rule.formals.begin(), rule.formals.end());
     for (std::size_t i = 0; i < premise_local_count_; ++i) {

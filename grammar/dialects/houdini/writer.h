@@ -90,10 +90,11 @@ private:
     // Probability in place of a condition with `rand`.
     std::map<const HoudiniRule*, std::string> probabilities_;
     std::map<std::string_view, bool> aged_; // symbols whose ageing rule is written
-    std::vector<std::string_view> zeros_;   // parameters that the variant of a rule lacks
-    std::string warned_;                    // symbols that have been reported
-    std::uint32_t fresh_ = 0;               // count of generated parameter names
-    std::size_t premise_local_count_ = 0;   // locals of the premise; first in tree_.locals()
+    /// Parameters that the variant of a rule lacks.
+    std::vector<std::string_view> omitted_parameters_;
+    std::string warned_;                  // symbols that have been reported
+    std::uint32_t fresh_ = 0;             // count of generated parameter names
+    std::size_t premise_local_count_ = 0; // locals of the premise; first in tree_.locals()
 };
 
 } // namespace lsys

@@ -17,7 +17,7 @@ constexpr std::uint32_t kLongHead = 50;
 
 bool has_columns(const LayoutRow& row) {
     const bool has_cells = row.shape != StatementShape::List && row.shape != StatementShape::Other;
-    return has_cells && !row.list_below && !row.several_lines && row.column == 0 &&
+    return has_cells && !row.list_below && !row.has_several_lines && row.column == 0 &&
            row.head <= kColumns;
 }
 
@@ -86,26 +86,26 @@ LayoutRow measure(std::string_view text, std::size_t begin, std::uint32_t column
             }
             cell_begin = end_column + 1;
         }
-        if (piece.in_list && in_head) {
+        if (piece.is_in_list && in_head) {
             in_head = false;
-            row.list_below = piece.own_line;
-            has_modules = !piece.semicolon_only;
+            row.list_below = piece.begins_line;
+            has_modules = !piece.is_only_semicolon;
             in_first_module = true;
-        } else if (piece.own_line || piece.break_class != BreakClass::Never) {
+        } else if (piece.begins_line || piece.break_class != BreakClass::Never) {
             in_first_module = false;
         }
-        in_first_line = in_first_line && !piece.own_line;
+        in_first_line = in_first_line && !piece.begins_line;
         has_outer_place =
-            has_outer_place || (piece.in_list && !in_first_module && piece.depth == 0 &&
+            has_outer_place || (piece.is_in_list && !in_first_module && piece.depth == 0 &&
                                 piece.break_class == BreakClass::Fine && end_column <= kColumns);
-        const std::uint32_t width = piece.width + (piece.blank_before ? 1U : 0U);
+        const std::uint32_t width = piece.width + (piece.has_blank_before ? 1U : 0U);
         end_column += width;
         row.first_module_width += in_first_module ? width : 0;
         row.head = in_head ? end_column : row.head;
         row.first_line = in_first_line ? end_column : row.first_line;
-        row.several_lines = row.several_lines || piece.several_lines;
+        row.has_several_lines = row.has_several_lines || piece.has_several_lines;
     }
-    row.several_lines = reader.skip_rest() || row.several_lines;
+    row.has_several_lines = reader.skip_rest() || row.has_several_lines;
     const bool too_long = row.head + row.first_module_width > kColumns ||
                           (row.first_line > kColumns && (row.head > kLongHead || !has_outer_place));
     row.list_below = row.list_below || (has_modules && too_long);

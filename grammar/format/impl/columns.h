@@ -30,8 +30,8 @@ struct LayoutRow {
     std::array<std::uint32_t, kCells - 1> cells{}; // widths, then blanks to add
     std::uint8_t cell_count = 1;
     StatementShape shape = StatementShape::Other;
-    bool list_below = false;    // the modules begin on the next line
-    bool several_lines = false; // a comment within has line ends
+    bool list_below = false;        // the modules begin on the next line
+    bool has_several_lines = false; // a comment within has line ends
 };
 
 [[nodiscard]] LayoutRow measure(std::string_view text, std::size_t begin, std::uint32_t column);

@@ -35,7 +35,7 @@ struct Lexeme {
     LexemeKind kind{};
     std::string_view text;
     std::uint32_t newlines_before = 0;
-    bool blank_before = false;
+    bool has_blank_before = false;
     bool opens_call = false;   // for Left: the `(` of a function call
     bool opens_bounds = false; // for Left: the `{` after the value of a `#param`
     bool ends_head = false;    // for Colon of a production: the successor is next

@@ -19,7 +19,7 @@ std::uint32_t indent_of(std::uint32_t depth) {
 } // namespace
 
 void LineWriter::add(const Piece& piece, std::uint32_t blanks, bool may_break) {
-    if (piece.own_line) {
+    if (piece.begins_line) {
         new_line(piece.depth);
     }
     if (!at_begin_) {
@@ -38,7 +38,7 @@ void LineWriter::add(const Piece& piece, std::uint32_t blanks, bool may_break) {
     while (column_ > kColumns && !breaks_.empty()) {
         break_line();
     }
-    if (piece.several_lines) {
+    if (piece.has_several_lines) {
         out_ += line_;
         line_.clear();
         breaks_.clear();

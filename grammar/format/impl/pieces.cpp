@@ -50,7 +50,7 @@ bool blank_between(const Lexeme& before, const Lexeme& after) {
     case Context:
         return true;
     case Module:
-        return before.kind != Module && before.kind != Close ? true : after.blank_before;
+        return before.kind != Module && before.kind != Close ? true : after.has_blank_before;
     case Left:
         if (after.opens_call) {
             return false;
@@ -104,8 +104,8 @@ bool PieceReader::next(Piece& piece) {
         piece.break_class = BreakClass::Poor; // a line that begins with `//` looks like a comment
     }
     const std::string_view written = piece.text;
-    piece.several_lines = has_comment_ && written.find('\n') != written.npos;
-    if (piece.several_lines) {
+    piece.has_several_lines = has_comment_ && written.find('\n') != written.npos;
+    if (piece.has_several_lines) {
         piece.width = text_width(written.substr(0, written.find('\n')));
         piece.last_width = text_width(written.substr(written.rfind('\n') + 1));
     } else {
@@ -116,35 +116,36 @@ bool PieceReader::next(Piece& piece) {
 }
 
 bool PieceReader::skip_rest() {
-    bool several_lines = false;
+    bool has_several_lines = false;
     while (!done_) {
-        several_lines = several_lines || (current_.kind == LexemeKind::BlockComment &&
-                                          current_.text.find('\n') != current_.text.npos);
+        has_several_lines = has_several_lines || (current_.kind == LexemeKind::BlockComment &&
+                                                  current_.text.find('\n') != current_.text.npos);
         done_ = current_.kind == LexemeKind::Semicolon || !reader_.next(current_);
     }
     end_ = reader_.offset();
-    return several_lines;
+    return has_several_lines;
 }
 
 void PieceReader::describe(Piece& piece) {
     const bool first = index_ == 0;
-    piece.blank_before = !first && blank_between(previous_, current_);
+    piece.has_blank_before = !first && blank_between(previous_, current_);
     piece.begins_cell = !first && begins_cell();
-    piece.in_list = in_list_;
+    piece.is_in_list = is_in_list_;
     const bool keeps_line = current_.kind != LexemeKind::Semicolon;
-    piece.own_line = (in_list_ || begins_local()) && keeps_line && current_.newlines_before > 0;
+    piece.begins_line =
+        (is_in_list_ || begins_local()) && keeps_line && current_.newlines_before > 0;
     piece.break_class = first ? BreakClass::Never : break_class();
     piece.depth = brackets_ - (closes_bracket(current_) && brackets_ > 0 ? 1U : 0U);
     piece.rank = 0;
-    if (in_list_) {
+    if (is_in_list_) {
         // Prefer breaks at outer levels, then at blanks, then before branches.
         piece.rank =
-            brackets_ * 4 + (piece.blank_before ? 0 : 2) + (is_module(current_, '[') ? 0 : 1);
+            brackets_ * 4 + (piece.has_blank_before ? 0 : 2) + (is_module(current_, '[') ? 0 : 1);
     } else if (current_.kind == LexemeKind::Operator) {
         piece.rank = 1; // rather between local values than within one
     }
     piece.ends_statement = false;
-    piece.semicolon_only = current_.kind == LexemeKind::Semicolon;
+    piece.is_only_semicolon = current_.kind == LexemeKind::Semicolon;
 }
 
 bool PieceReader::begins_cell() const {
@@ -169,7 +170,7 @@ bool PieceReader::begins_cell() const {
 
 /// Whether the current token is the name of a local value after the first.
 bool PieceReader::begins_local() const {
-    return shape_ == StatementShape::Production && !in_list_ && parentheses_ == 0 &&
+    return shape_ == StatementShape::Production && !is_in_list_ && parentheses_ == 0 &&
            previous_.kind == LexemeKind::Comma;
 }
 
@@ -178,7 +179,7 @@ BreakClass PieceReader::break_class() const {
     if (begins_local()) {
         return current_.kind == BlockComment ? BreakClass::Never : BreakClass::Fine;
     }
-    if (in_list_) {
+    if (is_in_list_) {
         if (opens_bracket(previous_) || current_.kind == BlockComment ||
             current_.kind == Semicolon) {
             return BreakClass::Never;
@@ -209,19 +210,19 @@ BreakClass PieceReader::break_class() const {
 /// Whether `after` repeats the symbol before it.
 bool PieceReader::continues_repeat(const Lexeme& after) const {
     return after.kind == LexemeKind::Module && previous_.kind == LexemeKind::Module &&
-           !after.blank_before && after.text[0] == previous_.text[0] && after.text.size() == 1 &&
-           previous_.text.size() == 1 && !opens_bracket(after) && !closes_bracket(after) &&
-           repeat_count_ < kMaxRepeats;
+           !after.has_blank_before && after.text[0] == previous_.text[0] &&
+           after.text.size() == 1 && previous_.text.size() == 1 && !opens_bracket(after) &&
+           !closes_bracket(after) && repeat_count_ < kMaxRepeats;
 }
 
 bool PieceReader::ends_before(const Lexeme& after) const {
     if (parentheses_ > 0) {
         return false;
     }
-    if (in_list_ && after.kind == LexemeKind::Module) {
+    if (is_in_list_ && after.kind == LexemeKind::Module) {
         return !continues_repeat(after);
     }
-    if (in_list_ && after.kind == LexemeKind::Open) {
+    if (is_in_list_ && after.kind == LexemeKind::Open) {
         return false;
     }
     return blank_between(previous_, after);
@@ -248,7 +249,7 @@ void PieceReader::take(Piece& piece) {
         break;
     case LexemeKind::Colon:
         ++colons_;
-        in_list_ = in_list_ || current_.ends_head || shape_ == StatementShape::List;
+        is_in_list_ = is_in_list_ || current_.ends_head || shape_ == StatementShape::List;
         break;
     case LexemeKind::Module:
         if (opens_bracket(current_)) {

@@ -19,18 +19,18 @@ enum class BreakClass : std::uint8_t { Never, Poor, Fine };
 
 struct Piece {
     std::string text;
-    std::uint32_t width = 0;      // width of the first line
-    std::uint32_t last_width = 0; // width of the last line
-    bool several_lines = false;   // a comment within has line ends
-    bool blank_before = false;
+    std::uint32_t width = 0;        // width of the first line
+    std::uint32_t last_width = 0;   // width of the last line
+    bool has_several_lines = false; // a comment within has line ends
+    bool has_blank_before = false;
     bool begins_cell = false;
-    bool in_list = false;  // in a list of modules, after the last colon
-    bool own_line = false; // the author began a line with this piece
+    bool is_in_list = false;  // in a list of modules, after the last colon
+    bool begins_line = false; // the author began a line with this piece
     BreakClass break_class = BreakClass::Never;
     std::uint32_t rank = 0;  // rank among breaks of one class; the lowest is best
     std::uint32_t depth = 0; // open brackets before the piece; after the piece for a `]`
     bool ends_statement = false;
-    bool semicolon_only = false; // the `;` of an empty list
+    bool is_only_semicolon = false; // the `;` of an empty list
 };
 
 class PieceReader {
@@ -66,7 +66,7 @@ private:
     std::uint32_t parentheses_ = 0;
     std::uint32_t brackets_ = 0;
     std::uint32_t repeat_count_ = 1; // adjacent equal symbols, `////`
-    bool in_list_ = false;
+    bool is_in_list_ = false;
     bool has_comment_ = false;
 };
 

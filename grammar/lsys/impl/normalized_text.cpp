@@ -25,7 +25,7 @@ bool is_ascii(std::string_view text) {
 
 struct Validity {
     bool has_invalid = false;
-    bool has_beyond_ascii = false; // valid characters
+    bool has_non_ascii = false; // valid characters
 };
 
 /// Reports each run of invalid UTF-8 and replaces it with blanks in `valid_utf8`.
@@ -39,7 +39,7 @@ check_utf8(FileId file, std::string_view text, Diagnostics& diagnostics, std::st
         }
         const CodePoint point = decode_utf8(text.substr(at));
         if (point.valid) {
-            validity.has_beyond_ascii = true;
+            validity.has_non_ascii = true;
             at += point.length;
             continue;
         }
@@ -226,7 +226,7 @@ NormalizedText normalize_source(FileId file, const ParseContext& context) {
         if (validity.has_invalid) {
             normalized.scanned.text = *normalized.valid_utf8;
         }
-        if (validity.has_beyond_ascii) {
+        if (validity.has_non_ascii) {
             normalize_source(context, context.diagnostics, normalized);
         }
     }

@@ -265,7 +265,7 @@ bool is_number_after_colon(ParseSession& session) {
     return is_digit(next) || next == '.' || next == '(';
 }
 
-Token start(ParseSession& session, std::string_view word) {
+Token start_with_keyword(ParseSession& session, std::string_view word) {
     ScanState& scan = session.scan;
     open_statement(session, find_keyword(word));
     const char next = next_character(session.scanned.text, scan.end);
@@ -327,7 +327,7 @@ Token start_statement(ParseSession& session, std::string_view text) {
                     "", true);
         }
     }
-    return start(session, text.substr(name_begin));
+    return start_with_keyword(session, text.substr(name_begin));
 }
 
 Token start_without_hash(ParseSession& session, std::string_view word) {
@@ -380,7 +380,7 @@ Token start_without_hash(ParseSession& session, std::string_view word) {
         }
     }
     if (is_statement) {
-        return start(session, word);
+        return start_with_keyword(session, word);
     }
     open_statement(session, Keyword::Label);
     return discard_statement(session);

@@ -70,9 +70,9 @@ enum class Fault : std::uint8_t {
 struct EvalFault {
     Fault kind = Fault::None;
     std::uint32_t instruction = 0;
-    float value = 0.0F;   // for NotFinite and faults of weights
-    float minimum = 0.0F; // for faults of ranges; the first argument of a distribution
-    float maximum = 0.0F; // the second argument of a distribution
+    float value = 0.0F;          // for NotFinite and faults of weights
+    float first_argument = 0.0F; // of the range or distribution
+    float second_argument = 0.0F;
 };
 
 /// The fault of the range `{minimum, maximum}`; None if it can be drawn from.

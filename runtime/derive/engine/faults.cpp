@@ -37,8 +37,8 @@ RuntimeError error_of(const Bytecode& bytecode, const EvalFault& fault) {
     error.kind = kind_of(fault.kind);
     error.site = site_of(bytecode, fault.instruction);
     error.value = fault.value;
-    error.minimum = fault.minimum;
-    error.maximum = fault.maximum;
+    error.first_argument = fault.first_argument;
+    error.second_argument = fault.second_argument;
     error.opcode = opcode_of(bytecode.instructions[fault.instruction]);
     return error;
 }

@@ -256,7 +256,7 @@ private:
     void resolve_choice(const Family& family, std::uint32_t first_match, Code code);
     void resolve_fixed(Code code, const Entry& entry);
     [[nodiscard]] bool resolve_tests(const Family& family, Code code);
-    [[nodiscard]] bool bake(const Row& row, Entry& entry) const;
+    [[nodiscard]] bool make_constant(const Row& row, Entry& entry) const;
     [[nodiscard]] bool fold(Code code, Entry& entry);
     void fold_records(const Family& family, Code code);
     [[nodiscard]] std::uint32_t folded_template(const Candidate& candidate, const float* own);

@@ -12,7 +12,7 @@ namespace {
 /// Max codes of all folded templates together.
 constexpr std::size_t kMaxFoldedTemplateCodes = std::size_t{1} << 20;
 /// Max candidates of a family whose codes get entries of their own.
-constexpr std::uint32_t kMaxOwnEntries = 256;
+constexpr std::uint32_t kMaxCandidatesForOwnEntries = 256;
 
 } // namespace
 
@@ -76,7 +76,7 @@ std::uint32_t Plan::folded_template(const Candidate& candidate, const float* own
 /// Folds the entries of a module that one of several productions may rewrite.
 void Plan::fold_records(const Family& family, Code code) {
     Row& row = rows_[code];
-    if (!folding_.index || row.stored != 0 || family.count > kMaxOwnEntries) {
+    if (!folding_.index || row.stored != 0 || family.count > kMaxCandidatesForOwnEntries) {
         return;
     }
     std::vector<Entry> block(entries_.begin() + row.base + 1,

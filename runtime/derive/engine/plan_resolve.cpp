@@ -349,7 +349,7 @@ void Plan::resolve_fixed(Code code, const Entry& taken) {
     Entry entry = taken;
     row.slow = false;
     if (!fold(code, entry) && own_constants(row) != nullptr && (entry.reads_own || entry.general)) {
-        row.slow = !bake(row, entry);
+        row.slow = !make_constant(row, entry);
     }
     row.copies = false;
     row.code_count = entry.code_count;
@@ -362,7 +362,7 @@ void Plan::resolve_fixed(Code code, const Entry& taken) {
 
 /// Turns the parameters of `entry`, the only entry of a folded module, into constants. Returns
 /// false if that is not possible.
-bool Plan::bake(const Row& row, Entry& entry) const {
+bool Plan::make_constant(const Row& row, Entry& entry) const {
     const BytecodeProduction& production =
         bytecode_.productions[candidates_[entry.candidate].production];
     const float* const own = own_constants(row);

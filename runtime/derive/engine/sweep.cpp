@@ -14,7 +14,7 @@ namespace lsys {
 namespace {
 
 /// Modules between two checks of DeriveOptions::cancelled.
-constexpr std::uint64_t kModulesPerLook = std::uint64_t{1} << 20;
+constexpr std::uint64_t kModulesBetweenChecks = std::uint64_t{1} << 20;
 
 /// A stack that keeps its memory when items are removed.
 template <typename T>
@@ -306,7 +306,7 @@ std::optional<Stop> Sweep::run_typed(const Word& word,
         if (options.cancelled != nullptr && options.cancelled->load(std::memory_order_relaxed)) {
             return Stop::Cancelled;
         }
-        const std::uint64_t count = std::min(left, kModulesPerLook);
+        const std::uint64_t count = std::min(left, kModulesBetweenChecks);
         left -= count;
         if (!(is_down ? pass.down(place, left) : pass.up(place, view.count - left))) {
             return report_fault(word, view, place, options.limits, other_bytes);

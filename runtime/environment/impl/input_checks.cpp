@@ -10,7 +10,7 @@ std::optional<EnvironmentFailure> check_places(std::span<const SensePlace> place
         if (!is_finite(places[i].position)) {
             EnvironmentFailure failure = refused("the turtle is at a place that is not finite",
                                                  "keep the lengths of segments finite");
-            failure.place = i;
+            failure.failed_place = i;
             return failure;
         }
     }

@@ -101,11 +101,11 @@ public:
         if (hint < kKilled && consider(hint)) {
             return kKilled;
         }
-        std::array<WideOpen, kMaxWideOpen> open;
+        std::array<OpenNode, kMaxOpenNodes> open;
         std::size_t count = 0;
         open[count++] = {0, 0.0F};
         while (count > 0) {
-            const WideOpen next = open[--count];
+            const OpenNode next = open[--count];
             const float limit = std::max(limit_, kill_limit_);
             if (next.least > limit) {
                 continue;

@@ -36,7 +36,7 @@ void NearestTriangle::find_frame() {
     frame_ = Frame(box);
     // A computed nearest point may lie outside its triangle by some units in the last place of the
     // largest coordinate. Cylinders are larger than their triangles by far more.
-    more_ = 1e-12 * magnitude * frame_.scale();
+    cylinder_margin_ = 1e-12 * magnitude * frame_.scale();
 }
 
 Vector3 NearestTriangle::axis_of(const WideChild& child) const {
@@ -100,7 +100,7 @@ Vector3 NearestTriangle::middle_of(const WideChild& child, const Vector3& axis) 
 void NearestTriangle::fill_cylinder(const WideChild& child) {
     Node& node = nodes_[child.node];
     const std::size_t lane = child.lane;
-    if (!(frame_.scale() > 0.0 && more_ < 1.0)) { // bounds will not be used
+    if (!(frame_.scale() > 0.0 && cylinder_margin_ < 1.0)) { // bounds will not be used
         return;
     }
     Vector3 axis = axis_of(child);
@@ -123,8 +123,8 @@ void NearestTriangle::fill_cylinder(const WideChild& child) {
             radius_squared = std::max(radius_squared, squared_length(beside));
         }
     }
-    node.half_length[lane] = upper_float(half_length + more_);
-    node.radius[lane] = upper_float(std::sqrt(radius_squared) + more_);
+    node.half_length[lane] = upper_float(half_length + cylinder_margin_);
+    node.radius[lane] = upper_float(std::sqrt(radius_squared) + cylinder_margin_);
 }
 
 Lanes NearestTriangle::least_squared(const Node& node, const std::array<float, 3>& at) {
@@ -144,7 +144,7 @@ Lanes NearestTriangle::least_squared(const Node& node, const std::array<float, 3
 
 void NearestTriangle::find(const Vector3& place, NearestPoint& nearest, std::uint32_t& hint) const {
     const FramedPlace framed = frame_.framed_place(place);
-    const bool is_bounded = framed.is_bounded && more_ < 1.0;
+    const bool is_bounded = framed.is_bounded && cylinder_margin_ < 1.0;
     float limit = 0.0F;           // squared distance in the frame above which nodes are skipped
     std::uint32_t next_index = 0; // 1 + index of the nearest; 0: in another mesh
     const auto set_limit = [&] {
@@ -166,11 +166,11 @@ void NearestTriangle::find(const Vector3& place, NearestPoint& nearest, std::uin
     set_limit();
     const std::uint32_t first = hint;
     consider(first);
-    std::array<WideOpen, kMaxWideOpen> open;
+    std::array<OpenNode, kMaxOpenNodes> open;
     std::size_t open_count = 0;
     open[open_count++] = {0, 0.0F};
     while (open_count > 0) {
-        const WideOpen next = open[--open_count];
+        const OpenNode next = open[--open_count];
         if (next.least > limit) {
             continue;
         }
@@ -183,7 +183,7 @@ void NearestTriangle::find(const Vector3& place, NearestPoint& nearest, std::uin
             open_sorted(open, bottom, open_count, {node.children[lane], least[lane]});
         }
         while (node.is_leaf && open_count > bottom) {
-            const WideOpen child = open[--open_count];
+            const OpenNode child = open[--open_count];
             if (!(child.least > limit) && child.node != first) {
                 consider(child.node);
             }

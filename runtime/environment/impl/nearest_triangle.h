@@ -75,8 +75,8 @@ private:
     const std::vector<Vector3>& vertices_;
     std::span<const LeafTriangle> triangles_;
     Frame frame_;
-    double more_ = 0.0;       // enlargement of the cylinders, in units of the frame
-    LargeVector<Node> nodes_; // the root first
+    double cylinder_margin_ = 0.0; // enlargement of the cylinders, in units of the frame
+    LargeVector<Node> nodes_;      // the root first
 };
 
 } // namespace lsys

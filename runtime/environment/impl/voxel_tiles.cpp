@@ -46,8 +46,8 @@ std::size_t piece_count(std::size_t count) {
 } // namespace
 
 std::uint64_t VoxelTiles::bytes_for(std::uint64_t places) {
-    // Bytes of records_ and scratch_, and of first_ and first_voxel_ if each place has a tile of
-    // its own.
+    // Bytes of records_ and scratch_, and of first_record_ and first_voxel_ if each place has a
+    // tile of its own.
     return places * (2 * sizeof(SortRecord) + 2 * sizeof(std::size_t)) + 2 * sizeof(std::size_t);
 }
 
@@ -95,7 +95,7 @@ VoxelTiles::find_indexes(std::size_t count, const std::function<Vector3(std::siz
     for (const PieceRange& range : ranges) {
         if (range.beyond != kNone) {
             EnvironmentFailure failure;
-            failure.place = range.beyond;
+            failure.failed_place = range.beyond;
             return failure;
         }
         for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -128,21 +128,22 @@ void VoxelTiles::make_keys() {
 }
 
 void VoxelTiles::find_voxels() {
-    first_.clear();
+    first_record_.clear();
     first_voxel_.clear();
-    first_.reserve(records_.size() + 1); // bytes_for() assumes that the vector is allocated once
+    // bytes_for() assumes that the vectors are allocated once.
+    first_record_.reserve(records_.size() + 1);
     first_voxel_.reserve(records_.size() + 1);
     for (std::size_t i = 0; i < records_.size(); ++i) {
         const bool is_new_tile = i == 0 || records_[i].high != records_[i - 1].high;
         if (is_new_tile) {
-            first_voxel_.push_back(first_.size());
+            first_voxel_.push_back(first_record_.size());
         }
         if (is_new_tile || records_[i].low != records_[i - 1].low) {
-            first_.push_back(i);
+            first_record_.push_back(i);
         }
     }
-    first_voxel_.push_back(first_.size());
-    first_.push_back(records_.size());
+    first_voxel_.push_back(first_record_.size());
+    first_record_.push_back(records_.size());
 }
 
 std::size_t VoxelTiles::tile_of(std::size_t voxel) const {

@@ -41,14 +41,14 @@ public:
     [[nodiscard]] std::optional<EnvironmentFailure>
     build(std::size_t count, const std::function<Vector3(std::size_t)>& index);
 
-    [[nodiscard]] std::size_t voxel_count() const { return first_.size() - 1; }
+    [[nodiscard]] std::size_t voxel_count() const { return first_record_.size() - 1; }
     [[nodiscard]] std::size_t tile_count() const { return first_voxel_.size() - 1; }
     [[nodiscard]] std::size_t first_voxel(std::size_t tile) const { return first_voxel_[tile]; }
     /// The tile that contains voxel number `voxel`.
     [[nodiscard]] std::size_t tile_of(std::size_t voxel) const;
     /// Position of voxel number `voxel` within its tile. Voxels of a tile are sorted by y.
     [[nodiscard]] TileVoxel voxel(std::size_t voxel) const {
-        const std::uint64_t low = records_[first_[voxel]].low;
+        const std::uint64_t low = records_[first_record_[voxel]].low;
         const std::uint64_t mask = (std::uint64_t{1} << edge_bits_) - 1;
         return {static_cast<std::int64_t>(low >> (2 * edge_bits_)),
                 static_cast<std::int32_t>((low >> edge_bits_) & mask),
@@ -56,15 +56,15 @@ public:
     }
     /// Number of places in a voxel.
     [[nodiscard]] std::size_t place_count(std::size_t voxel) const {
-        return first_[voxel + 1] - first_[voxel];
+        return first_record_[voxel + 1] - first_record_[voxel];
     }
     /// Index of a place in a voxel; `number` is below place_count().
     [[nodiscard]] std::size_t place(std::size_t voxel, std::size_t number) const {
-        return records_[first_[voxel] + number].item;
+        return records_[first_record_[voxel] + number].item;
     }
     /// Tiles have ascending keys; a step of one tile along x adds key_step(), one along z adds 1.
     [[nodiscard]] std::uint64_t key(std::size_t tile) const {
-        return records_[first_[first_voxel_[tile]]].high;
+        return records_[first_record_[first_voxel_[tile]]].high;
     }
     [[nodiscard]] std::uint64_t key_step() const { return key_step_; }
     /// The first tile whose key is not below `key`.
@@ -85,7 +85,7 @@ private:
     VoxelIndex high_{}; // greatest
     std::uint64_t key_step_ = 0;
     /// By voxel: its first record; last: the number of records.
-    LargeVector<std::size_t> first_;
+    LargeVector<std::size_t> first_record_;
     LargeVector<std::size_t> first_voxel_; // by tile: its first voxel; last: the number of voxels
 };
 

@@ -32,13 +32,13 @@ struct WideChild {
 
 /// An entry of the stack of a search: a node, or an item of a leaf, with the lower bound `least` of
 /// its squared distance.
-struct WideOpen {
+struct OpenNode {
     std::uint32_t node = 0;
     float least = 0.0F;
 };
 
 /// Max entries of the stack of a search: three nodes per level, and four on the last level.
-inline constexpr std::size_t kMaxWideOpen = 3 * kMaxSplitDepth / 2 + 4;
+inline constexpr std::size_t kMaxOpenNodes = 3 * kMaxSplitDepth / 2 + 4;
 
 /// Max nodes over `items` items: a node that is not a leaf has at least two children.
 [[nodiscard]] inline std::uint64_t wide_node_count(std::uint64_t items) {
@@ -85,7 +85,7 @@ LargeVector<WideChild> make_wide_nodes(std::span<const SplitNode> split, LargeVe
 /// Puts a child on the stack, so that the entries from `bottom` on stay in descending order of
 /// bounds.
 inline void
-open_sorted(std::span<WideOpen> open, std::size_t bottom, std::size_t& count, WideOpen child) {
+open_sorted(std::span<OpenNode> open, std::size_t bottom, std::size_t& count, OpenNode child) {
     std::size_t at = count++;
     for (; at > bottom && open[at - 1].least < child.least; --at) {
         open[at] = open[at - 1];

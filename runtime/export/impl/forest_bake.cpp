@@ -15,7 +15,7 @@ namespace {
 
 /// First the counts of the vertices and indices of a piece of the trees; later the positions in the
 /// mesh of the next vertex and of the next index of each material.
-struct Share {
+struct PieceCounts {
     std::uint64_t vertices = 0;
     std::vector<std::uint64_t> indices; // by material of the scene
 };
@@ -47,20 +47,20 @@ public:
                     messages_of(plant_limit_diagnostic("the baked forest", max_bytes))};
         };
         if (plan_.triangle_count() > max_bytes / (3 * sizeof(std::uint32_t))) {
-            return limit(); // before the slow counting of shares
+            return limit(); // before the slow counting of pieces
         }
-        count_shares();
+        count_pieces();
         std::uint64_t vertices = ground_vertices();
-        for (Share& share : shares_) {
-            vertices += std::exchange(share.vertices, vertices);
+        for (PieceCounts& counts : piece_counts_) {
+            vertices += std::exchange(counts.vertices, vertices);
         }
         std::uint64_t indices = 0;
         for (std::uint32_t m = 0; m < materials_.samples.materials.size(); ++m) {
             const std::uint64_t first = indices;
             next_ground_index_.push_back(indices);
             indices += ground_indices(m);
-            for (Share& share : shares_) {
-                indices += std::exchange(share.indices[m], indices);
+            for (PieceCounts& counts : piece_counts_) {
+                indices += std::exchange(counts.indices[m], indices);
             }
             if (indices > first) {
                 mesh_.parts.push_back(
@@ -124,19 +124,19 @@ private:
         }
     }
 
-    void count_shares() {
-        shares_.resize(piece_count(scene_.forest));
-        for (Share& share : shares_) {
-            share.indices.resize(materials_.samples.materials.size());
+    void count_pieces() {
+        piece_counts_.resize(piece_count(scene_.forest));
+        for (PieceCounts& counts : piece_counts_) {
+            counts.indices.resize(materials_.samples.materials.size());
         }
         for_each_piece(
             scene_.forest, threads_, [&](std::uint64_t piece, std::span<const Tree> trees) {
-                Share& share = shares_[piece];
+                PieceCounts& counts = piece_counts_[piece];
                 for_each_branch(trees, [&](std::size_t k, const BranchInstance& branch) {
-                    share.vertices += instance_vertices_[k].of(branch.instance).size();
+                    counts.vertices += instance_vertices_[k].of(branch.instance).size();
                     const ExportedStage& stage = plan_.stages()[k];
                     for (const MeshPart& part : stage.meshes->parts_of(branch.instance)) {
-                        share.indices[materials_.of_stages[k][part.material]] += part.index_count;
+                        counts.indices[materials_.of_stages[k][part.material]] += part.index_count;
                     }
                 });
             });
@@ -169,20 +169,20 @@ private:
     void put_trees() {
         for_each_piece(scene_.forest, threads_,
                        [&](std::uint64_t piece, std::span<const Tree> trees) {
-                           Share& share = shares_[piece];
+                           PieceCounts& counts = piece_counts_[piece];
                            for_each_branch(trees, [&](std::size_t k, const BranchInstance& branch) {
-                               put_branch(k, branch, share);
+                               put_branch(k, branch, counts);
                            });
                        });
     }
 
-    void put_branch(std::size_t k, const BranchInstance& branch, Share& share) {
+    void put_branch(std::size_t k, const BranchInstance& branch, PieceCounts& counts) {
         const ExportedStage& stage = plan_.stages()[k];
         const Mesh& from = stage.meshes->mesh;
         const InstancePose pose = pose_of(branch, stage.cache->instances[branch.instance]);
         const glm::mat3 turn = glm::mat3_cast(pose.rotation);
         const glm::mat3 turn_and_scale = pose.scale * turn;
-        std::uint64_t at = share.vertices;
+        std::uint64_t at = counts.vertices;
         for (const std::uint32_t vertex : instance_vertices_[k].of(branch.instance)) {
             mesh_.positions[at] = pose.translation + turn_and_scale * from.positions[vertex];
             mesh_.normals[at] = turn * from.normals[vertex];
@@ -198,14 +198,14 @@ private:
             }
             ++at;
         }
-        const auto base = static_cast<std::uint32_t>(share.vertices);
+        const auto base = static_cast<std::uint32_t>(counts.vertices);
         for (const MeshPart& part : stage.meshes->parts_of(branch.instance)) {
-            std::uint64_t& to = share.indices[materials_.of_stages[k][part.material]];
+            std::uint64_t& to = counts.indices[materials_.of_stages[k][part.material]];
             for (std::uint64_t i = 0; i < part.index_count; ++i) {
                 indices_[to++] = base + instance_vertices_[k].indices[part.first_index + i];
             }
         }
-        share.vertices = at;
+        counts.vertices = at;
     }
 
     const ForestScene& scene_;
@@ -216,7 +216,7 @@ private:
     std::vector<InstanceVertices> instance_vertices_; // by stage
     std::vector<std::size_t> first_stage_;            // by species
     std::size_t stage_count_ = 0;
-    std::vector<Share> shares_;
+    std::vector<PieceCounts> piece_counts_;
     LargeVector<std::uint32_t> indices_;           // moved into mesh_ when complete
     std::vector<std::uint64_t> next_ground_index_; // by material
     bool textured_ = true;

@@ -209,7 +209,7 @@ void order_triangles(std::span<std::uint32_t> triangles) {
     std::size_t ordered = 0; // count of triangles at their final places
     // The next triangles, in an order in which each shares an edge with the previous one.
     std::vector<std::uint32_t> run;
-    std::vector<std::uint32_t> moved; // corners of the run
+    std::vector<std::uint32_t> run_corners; // corners of the run
     const auto meet = [corners](std::size_t a, std::size_t b) {
         return share_edge(corners + 3 * a, corners + 3 * b);
     };
@@ -227,12 +227,12 @@ void order_triangles(std::span<std::uint32_t> triangles) {
         if (!meets_last(run.front()) && meets_last(run.back())) {
             std::reverse(run.begin(), run.end());
         }
-        moved.clear();
+        run_corners.clear();
         for (const std::uint32_t triangle : run) {
             const std::uint32_t* const from = corners + 3 * std::size_t{triangle};
-            moved.insert(moved.end(), from, from + 3);
+            run_corners.insert(run_corners.end(), from, from + 3);
         }
-        std::copy(moved.begin(), moved.end(), corners + 3 * ordered);
+        std::copy(run_corners.begin(), run_corners.end(), corners + 3 * ordered);
         ordered += run.size();
         run.clear();
     };

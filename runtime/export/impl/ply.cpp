@@ -59,7 +59,7 @@ Outcome<void> write_ply(const ExportJob& job, PieceWriter& out) {
     const bool textured = is_complete(mesh, mesh.texture_coordinates);
     const bool coloured = is_complete(mesh, mesh.colours);
     // `int` if it suffices, because some readers do not support `uint`.
-    const bool small = mesh.positions.size() <= std::numeric_limits<std::int32_t>::max();
+    const bool fits_int = mesh.positions.size() <= std::numeric_limits<std::int32_t>::max();
     out.put(fmt::format("ply\nformat binary_little_endian 1.0\ncomment {}\ncomment {}\n"
                         "comment {}, {}\nelement vertex {}\n"
                         "property float x\nproperty float y\nproperty float z\n"
@@ -70,7 +70,7 @@ Outcome<void> write_ply(const ExportJob& job, PieceWriter& out) {
                         textured ? "property float s\nproperty float t\n" : "",
                         coloured ? "property uchar red\nproperty uchar green\nproperty uchar blue\n"
                                  : "",
-                        triangle_count(mesh), small ? "int" : "uint"));
+                        triangle_count(mesh), fits_int ? "int" : "uint"));
 
     ColourBytes bytes_of(mesh.looks.get());
     constexpr std::size_t kVertexBytes = 2 * sizeof(glm::vec3) + sizeof(glm::vec2) + 3;

@@ -48,8 +48,8 @@ private:
 /// The fields common to both headers of an entry: version, flags, method, time, date, checksum,
 /// sizes and length of the name.
 void put_common_fields(Record& record, const std::string& name, const EntrySize& size) {
-    constexpr std::uint16_t kStored = 0;
-    record.u16(kVersion).u16(kUtf8Names).u16(kStored).u16(0).u16(kFirstDate);
+    constexpr std::uint16_t kStoredMethod = 0;
+    record.u16(kVersion).u16(kUtf8Names).u16(kStoredMethod).u16(0).u16(kFirstDate);
     record.u32(size.checksum).u32(size.bytes).u32(size.bytes).u16(name.size());
 }
 

@@ -153,7 +153,7 @@ private:
     };
 
     [[nodiscard]] const TilePart& part_of(const TileDocument::Group& group) const {
-        return parts_.list[group.part];
+        return parts_.parts[group.part];
     }
 
     /// Numbers the buffers in the order in which parts use them, then their fallbacks.
@@ -432,8 +432,8 @@ private:
         for (const List& list : lists_) {
             size += list.text.size();
         }
-        constexpr std::size_t kRest = 4096; // bytes for the names of lists and for buffers
-        bytes.reserve(size + kRest);
+        constexpr std::size_t kReserveBytes = 4096; // bytes for the names of lists and for buffers
+        bytes.reserve(size + kReserveBytes);
         bytes += parts_.begin;
         for (std::size_t i = first_root_; i < count_of(GltfList::Nodes); ++i) {
             put(bytes, FMT_COMPILE("{}{}"), i == first_root_ ? "" : ",", i);

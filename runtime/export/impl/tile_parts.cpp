@@ -212,8 +212,8 @@ TileParts& TileParts::operator=(TileParts&& other) noexcept = default;
 TileParts::~TileParts() = default;
 
 std::size_t TileParts::add(const MeshDocument& hero) {
-    state_->list.push_back(make_tile_part(hero, state_->table));
-    return state_->list.size() - 1;
+    state_->parts.push_back(make_tile_part(hero, state_->table));
+    return state_->parts.size() - 1;
 }
 
 } // namespace lsys

@@ -90,7 +90,7 @@ struct TileParts::State {
     std::string begin;  // beginning of a document: the asset and its scene
     std::string schema; // schema of the table of properties
     PartTable table{nullptr};
-    std::vector<TilePart> list;
+    std::vector<TilePart> parts;
 };
 
 } // namespace lsys

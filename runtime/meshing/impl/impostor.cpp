@@ -36,7 +36,7 @@ constexpr float kEmptyDepth = -std::numeric_limits<float>::infinity(); // depth 
 struct Axes {
     glm::vec3 right;
     glm::vec3 up;
-    glm::vec3 towards;
+    glm::vec3 towards_eye;
 };
 const std::array<Axes, 4> kAxes{{
     {{1.0F, 0.0F, 0.0F}, {0.0F, 1.0F, 0.0F}, {0.0F, 0.0F, 1.0F}},
@@ -129,8 +129,8 @@ struct Span {
 /// A strip of `count` trapezoids around the marked texels, in texels. The result has a left and a
 /// right corner alternately, from top to bottom. Empty if no texel is marked.
 std::vector<glm::vec2>
-strip_around(int side, const std::vector<std::uint8_t>& marked, std::size_t count) {
-    const auto columns = static_cast<std::size_t>(side);
+strip_around(int tile_side, const std::vector<std::uint8_t>& marked, std::size_t count) {
+    const auto columns = static_cast<std::size_t>(tile_side);
     std::vector<Span> rows(columns);
     for (std::size_t i = 0; i < marked.size(); ++i) {
         if (marked[i] != 0) {
@@ -219,24 +219,25 @@ struct ImpostorBaker::Canvas {
 };
 
 ImpostorBaker::ImpostorBaker(const Mesh& mesh, float pixels, std::uint64_t triangles)
-    : tile_(kMinTile), slabs_(triangles < kMinSlabTriangles ? 1 : 3), columns_(slabs_ == 1 ? 2 : 4),
-      triangles_(triangles) {
-    while (tile_ < kMaxTile && static_cast<float>(2 * tile_) <= kMaxTexelsPerPixel * pixels) {
-        tile_ *= 2;
+    : tile_side_(kMinTile), slabs_(triangles < kMinSlabTriangles ? 1 : 3),
+      columns_(slabs_ == 1 ? 2 : 4), triangles_(triangles) {
+    while (tile_side_ < kMaxTile &&
+           static_cast<float>(2 * tile_side_) <= kMaxTexelsPerPixel * pixels) {
+        tile_side_ *= 2;
     }
-    Canvas canvas(samples_of(tile_));
+    Canvas canvas(samples_of(tile_side_));
     canvas.indices = mesh.indices.expanded();
     for (const Axes& axes : kAxes) {
         canvas.along.clear();
         for (const glm::vec3& at : mesh.positions) {
             canvas.along.emplace_back(glm::dot(at, axes.right), glm::dot(at, axes.up),
-                                      glm::dot(at, axes.towards));
+                                      glm::dot(at, axes.towards_eye));
         }
         for (int slab = 0; slab < slabs_; ++slab) {
             View& view = views_.emplace_back();
             view.right = axes.right;
             view.up = axes.up;
-            view.towards = axes.towards;
+            view.towards_eye = axes.towards_eye;
             render_slab(mesh, slab, canvas, view);
         }
     }
@@ -249,12 +250,13 @@ void ImpostorBaker::render_slab(const Mesh& mesh, int slab, Canvas& canvas, View
     }
     // A flat plant has cards with some width and depth, too.
     const glm::vec3 size = bounds.high - bounds.low;
-    const auto tile = static_cast<float>(tile_);
-    const float min_size = std::max({size.x, size.y, size.z, 1e-6F}) / tile;
+    const auto tile_side = static_cast<float>(tile_side_);
+    const float min_size = std::max({size.x, size.y, size.z, 1e-6F}) / tile_side;
     const glm::vec3 middle = 0.5F * (bounds.low + bounds.high);
     const glm::vec3 half =
         0.5F * glm::max(size, glm::vec3(min_size)) *
-        glm::vec3(glm::vec2(tile / static_cast<float>(tile_ - 2 * margin_of(tile_))), 1.0F);
+        glm::vec3(glm::vec2(tile_side / static_cast<float>(tile_side_ - 2 * margin_of(tile_side_))),
+                  1.0F);
     view.low = middle - half;
     view.high = middle + half;
     const float thickness = 2.0F * half.z / static_cast<float>(slabs_);
@@ -311,7 +313,7 @@ void ImpostorBaker::render_slab(const Mesh& mesh, int slab, Canvas& canvas, View
         }
     }
 
-    const auto columns = static_cast<std::size_t>(tile_);
+    const auto columns = static_cast<std::size_t>(tile_side_);
     const auto width = static_cast<std::size_t>(buffer.width);
     const std::size_t samples = width / columns; // samples of a texel, along each side
     view.coverage.resize(texels());
@@ -356,8 +358,8 @@ void ImpostorBaker::render_slab(const Mesh& mesh, int slab, Canvas& canvas, View
                                  w.z * mesh.normals[corners[2]];
         view.normals[texel] =
             normal_on_card({glm::dot(normal, view.right), glm::dot(normal, view.up),
-                            glm::dot(normal, view.towards)},
-                           view.towards.y == 0.0F);
+                            glm::dot(normal, view.towards_eye)},
+                           view.towards_eye.y == 0.0F);
     }
 }
 
@@ -399,7 +401,7 @@ std::vector<std::uint8_t> ImpostorBaker::paint(const View& view,
         }
     }
     const std::size_t width = colour.width;
-    const auto columns = static_cast<std::size_t>(tile_);
+    const auto columns = static_cast<std::size_t>(tile_side_);
     const auto place = [&](std::size_t i) {
         const std::size_t x = tile % columns_ * columns + i % columns;
         const std::size_t y = tile / columns_ * columns + i / columns;
@@ -420,7 +422,7 @@ std::vector<std::uint8_t> ImpostorBaker::paint(const View& view,
                                                : std::min<std::uint8_t>(alpha, kOpaqueByte - 1);
         normal_map.texels[to + 3] = std::max<std::uint8_t>(unit_byte(view.depths[i]), 1);
     }
-    dilate(tile_, opaque, [&](std::size_t from, std::size_t to) {
+    dilate(tile_side_, opaque, [&](std::size_t from, std::size_t to) {
         std::copy_n(colour.texels.begin() + static_cast<std::ptrdiff_t>(place(from)), 3,
                     colour.texels.begin() + static_cast<std::ptrdiff_t>(place(to)));
         std::copy_n(normal_map.texels.begin() + static_cast<std::ptrdiff_t>(place(from)), 4,
@@ -432,8 +434,8 @@ std::vector<std::uint8_t> ImpostorBaker::paint(const View& view,
 Mesh ImpostorBaker::make(double cover, const glm::vec3& tint) const {
     const std::size_t rows = views_.size() / columns_;
     Texture colour;
-    colour.width = static_cast<std::uint32_t>(columns_) * static_cast<std::uint32_t>(tile_);
-    colour.height = static_cast<std::uint32_t>(rows) * static_cast<std::uint32_t>(tile_);
+    colour.width = static_cast<std::uint32_t>(columns_) * static_cast<std::uint32_t>(tile_side_);
+    colour.height = static_cast<std::uint32_t>(rows) * static_cast<std::uint32_t>(tile_side_);
     colour.texels.resize(std::size_t{4} * colour.width * colour.height);
     Texture normal_map = colour;
     Mesh mesh;
@@ -452,15 +454,16 @@ Mesh ImpostorBaker::make(double cover, const glm::vec3& tint) const {
         }
         const View& view = views_[tile];
         const float depth = 0.5F * (view.low.z + view.high.z);
-        const std::vector<glm::vec2> corners = strip_around(tile_, opaque[tile], trapezoids[tile]);
+        const std::vector<glm::vec2> corners =
+            strip_around(tile_side_, opaque[tile], trapezoids[tile]);
         for (const float side : {1.0F, -1.0F}) { // front and back
             const auto first = static_cast<std::uint32_t>(mesh.positions.size());
             for (const glm::vec2& corner : corners) {
-                const glm::vec2 part = corner / static_cast<float>(tile_);
+                const glm::vec2 part = corner / static_cast<float>(tile_side_);
                 const float x = view.low.x + part.x * (view.high.x - view.low.x);
                 const float y = view.high.y - part.y * (view.high.y - view.low.y);
-                mesh.positions.push_back(x * view.right + y * view.up + depth * view.towards);
-                mesh.normals.push_back(side * view.towards);
+                mesh.positions.push_back(x * view.right + y * view.up + depth * view.towards_eye);
+                mesh.normals.push_back(side * view.towards_eye);
                 mesh.tangents.push_back(glm::vec4(side * view.right, 1.0F));
                 mesh.texture_coordinates.push_back(
                     (part + glm::vec2(tile % columns_, tile / columns_)) /

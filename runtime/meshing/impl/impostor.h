@@ -45,16 +45,16 @@ public:
     [[nodiscard]] Mesh make(double cover, const glm::vec3& tint) const;
 
 private:
-    /// One picture. Arrays have tile_ by tile_ texels, row by row from the top.
+    /// One picture. Arrays have tile_side_ by tile_side_ texels, row by row from the top.
     struct View {
         glm::vec3 right{};
         glm::vec3 up{};
-        glm::vec3 towards{};
-        glm::vec3 low{};  // bounds along right, up and towards; z: back of the slab
+        glm::vec3 towards_eye{};
+        glm::vec3 low{};  // bounds along right, up and towards_eye; z: back of the slab
         glm::vec3 high{}; // z: front of the slab
         std::vector<float> coverage;
         std::vector<glm::vec3> colours; // linear
-        std::vector<glm::vec3> normals; // components along right, up and towards
+        std::vector<glm::vec3> normals; // components along right, up and towards_eye
         std::vector<float> depths;      // 0 to 1
     };
 
@@ -71,10 +71,10 @@ private:
                                     Texture& normal_map) const;
 
     [[nodiscard]] std::size_t texels() const {
-        return static_cast<std::size_t>(tile_) * static_cast<std::size_t>(tile_);
+        return static_cast<std::size_t>(tile_side_) * static_cast<std::size_t>(tile_side_);
     }
 
-    int tile_;            // texels of a side of a picture, 16 to 128
+    int tile_side_;       // texels of a side of a picture, 16 to 128
     int slabs_;           // cards of a direction
     std::size_t columns_; // columns of pictures in the atlas
     std::uint64_t triangles_;

@@ -212,17 +212,17 @@ private:
     [[nodiscard]] Size measure(const SolidShape& shape, const glm::dvec3& point) const {
         const ShapeProbe at = lsys::probe(shape, point);
         double cell = solid_.cell * at.radius;
-        double away = 0.0; // height at which `cell` depends on the flat base, else 0
+        double base_height = 0.0; // height at which `cell` depends on the flat base, else 0
         if (solid_.ground) {
             const double height = std::abs(point.y - *solid_.ground);
             const double at_base = kBaseCells * cell + kGrowth * height;
-            away = at_base < cell ? height : 0.0;
+            base_height = at_base < cell ? height : 0.0;
             cell = std::min(cell, at_base);
         }
         const double distance =
             at.distance - (shape.is_triangle ? 0.0 : kChord * cell * cell / at.radius);
-        // Near the ground, `cell` already includes the growth over the height `away`.
-        return {distance, cell + kGrowth * std::max(std::abs(distance) - away, 0.0)};
+        // Near the ground, `cell` already includes the growth over `base_height`.
+        return {distance, cell + kGrowth * std::max(std::abs(distance) - base_height, 0.0)};
     }
 
     [[nodiscard]] double above_ground(double distance, const glm::dvec3& point) const {

@@ -96,7 +96,7 @@ public:
             if (begins_axis(axes_, skeleton_.segments[i], i)) {
                 reader_.start(i);
                 while (reader_.next(run)) {
-                    keep(run);
+                    store_run(run);
                 }
             }
         }
@@ -104,7 +104,7 @@ public:
     }
 
 private:
-    void keep(const Run& run) {
+    void store_run(const Run& run) {
         const std::uint64_t first = triangles_.vertices();
         triangles_.add(run);
         const bool is_long = run.joints.size() >= kMinLongRun;

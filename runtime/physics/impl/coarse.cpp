@@ -18,9 +18,9 @@ namespace lsys {
 
 namespace {
 
-constexpr std::uint32_t kCoarsest = 500; // approximate bodies of the coarsest plant
-constexpr std::uint32_t kGrowth = 4;     // approximate ratio of bodies from plant to plant
-constexpr double kMinGrowth = 3.0;       // min ratio
+constexpr std::uint32_t kCoarsestBodyCount = 500; // approximate bodies of the coarsest plant
+constexpr std::uint32_t kBodyRatio = 4;           // approximate ratio of bodies from plant to plant
+constexpr double kMinBodyRatio = 3.0;             // min ratio
 // Max of Coarsening::relative_twig_size(). A plant with larger twigs is nearly a chain: most of its
 // weight would be at the ends of the bodies that are kept. Such a plant is cut into runs instead.
 constexpr double kMaxRelativeTwig = 32.0;
@@ -327,7 +327,7 @@ std::vector<CoarsePlant> coarse_plants(const Bodies& plant) {
     const Twigs twigs = twigs_of(plant.bodies);
     std::vector<std::uint32_t> sorted = twigs.sizes;
     std::sort(sorted.begin(), sorted.end(), std::greater<>());
-    for (std::size_t max_count = kCoarsest; max_count < count; max_count *= kGrowth) {
+    for (std::size_t max_count = kCoarsestBodyCount; max_count < count; max_count *= kBodyRatio) {
         // Keeps the bodies with the most descendants, at most `max_count` of them.
         Coarsening coarsening(plant, twigs, sorted[max_count] + 1, 1);
         if (coarsening.relative_twig_size() > kMaxRelativeTwig) {
@@ -338,10 +338,10 @@ std::vector<CoarsePlant> coarse_plants(const Bodies& plant) {
             } while (coarsening.count_runs() > max_count);
         }
         const auto run_count = static_cast<double>(coarsening.count_runs());
-        const bool is_coarse_enough = kMinGrowth * run_count <= static_cast<double>(count);
+        const bool is_coarse_enough = kMinBodyRatio * run_count <= static_cast<double>(count);
         const double coarser_count =
             out.empty() ? 0.0 : static_cast<double>(out.back().bodies.bodies.size());
-        if (run_count > 0.0 && is_coarse_enough && run_count >= kMinGrowth * coarser_count) {
+        if (run_count > 0.0 && is_coarse_enough && run_count >= kMinBodyRatio * coarser_count) {
             out.push_back(coarsening.make());
         }
     }

@@ -215,12 +215,12 @@ void add_child(const Reduced& child,
 }
 
 /// Eliminates the spin of a body from its forms.
-void eliminate(const BodyForms& own,
-               const Body& body,
-               const BodyMotion& motion,
-               const Forces& forces,
-               JointSolution& solution,
-               Reduced& reduced) {
+void eliminate_spin(const BodyForms& own,
+                    const Body& body,
+                    const BodyMotion& motion,
+                    const Forces& forces,
+                    JointSolution& solution,
+                    Reduced& reduced) {
     const double h = forces.step;
     const double hooke = h * h * body.spring;
     const glm::dvec3& bend = motion.bend;
@@ -237,9 +237,10 @@ void eliminate(const BodyForms& own,
         const SineCosine turn = sine_cosine(half);
         const double normal_stiffness =
             half > 1e-3 ? half * turn.cosine / turn.sine : 1.0 - half * half / 3.0;
-        const double more =
+        const double normal_stiffness_loss =
             half > 1e-3 ? (1.0 - normal_stiffness) / (4.0 * half * half) : 1.0 / 12.0;
-        joint_matrix += scaled(point_inertia(-more, bend), forces.exactness * hooke);
+        joint_matrix +=
+            scaled(point_inertia(-normal_stiffness_loss, bend), forces.exactness * hooke);
         twist = cross_rows(0.5 * forces.exactness * hooke * bend);
     }
     Symmetric sum = inertia;
@@ -307,8 +308,8 @@ void solve_spins(PlantBodies& plant, const Forces& forces, Workers& workers) {
                 add_child(plant.reduced[c & plant.reduced_mask], axes * bodies[c].offset, forces,
                           own);
             }
-            eliminate(own, body, plant.motion[b], forces, plant.solution[b],
-                      plant.reduced[b & plant.reduced_mask]);
+            eliminate_spin(own, body, plant.motion[b], forces, plant.solution[b],
+                           plant.reduced[b & plant.reduced_mask]);
         }
     });
     plant.schedule.outward(workers, [&](std::uint32_t begin, std::uint32_t end, std::uint32_t) {

@@ -81,7 +81,7 @@ public:
         : path_(path), text_(text), budget_(budget), mesh_(mesh),
           held_(text.size() + mesh.byte_count()) {}
 
-    void run(const Project& project) {
+    void read_pictures(const Project& project) {
         for (const ObjName& name : mesh_.libraries) {
             MaterialLibrary library{beside(path_, name.name), {}, {}};
             Result<std::string> read =
@@ -428,7 +428,7 @@ Outcome<MeshFiles> read_mesh_files(const std::string& grammar_file,
                                    mesh.error().kind});
         }
         PictureSearch search(path, text.value(), budget, mesh.value());
-        search.run(project);
+        search.read_pictures(project);
         const bool has_limit = search.has_limit;
         ok = step.diagnose(std::move(search.diagnostics), search.sources) && ok;
         if (has_limit) {

@@ -191,9 +191,9 @@ void ShellProgram::end() {
 /// Waits up to half a second for a program that has closed its output, so that it can exit with its
 /// own status before end() kills it.
 void ShellProgram::wait_for_exit() {
-    constexpr int kLooks = 50;
+    constexpr int kMaxPolls = 50;
     constexpr unsigned kPause = 10'000; // microseconds
-    for (int look = 0; look < kLooks; ++look) {
+    for (int i = 0; i < kMaxPolls; ++i) {
         siginfo_t facts{};
         if (::waitid(P_PID, static_cast<id_t>(process_), &facts, WEXITED | WNOHANG | WNOWAIT) !=
                 0 ||

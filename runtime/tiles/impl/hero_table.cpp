@@ -13,7 +13,7 @@ HeroTable::HeroTable(const Forest& forest, std::span<const Hero> heroes) : fores
     for (std::size_t i = 0; i < heroes.size(); ++i) {
         const Hero& hero = heroes[i];
         InstanceHeroes& instance = heroes_[hero.species][hero.stage][hero.instance];
-        (hero.is_alone ? instance.alone : instance.whole) = i;
+        (hero.ends_at_exits ? instance.alone : instance.whole) = i;
     }
 }
 

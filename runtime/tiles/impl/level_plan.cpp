@@ -24,7 +24,7 @@ class Planner {
 public:
     explicit Planner(const LevelNeeds& needs)
         : needs_(needs), budget_(static_cast<double>(needs.options.triangles)),
-          tolerated_(static_cast<double>(needs.options.error)) {
+          tolerated_(static_cast<double>(needs.options.max_error)) {
         for (const Hero& hero : needs.heroes) {
             finest_.push_back(detail_within(hero, tolerated_));
         }
@@ -85,11 +85,11 @@ private:
     /// Whether trees are assembled from branches, so that a tree may show several heroes.
     [[nodiscard]] bool has_branches() const {
         return std::any_of(needs_.heroes.begin(), needs_.heroes.end(),
-                           [](const Hero& hero) { return hero.is_alone; });
+                           [](const Hero& hero) { return hero.ends_at_exits; });
     }
     [[nodiscard]] bool is_plant(const Hero& hero) const {
         const ForestStage& stage = needs_.forest.species[hero.species].stages[hero.stage];
-        return !hero.is_alone && stage.cache.instances[hero.instance].slot == 0;
+        return !hero.ends_at_exits && stage.cache.instances[hero.instance].slot == 0;
     }
     /// Mean number of triangles per tree if the same number of trees stands for each plant.
     [[nodiscard]] double mean_triangles(std::span<const std::size_t> detail) const {

@@ -28,7 +28,7 @@ struct LevelNeeds {
     const Forest& forest;         // its trees are not used
     std::span<const Hero> heroes; // plants, then branches
     const HeroTable& hero_table;
-    std::vector<double> deviations;     // m, by hero: TreeBounds::deviation, 0 if Hero::is_alone
+    std::vector<double> deviations; // m, by hero: TreeBounds::deviation, 0 if Hero::ends_at_exits
     std::span<const Tree> sample_trees; // the trees over which means are computed
     std::vector<double> max_scales;     // by species: largest scale of a tree
     double density = 0.0;               // mean number of trees per m2

@@ -80,11 +80,12 @@ std::vector<Tree> PlacedTrees::trees_of(const TileId& tile) const {
 CellTrees::CellTrees(const PlacementOptions& options,
                      const Terrain& terrain,
                      const TreeSizer& sizer,
-                     const Forest& kinds,
+                     const Forest& species_forest,
                      const TileGrid& grid)
-    : options_(options), terrain_(terrain), sizer_(sizer), kinds_(kinds), grid_(grid) {
+    : options_(options), terrain_(terrain), sizer_(sizer), species_forest_(species_forest),
+      grid_(grid) {
     options_.threads = 1;
-    halo_ = halo_of(options, kinds, sizer);
+    halo_ = halo_of(options, species_forest, sizer);
 }
 
 std::vector<Tree> CellTrees::trees_of(const TileId& tile) const {
@@ -108,7 +109,7 @@ std::vector<Tree> CellTrees::trees_of(const TileId& tile) const {
     }
     static_cast<void>(sizer_.size(trees));
     if (halo_ > 0.0) {
-        sense_surroundings(kinds_, all, trees, 1);
+        sense_surroundings(species_forest_, all, trees, 1);
     }
     sort_by_number(trees);
     return trees;

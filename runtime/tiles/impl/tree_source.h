@@ -47,13 +47,13 @@ private:
 /// Trees of a placement on an unbounded grid; places the trees of each tile on request.
 class CellTrees : public TreeSource {
 public:
-    /// Preconditions: is_tileable(options.method), and check() returns no error. `kinds`: a forest
-    /// with the species of the trees; its trees are not used. `terrain`, `sizer`, `kinds`, `grid`
-    /// and the objects that `options` refers to must outlive the source.
+    /// Preconditions: is_tileable(options.method), and check() returns no error. `species_forest`:
+    /// its species are those of the trees; its trees are not used. `terrain`, `sizer`,
+    /// `species_forest`, `grid` and the objects that `options` refers to must outlive the source.
     CellTrees(const PlacementOptions& options,
               const Terrain& terrain,
               const TreeSizer& sizer,
-              const Forest& kinds,
+              const Forest& species_forest,
               const TileGrid& grid);
     [[nodiscard]] std::vector<Tree> trees_of(const TileId& tile) const override;
 
@@ -65,7 +65,7 @@ private:
     PlacementOptions options_;
     const Terrain& terrain_;
     const TreeSizer& sizer_;
-    const Forest& kinds_;
+    const Forest& species_forest_;
     const TileGrid& grid_;
     double halo_ = 0.0; // m, width of the border in which neighbours can stand
 };

@@ -112,8 +112,8 @@ TEST_CASE("ranges with invalid bounds") {
         const RuntimeError error = error_every_way(builder.build(), 1, 0);
         CHECK(error.kind == RuntimeErrorKind::RangeReversed);
         CHECK(error.position == 2);
-        CHECK(error.minimum == 1.0F);
-        CHECK(error.maximum == 0.0F);
+        CHECK(error.first_argument == 1.0F);
+        CHECK(error.second_argument == 0.0F);
     }
     SECTION("too wide") {
         builder.axiom("A(3e38)").production("p : A(x) : * : F({-x, x})");

@@ -183,7 +183,7 @@ TEST_CASE("a crowd refuses places that are not finite, and stops at a limit or w
             make_crowd(declared, context)->answer(environments::word_of(places), answers, sizes);
         REQUIRE(failure.has_value());
         CHECK(failure->stop == Stop::Diagnosed);
-        CHECK(failure->place == 2);
+        CHECK(failure->failed_place == 2);
     }
     SECTION("limit") {
         context.max_bytes = 100;

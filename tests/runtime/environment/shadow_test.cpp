@@ -232,7 +232,7 @@ TEST_CASE("an index of a voxel beyond 2^31 is an error at the first such place")
         const Answers answers = ask_shadow(unit_cells(), places, {});
         REQUIRE(answers.failure);
         CHECK(answers.failure->stop == Stop::Diagnosed);
-        CHECK(answers.failure->place == 20'000);
+        CHECK(answers.failure->failed_place == 20'000);
         CHECK_FALSE(answers.failure->text.empty());
         CHECK_FALSE(answers.failure->help.empty());
     }

@@ -203,7 +203,7 @@ TEST_CASE("a cell of an organ or a place beyond 2^31 is an error") {
         const Answers answers = ask_sky(unit_cells(), organs, places, {});
         REQUIRE(answers.failure);
         CHECK(answers.failure->stop == Stop::Diagnosed);
-        CHECK(answers.failure->place == 130);
+        CHECK(answers.failure->failed_place == 130);
     }
 }
 

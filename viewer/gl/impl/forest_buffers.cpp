@@ -61,8 +61,8 @@ struct FormRecord {
 struct TreeRecord {
     glm::vec3 root{};
     float scale = 1.0F;
-    std::uint32_t yaw_phase = 0;
-    std::uint32_t form_impostor = 0;
+    std::uint32_t yaw_and_phase = 0;
+    std::uint32_t form_and_impostor = 0;
 };
 static_assert(sizeof(TreeRecord) == 24);
 

@@ -303,8 +303,8 @@ void ForestPass::prepare(const Frame& frame) {
     options.max_expansions = frame.max_expansions;
     options.wind = frame.wind;
     options.tree_range = frame.tree_range;
-    constexpr float kStill = 1e-4F; // m/s; slower wind counts as none
-    is_windy_ = glm::length(frame.wind.velocity) >= kStill;
+    constexpr float kMinWindSpeed = 1e-4F; // m/s; slower wind counts as none
+    is_windy_ = glm::length(frame.wind.velocity) >= kMinWindSpeed;
     wind_ = frame.wind;
     has_one_sample_ = frame.samples == 1;
     has_old_clusters_ = has_old_clusters_ && !impostors_.is_done();

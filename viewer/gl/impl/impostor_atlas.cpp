@@ -21,8 +21,8 @@ namespace lsys::view {
 namespace {
 
 constexpr std::uint32_t kSupersampling = 2; // along a side
-constexpr std::uint32_t kWidth = ImpostorAtlas::kYaws * ImpostorAtlas::kTile;
-constexpr std::uint32_t kHeight = ImpostorAtlas::kElevations * ImpostorAtlas::kTile;
+constexpr std::uint32_t kAtlasWidth = ImpostorAtlas::kYaws * ImpostorAtlas::kTile;
+constexpr std::uint32_t kAtlasHeight = ImpostorAtlas::kElevations * ImpostorAtlas::kTile;
 constexpr GLsizei kLevels = 6; // mip levels; tiles of the last have sides of 4 texels
 constexpr std::array<float, ImpostorAtlas::kElevations> kElevationAngles = {0.0F, 0.6108652F,
                                                                             1.3089969F};
@@ -50,8 +50,9 @@ void copy_layer(const TextureObject& from,
     for (GLint level = 0; level < kLevels; ++level) {
         glCopyImageSubData(from.name(), GL_TEXTURE_2D_ARRAY, level, 0, 0,
                            static_cast<GLint>(from_layer), to.name(), GL_TEXTURE_2D_ARRAY, level, 0,
-                           0, static_cast<GLint>(to_layer), static_cast<GLsizei>(kWidth >> level),
-                           static_cast<GLsizei>(kHeight >> level), 1);
+                           0, static_cast<GLint>(to_layer),
+                           static_cast<GLsizei>(kAtlasWidth >> level),
+                           static_cast<GLsizei>(kAtlasHeight >> level), 1);
     }
 }
 
@@ -240,8 +241,8 @@ void ImpostorAtlas::upload_layer(std::uint32_t layer, ImpostorTexels picture) {
 
 glm::vec3 ImpostorAtlas::mean_colour_from_above(std::span<const float> parts) const {
     constexpr GLint kLast = kLevels - 1;
-    constexpr std::size_t kRow = kWidth >> static_cast<unsigned>(kLast);
-    constexpr std::size_t kRows = kHeight >> static_cast<unsigned>(kLast);
+    constexpr std::size_t kRow = kAtlasWidth >> static_cast<unsigned>(kLast);
+    constexpr std::size_t kRows = kAtlasHeight >> static_cast<unsigned>(kLast);
     constexpr std::size_t kFirstRow = kRows * (kElevations - 1) / kElevations; // highest elevation
     std::vector<std::uint8_t> texels(4 * kRow * kRows * layers_);
     glPixelStorei(GL_PACK_ALIGNMENT, 1);
@@ -269,7 +270,7 @@ void ImpostorAtlas::find_boxes(std::uint32_t layer, std::span<const std::uint8_t
     for (std::uint32_t e = 0; e < kElevations; ++e) {
         for (std::uint32_t y = 0; y < kYaws; ++y) {
             boxes_[layer][std::size_t{e} * kYaws + y] =
-                opaque_box(albedos, kWidth, {y * kTile, e * kTile, kTile}, kBoxMargin);
+                opaque_box(albedos, kAtlasWidth, {y * kTile, e * kTile, kTile}, kBoxMargin);
         }
     }
     box_buffer_.write(std::span<const LayerBoxes>(&boxes_[layer], 1), layer * sizeof(LayerBoxes));
@@ -291,13 +292,13 @@ void ImpostorAtlas::make_layers(const std::vector<std::uint64_t>& keys) {
     for (std::size_t i = 0; i < before.size(); ++i) {
         TextureObject& texture = i == 0 ? albedos_ : normals_;
         texture = make_texture(*device_, GL_TEXTURE_2D_ARRAY);
-        glTextureStorage3D(texture.name(), kLevels, GL_RGBA8, static_cast<GLsizei>(kWidth),
-                           static_cast<GLsizei>(kHeight), static_cast<GLsizei>(layers_));
+        glTextureStorage3D(texture.name(), kLevels, GL_RGBA8, static_cast<GLsizei>(kAtlasWidth),
+                           static_cast<GLsizei>(kAtlasHeight), static_cast<GLsizei>(layers_));
         glTextureParameteri(texture.name(), GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_NEAREST);
         glTextureParameteri(texture.name(), GL_TEXTURE_MAG_FILTER, GL_LINEAR);
         glTextureParameteri(texture.name(), GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
         glTextureParameteri(texture.name(), GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
-        texture_bytes_ += std::uint64_t{4} * kWidth * kHeight * layers_ * 4 / 3;
+        texture_bytes_ += std::uint64_t{4} * kAtlasWidth * kAtlasHeight * layers_ * 4 / 3;
         for (GLint level = 0; level < kLevels; ++level) {
             glClearTexImage(texture.name(), level, GL_RGBA, GL_UNSIGNED_BYTE, nullptr);
         }
@@ -332,7 +333,7 @@ void ImpostorAtlas::begin(const ForestModel& model,
 
 ImpostorAtlas::BakeState ImpostorAtlas::make_bake_state() const {
     BakeState bake;
-    const auto width = static_cast<GLsizei>(kWidth * kSupersampling);
+    const auto width = static_cast<GLsizei>(kAtlasWidth * kSupersampling);
     const auto height = static_cast<GLsizei>(kTile * kSupersampling); // of one elevation
     bake.target = make_framebuffer(*device_);
     constexpr std::array<GLenum, 3> kFormats = {GL_RGBA8, GL_RGBA8, GL_DEPTH_COMPONENT32F};
@@ -346,7 +347,7 @@ ImpostorAtlas::BakeState ImpostorAtlas::make_bake_state() const {
     }
     glNamedFramebufferDrawBuffers(bake.target.name(), 2, kPoints.data());
     bake.frame = Buffer(*device_);
-    bake.row = {kWidth * kSupersampling, kTile * kSupersampling, {}, {}};
+    bake.row = {kAtlasWidth * kSupersampling, kTile * kSupersampling, {}, {}};
     bake.row.albedos.resize(std::size_t{4} * bake.row.width * bake.row.height);
     bake.row.normals.resize(bake.row.albedos.size());
     return bake;
@@ -382,7 +383,7 @@ void ImpostorAtlas::step(const ForestModel& model,
     BakeState& bake = *bake_;
     buffers.use(BufferSet::Impostor);
     if (bake.elevation == 0) {
-        bake.finished = {kWidth, kHeight, {}, {}};
+        bake.finished = {kAtlasWidth, kAtlasHeight, {}, {}};
     }
     begin_layer(layer, model, buffers);
     buffers.bind_storage();

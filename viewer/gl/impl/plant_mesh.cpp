@@ -15,11 +15,11 @@ struct Attribute {
 };
 constexpr std::array<Attribute, 4> kAttributes = {{{0, 3}, {1, 3}, {2, 2}, {3, 4}}};
 // Locations of uniforms, and binding points, in mesh.frag.glsl.
-constexpr GLint kColour = 0;
-constexpr GLint kKind = 1;
-constexpr GLint kFirstTriangle = 2; // in pick.frag.glsl
-constexpr GLuint kBaseTexture = 1;
-constexpr GLuint kNormalTexture = 2;
+constexpr GLint kColourLocation = 0;
+constexpr GLint kKindLocation = 1;
+constexpr GLint kFirstTriangleLocation = 2; // in pick.frag.glsl
+constexpr GLuint kBaseTextureUnit = 1;
+constexpr GLuint kNormalTextureUnit = 2;
 
 } // namespace
 
@@ -85,17 +85,17 @@ std::uint64_t PlantMesh::draw(MaterialTextures& textures, Pass pass) const {
                              (picture && material.two_sided);
         const int translucency = translucency_step(material, is_thin);
         if (shaded) {
-            glUniform4f(kColour, material.colour.r, material.colour.g, material.colour.b,
+            glUniform4f(kColourLocation, material.colour.r, material.colour.g, material.colour.b,
                         roughness_of(material));
         }
-        glUniform4i(kKind, material.textured ? 1 : 0, bumpy ? 1 : 0, material.cut_out ? 1 : 0,
-                    translucency);
+        glUniform4i(kKindLocation, material.textured ? 1 : 0, bumpy ? 1 : 0,
+                    material.cut_out ? 1 : 0, translucency);
         if (material.textured) {
-            glBindTextureUnit(kBaseTexture,
+            glBindTextureUnit(kBaseTextureUnit,
                               picture ? picture.name() : textures.base_colour(material.kind));
         }
         if (bumpy && shaded) {
-            glBindTextureUnit(kNormalTexture,
+            glBindTextureUnit(kNormalTextureUnit,
                               normal_map ? normal_map.name() : textures.bark_normals());
         }
         (material.two_sided ? glDisable : glEnable)(GL_CULL_FACE);
@@ -104,7 +104,8 @@ std::uint64_t PlantMesh::draw(MaterialTextures& textures, Pass pass) const {
         for (std::uint64_t first = 0; first < part.index_count; first += kMax) {
             const std::uint64_t count = std::min(part.index_count - first, kMax);
             if (pass == Pass::Pick) {
-                glUniform1ui(kFirstTriangle, static_cast<GLuint>((part.first_index + first) / 3));
+                glUniform1ui(kFirstTriangleLocation,
+                             static_cast<GLuint>((part.first_index + first) / 3));
             }
             const std::uintptr_t offset = (part.first_index + first) * sizeof(std::uint32_t);
             glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(count), GL_UNSIGNED_INT,
