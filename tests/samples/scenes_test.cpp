@@ -12,6 +12,7 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <map>
 #include <set>
 #include <string>
 #include <vector>
@@ -125,7 +126,11 @@ TEST_CASE("sample scenes place their trees") {
         } else {
             CHECK(trees > 500);
         }
-        CHECK(trees < (sample.name == "sensing-wood" ? 11'000 : 6000));
+        // Woods that are seen from inside are so large that trunks hide the land beyond.
+        const std::map<std::string, std::size_t> large = {
+            {"spruce-wood", 20'000}, {"beech-wood", 10'000}, {"sensing-wood", 11'000}};
+        const auto limit = large.find(sample.name);
+        CHECK(trees < (limit == large.end() ? 6000 : limit->second));
     }
     CHECK(names == std::set<std::string>{"beech-wood", "birch-heath", "endless-forest", "meadow",
                                          "mixed-forest", "park", "pine-wood", "sensing-wood",

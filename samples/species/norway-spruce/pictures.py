@@ -6,6 +6,8 @@ import os
 import random
 import sys
 
+import numpy as np
+
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), ".."))
 from drawing import Card, along, blend, field, save_bark, bark_plates
 
@@ -51,9 +53,15 @@ for i in range(12):
 shoot(card, (0, 0.05), 0, 0.9, green)
 card.save("spray.png", levels=24)
 
-edge, number = bark_plates(512, 260, 1.5, 3)
-fine = field(512, 1.2, 2.5, 5)
-height = edge**0.6 * (0.75 + 0.25 * number)
-plates = blend((150, 112, 88), (118, 92, 78), number) * (1 + 0.07 * fine)[..., None]
-save_bark("bark.jpg", blend((66, 44, 36), (0, 0, 0), height * 0) * (1 - edge**0.5)[..., None]
-          + plates * (edge**0.5)[..., None], height, 3.0)
+# Thin scales of two sizes, one over the other; a relief of plates alone would look like cobble stones.
+size = 512
+small, small_number = bark_plates(size, 1500, 2.0, 3)
+large, large_number = bark_plates(size, 420, 2.4, 13)
+fine, patch, streak = field(size, 1.2, 2.5, 5), field(size, 26, 60, 6), field(size, 5, 40, 7)
+small, large = np.clip(1.8 * small, 0, 1), np.clip(1.6 * large, 0, 1)
+height = (0.45 * large**0.7 * (0.6 + 0.4 * large_number) + 0.35 * small**0.7 * (0.5 + 0.5 * small_number)
+          + 0.06 * fine + 0.12 * streak)
+scales = blend((122, 92, 75), (160, 130, 108),
+               0.45 * small_number + 0.35 * large_number + 0.12 * patch + 0.1 * streak)
+gaps = (1 - 0.36 * (1 - small)**1.2) * (1 - 0.45 * (1 - large)**1.6) * (1 + 0.06 * fine)
+save_bark("bark.jpg", scales * gaps[..., None], height, 2.2)
