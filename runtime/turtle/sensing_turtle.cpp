@@ -110,9 +110,9 @@ SensingTurtle::State::State(const Bytecode& program, SensingOptions wanted)
 void SensingTurtle::State::begin() {
     const Settings& settings = bytecode.settings;
     now = {};
-    now.step = settings.step;
-    now.width = settings.width;
-    set_angle(settings.angle);
+    now.step = static_cast<double>(settings.step);
+    now.width = static_cast<double>(settings.width);
+    set_angle(static_cast<double>(settings.angle));
     if (settings.traits.first_turn != 0.0F) {
         yaw_right(now.pose, inverse(exact_sine_cosine_of_degrees(
                                 static_cast<double>(settings.traits.first_turn))));
@@ -164,7 +164,7 @@ bool SensingTurtle::State::run(std::span<const C> codes,
             if (polygons.any()) {
                 break;
             }
-            advance(now.pose, static_cast<double>(action.given > 0 ? arguments[0] : now.step));
+            advance(now.pose, action.given > 0 ? static_cast<double>(arguments[0]) : now.step);
             continue;
         case SensingStep::Save:
             if (stack.size() < stack.capacity()) {

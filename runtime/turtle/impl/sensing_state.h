@@ -42,9 +42,9 @@ struct SensingAction {
 /// What `[` saves.
 struct SensingBrush {
     SensingPose pose;
-    float step = 0.0F;           // m, length of an F without argument
-    float angle = 0.0F;          // degrees
-    float width = 0.0F;          // m, or radius / length (TurtleTraits::width_is_relative)
+    double step = 0.0;           // m, length of an F without argument
+    double angle = 0.0;          // degrees
+    double width = 0.0;          // m, or radius / length (TurtleTraits::width_is_relative)
     ExactSineCosine turn;        // of `angle`
     double second_heading = 0.0; // degrees from the first heading to the left
 };
@@ -82,13 +82,13 @@ struct SensingTurtle::State {
 
     /// Reports the sense modules of the piece up to index `index`.
     void report_up_to(std::uint64_t index);
-    void forward(float length, bool adds_corners);
-    void move(float length, bool adds_corners);
+    void forward(double length, bool adds_corners);
+    void move(double length, bool adds_corners);
     void secondary(const Action& action, std::uint8_t given, const float* arguments);
     void turn_by(std::uint8_t given, const float* arguments);
     void turn_left(double degrees);
     void half_turn_snapped();
-    void set_angle(float angle);
+    void set_angle(double angle);
     void place(const Action& action, std::uint8_t given, const float* arguments);
     bool save();
     bool restore();
