@@ -81,6 +81,11 @@ TEST_CASE("a crowd counts others, and points away from their mean") {
         crowd_answers(3, {place_at(0, 0, 0), place_at(2, 0, 0), place_at(2, 0, 0)});
     CHECK(answers[0] == std::vector<double>{2, -1, 0, 0});
     CHECK(answers[1] == std::vector<double>{2, 1, 0, 0});
+    // A third of the rounded sum of three equal numbers may be another number.
+    const double odd = 0x1.63a1a7e0b738ap-3; // the sine of 10 degrees
+    CHECK(3 * odd / 3 != odd);
+    CHECK(crowd_answers(3, std::vector<Place>(4, place_at(odd, 0, 0)))[0] ==
+          std::vector<double>{3, 0, 0, 0});
     CHECK(rounded_sum({1e300, 1, -1e300, 0x1p-60}) == 1);
 }
 

@@ -45,23 +45,21 @@ double rounded_sum(const std::vector<double>& numbers) {
 Answers crowd_answers(double radius, const std::vector<Place>& places) {
     Answers answers;
     for (std::size_t i = 0; i < places.size(); ++i) {
-        std::array<std::vector<double>, 3> near;
+        std::array<std::vector<double>, 3> ways; // terms of the sum of p - q
+        std::size_t count = 0;
         const Vector& p = places[i].position;
         for (std::size_t k = 0; k < places.size(); ++k) {
             const Vector d = difference(p, places[k].position);
             if (k != i && dot(d, d) < radius * radius) {
                 for (std::size_t axis = 0; axis < 3; ++axis) {
-                    near[axis].push_back(places[k].position[axis]);
+                    ways[axis].insert(ways[axis].end(), {p[axis], -places[k].position[axis]});
                 }
+                ++count;
             }
         }
-        const auto count = static_cast<double>(near[0].size());
-        Vector away{};
-        for (std::size_t axis = 0; axis < 3 && count > 0; ++axis) {
-            away[axis] = p[axis] - rounded_sum(near[axis]) / count;
-        }
-        away = unit(away);
-        answers.push_back({count, away[0], away[1], away[2]});
+        const Vector away =
+            unit({rounded_sum(ways[0]), rounded_sum(ways[1]), rounded_sum(ways[2])});
+        answers.push_back({static_cast<double>(count), away[0], away[1], away[2]});
     }
     return answers;
 }
