@@ -189,7 +189,9 @@ bool SensingTurtle::State::run(std::span<const C> codes,
         case SensingStep::Other:
             break;
         }
-        position = first + static_cast<std::uint64_t>(at - begin);
+        // Errors name the module of the word, not that of its interpretation.
+        position = origins != nullptr ? first_of_piece + origins[at - begin].place
+                                      : first + static_cast<std::uint64_t>(at - begin);
         code = *at;
         if (!execute(table.by_code[code], action.given, arguments)) {
             return false;

@@ -112,7 +112,7 @@ struct SensingTurtle::State {
     PendingSensing pending;
     SenseSink* sink = nullptr;
     std::uint32_t age = 0;
-    std::uint64_t position = 0; // index of the current module; in the word that is interpreted
+    std::uint64_t position = 0; // index of the current module; after an error that in the word
     Code code = 0;              // of the current module
     std::uint64_t walked_parameters = 0; // parameters of the modules before the current piece
     std::uint64_t first_of_piece = 0;    // index in the word of the piece that is interpreted
