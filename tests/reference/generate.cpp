@@ -68,7 +68,7 @@ double score_of(const Case& test_case, const Derivation& derivation) {
     }
     for (const auto& [kind, answered] : derivation.answered) {
         const auto different = static_cast<double>(answered.different.size());
-        score += kind == "turtle" ? 0.1 : std::min(0.6, 0.1 * different);
+        score += kind == "turtle" ? 0.1 : std::min(1.0, 0.05 * different);
     }
     return score;
 }
@@ -140,8 +140,8 @@ Case generate(std::uint64_t seed) {
 
 Case generate_plant(std::uint64_t seed) {
     Random random(seed, 0x20);
-    static const std::vector<std::size_t> kCaps = {40, 80, 80, 150, 300};
-    return best_case(seed + (std::uint64_t{1} << 32), true, random.pick(kCaps), 6, 2.2, random);
+    static const std::vector<std::size_t> kCaps = {60, 100, 150, 200, 400};
+    return best_case(seed + (std::uint64_t{1} << 32), true, random.pick(kCaps), 12, 2.8, random);
 }
 
 } // namespace lsys::reference

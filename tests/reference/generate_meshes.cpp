@@ -15,9 +15,10 @@ std::string new_path(const Grammar& grammar, const std::string& ending, Random& 
     return random.pick(kFolders) + "file" + std::to_string(number) + ending;
 }
 
-// A multiple of 0.05, rounded to binary32.
-float hundredths(Random& random, int low, int high) {
-    return static_cast<float>(random.between(low / 5, high / 5) * 5) / 100.0F;
+// In metres, between `low` and `high` centimetres. The offset keeps places of plants, most of whose
+// lengths are multiples of 5 cm, off the surfaces: the sign of the distance there is undefined.
+float coordinate(Random& random, int low, int high) {
+    return static_cast<float>(random.between(low / 5, high / 5) * 5) / 100.0F + 0.013F;
 }
 
 // Adds the vertices and faces of a closed surface.
@@ -68,10 +69,10 @@ void add_spindle(MeshFile& mesh, const Vertex& low, const Vertex& size, std::siz
 }
 
 void add_part(MeshFile& mesh, int size, Random& random) {
-    const Vertex low = {hundredths(random, -size, size / 2), hundredths(random, -size, size),
-                        hundredths(random, -size, size / 2)};
-    const Vertex extent = {hundredths(random, 10, size), hundredths(random, 10, size),
-                           hundredths(random, 10, size)};
+    const Vertex low = {coordinate(random, -size, size / 2), coordinate(random, -size, size),
+                        coordinate(random, -size, size / 2)};
+    const Vertex extent = {coordinate(random, 10, size), coordinate(random, 10, size),
+                           coordinate(random, 10, size)};
     if (random.percent(50)) {
         add_box(mesh, low, extent);
     } else {

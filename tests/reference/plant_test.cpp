@@ -22,6 +22,12 @@ constexpr std::uint64_t kStep = 8; // every eighth plant: sanitizers slow the pr
 constexpr std::uint64_t kStep = 1;
 #endif
 
+#ifdef _WIN32
+constexpr bool kRunsPrograms = false; // `lsc` starts no programs there
+#else
+constexpr bool kRunsPrograms = true;
+#endif
+
 // Compares the plants first, first + step, ... up to last. Returns the answers of all of them, by
 // kind of environment.
 std::map<std::string, Answered>
@@ -32,6 +38,9 @@ compare_plants(std::uint64_t first, std::uint64_t last, std::uint64_t step) {
     std::uint64_t stopped = 0;
     for (std::uint64_t seed = first; seed <= last; seed += step) {
         const Case test_case = generate_plant(seed);
+        if (!kRunsPrograms && !test_case.request.programs.empty()) {
+            continue;
+        }
         const Derivation derivation = derive(test_case.grammar, test_case.request);
         const std::string text = difference_of_plant(test_case, derivation);
         different += text.empty() ? "" : " " + std::to_string(seed);
@@ -55,17 +64,20 @@ compare_plants(std::uint64_t first, std::uint64_t last, std::uint64_t step) {
 
 TEST_CASE("random plants sense as by the oracle") {
     const std::map<std::string, Answered> answered = compare_plants(1, kPlants, kStep);
-    for (const char* kind :
-         {"turtle", "shadow", "sky", "space", "crowd", "solid", "map", "program"}) {
+    std::vector<std::string> kinds = {"turtle", "shadow", "sky", "space", "crowd", "solid", "map"};
+    if (kRunsPrograms) {
+        kinds.emplace_back("program");
+    }
+    for (const std::string& kind : kinds) {
         const auto found = answered.find(kind);
         REQUIRE(found != answered.end());
         const Answered& all = found->second;
         std::cout << kind << ": " << all.modules << " answers, " << all.other_than_zero
                   << " other than 0, " << all.different.size() << " different\n";
         INFO(kind);
-        CHECK(all.modules * kStep >= 500);
-        CHECK(all.other_than_zero * 4 > all.modules);
-        CHECK(all.different.size() * kStep >= 200);
+        CHECK(all.modules * kStep >= 2000);
+        CHECK(all.other_than_zero * 10 > all.modules);
+        CHECK(all.different.size() * kStep >= 250);
     }
 }
 
