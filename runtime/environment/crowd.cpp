@@ -3,9 +3,9 @@
 // (Mech & Prusinkiewicz 1996, "Visual models of plants interacting with their environment").
 //
 // The arithmetic, in binary64: a place q is near p if (dx^2 + dy^2) + dz^2 < radius^2, with the
-// differences d = p - q. Each coordinate of the mean is the exact total of that coordinate of the
-// near places, rounded once, divided by their number; so it depends neither on the order of modules
-// nor on threads. The direction is p - mean, each component divided by the length.
+// differences d = p - q. Each coordinate of the sum of p - q over the near places is exact and rounded
+// once; so it depends neither on the order of modules nor on threads, and it is 0 for places equal to
+// p. The direction is this sum, each component divided by the length.
 #include "runtime/base/out_of_memory.h"
 #include "runtime/environment/environment.h"
 #include "runtime/environment/impl/exact_total.h"
@@ -47,17 +47,17 @@ public:
     void answer(std::size_t at, double radius_squared, float* answer) const {
         const Vector3 place = tree_.points[at];
         Totals totals{};
-        // total_within() also counts the place itself; subtract it.
+        // The place is in its own sphere, where it adds nothing to the sum.
         const std::uint64_t others = total_within(place, radius_squared, totals) - 1;
         Vector3 direction{};
         if (others > 0) {
-            Vector3 mean{};
+            Vector3 away{};
             for (std::size_t axis = 0; axis < 3; ++axis) {
                 std::uint64_t* const total = totals.data() + axis * range_.words();
-                range_.subtract(total, place[axis]);
-                mean[axis] = range_.rounded(total) / static_cast<double>(others);
+                range_.subtract(total, place[axis], others + 1);
+                away[axis] = -range_.rounded(total);
             }
-            direction = normalised(minus(place, mean));
+            direction = normalised(away);
         }
         write_answer(static_cast<double>(others), direction, answer);
     }

@@ -111,9 +111,9 @@ SensingTurtle::State::State(const Bytecode& program, SensingOptions wanted)
 void SensingTurtle::State::begin() {
     const Settings& settings = bytecode.settings;
     now = {};
-    now.step = settings.step;
-    now.width = settings.width;
-    set_angle(settings.angle);
+    now.step = static_cast<double>(settings.step);
+    now.width = static_cast<double>(settings.width);
+    set_angle(static_cast<double>(settings.angle));
     if (settings.traits.first_turn != 0.0F) {
         yaw_right(now.pose, inverse(exact_sine_cosine_of_degrees(
                                 static_cast<double>(settings.traits.first_turn))));
@@ -165,7 +165,7 @@ bool SensingTurtle::State::run(std::span<const C> codes,
             if (polygons.any()) {
                 break;
             }
-            advance(now.pose, static_cast<double>(action.given > 0 ? arguments[0] : now.step));
+            advance(now.pose, action.given > 0 ? static_cast<double>(arguments[0]) : now.step);
             continue;
         case SensingStep::Save:
             if (stack.size() < stack.capacity()) {
@@ -190,7 +190,9 @@ bool SensingTurtle::State::run(std::span<const C> codes,
         case SensingStep::Other:
             break;
         }
-        position = first + static_cast<std::uint64_t>(at - begin);
+        // Errors name the module of the word, not that of its interpretation.
+        position = origins != nullptr ? first_of_piece + origins[at - begin].place
+                                      : first + static_cast<std::uint64_t>(at - begin);
         code = *at;
         if (!execute(table.by_code[code], action.given, arguments)) {
             return false;

@@ -4,8 +4,10 @@
 #include "grammar/base/paths.h"
 #include "runtime/cli/lsc.h"
 #include "runtime/platform/process.h"
+#include "tests/reference/mesh_file.h"
 #include "tests/reference/print.h"
 #include "tests/reference/spelling.h"
+#include "tests/support/png_file.h"
 
 #include <algorithm>
 #include <atomic>
@@ -32,6 +34,26 @@ std::string grouped(std::uint64_t number) {
         text.insert(end - 3, ",");
     }
     return text;
+}
+
+void write_file(const std::filesystem::path& path, const std::string& bytes) {
+    std::filesystem::create_directories(path.parent_path());
+    std::ofstream(path, std::ios::binary) << bytes;
+}
+
+std::string png_text(const PictureFile& picture) {
+    static constexpr int kColours[] = {PNG_COLOR_TYPE_GRAY, PNG_COLOR_TYPE_GRAY_ALPHA,
+                                       PNG_COLOR_TYPE_RGB, PNG_COLOR_TYPE_RGB_ALPHA};
+    std::vector<std::uint8_t> samples;
+    for (const std::uint16_t sample : picture.samples) {
+        if (picture.depth == 16) {
+            samples.push_back(static_cast<std::uint8_t>(sample >> 8U));
+        }
+        samples.push_back(static_cast<std::uint8_t>(sample));
+    }
+    return test::png_of(static_cast<std::uint32_t>(picture.columns),
+                        static_cast<std::uint32_t>(picture.rows),
+                        {static_cast<int>(picture.depth), kColours[picture.channels - 1]}, samples);
 }
 
 std::string joined(const std::vector<std::string>& words) {
@@ -90,13 +112,21 @@ bool can_be_an_axiom(const Word& word) {
 // Compares one case, whose files are in one folder, in several ways.
 class Comparison {
 public:
-    explicit Comparison(const Case& test_case)
-        : test_case_(test_case), derivation_(derive(test_case.grammar, test_case.request)),
+    Comparison(const Case& test_case, Derivation derivation)
+        : test_case_(test_case), derivation_(std::move(derivation)),
           expected_(all_generations(test_case.grammar, derivation_)),
           file_(folder_.write(test_case.grammar, test_case.layout_seed)) {}
 
     std::string run() {
         const bool good = derivation_.error ? stops_alike() : derives_alike();
+        return good ? "" : report_;
+    }
+
+    std::string run_plant() {
+        const bool good = derivation_.error
+                              ? stops_alike()
+                              : derives_with_threads({"1", "2", "5"}) && compiles_alike() &&
+                                    resumes_alike() && has_its_origins();
         return good ? "" : report_;
     }
 
@@ -119,7 +149,7 @@ private:
         std::string what =
             run.status != status ? "status " + std::to_string(run.status) + "\n" : "";
         what += run.out != out ? first_difference(out, run.out) : "";
-        return fails(arguments, what + run.err);
+        return fails(arguments, what + (run.status == status ? "" : run.err));
     }
 
     bool fails(const std::vector<std::string>& arguments, const std::string& what) {
@@ -134,12 +164,36 @@ private:
         return false;
     }
 
+    bool derives_with_threads(const std::vector<std::string>& counts) {
+        return std::all_of(counts.begin(), counts.end(), [&](const std::string& threads) {
+            return lsc_prints(command("dump", {"--all", "--threads", threads}), 0, expected_);
+        });
+    }
+
+    // Every generation from the saved state in the middle on.
+    bool resumes_alike() {
+        const std::uint32_t half = derivation_.generations / 2;
+        const std::string state = (folder_.path() / "half.state").string();
+        const std::vector<std::string> lines = lines_of(expected_);
+        std::string rest;
+        for (std::size_t i = half; i < lines.size(); ++i) {
+            rest += lines[i] + "\n";
+        }
+        return lsc_prints(command("dump", {"--steps", std::to_string(half), "--save-state", state}),
+                          0, lines[half] + "\n") &&
+               lsc_prints(command("dump", {"--all", "--from", state, "--threads", "5"}), 0, rest);
+    }
+
+    // A module keeps its origin when it is sensed.
+    bool has_its_origins() {
+        return lsc_prints(command("dump", {"--all", "--origins"}), 0,
+                          all_origins(test_case_, derivation_, folder_.path(), 0, std::nullopt));
+    }
+
     bool derives_alike() {
         const std::string last = lines_of(expected_).back() + "\n";
         const std::string count = std::to_string(derivation_.words.back().size()) + "\n";
-        return lsc_prints(command("dump", {"--all", "--threads", "1"}), 0, expected_) &&
-               lsc_prints(command("dump", {"--all", "--threads", "2"}), 0, expected_) &&
-               lsc_prints(command("dump", {}), 0, last) &&
+        return derives_with_threads({"1", "2"}) && lsc_prints(command("dump", {}), 0, last) &&
                lsc_prints(command("dump", {"--count"}), 0, count) && compiles_alike() &&
                continues_alike() && origins_alike() && printed_word_parses();
     }
@@ -181,12 +235,17 @@ private:
         });
     }
 
+    // Beside the grammar, because the files that it names are relative to it.
+    [[nodiscard]] std::string compiled_file() const {
+        return (std::filesystem::path(file_).parent_path() / "out.lsb").string();
+    }
+
     // Command line that dumps the bytecode file made by compiles_alike().
     [[nodiscard]] std::vector<std::string>
     compiled_dump(const std::vector<std::string>& more) const {
         Request rest = test_case_.request;
         rest.definitions.clear();
-        std::vector<std::string> dump = {"dump", (folder_.path() / "out.lsb").string()};
+        std::vector<std::string> dump = {"dump", compiled_file()};
         const std::vector<std::string> options = options_of(rest);
         dump.insert(dump.end(), options.begin(), options.end());
         dump.insert(dump.end(), more.begin(), more.end());
@@ -220,10 +279,9 @@ private:
     }
 
     bool compiles_alike() {
-        const std::string module_file = (folder_.path() / "out.lsb").string();
         Request definitions_only;
         definitions_only.definitions = test_case_.request.definitions;
-        std::vector<std::string> compile = {"compile", file_, "-o", module_file};
+        std::vector<std::string> compile = {"compile", file_, "-o", compiled_file()};
         const std::vector<std::string> options = options_of(definitions_only);
         compile.insert(compile.end(), options.begin(), options.end());
         return lsc_prints(compile, 0, "") && lsc_prints(compiled_dump({"--all"}), 0, expected_);
@@ -308,9 +366,13 @@ TemporaryFolder::~TemporaryFolder() {
 std::string TemporaryFolder::write(const Grammar& grammar, std::uint64_t layout_seed) const {
     const std::vector<TextFile> files = print_grammar(grammar, layout_seed);
     for (const TextFile& file : files) {
-        const std::filesystem::path path = path_ / file.path;
-        std::filesystem::create_directories(path.parent_path());
-        std::ofstream(path, std::ios::binary) << file.text;
+        write_file(path_ / file.path, file.text);
+    }
+    for (const MeshFile& mesh : grammar.meshes) {
+        write_file(path_ / mesh.path, obj_text(mesh));
+    }
+    for (const PictureFile& picture : grammar.pictures) {
+        write_file(path_ / picture.path, png_text(picture));
     }
     return path_text(path_ / files[0].path);
 }
@@ -325,6 +387,9 @@ std::vector<std::string> options_of(const Request& request) {
     }
     for (const auto& [name, value] : request.definitions) {
         options.insert(options.end(), {"-D", name + "=" + number_text(value)});
+    }
+    for (const std::string& name : request.programs) {
+        options.insert(options.end(), {"--environment", name + "=" LSYS_ANSWERING_PROGRAM});
     }
     return options;
 }
@@ -370,7 +435,11 @@ std::string all_origins(const Case& test_case,
 }
 
 std::string difference(const Case& test_case) {
-    return Comparison(test_case).run();
+    return Comparison(test_case, derive(test_case.grammar, test_case.request)).run();
+}
+
+std::string difference_of_plant(const Case& test_case, const Derivation& derivation) {
+    return Comparison(test_case, derivation).run_plant();
 }
 
 } // namespace lsys::reference

@@ -57,4 +57,8 @@ std::string all_origins(const Case& test_case,
 // words agree; else a message with the command, the grammar and the first difference.
 std::string difference(const Case& test_case);
 
+// The same for a plant that senses: every generation with one, two and five threads, from a `.lsb`,
+// and continued from a saved state.
+std::string difference_of_plant(const Case& test_case, const Derivation& derivation);
+
 } // namespace lsys::reference

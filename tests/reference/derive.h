@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: MIT
-// The oracle: derives a grammar by following sections 4 to 6 of the language reference sentence by
-// sentence. A word is a vector of modules with their names as text; every step tries every
-// production for every module. The oracle is slow on purpose: the runtime is tested against it, so
-// it must be evidently correct rather than fast, and it shares no code with the compiler or the
-// runtime.
+// The oracle: derives a grammar by following sections 4 to 6 and 13 of the language reference
+// sentence by sentence. A word is a vector of modules with their names as text; every step looks at every
+// production for every module. Slow on purpose: the runtime is tested against it, so it must be
+// evident rather than fast, and it shares nothing with the compiler or the runtime.
 
 #pragma once
 
@@ -13,6 +12,7 @@
 #include <limits>
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -29,7 +29,8 @@ struct Origin {
 struct Module {
     std::string name;
     std::vector<float> values;
-    Origin origin = {}; // == does not compare origins
+    Origin origin = {};     // not compared by ==
+    std::size_t source = 0; // in a word that is drawn: see interpreted() in pass.h
 
     bool operator==(const Module& other) const {
         return name == other.name && values == other.values;
@@ -44,14 +45,17 @@ struct Request {
     std::optional<std::uint32_t> generations;
     std::vector<std::pair<std::string, float>> definitions; // -D NAME=number
     std::size_t max_modules = std::numeric_limits<std::size_t>::max();
+    // Environments of kind `program`, answered by answering_program.cpp.
+    std::vector<std::string> programs;
 };
 
 enum class Failure {
-    NotFinite,        // the value of a parameter or of a condition
-    BadRange,         // min > max, bounds or width not finite, arguments out of bounds
-    BadWeight,        // weight: negative, not finite, or with an infinite sum
-    UnmatchedBracket, // the last word has a `]` without its `[`
-    UnmatchedPolygon  // the last word has a `}` without its `{`
+    NotFinite,        // a parameter or a condition
+    BadRange,         // min > max, bounds or width not finite, a distribution out of its bounds
+    BadWeight,        // negative, not finite, or with a sum that is not finite
+    UnmatchedBracket, // a `]` without its `[` in the last word or in a word that is sensed
+    UnmatchedPolygon, // a `}` without its `{`, likewise
+    NoAnswer          // an answer or a place that is not finite, or a place beyond all voxels
 };
 
 struct RunError {
@@ -62,11 +66,19 @@ struct RunError {
     Module module;                // the first module that the production rewrites
 };
 
+// The answers of a kind of environment. For those of the turtle the kind is `turtle`.
+struct Answered {
+    std::uint64_t modules = 0;         // that got an answer
+    std::uint64_t other_than_zero = 0; // of them: with a number that is not 0
+    std::set<std::vector<float>> different;
+};
+
 struct Derivation {
     std::vector<Word> words;       // generation 0 first
     std::optional<RunError> error; // `words` has all words before it
     bool too_large = false;        // the next word has more than max_modules modules
     std::map<std::string, std::uint64_t> applications; // by label of the production
+    std::map<std::string, Answered> answered;          // by kind of environment
     std::map<std::string, float> constants;
     std::uint32_t generations = 0; // number of generations that were requested
     std::uint64_t seed = 0;

@@ -24,8 +24,8 @@ public:
         groups();
         if (derivation_.error) {
             static const std::vector<std::string> kErrors = {
-                "error: not finite", "error: bad range", "error: bad weight",
-                "error: unmatched bracket", "error: unmatched polygon"};
+                "error: not finite",        "error: bad range",         "error: bad weight",
+                "error: unmatched bracket", "error: unmatched polygon", "error: no answer"};
             found_.insert(kErrors[static_cast<std::size_t>(derivation_.error->failure)]);
         }
         if (!test_case_.request.definitions.empty()) {

@@ -25,4 +25,8 @@ struct Case {
 
 Case generate(std::uint64_t seed);
 
+// A plant whose words hold sense modules and whose grammar has environments. Its seeds are not those
+// of generate().
+Case generate_plant(std::uint64_t seed);
+
 } // namespace lsys::reference

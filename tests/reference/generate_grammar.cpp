@@ -3,6 +3,7 @@
 
 #include "tests/reference/generate_expression.h"
 #include "tests/reference/generate_productions.h"
+#include "tests/reference/generate_senses.h"
 #include "tests/reference/random.h"
 #include "tests/reference/spelling.h"
 
@@ -22,12 +23,16 @@ std::string to_text(std::uint64_t value) {
 // Makes a grammar from a seed and an attempt. The same seed and attempt give the same grammar.
 class Maker {
 public:
-    Maker(std::uint64_t seed, std::uint32_t attempt)
-        : random_(seed, 0x100 + attempt), productions_(random_, plan_, constants_) {}
+    Maker(std::uint64_t seed, std::uint32_t attempt, bool senses)
+        : random_(seed, 0x100 + attempt), senses_(senses),
+          productions_(random_, plan_, constants_) {}
 
     Case make() {
         make_files();
         plan_ = make_plan(some_file(true), some_file(false), random_);
+        if (senses_) {
+            add_senses(plan_, some_file(true), random_);
+        }
         place(choose_kinds());
         fill_file(0);
         finish();
@@ -70,7 +75,11 @@ private:
             add(StatementKind::Curve, 0, 1, 0, 70);
         }
         add(StatementKind::Module, 0, 2, 0, 100);
-        add(StatementKind::Object, 0, 1, 0, 100);
+        add(StatementKind::Object, 0, plan_.senses ? 3 : 1, 0, 100);
+        if (plan_.senses) {
+            const auto environments = static_cast<int>(plan_.environments.size());
+            add(StatementKind::Sense, environments, environments, 0, 100);
+        }
         axiom_shares_ =
             random_.percent(15) ? productions_.shares(random_.between(1, 3)) : std::vector<float>{};
         const int axioms = std::max(1, static_cast<int>(axiom_shares_.size()));
@@ -190,24 +199,21 @@ private:
         case StatementKind::Curve:
             fill_curve(statement);
             return;
+        case StatementKind::Sense:
+            statement = sense_statement(plan_.environments[sense_count_++], case_.grammar,
+                                        constants_, random_);
+            return;
         case StatementKind::Module: {
-            const Species& species = fitting(letters);
+            const Species& species = declarable(letters);
             statement.patterns = {{species.name, {}}};
             for (std::size_t i = 0; i < species.count; ++i) {
                 statement.patterns[0].formals.push_back("p" + to_text(i));
             }
             return;
         }
-        case StatementKind::Object: {
-            static const std::vector<std::string> kObjects = {"BRANCH", "SPHERE", "HETEROCYST",
-                                                              "LEAF",   "FLOWER", "CYLINDER",
-                                                              "CONE",   "CUBE",   "DISK"};
-            do {
-                statement.name = fitting(letters).name;
-            } while (statement.name == "\"" || statement.name == ".");
-            statement.text = random_.pick(kObjects);
+        case StatementKind::Object:
+            fill_object(statement, letters);
             return;
-        }
         case StatementKind::Axiom: {
             do {
                 statement.modules =
@@ -230,6 +236,27 @@ private:
             return;
         }
     }
+
+    void fill_object(Statement& statement, bool letters) {
+        static const std::vector<std::string> kObjects = {
+            "BRANCH", "SPHERE", "HETEROCYST", "LEAF", "FLOWER", "CYLINDER", "CONE", "CUBE", "DISK"};
+        do {
+            statement.name = declarable(letters).name;
+        } while (statement.name == "\"" || statement.name == "." || is_bound(statement.name));
+        statement.text = random_.pick(kObjects);
+        if (!plan_.senses) {
+            return;
+        }
+        if (random_.percent(30)) {
+            statement.mesh = add_object_mesh(case_.grammar, random_);
+            statement.text.clear();
+        } else if (statement.text == "LEAF" || statement.text == "FLOWER") {
+            statement.text = "SPHERE"; // the oracle does not know the area of a leaf
+        }
+        bound_.insert(statement.name);
+    }
+
+    [[nodiscard]] bool is_bound(const std::string& name) const { return bound_.count(name) != 0; }
 
     std::string new_function() {
         static const std::vector<std::string> kNames = {"f", "taper", "g", "let", "A", "x", "K"};
@@ -295,8 +322,18 @@ private:
         }
     }
 
-    // Chooses the value that -D sets, if any, when the constant is defined, because later
-    // statements use this value.
+    // A module that may have a declaration.
+    const Species& declarable(bool letters) {
+        while (true) {
+            const Species& species = fitting(letters);
+            if (!is_sense_name(species.name)) {
+                return species;
+            }
+        }
+    }
+
+    // Chooses the value by -D, if any, when the constant is defined, because later statements use
+    // it.
     void define(const Statement& statement) {
         ExpressionMaker expressions(random_, constants_);
         const Scope scope;
@@ -419,7 +456,7 @@ private:
 
     // Moves a group to `#interpret`: its productions then change the drawing, not the word.
     void interpret_some() {
-        if (!random_.percent(10)) {
+        if (!random_.percent(plan_.senses ? 35 : 10)) {
             return;
         }
         std::string chosen;
@@ -435,6 +472,12 @@ private:
                 if (chosen == group_of(production)) {
                     production.stage = Stage::Interpret;
                 }
+            }
+        }
+        if (plan_.senses && !chosen.empty()) { // words are drawn while they are derived
+            add_setting("interpret_depth", to_text(random_.below(3) + 1), any_file());
+            if (!setting(case_.grammar, "at_depth")) {
+                add_setting("at_depth", "stop", any_file());
             }
         }
     }
@@ -645,7 +688,9 @@ private:
         if (random_.percent(70)) {
             case_.request.seed = random_.percent(90) ? seed + 1 : ~std::uint64_t{0};
         }
-        if (random_.percent(15)) {
+        if (plan_.senses) {
+            add_plant_settings();
+        } else if (random_.percent(15)) {
             static const std::vector<std::vector<std::string>> kOthers = {
                 {"angle", "22.5"},      {"step", "2"},      {"width", "0.05"},
                 {"turtle", "thesis"},   {"turtle", "lsys"}, {"tropism", "0 -1 0 .2"},
@@ -657,6 +702,18 @@ private:
         // A case without #n needs -n. The 0 is replaced by generate().
         if (!has_generations_ || random_.percent(20)) {
             case_.request.generations = 0;
+        }
+    }
+
+    // Settings that change places, and the programs of environments.
+    void add_plant_settings() {
+        for (const auto& [key, value] : plant_settings(random_)) {
+            add_setting(key, value, any_file());
+        }
+        for (const Statement* statement : statements_in_order(case_.grammar)) {
+            if (statement->kind == StatementKind::Sense && statement->sense.kind == "program") {
+                case_.request.programs.push_back(statement->name);
+            }
         }
     }
 
@@ -676,12 +733,15 @@ private:
     }
 
     Random random_;
+    bool senses_ = false;
     Case case_;
     Plan plan_;
     Constants constants_;
     ProductionMaker productions_;
     std::vector<std::size_t> parent_;
     std::set<std::string> labels_;
+    std::set<std::string> bound_; // modules with an #object
+    std::size_t sense_count_ = 0; // #sense statements so far
     std::map<const Statement*, std::vector<Production>> bundles_;
     std::set<std::string> decided_; // groups for which #decompose was chosen or rejected
     bool has_generations_ = false;
@@ -690,8 +750,8 @@ private:
 
 } // namespace
 
-Case make_case(std::uint64_t seed, std::uint32_t attempt) {
-    return Maker(seed, attempt).make();
+Case make_case(std::uint64_t seed, std::uint32_t attempt, bool senses) {
+    return Maker(seed, attempt, senses).make();
 }
 
 } // namespace lsys::reference

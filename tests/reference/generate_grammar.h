@@ -10,7 +10,7 @@
 
 namespace lsys::reference {
 
-// Makes a case. The same seed and the same attempt give the same case.
-Case make_case(std::uint64_t seed, std::uint32_t attempt);
+// The same arguments give the same case. `senses`: of a plant that senses.
+Case make_case(std::uint64_t seed, std::uint32_t attempt, bool senses);
 
 } // namespace lsys::reference

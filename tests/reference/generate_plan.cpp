@@ -25,7 +25,8 @@ bool fits(const std::string& name, bool letters) {
     if (!letters) {
         return true;
     }
-    return !is_identifier(name) || (name.size() == 1 && name != "_");
+    const std::string bare = is_sense_name(name) ? name.substr(1) : name;
+    return !is_identifier(bare) || (bare.size() == 1 && bare != "_");
 }
 
 Plan make_plan(bool letters_files, bool words_files, Random& random) {

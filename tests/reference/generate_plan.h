@@ -33,10 +33,13 @@ struct Plan {
     std::vector<Species> species;  // all modules of the grammar
     std::vector<Species> active;   // modules that productions rewrite
     std::vector<std::string> ignored;
+    bool senses = false;                   // the grammar is one of a plant that senses
+    std::vector<std::string> environments; // names without `?`
+    std::vector<Species> senses_of;        // all sense modules; `species` has them too
 };
 
-// Whether a file can contain modules with this name. In a file with `names letters` (`letters`),
-// identifiers have one letter.
+// Whether a file can contain modules of that name: with `names letters`, identifiers have one
+// letter, behind the `?` of sense modules too.
 bool fits(const std::string& name, bool letters);
 
 // `letters_files`, `words_files`: whether the grammar has files with and without `#set names

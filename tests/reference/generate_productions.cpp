@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "tests/reference/generate_productions.h"
 
+#include "tests/reference/generate_senses.h"
+
 #include <algorithm>
 #include <cstddef>
 #include <iterator>
@@ -103,7 +105,10 @@ Pattern cut_right(const Skeleton& skeleton,
 
 const Species& ProductionMaker::any_species(bool letters) {
     while (true) {
-        const Species& species = random_.pick(random_.percent(75) ? plan_.active : plan_.species);
+        const bool senses = plan_.senses && random_.percent(20);
+        const Species& species = random_.pick(senses                ? plan_.senses_of
+                                              : random_.percent(75) ? plan_.active
+                                                                    : plan_.species);
         if (fits(species.name, letters)) {
             return species;
         }
@@ -209,6 +214,20 @@ const Skeleton& ProductionMaker::common_skeleton(bool letters) {
     return random_.pick(all);
 }
 
+Expr ProductionMaker::argument(const Species& species, const Scope& scope) {
+    if (!plan_.senses) {
+        return expressions_.argument(scope);
+    }
+    if (std::string("+-&^/\\").find(species.name) != std::string::npos) {
+        return turn_argument(scope.formals, random_);
+    }
+    const bool is_answer = is_sense_name(species.name);
+    const bool is_any = random_.percent(species.name == "F" || species.name == "f" ? 3 : 30);
+    return is_any                             ? expressions_.argument(scope)
+           : is_answer && random_.percent(60) ? number(0)
+                                              : length_argument(scope.formals, random_);
+}
+
 std::vector<ModuleUse> ProductionMaker::modules(int length, const Scope& scope, bool letters) {
     const bool common = length > 2 && random_.percent(60);
     const Skeleton names = common ? common_skeleton(letters) : skeleton(length, letters, false);
@@ -216,7 +235,7 @@ std::vector<ModuleUse> ProductionMaker::modules(int length, const Scope& scope, 
     for (const Species& species : names) {
         ModuleUse use{species.name, {}};
         for (std::size_t k = 0; k < species.count; ++k) {
-            use.arguments.push_back(expressions_.argument(scope));
+            use.arguments.push_back(argument(species, scope));
         }
         list.push_back(use);
     }

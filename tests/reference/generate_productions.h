@@ -38,6 +38,8 @@ public:
 
 private:
     const Species& any_species(bool letters);
+    // An argument of a module. In a plant that senses, lengths and turns have the size of a plant's.
+    Expr argument(const Species& species, const Scope& scope);
     const Species& active_species(bool letters);
     Skeleton skeleton(int length, bool letters, bool polygon);
     const Skeleton& common_skeleton(bool letters);

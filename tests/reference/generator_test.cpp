@@ -37,10 +37,28 @@ TEST_CASE("random grammars exercise every feature") {
     CHECK(applied > 3 * kSeeds);
 }
 
+TEST_CASE("random plants exercise every feature of sensing") {
+    constexpr std::uint64_t kPlants = 300;
+    std::map<std::string, int> counts;
+    for (std::uint64_t seed = 1; seed <= kPlants; ++seed) {
+        const Case test_case = generate_plant(seed);
+        const Derivation derivation = derive(test_case.grammar, test_case.request);
+        REQUIRE_FALSE(derivation.words.empty());
+        for (const std::string& feature : sense_features_of(test_case, derivation)) {
+            ++counts[feature];
+        }
+    }
+    for (const std::string& feature : sense_feature_names()) {
+        INFO(feature);
+        CHECK(counts[feature] > 0);
+    }
+}
+
 TEST_CASE("a seed always gives the same grammar and the same text") {
     for (std::uint64_t seed = 1; seed <= 20; ++seed) {
-        const Case first = generate(seed);
-        const Case second = generate(seed);
+        const bool senses = seed % 2 == 0;
+        const Case first = senses ? generate_plant(seed) : generate(seed);
+        const Case second = senses ? generate_plant(seed) : generate(seed);
         const std::vector<TextFile> texts = print_grammar(first.grammar, first.layout_seed);
         const std::vector<TextFile> again = print_grammar(second.grammar, second.layout_seed);
         REQUIRE(texts.size() == again.size());

@@ -32,6 +32,10 @@ std::vector<const Statement*> statements_in_order(const Grammar& grammar) {
     return out;
 }
 
+bool is_sense_name(const std::string& name) {
+    return name.size() > 1 && name[0] == '?';
+}
+
 std::optional<std::string> setting(const Grammar& grammar, const std::string& key) {
     for (const Statement* statement : statements_in_order(grammar)) {
         if (statement->kind == StatementKind::Set && statement->name == key) {

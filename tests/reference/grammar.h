@@ -7,6 +7,7 @@
 
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -55,6 +56,20 @@ struct Production {
     std::vector<ModuleUse> successor;
 };
 
+// A key of `#sense` with its value, which is one of the three.
+struct SenseKey {
+    std::string key;
+    std::vector<Expr> numbers;
+    std::string word; // a shape of `space`
+    std::string file; // path of a mesh or picture of the grammar
+};
+
+// An environment: `#sense NAME KIND key value ...;`, where NAME is that of the statement.
+struct Sense {
+    std::string kind;
+    std::vector<SenseKey> keys;
+};
+
 enum class StatementKind {
     Generations,
     Define,
@@ -68,14 +83,17 @@ enum class StatementKind {
     Ignore,
     Consider,
     Material,
+    Sense,
     Axiom,
     Production,
 };
 
 struct Statement {
     StatementKind kind = StatementKind::Axiom;
-    std::string name;     // Define, Param, Function, Curve; Object: the module; Set: the key
+    std::string name;     // Define, Param, Function, Curve; Sense: without `?`; Object: the module;
+                          // Set: the key
     std::string text;     // Object: the object; Set, Material: the values as they are written
+    std::string mesh;     // Object: path of a mesh of the grammar, in place of `text`
     std::size_t file = 0; // IncludeFile: index into Grammar::files
     Expr expr;            // Generations, Define, Param; Function: the body; Axiom: its probability
     bool has_probability = false;              // Axiom: one of several
@@ -86,6 +104,7 @@ struct Statement {
     std::vector<std::string> names;            // Ignore, Consider; Function: the formals
     std::vector<ModuleUse> modules;            // Axiom
     Production production;                     // Production
+    Sense sense;                               // Sense
 };
 
 struct File {
@@ -94,13 +113,35 @@ struct File {
     std::vector<Statement> statements;
 };
 
-// files[0] is the file that the compiler is called with.
+// A mesh that the grammar names. Coordinates are binary32 numbers.
+struct MeshFile {
+    std::string path; // as File::path
+    std::vector<std::array<float, 3>> vertices;
+    std::vector<std::vector<std::size_t>> faces; // indexes of vertices from 0, at least three
+};
+
+// A picture that the grammar names, a PNG file.
+struct PictureFile {
+    std::string path; // as File::path
+    std::size_t columns = 0;
+    std::size_t rows = 0;
+    std::size_t channels = 1;           // 1 grey, 2 grey and alpha, 3 RGB, 4 RGB and alpha
+    unsigned depth = 8;                 // bits of a sample: 8 or 16
+    std::vector<std::uint16_t> samples; // by rows, from the first row on
+};
+
+// files[0] is the one given to the compiler.
 struct Grammar {
     std::vector<File> files;
+    std::vector<MeshFile> meshes;
+    std::vector<PictureFile> pictures;
 };
 
 // All statements except IncludeFile, in the order in which they take effect.
 std::vector<const Statement*> statements_in_order(const Grammar& grammar);
+
+// Whether a module of that name senses: it begins with `?`.
+bool is_sense_name(const std::string& name);
 
 // The value of `#set key`, if the grammar has one.
 std::optional<std::string> setting(const Grammar& grammar, const std::string& key);

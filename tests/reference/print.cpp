@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstdint>
 #include <map>
+#include <utility>
 
 namespace lsys::reference {
 
@@ -93,8 +94,10 @@ private:
 
     // Appends a name; returns its offset in the last token.
     std::size_t add_name(const std::string& name, bool joins_previous) {
-        const bool word = is_identifier(name);
-        const bool plain = (word && (!file_.letters || name.size() == 1)) || is_symbol(name);
+        const bool senses = is_sense_name(name) && is_identifier(name.substr(1));
+        const bool word = is_identifier(name) || senses;
+        const std::size_t length = senses ? name.size() - 1 : name.size();
+        const bool plain = (word && (!file_.letters || length == 1)) || is_symbol(name);
         const bool quotable = std::string("[]{}").find(name) == std::string::npos;
         if (!plain || (!joins_previous && !next_joins_ && quotable && chance(4))) {
             add("`" + name + "`");
@@ -198,12 +201,21 @@ private:
         case StatementKind::Object:
             add(chance(30) ? "#include" : "#object");
             add_name(statement.name, false);
-            tokens_.push_back({statement.text, false});
+            add(statement.mesh.empty() ? statement.text
+                                       : "\"" + path_from_root(statement.mesh) + "\"");
             return;
         case StatementKind::IncludeFile:
             add("#include");
             included_[statement.file] = relative_path(grammar_.files[statement.file].path);
             add("\"" + included_[statement.file] + "\"");
+            return;
+        case StatementKind::Sense:
+            add("#sense");
+            add(statement.name);
+            add(statement.sense.kind);
+            for (const SenseKey& key : statement.sense.keys) {
+                spell(key);
+            }
             return;
         case StatementKind::Set:
             add("#set");
@@ -283,9 +295,36 @@ private:
         add_modules(production.successor);
     }
 
-    // `path`, relative to the folder of this file.
+    void spell(const SenseKey& key) {
+        add(key.key);
+        for (const Expr& expr : key.numbers) {
+            add_coordinate(expr);
+        }
+        if (!key.word.empty()) {
+            add(key.word);
+        }
+        if (!key.file.empty()) {
+            add(in_quotes(key.file));
+        }
+    }
+
+    // The name of a file beside the grammar, in quotes.
+    [[nodiscard]] std::string in_quotes(const std::string& path) const {
+        return "\"" + relative_path(path) + "\"";
+    }
+
+    // `path` relative to the folder of this file.
     [[nodiscard]] std::string relative_path(std::string path) const {
-        std::string folder = file_.path.substr(0, file_.path.rfind('/') + 1);
+        return relative_path(std::move(path), file_.path);
+    }
+
+    // The path of a mesh of an object is relative to the first file, also in an included one.
+    [[nodiscard]] std::string path_from_root(std::string path) const {
+        return relative_path(std::move(path), grammar_.files[0].path);
+    }
+
+    static std::string relative_path(std::string path, const std::string& file) {
+        std::string folder = file.substr(0, file.rfind('/') + 1);
         std::string up;
         while (path.compare(0, folder.size(), folder) != 0) {
             folder = folder.substr(0, folder.rfind('/', folder.size() - 2) + 1);
@@ -443,8 +482,9 @@ std::string print_word(const Word& word, bool letters) {
     std::string text;
     bool after_bare_identifier = false;
     for (const Module& module : word) {
-        const bool letter = module.name.size() == 1 && module.name != "_";
-        const bool identifier = is_identifier(module.name) && (!letters || letter);
+        const std::string bare = is_sense_name(module.name) ? module.name.substr(1) : module.name;
+        const bool letter = bare.size() == 1 && bare != "_";
+        const bool identifier = is_identifier(bare) && (!letters || letter);
         if (identifier && after_bare_identifier && !letters) {
             text += " ";
         }

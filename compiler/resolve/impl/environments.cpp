@@ -84,7 +84,8 @@ void EnvironmentResolver::declare_all() {
 
 bool EnvironmentResolver::check_free_name(const SenseNode& node) {
     const std::string_view name = resolution_.text(node.name);
-    if (const std::size_t turtle = kTurtleSenses.find(name); turtle != std::string_view::npos) {
+    const std::size_t turtle = name.size() == 1 ? kTurtleSenses.find(name) : std::string_view::npos;
+    if (turtle != std::string_view::npos) {
         Diagnostic& error = resolution_.diagnostics.add(
             DiagnosticCode::BadEnvironment, node.name_span,
             fmt::format("`?{}` asks the turtle for its {}", name, kTurtleAnswers[turtle]));

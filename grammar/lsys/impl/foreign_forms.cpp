@@ -116,6 +116,13 @@ public:
         word_ = leading_word(text().substr(word));
         body_ = word + word_.size();
         keyword_ = find_keyword(word_);
+        // Before a `:`, a keyword is the name of a production, except in `#w :` and lists of names.
+        const bool takes_colon = keyword_ == Keyword::Axiom || keyword_ == Keyword::Ignore ||
+                                 keyword_ == Keyword::Consider;
+        const std::size_t next = skip_gaps(text(), body_);
+        if (!takes_colon && next < statement_.end && char_at(next) == ':') {
+            keyword_ = Keyword::Label;
+        }
     }
 
     /// Repairs the statement; returns the offset from which the search continues.
@@ -842,15 +849,18 @@ private:
             min_begin += leading_word(text().substr(min_begin)).size();
         }
         bool is_inside = false;
+        std::size_t range = std::string_view::npos; // begin of the innermost range around
         while (begin > min_begin) {
             const char c = char_at(begin - 1);
             if (c == ')' || c == '}') {
                 ++depth;
-            } else if (c == '(' || c == '{') {
-                if (depth-- == 0) {
-                    is_inside = true;
-                    break;
-                }
+            } else if (depth > 0 && (c == '(' || c == '{')) {
+                --depth;
+            } else if (c == '(') {
+                is_inside = true;
+                break;
+            } else if (c == '{') { // a range, if it is inside something; else a polygon
+                range = range == std::string_view::npos ? begin : range;
             } else if (depth == 0 && (c == ',' || c == ':' || c == '=')) {
                 const bool compares =
                     c == '=' && begin >= 2 &&
@@ -867,6 +877,7 @@ private:
         if (!is_inside && !has_value) {
             return;
         }
+        begin = range != std::string_view::npos ? range : begin;
         std::size_t end = question + 1;
         depth = 0;
         int pending = 1; // count of `:` to come

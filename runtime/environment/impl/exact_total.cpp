@@ -48,18 +48,25 @@ TotalRange::TotalRange(std::span<const SensePlace> places) {
     }
     if (lowest <= highest) {
         lowest_ = lowest;
-        // 32 bits for the terms, and a sign.
-        const auto bits = static_cast<std::size_t>(highest - lowest) + 33;
+        const auto bits = static_cast<std::size_t>(highest - lowest) + 34; // terms and sign
         words_ = (bits + kWordBits - 1) / kWordBits;
     }
 }
 
-void TotalRange::add(std::uint64_t* total, double coordinate) const {
+void TotalRange::subtract(std::uint64_t* total, double coordinate, std::uint64_t times) const {
+    for (unsigned bit = 0; times >> bit != 0; ++bit) {
+        if ((times >> bit & 1) != 0) {
+            add(total, -coordinate, bit);
+        }
+    }
+}
+
+void TotalRange::add(std::uint64_t* total, double coordinate, unsigned doublings) const {
     if (coordinate == 0.0) {
         return;
     }
     const OddInteger number(coordinate);
-    const auto shift = static_cast<std::size_t>(number.exponent - lowest_);
+    const std::size_t shift = static_cast<std::size_t>(number.exponent - lowest_) + doublings;
     const std::size_t bit = shift % kWordBits;
     std::size_t word = shift / kWordBits;
     const std::array<std::uint64_t, 2> parts{number.mantissa << bit,

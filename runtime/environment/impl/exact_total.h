@@ -12,8 +12,7 @@
 
 namespace lsys {
 
-/// Max 64-bit words of a total: bits from 2^-1074 to 2^1024, a sign, and 32 bits for the number of
-/// terms.
+/// Max words of a total: 2^-1074 to 2^1024, a sign, and 33 bits for the number of terms.
 inline constexpr std::size_t kMaxTotalWords = 34;
 
 /// A total in two's complement, the least word first. Words beyond TotalRange::words() are unused.
@@ -27,9 +26,10 @@ public:
 
     /// 64-bit words of a total.
     [[nodiscard]] std::size_t words() const { return words_; }
-    /// Adds a coordinate of one of the places to `total`, an array of words().
-    void add(std::uint64_t* total, double coordinate) const;
-    void subtract(std::uint64_t* total, double coordinate) const { add(total, -coordinate); }
+    /// Adds a coordinate of one of the places, times 2^doublings, to `total`, an array of words().
+    void add(std::uint64_t* total, double coordinate, unsigned doublings = 0) const;
+    /// Subtracts a coordinate `times` times, at most 2^32, from a total of as many coordinates.
+    void subtract(std::uint64_t* total, double coordinate, std::uint64_t times) const;
     /// Adds a total to another.
     void add(std::uint64_t* total, const std::uint64_t* other) const;
     /// The total, rounded once to the nearest binary64, ties to even.

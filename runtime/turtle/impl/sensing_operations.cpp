@@ -15,7 +15,7 @@ namespace {
 
 constexpr ExactSineCosine kHalfTurn{0.0, -1.0};
 constexpr double kFullTurn = 360.0;
-constexpr float kPercent = 0.01F;
+constexpr double kPercent = 0.01;
 
 ExactSineCosine turn_of(double degrees) {
     return exact_sine_cosine_of_degrees(degrees);
@@ -29,18 +29,18 @@ SensingVector at_distance(const SensingPose& pose, double length) {
 
 } // namespace
 
-void SensingTurtle::State::move(float length, bool adds_corners) {
+void SensingTurtle::State::move(double length, bool adds_corners) {
     if (adds_corners) {
         polygons.begin_step(now.pose.position);
     }
-    advance(now.pose, static_cast<double>(length));
+    advance(now.pose, length);
     if (adds_corners) {
         polygons.end_step(now.pose.position);
     }
 }
 
-/// Bends the heading by tropism, then moves by `length` m.
-void SensingTurtle::State::forward(float length, bool adds_corners) {
+/// Moves along a segment, which first bends by tropism.
+void SensingTurtle::State::forward(double length, bool adds_corners) {
     if (adds_corners) {
         polygons.begin_step(now.pose.position);
     }
@@ -49,7 +49,7 @@ void SensingTurtle::State::forward(float length, bool adds_corners) {
         const auto wide = [&](std::size_t i) { return static_cast<double>(tropism[i]); };
         bend(now.pose, {wide(0), wide(1), wide(2)}, wide(3));
     }
-    advance(now.pose, static_cast<double>(length));
+    advance(now.pose, length);
     if (adds_corners) {
         polygons.end_step(now.pose.position);
     }
@@ -62,7 +62,7 @@ void SensingTurtle::State::secondary(const Action& action,
     const SensingPose before = now.pose;
     yaw_right(now.pose, inverse(turn_of(now.second_heading)));
     if (action.operation == TurtleOperation::SecondaryForward) {
-        forward(given > 0 ? arguments[0] : now.step, true);
+        forward(given > 0 ? static_cast<double>(arguments[0]) : now.step, true);
     } else {
         move(now.step, true);
     }
@@ -87,14 +87,14 @@ void SensingTurtle::State::turn_left(double degrees) {
 }
 
 void SensingTurtle::State::half_turn_snapped() {
-    const double parts = std::round(kFullTurn / static_cast<double>(now.angle));
+    const double parts = std::round(kFullTurn / now.angle);
     const double degrees = std::floor(parts / 2.0) * kFullTurn / parts;
     turn_left(now.pose.up[2] < 0.0 ? degrees : -degrees); // mirrored if up has Z < 0
 }
 
-void SensingTurtle::State::set_angle(float angle) {
+void SensingTurtle::State::set_angle(double angle) {
     now.angle = angle;
-    now.turn = turn_of(static_cast<double>(angle));
+    now.turn = turn_of(angle);
 }
 
 void SensingTurtle::State::place(const Action& action, std::uint8_t given, const float* arguments) {
@@ -155,8 +155,14 @@ bool SensingTurtle::State::execute(const Action& action,
     const auto turn = [&] {
         return given == 0 ? now.turn : turn_of(static_cast<double>(arguments[0]));
     };
-    const auto argument = [&](float otherwise) { return given != 0 ? arguments[0] : otherwise; };
-    const auto set_width = [&](float width) { now.width = width < 0.0F ? 0.0F : width; };
+    const auto argument = [&](double otherwise) {
+        return given != 0 ? static_cast<double>(arguments[0]) : otherwise;
+    };
+    const auto set_width = [&](double width) { now.width = width < 0.0 ? 0.0 : width; };
+    const auto width_scale = static_cast<double>(settings.width_scale);
+    const auto step_scale = static_cast<double>(settings.step_scale);
+    const auto angle_scale = static_cast<double>(settings.angle_scale);
+    const auto usual_angle = static_cast<double>(settings.angle);
     switch (action.operation) {
     case TurtleOperation::Forward:
     case TurtleOperation::Branch:
@@ -167,19 +173,19 @@ bool SensingTurtle::State::execute(const Action& action,
         forward(argument(now.step), false);
         return true;
     case TurtleOperation::HalfForward:
-        forward(argument(now.step) * 0.5F, true);
+        forward(argument(now.step) * 0.5, true);
         return true;
     case TurtleOperation::Move:
         move(argument(now.step), true);
         return true;
     case TurtleOperation::HalfMove:
-        move(argument(now.step) * 0.5F, true);
+        move(argument(now.step) * 0.5, true);
         return true;
     case TurtleOperation::MoveWithoutVertex:
         move(argument(now.step), false);
         return true;
     case TurtleOperation::Bend:
-        bend(now.pose, {0.0, -1.0, 0.0}, static_cast<double>(argument(0.0F)));
+        bend(now.pose, {0.0, -1.0, 0.0}, argument(0.0));
         return true;
     case TurtleOperation::TurnBy:
         turn_by(given, arguments);
@@ -192,11 +198,11 @@ bool SensingTurtle::State::execute(const Action& action,
         return true;
     case TurtleOperation::YawRight:
         yaw_right(now.pose, turn());
-        now.second_heading += has_second_heading ? static_cast<double>(now.angle) : 0.0;
+        now.second_heading += has_second_heading ? now.angle : 0.0;
         return true;
     case TurtleOperation::YawLeft:
         yaw_right(now.pose, inverse(turn()));
-        now.second_heading -= has_second_heading ? static_cast<double>(now.angle) : 0.0;
+        now.second_heading -= has_second_heading ? now.angle : 0.0;
         return true;
     case TurtleOperation::PitchDown:
         pitch_up(now.pose, inverse(turn()));
@@ -231,43 +237,43 @@ bool SensingTurtle::State::execute(const Action& action,
         secondary(action, given, arguments);
         return true;
     case TurtleOperation::SecondaryLeft:
-        now.second_heading += static_cast<double>(argument(0.0F));
+        now.second_heading += argument(0.0);
         return true;
     case TurtleOperation::SecondaryRight:
-        now.second_heading -= static_cast<double>(argument(0.0F));
+        now.second_heading -= argument(0.0);
         return true;
     case TurtleOperation::RollUpright:
         roll_upright(now.pose);
         return true;
     case TurtleOperation::SetWidth:
-        set_width(given != 0 ? arguments[0] : now.width * settings.width_scale);
+        set_width(argument(now.width * width_scale));
         return true;
     case TurtleOperation::ScaleWidth:
-        set_width(now.width * argument(settings.width_scale));
+        set_width(now.width * argument(width_scale));
         return true;
     case TurtleOperation::DivideWidth:
-        set_width(now.width / argument(settings.width_scale));
+        set_width(now.width / argument(width_scale));
         return true;
     case TurtleOperation::ThickenWidth:
-        set_width(now.width * (1.0F + argument(settings.angle) * kPercent));
+        set_width(now.width * (1.0 + argument(usual_angle) * kPercent));
         return true;
     case TurtleOperation::ThinWidth:
-        set_width(now.width * (1.0F - argument(settings.angle) * kPercent));
+        set_width(now.width * (1.0 - argument(usual_angle) * kPercent));
         return true;
     case TurtleOperation::SetRelativeWidth:
-        set_width(argument(1.0F) * kPercent);
+        set_width(argument(1.0) * kPercent);
         return true;
     case TurtleOperation::ScaleStep:
-        now.step *= argument(settings.step_scale);
+        now.step *= argument(step_scale);
         return true;
     case TurtleOperation::DivideStep:
-        now.step /= argument(settings.step_scale);
+        now.step /= argument(step_scale);
         return true;
     case TurtleOperation::ScaleAngle:
-        set_angle(now.angle * argument(settings.angle_scale));
+        set_angle(now.angle * argument(angle_scale));
         return true;
     case TurtleOperation::DivideAngle:
-        set_angle(now.angle * (1.0F / argument(settings.angle_scale)));
+        set_angle(now.angle * (1.0 / argument(angle_scale)));
         return true;
     case TurtleOperation::Save:
     case TurtleOperation::SaveBranch:
@@ -300,7 +306,7 @@ bool SensingTurtle::State::execute(const Action& action,
     case TurtleOperation::CentredSphere:
     case TurtleOperation::LevelDisk:
         if (options.organs) {
-            const auto diameter = static_cast<double>(argument(now.width));
+            const double diameter = argument(now.width);
             sink->organ(now.pose.position, areas[code] * (diameter * diameter));
         }
         return true;

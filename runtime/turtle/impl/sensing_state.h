@@ -42,10 +42,10 @@ struct SensingAction {
 /// The state that `[` saves.
 struct SensingBrush {
     SensingPose pose;
-    float step = 0.0F;           // m, length of an F without argument
-    float angle = 0.0F;          // degrees
-    float width = 0.0F;          // m, or radius / length (TurtleTraits::width_is_relative)
-    ExactSineCosine turn;        // sine and cosine of `angle`
+    double step = 0.0;           // m, length of an F without argument
+    double angle = 0.0;          // degrees
+    double width = 0.0;          // m, or radius / length (TurtleTraits::width_is_relative)
+    ExactSineCosine turn;        // of `angle`
     double second_heading = 0.0; // degrees from the first heading to the left
 };
 
@@ -84,13 +84,13 @@ struct SensingTurtle::State {
 
     /// Reports the waiting sense modules up to index `index` of the piece.
     void report_up_to(std::uint64_t index);
-    void forward(float length, bool adds_corners);
-    void move(float length, bool adds_corners);
+    void forward(double length, bool adds_corners);
+    void move(double length, bool adds_corners);
     void secondary(const Action& action, std::uint8_t given, const float* arguments);
     void turn_by(std::uint8_t given, const float* arguments);
     void turn_left(double degrees);
     void half_turn_snapped();
-    void set_angle(float angle);
+    void set_angle(double angle);
     void place(const Action& action, std::uint8_t given, const float* arguments);
     bool save();
     bool restore();
@@ -114,8 +114,8 @@ struct SensingTurtle::State {
     PendingSensing pending;
     SenseSink* sink = nullptr;
     std::uint32_t age = 0;
-    std::uint64_t position = 0;          // index of the current module in the word
-    Code code = 0;                       // code of the current module
+    std::uint64_t position = 0; // index of the current module; after an error that in the word
+    Code code = 0;              // of the current module
     std::uint64_t walked_parameters = 0; // parameters of the modules before the current piece
     std::uint64_t first_of_piece = 0;    // index in the word of the piece that is interpreted
     std::optional<Stop> stopped;

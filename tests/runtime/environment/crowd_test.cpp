@@ -2,6 +2,7 @@
 // Environments of kind Crowd, compared with all pairs.
 #include "runtime/environment/environment.h"
 #include "tests/runtime/environment/clouds.h"
+#include "tests/runtime/environment/slow_fields.h"
 
 #include <catch2/catch.hpp>
 
@@ -25,79 +26,6 @@ BytecodeEnvironment crowd_of(float radius) {
     return declared;
 }
 
-/// The sum of numbers rounded once (Shewchuk 1997, "Adaptive precision floating-point arithmetic",
-/// section 2.4): partial sums that do not overlap, added from the largest on.
-double rounded_sum(const std::vector<double>& numbers) {
-    std::vector<double> parts; // ascending, not overlapping
-    for (double number : numbers) {
-        std::vector<double> next;
-        for (const double part : parts) {
-            const double sum = number + part;
-            const double other = sum - number;
-            const double error = (number - (sum - other)) + (part - other);
-            if (error != 0.0) {
-                next.push_back(error);
-            }
-            number = sum;
-        }
-        next.push_back(number);
-        parts = next;
-    }
-    double sum = 0.0;
-    while (!parts.empty()) {
-        const double part = parts.back();
-        parts.pop_back();
-        const double next = sum + part;
-        const double rest = part - (next - sum);
-        sum = next;
-        if (rest != 0.0) {
-            // Half a unit is rounded to even although more bits follow in the same direction.
-            if (!parts.empty() && (parts.back() < 0.0) == (rest < 0.0)) {
-                const double twice = 2.0 * rest;
-                const double moved = sum + twice;
-                if (moved - sum == twice) {
-                    sum = moved;
-                }
-            }
-            break;
-        }
-    }
-    return sum;
-}
-
-/// The answers by looking at every pair.
-std::vector<float> direct_answers(const std::vector<SensePlace>& places, float radius) {
-    std::vector<float> answers;
-    const double limit = static_cast<double>(radius) * static_cast<double>(radius);
-    for (std::size_t i = 0; i < places.size(); ++i) {
-        std::array<std::vector<double>, 3> near;
-        const Vector3& p = places[i].position;
-        for (std::size_t k = 0; k < places.size(); ++k) {
-            const Vector3& q = places[k].position;
-            const double x = p[0] - q[0];
-            const double y = p[1] - q[1];
-            const double z = p[2] - q[2];
-            if (k != i && (x * x + y * y) + z * z < limit) {
-                for (std::size_t axis = 0; axis < 3; ++axis) {
-                    near[axis].push_back(q[axis]);
-                }
-            }
-        }
-        const auto count = static_cast<double>(near[0].size());
-        Vector3 away{};
-        for (std::size_t axis = 0; axis < 3 && count > 0.0; ++axis) {
-            away[axis] = p[axis] - rounded_sum(near[axis]) / count;
-        }
-        const double length =
-            std::sqrt((away[0] * away[0] + away[1] * away[1]) + away[2] * away[2]);
-        answers.push_back(static_cast<float>(count));
-        for (const double component : away) {
-            answers.push_back(length > 0.0 ? static_cast<float>(component / length) + 0.0F : 0.0F);
-        }
-    }
-    return answers;
-}
-
 std::vector<float>
 crowd_answers(const std::vector<SensePlace>& places, float radius, std::uint32_t threads) {
     Workers workers(threads);
@@ -118,7 +46,7 @@ TEST_CASE("a crowd has the answers of all pairs, bit by bit") {
             random_places(random, 1 + random.below(60), random.between(0.5, 4.0));
         const auto radius = static_cast<float>(random.between(0.1, seed % 7 == 0 ? 30.0 : 3.0));
         INFO("seed " << seed);
-        const std::vector<float> expected = direct_answers(places, radius);
+        const std::vector<float> expected = slow::crowd(radius, places);
         for (const std::uint32_t threads : {1U, 2U, 5U}) {
             REQUIRE(same_bits(crowd_answers(places, radius, threads), expected));
         }
@@ -135,7 +63,7 @@ TEST_CASE("a crowd is exact for coordinates of very different sizes") {
             }
         }
         INFO("seed " << seed);
-        REQUIRE(same_bits(crowd_answers(places, 0.5F, 2), direct_answers(places, 0.5F)));
+        REQUIRE(same_bits(crowd_answers(places, 0.5F, 2), slow::crowd(0.5F, places)));
     }
 }
 

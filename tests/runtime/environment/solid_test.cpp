@@ -3,6 +3,7 @@
 #include "runtime/environment/closed_mesh.h"
 #include "runtime/environment/environment.h"
 #include "tests/runtime/environment/clouds.h"
+#include "tests/runtime/environment/slow_fields.h"
 #include "tests/runtime/environment/solids.h"
 
 #include <catch2/catch.hpp>
@@ -70,82 +71,6 @@ double product(const Vector3& a, const Vector3& b) {
     return (a[0] * b[0] + a[1] * b[1]) + a[2] * b[2];
 }
 
-Vector3 vector_product(const Vector3& a, const Vector3& b) {
-    return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
-
-struct Way {
-    Vector3 to{};
-    double squared = std::numeric_limits<double>::infinity();
-};
-
-/// The way from `p` to the nearest of the foot on the triangle and the three sides, in the order
-/// that runtime/environment/impl/triangle_distance.h defines.
-Way way_to(const std::array<Vector3, 3>& corners, const Vector3& p) {
-    std::vector<Vector3> candidates;
-    const Vector3 u = difference(corners[1], corners[0]);
-    const Vector3 v = difference(corners[2], corners[0]);
-    const Vector3 w = difference(p, corners[0]);
-    const Vector3 n = vector_product(u, v);
-    if (const double s = product(n, n); s > 0.0) {
-        const double beta = product(vector_product(w, v), n) / s;
-        const double gamma = product(vector_product(u, w), n) / s;
-        if (beta >= 0.0 && gamma >= 0.0 && beta + gamma <= 1.0) {
-            Vector3 foot;
-            for (std::size_t axis = 0; axis < 3; ++axis) {
-                foot[axis] = (corners[0][axis] + u[axis] * beta) + v[axis] * gamma;
-            }
-            candidates.push_back(foot);
-        }
-    }
-    for (std::size_t i = 0; i < 3; ++i) {
-        const Vector3& from = corners[i];
-        const Vector3 side = difference(corners[(i + 1) % 3], from);
-        const double length = product(side, side);
-        const double along = length > 0.0 ? product(difference(p, from), side) / length : 0.0;
-        const double t = std::clamp(along, 0.0, 1.0);
-        candidates.push_back({from[0] + side[0] * t, from[1] + side[1] * t, from[2] + side[2] * t});
-    }
-    Way nearest;
-    for (Vector3 point : candidates) {
-        for (std::size_t axis = 0; axis < 3; ++axis) {
-            const auto [low, high] =
-                std::minmax({corners[0][axis], corners[1][axis], corners[2][axis]});
-            point[axis] = std::clamp(point[axis], low, high);
-        }
-        const Vector3 to = difference(point, p);
-        if (product(to, to) < nearest.squared) {
-            nearest = {to, product(to, to)};
-        }
-    }
-    return nearest;
-}
-
-/// The answer at a place without its sign.
-std::vector<float> direct_answer(const std::vector<EnvironmentMesh>& meshes, const Vector3& place) {
-    Way nearest;
-    for (const EnvironmentMesh& mesh : meshes) {
-        for (const std::array<std::uint32_t, 3>& corners : mesh.triangles) {
-            const std::array<Vector3, 3> triangle{
-                mesh.vertices[corners[0]], mesh.vertices[corners[1]], mesh.vertices[corners[2]]};
-            if (vector_product(difference(triangle[1], triangle[0]),
-                               difference(triangle[2], triangle[0])) == Vector3{}) {
-                continue;
-            }
-            const Way way = way_to(triangle, place);
-            if (way.squared < nearest.squared) {
-                nearest = way;
-            }
-        }
-    }
-    const double distance = std::sqrt(nearest.squared);
-    std::vector<float> answer{static_cast<float>(distance)};
-    for (const double component : nearest.to) {
-        answer.push_back(distance > 0.0 ? static_cast<float>(component / distance) + 0.0F : 0.0F);
-    }
-    return answer;
-}
-
 /// Triangles at random: large, small, slivers, without area, twice the same.
 EnvironmentMesh random_mesh(TestRandom& random, std::uint32_t count) {
     EnvironmentMesh mesh;
@@ -199,7 +124,7 @@ TEST_CASE("distances to meshes are those of all triangles one after the other, b
         }
         std::vector<float> expected;
         for (const SensePlace& place : places) {
-            const std::vector<float> answer = direct_answer(meshes, place.position);
+            const std::vector<float> answer = slow::nearest(meshes, place.position);
             expected.insert(expected.end(), answer.begin(), answer.end());
         }
         INFO("seed " << seed);
@@ -234,7 +159,7 @@ TEST_CASE("distances to meshes of any size, far from the origin and from places,
         places.back().position[0] += 1e20 * size; // where binary32 is of no use
         std::vector<float> expected;
         for (const SensePlace& place : places) {
-            const std::vector<float> answer = direct_answer({mesh}, place.position);
+            const std::vector<float> answer = slow::nearest({mesh}, place.position);
             expected.insert(expected.end(), answer.begin(), answer.end());
         }
         INFO("seed " << seed);

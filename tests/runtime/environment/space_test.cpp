@@ -3,6 +3,7 @@
 #include "runtime/base/random.h"
 #include "runtime/environment/environment.h"
 #include "tests/runtime/environment/clouds.h"
+#include "tests/runtime/environment/slow_fields.h"
 #include "tests/runtime/environment/solids.h"
 
 #include <catch2/catch.hpp>
@@ -18,135 +19,6 @@ using environments::answers_of;
 using environments::random_places;
 using environments::same_bits;
 using environments::TestRandom;
-
-double squared(const Vector3& a) {
-    return (a[0] * a[0] + a[1] * a[1]) + a[2] * a[2];
-}
-
-Vector3 unit(const Vector3& a) {
-    const double length = std::sqrt(squared(a));
-    return length > 0.0 ? Vector3{a[0] / length, a[1] / length, a[2] / length} : Vector3{};
-}
-
-/// A space by the words of the language: a list of markers, and loops over all of them.
-class DirectSpace {
-public:
-    DirectSpace(const BytecodeEnvironment& declared, std::uint64_t seed, std::uint32_t number)
-        : declared_(declared) {
-        for (std::uint64_t i = 0; i < declared.count; ++i) {
-            for (std::uint64_t m = 64 * i; m < 64 * i + 64; ++m) {
-                const PhiloxBlock words = draw_block(seed, 0xFFFFFFFDu, m, number);
-                Vector3 u{};
-                for (std::size_t axis = 0; axis < 3; ++axis) {
-                    u[axis] = static_cast<double>(words[axis] >> 8) * 0x1p-24;
-                }
-                if (holds(u)) {
-                    markers.push_back(point(u));
-                    break;
-                }
-            }
-        }
-    }
-
-    std::vector<float> answer(const std::vector<SensePlace>& places) {
-        const auto kill = static_cast<double>(declared_.kill);
-        markers.erase(std::remove_if(markers.begin(), markers.end(),
-                                     [&](const Vector3& marker) {
-                                         return std::any_of(
-                                             places.begin(), places.end(), [&](const auto& place) {
-                                                 return squared(way(place, marker)) < kill * kill;
-                                             });
-                                     }),
-                      markers.end());
-        std::vector<double> counts(places.size());
-        std::vector<Vector3> sums(places.size());
-        for (const Vector3& marker : markers) {
-            const std::size_t owner = nearest(places, marker);
-            if (owner < places.size()) {
-                const Vector3 towards = unit(way(places[owner], marker));
-                counts[owner] += 1.0;
-                for (std::size_t axis = 0; axis < 3; ++axis) {
-                    sums[owner][axis] += towards[axis];
-                }
-            }
-        }
-        std::vector<float> answers;
-        for (std::size_t i = 0; i < places.size(); ++i) {
-            answers.push_back(static_cast<float>(counts[i]));
-            Vector3 mean{};
-            for (std::size_t axis = 0; axis < 3 && counts[i] > 0.0; ++axis) {
-                mean[axis] = sums[i][axis] / counts[i];
-            }
-            for (const double component : unit(mean)) {
-                answers.push_back(static_cast<float>(component) + 0.0F);
-            }
-        }
-        return answers;
-    }
-
-    std::vector<Vector3> markers;
-
-private:
-    static Vector3 way(const SensePlace& place, const Vector3& marker) {
-        return {marker[0] - place.position[0], marker[1] - place.position[1],
-                marker[2] - place.position[2]};
-    }
-
-    [[nodiscard]] bool holds(const Vector3& u) const {
-        const double x = 2.0 * u[0] - 1.0;
-        const double y = 2.0 * u[1] - 1.0;
-        const double z = 2.0 * u[2] - 1.0;
-        switch (declared_.shape) {
-        case SpaceShape::Ball:
-            return squared({x, y, z}) <= 1.0;
-        case SpaceShape::Dome:
-            return squared({x, u[1], z}) <= 1.0;
-        case SpaceShape::Cone:
-            return x * x + z * z <= (1.0 - u[1]) * (1.0 - u[1]);
-        default:
-            return true;
-        }
-    }
-
-    [[nodiscard]] Vector3 point(const Vector3& u) const {
-        Vector3 result{};
-        for (std::size_t axis = 0; axis < 3; ++axis) {
-            const auto at = static_cast<double>(declared_.at[axis]);
-            const auto size = static_cast<double>(declared_.size[axis]);
-            const double low = axis == 1 ? at : at - size / 2.0;
-            const double high = axis == 1 ? at + size : at + size / 2.0;
-            result[axis] = low + u[axis] * (high - low);
-        }
-        return result;
-    }
-
-    [[nodiscard]] std::size_t nearest(const std::vector<SensePlace>& places,
-                                      const Vector3& marker) const {
-        const auto radius = static_cast<double>(declared_.radius);
-        // Cosines of half of the angles of these tests, which are exact or rounded correctly.
-        const double cosine = declared_.angle == 180.0F   ? 0.0
-                              : declared_.angle == 120.0F ? 0.5
-                              : declared_.angle == 90.0F  ? std::sqrt(0.5)
-                                                          : -1.0;
-        std::size_t found = places.size();
-        double least = 0.0;
-        for (std::size_t i = 0; i < places.size(); ++i) {
-            const Vector3 w = way(places[i], marker);
-            const Vector3& h = places[i].heading;
-            const bool seen =
-                declared_.angle == 360.0F || squared(w) == 0.0 ||
-                (h[0] * w[0] + h[1] * w[1]) + h[2] * w[2] >= cosine * std::sqrt(squared(w));
-            if (squared(w) <= radius * radius && seen &&
-                (found == places.size() || squared(w) < least)) {
-                found = i;
-                least = squared(w);
-            }
-        }
-        return found;
-    }
-
-    BytecodeEnvironment declared_;
-};
 
 BytecodeEnvironment space_of(SpaceShape shape, std::uint32_t count) {
     BytecodeEnvironment declared;
@@ -198,10 +70,10 @@ TEST_CASE("a space has the answers of every marker against every place, bit by b
         for (std::size_t generation = 0; generation < 3; ++generation) {
             words.push_back(random_places(random, 1 + random.below(40), 2.0));
         }
-        DirectSpace direct(declared, 11, 3);
+        reference::Markers direct = slow::markers(declared, 11, 3);
         std::vector<std::vector<float>> expected;
         for (const std::vector<SensePlace>& places : words) {
-            expected.push_back(direct.answer(places));
+            expected.push_back(slow::numbers_of(direct.answers(slow::places_of(places))));
         }
         INFO("seed " << seed);
         for (const std::uint32_t threads : {1U, 2U, 5U}) {
@@ -209,7 +81,7 @@ TEST_CASE("a space has the answers of every marker against every place, bit by b
             for (std::size_t i = 0; i < words.size(); ++i) {
                 REQUIRE(same_bits(answers_of(*space.environment, words[i]), expected[i]));
             }
-            REQUIRE(bits_of(space.environment->state()) == direct.markers.size());
+            REQUIRE(bits_of(space.environment->state()) == direct.places().size());
         }
     }
 }

@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: MIT
+// Environments of kind `crowd`: every pair of places.
+
+#pragma once
+
+#include "tests/reference/environments/place.h"
+
+namespace lsys::reference {
+
+// The sum of numbers rounded once (Shewchuk 1997, "Adaptive precision floating-point arithmetic",
+// section 2.4).
+double rounded_sum(const std::vector<double>& numbers);
+
+// n x y z for each place.
+Answers crowd_answers(double radius, const std::vector<Place>& places);
+
+} // namespace lsys::reference

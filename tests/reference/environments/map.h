@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: MIT
+// Environments of kind `map`: bilinear grey values of a picture.
+
+#pragma once
+
+#include "tests/reference/environments/place.h"
+
+namespace lsys::reference {
+
+// Grey values by rows: column 0 at the least x, row 0 at the least z.
+struct GreyPicture {
+    std::size_t columns = 0;
+    std::size_t rows = 0;
+    std::vector<double> values; // 0 to 1
+};
+
+// The keys of the statement.
+struct GreyMap {
+    GreyPicture picture;
+    std::array<double, 2> size{1, 1}; // x, z
+    std::array<double, 2> at{0, 0};   // x, z
+    double low = 0;
+    double high = 1;
+};
+
+// v for each place.
+Answers map_answers(const GreyMap& map, const std::vector<Place>& places);
+
+} // namespace lsys::reference

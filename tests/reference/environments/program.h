@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: MIT
+// The environment of kind `program` of these tests, answering_program.cpp.
+
+#pragma once
+
+#include "tests/reference/environments/place.h"
+
+#include <cstdint>
+
+namespace lsys::reference {
+
+// Up to four numbers for each place, made of all that a query holds.
+Answers program_answers(std::uint32_t generation, const std::vector<Place>& places);
+
+} // namespace lsys::reference

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: MIT
+// Environments of kind `shadow`: pyramids written voxel by voxel.
+
+#pragma once
+
+#include "tests/reference/environments/place.h"
+
+namespace lsys::reference {
+
+// The keys of the statement.
+struct Shadow {
+    double cell = 0.5;
+    int levels = 8;
+    double strength = static_cast<double>(0.2F);
+    double ratio = 2;
+};
+
+// q x y z for each place.
+Answers shadow_answers(const Shadow& shadow, const std::vector<Place>& places);
+
+} // namespace lsys::reference

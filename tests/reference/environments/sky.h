@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: MIT
+// Environments of kind `sky`: rays cell by cell, and every organ for every cell.
+
+#pragma once
+
+#include "tests/reference/environments/place.h"
+
+namespace lsys::reference {
+
+// The keys of the statement.
+struct Sky {
+    double cell = 0.5;
+    double extinction = 0.5;
+    int directions = 46;
+};
+
+// q for each place.
+Answers
+sky_answers(const Sky& sky, const std::vector<Organ>& organs, const std::vector<Place>& places);
+
+} // namespace lsys::reference

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: MIT
+// Environments of kind `solid`: every plane and every triangle.
+
+#pragma once
+
+#include "tests/reference/environments/place.h"
+#include "tests/reference/environments/surface.h"
+
+namespace lsys::reference {
+
+// a x + b y + c z + d = 0
+using Plane = std::array<double, 4>;
+
+// The planes and meshes of the statement, each in its order.
+struct Solid {
+    std::vector<Plane> planes;
+    std::vector<Surface> meshes;
+};
+
+// d x y z for each place.
+Answers solid_answers(const Solid& solid, const std::vector<Place>& places);
+
+// The direction and the distance without its sign, as an answer, of the meshes alone.
+std::vector<double> nearest_of_meshes(const std::vector<Surface>& meshes, const Vector& place);
+
+} // namespace lsys::reference

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: MIT
+// Environments of kind `space`: every marker against every place.
+
+#pragma once
+
+#include "tests/reference/environments/place.h"
+#include "tests/reference/environments/surface.h"
+
+#include <cstdint>
+
+namespace lsys::reference {
+
+enum class Shape { Box, Ball, Dome, Cone, Mesh };
+
+// The keys of the statement.
+struct Space {
+    Shape shape = Shape::Box;
+    Surface mesh; // of Shape::Mesh
+    Vector size{1, 1, 1};
+    Vector at{};
+    std::uint32_t count = 0;
+    double radius = 0;
+    double angle = 90; // degrees
+    double kill = 0;
+};
+
+// The markers of one derivation. Words are answered in the order of their ages.
+class Markers {
+public:
+    // Draws the markers. `number`: index of the environment in the grammar.
+    Markers(const Space& space, std::uint64_t seed, std::uint32_t number);
+
+    // n x y z for each place, after the markers that are too near have vanished.
+    Answers answers(const std::vector<Place>& places);
+
+    // The markers that are left.
+    [[nodiscard]] const std::vector<Vector>& places() const { return markers_; }
+
+private:
+    [[nodiscard]] std::size_t owner_of(const Vector& marker,
+                                       const std::vector<Place>& places) const;
+    [[nodiscard]] bool sees(const Place& place, const Vector& marker) const;
+
+    Space space_;
+    double cosine_ = 0; // of half of the angle
+    std::vector<Vector> markers_;
+};
+
+} // namespace lsys::reference

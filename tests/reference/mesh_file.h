@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: MIT
+// The meshes and pictures of a grammar as surfaces and grey values.
+
+#pragma once
+
+#include "tests/reference/environments/map.h"
+#include "tests/reference/environments/surface.h"
+#include "tests/reference/grammar.h"
+
+namespace lsys::reference {
+
+// The file with that path. Precondition: the grammar has it.
+const MeshFile& mesh_of(const Grammar& grammar, const std::string& path);
+const PictureFile& picture_of(const Grammar& grammar, const std::string& path);
+
+// "Faces as fans."
+Surface surface_of(const MeshFile& mesh);
+// Half the area of the triangles, of an object at scale 1.
+double half_area(const MeshFile& mesh);
+// The greatest y, at least 0.
+double length_of_object(const MeshFile& mesh);
+
+// "Grey of a colour is 0.2126 R + 0.7152 G + 0.0722 B as stored, over 255 or 65,535; alpha is
+// ignored."
+GreyPicture grey_of(const PictureFile& picture);
+
+// The text of the file: Wavefront OBJ.
+std::string obj_text(const MeshFile& mesh);
+
+} // namespace lsys::reference
