@@ -129,6 +129,7 @@ public:
         case Keyword::Function:
             return repair_function();
         case Keyword::Curve:
+        case Keyword::Contour:
             repair_curve();
             break;
         case Keyword::Set:
@@ -376,8 +377,9 @@ private:
             plain += numbers[i];
         }
         Diagnostic& diagnostic =
-            report(all, "a point of a curve is two numbers, `x y`, without parentheses, and commas "
-                        "stand between points");
+            report(all, fmt::format("a point of a {} is two numbers, `x y`, without parentheses, "
+                                    "and commas stand between points",
+                                    keyword_ == Keyword::Curve ? "curve" : "contour"));
         add_fix(diagnostic, "write `" + plain + "`", draft_.span(all.begin, all.end), plain, false);
         if (!draft_.replace(all.begin, all.end, plain)) {
             leave_out();
