@@ -141,7 +141,8 @@ private:
     bool read_numbers(std::string_view label, std::span<double> values) {
         if (!skip_blank_lines()) {
             next_line();
-            return fail(fmt::format("the file ends before `{}`", label));
+            return fail(label.empty() ? std::string("the file ends where numbers should follow")
+                                      : fmt::format("the file ends before `{}`", label));
         }
         next_line();
         line_.remove_prefix(std::min(line_.find_first_not_of(" \t"), line_.size()));
@@ -149,8 +150,9 @@ private:
             return fail(fmt::format("expected `{}`", label));
         }
         line_.remove_prefix(label.size());
+        const std::string_view what = label.empty() ? "the box" : label;
         return std::ranges::all_of(values,
-                                   [&](double& value) { return next_number(label, value); });
+                                   [&](double& value) { return next_number(what, value); });
     }
 
     bool next_line_begins(std::string_view label) {

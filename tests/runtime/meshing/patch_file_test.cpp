@@ -116,9 +116,9 @@ TEST_CASE("line ends of Windows, a version and no precision are read") {
 }
 
 TEST_CASE("mistakes in a surface file are named with their line") {
-    CHECK(problem("") == "line 1: the file ends before ``");
+    CHECK(problem("") == "line 1: the file ends where numbers should follow");
     CHECK(problem("a b c") == "line 1: `a` is not a number");
-    CHECK(problem("0 1 0 1\n") == "line 1:  lacks a number");
+    CHECK(problem("0 1 0 1\n") == "line 1: the box lacks a number");
     CHECK(problem("0 1 0 1 0 1\nSIZE: 1\n") == "line 2: expected `CONTACT POINT`");
     CHECK(problem("0 1 0 1 0 1\nPRECISION S: 1000000 T: 5\n") ==
           "line 2: a precision of 1000000 is not from 1 to 64");
