@@ -447,6 +447,11 @@ private:
         if (extra.empty() || rest.begin == end || !(is_letter(extra[0]) || is_digit(extra[0]))) {
             return;
         }
+        const bool has_contour = text().substr(object, end - object) == "CONTOUR" &&
+                                 leading_word(extra).size() == extra.size();
+        if (has_contour) {
+            return;
+        }
         const std::size_t digit = extra.find_first_of("0123456789.");
         Diagnostic& diagnostic =
             report(rest, "nothing follows the object: it has no size or colour of its own");
