@@ -105,8 +105,8 @@ private:
         for (const BytecodeContour& contour : bytecode_.contours) {
             std::string text;
             for (const ContourPoint& point : contour.points) {
-                text += fmt::format("{} {} {}", text.empty() ? "" : ",", real(point.x),
-                                    real(point.y));
+                text +=
+                    fmt::format("{} {} {}", text.empty() ? "" : ",", real(point.x), real(point.y));
             }
             line("      {}{}", contour.name, text);
         }

@@ -43,8 +43,9 @@ public:
     explicit Verifier(const Bytecode& bytecode) : bytecode_(bytecode) {}
 
     std::optional<std::string> run() {
-        if (settings() && curves() && contours() && symbols() && folded() && sites() && materials() &&
-            environments() && places() && globals() && axioms() && productions() && ends()) {
+        if (settings() && curves() && contours() && symbols() && folded() && sites() &&
+            materials() && environments() && places() && globals() && axioms() && productions() &&
+            ends()) {
             return std::nullopt;
         }
         return std::move(problem_);

@@ -70,8 +70,7 @@ public:
         : resolution_(resolution), values_(resolution.program.values), constants_(resolution),
           expressions_(resolution, values_, constants_), symbols_(resolution),
           definitions_(resolution, constants_, expressions_), materials_(resolution, expressions_),
-          contours_(resolution, expressions_),
-          environments_(resolution, expressions_, symbols_),
+          contours_(resolution, expressions_), environments_(resolution, expressions_, symbols_),
           declarations_(resolution, symbols_, environments_) {}
 
     void run(SetResolver& settings) {

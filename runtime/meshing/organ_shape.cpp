@@ -68,7 +68,8 @@ private:
     }
 
     /// Appends a triangle unless two corners are at one place.
-    static void append_triangle(ShapePart& part, std::array<std::uint32_t, 3> corners, bool turned) {
+    static void
+    append_triangle(ShapePart& part, std::array<std::uint32_t, 3> corners, bool turned) {
         const auto at = [&](std::size_t i) { return part.positions[corners[i]]; };
         if (at(0) == at(1) || at(1) == at(2) || at(2) == at(0)) {
             return;
@@ -178,7 +179,8 @@ private:
     }
 
     /// Whether every edge is seen from `middle` in the same sense.
-    static bool is_star(const std::vector<glm::dvec2>& flat, const glm::dvec2& middle, bool turned) {
+    static bool
+    is_star(const std::vector<glm::dvec2>& flat, const glm::dvec2& middle, bool turned) {
         for (std::size_t i = 0; i < flat.size(); ++i) {
             const glm::dvec2 a = flat[i] - middle;
             const glm::dvec2 b = flat[(i + 1) % flat.size()] - middle;
@@ -254,8 +256,8 @@ private:
     static std::vector<StepCorner> corners_of(const OrganSheet& sheet, const OrganRing& ring) {
         std::vector<StepCorner> corners;
         for (const std::uint32_t column : outline_of(sheet.layout)) {
-            corners.push_back({ring.positions[column],
-                               ring.flat[column] / std::max(ring.circumference, 1e-30)});
+            corners.push_back(
+                {ring.positions[column], ring.flat[column] / std::max(ring.circumference, 1e-30)});
         }
         return corners;
     }

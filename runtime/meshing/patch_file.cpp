@@ -119,8 +119,7 @@ private:
             word = next_word();
         }
         word.remove_prefix(word.starts_with('+') ? 1 : 0);
-        const auto [end, code] =
-            number_from_chars(word.data(), word.data() + word.size(), value);
+        const auto [end, code] = number_from_chars(word.data(), word.data() + word.size(), value);
         if (word.empty() || code != std::errc() || end != word.data() + word.size()) {
             return fail(word.empty() ? fmt::format("{} lacks a number", what)
                                      : fmt::format("`{}` is not a number", shortened(word)));
@@ -151,8 +150,7 @@ private:
         }
         line_.remove_prefix(label.size());
         const std::string_view what = label.empty() ? "the box" : label;
-        return std::ranges::all_of(values,
-                                   [&](double& value) { return next_number(what, value); });
+        return std::ranges::all_of(values, [&](double& value) { return next_number(what, value); });
     }
 
     bool next_line_begins(std::string_view label) {
@@ -296,7 +294,7 @@ private:
 
     /// Gives vertices at one place a common normal, unless their surfaces meet at a sharp edge.
     void smooth_edges() {
-        constexpr float kSharp = 0.5F; // cosine of the angle between normals
+        constexpr float kSharp = 0.5F;          // cosine of the angle between normals
         constexpr std::size_t kMaxJoined = 256; // more vertices at a place keep their normals
         std::vector<glm::vec3> faces(mesh_.positions.size(), glm::vec3(0.0F));
         for (std::size_t i = 0; i + 2 < mesh_.indices.size(); i += 3) {

@@ -65,8 +65,7 @@ Wording wording_of(TurtleFaultKind kind) {
                 "is a point or the end of a surface that is not open, and is ignored",
                 "begin a surface with SURFACE_BEGIN in the same branch"};
     case TurtleFaultKind::SurfaceWithin:
-        return {DiagnosticCode::StraySurface,
-                "begins a surface within another one, and is ignored",
+        return {DiagnosticCode::StraySurface, "begins a surface within another one, and is ignored",
                 "end the first surface, or begin the second in a branch of its own"};
     case TurtleFaultKind::SmallSurface:
         return {DiagnosticCode::SmallSurface,

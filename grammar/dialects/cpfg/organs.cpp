@@ -101,8 +101,8 @@ std::optional<ContourFile> read_contour(std::string_view text) {
                 file.closed = line.starts_with('c');
             } else if (count && !line.empty() &&
                        line.find_first_not_of("+-.0123456789eE \t") == line.npos) {
-                text = {line.data(), static_cast<std::size_t>(text.data() + text.size() -
-                                                              line.data())};
+                text = {line.data(),
+                        static_cast<std::size_t>(text.data() + text.size() - line.data())};
                 break; // the first point
             }
         }
@@ -130,8 +130,7 @@ CurvePoint spline_at(const std::vector<CurvePoint>& points, double t) {
         (-3.0 * u * u * u + 3.0 * u * u + 3.0 * u + 1.0) / 6.0, u * u * u / 6.0};
     CurvePoint sum;
     for (std::size_t i = 0; i < weights.size(); ++i) {
-        const CurvePoint& point =
-            points[(static_cast<std::size_t>(begin) + i) % points.size()];
+        const CurvePoint& point = points[(static_cast<std::size_t>(begin) + i) % points.size()];
         sum.x += weights[i] * point.x;
         sum.y += weights[i] * point.y;
     }
@@ -242,8 +241,8 @@ CpfgOrgans read_organs(std::string_view view, const FileBeside& beside) {
     organs.sides = std::min(organs.sides, kMaxSides);
     for (const auto& [number, name] : organs.contour_files) {
         const std::optional<std::string> text = beside(name);
-        organs.contours.emplace(number, text ? contour_points(*text, sides)
-                                             : std::vector<CurvePoint>{});
+        organs.contours.emplace(number,
+                                text ? contour_points(*text, sides) : std::vector<CurvePoint>{});
     }
     return organs;
 }

@@ -120,7 +120,7 @@ private:
     std::set<std::string> used_;                   // names of all modules
     std::set<std::pair<std::string, bool>> forms_; // names of modules; true: with arguments
     std::set<std::string> matched_;                // names in predecessors and contexts
-    std::map<std::string, SourceSpan> surfaces_; // letters behind `~`, with the first place
+    std::map<std::string, SourceSpan> surfaces_;   // letters behind `~`, with the first place
     CpfgOrgans organs_;
     std::optional<SourceSpan> environment_;   // the first `?E`
     std::map<std::string, int> alternatives_; // count of rewriting productions, by key_of()

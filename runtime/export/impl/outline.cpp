@@ -206,9 +206,8 @@ std::vector<Outline> object_outlines(const PlacedObject& object,
 std::vector<Outline> organ_outlines(const Skeleton& skeleton, const PlacedObject& object) {
     std::vector<Outline> outlines;
     for (OrganStrip& strip : organ_strips(skeleton, object)) {
-        outlines.push_back({std::move(strip.corners),
-                            {},
-                            plain_colour(skeleton.looks.get(), strip.colour)});
+        outlines.push_back(
+            {std::move(strip.corners), {}, plain_colour(skeleton.looks.get(), strip.colour)});
     }
     return outlines;
 }

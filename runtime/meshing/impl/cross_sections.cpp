@@ -30,10 +30,8 @@ glm::dvec2 catmull_rom(
 }
 
 /// The point of a run at `t` spans from its begin.
-glm::dvec2 point_of_run(ContourPointer contour,
-                        const ContourLayout& layout,
-                        const ContourRun& run,
-                        double t) {
+glm::dvec2
+point_of_run(ContourPointer contour, const ContourLayout& layout, const ContourRun& run, double t) {
     const std::size_t last = contour->points.size() - 1;
     const std::uint32_t span =
         std::min(static_cast<std::uint32_t>(std::floor(t)), run.span_count - 1);
@@ -95,9 +93,8 @@ ContourLayout layout_of(std::span<const ContourPointer> contours, std::uint32_t 
     bool goes_on = false;    // whether the next span belongs to the last run
     for (std::uint32_t span = 0; span < spans; ++span) {
         const bool breaks = any_corner(span);
-        if (breaks && std::ranges::all_of(contours, [&](ContourPointer each) {
-                return is_corner(each, span);
-            })) {
+        if (breaks && std::ranges::all_of(
+                          contours, [&](ContourPointer each) { return is_corner(each, span); })) {
             goes_on = false;
             continue;
         }

@@ -63,8 +63,7 @@ AxisStation station_of(const OrganPoint& point, double part) {
     return station;
 }
 
-std::uint32_t
-step_count(double turn, double roll, std::uint32_t level, std::uint32_t min_steps) {
+std::uint32_t step_count(double turn, double roll, std::uint32_t level, std::uint32_t min_steps) {
     // Angles of rounding errors need no step.
     const double steps = std::ceil((turn + std::abs(roll)) / kTurnPerStep - 1e-6);
     const auto wanted = static_cast<std::uint32_t>(std::clamp(steps, 1.0, double{kMaxSteps}));
@@ -86,13 +85,13 @@ std::vector<AxisStation> stations_between(const OrganPoint& a,
     const double length = glm::length(curve.chord);
     curve.slope_from = length * static_cast<double>(a.tangent_after) * begin.heading;
     curve.slope_to = length * static_cast<double>(b.tangent_before) * end.heading;
-    const double turn = angle_between(begin.heading, curve.chord) +
-                        angle_between(curve.chord, end.heading);
+    const double turn =
+        angle_between(begin.heading, curve.chord) + angle_between(curve.chord, end.heading);
     // The roll that is left depends on the number of steps through rounding errors and the shape of
     // the curve only, so a rough one decides about the steps.
     const glm::dvec3 rough = transported(begin.right, begin.heading, end.heading);
-    const double rough_roll =
-        exact_atan2(glm::dot(end.right, glm::cross(rough, end.heading)), glm::dot(end.right, rough));
+    const double rough_roll = exact_atan2(glm::dot(end.right, glm::cross(rough, end.heading)),
+                                          glm::dot(end.right, rough));
     const std::uint32_t steps = step_count(turn, rough_roll, level, min_steps);
     std::vector<AxisStation> stations{begin};
     for (std::uint32_t i = 1; i <= steps; ++i) {
@@ -102,9 +101,9 @@ std::vector<AxisStation> stations_between(const OrganPoint& a,
         station.position = curve.point(station.part);
         const glm::dvec3 slope = curve.slope(station.part);
         const double speed = glm::length(slope);
-        station.heading = i == steps                ? end.heading
+        station.heading = i == steps              ? end.heading
                           : speed > 1e-9 * length ? slope / speed
-                                                    : before.heading;
+                                                  : before.heading;
         station.right = transported(before.right, before.heading, station.heading);
         station.up = glm::cross(station.right, station.heading);
         station.width = begin.width + station.part * (end.width - begin.width);

@@ -82,8 +82,7 @@ std::vector<Neighbours> neighbours_of(const ContourLayout& layout) {
     for (const ContourRun& run : layout.runs) {
         const auto first = static_cast<std::uint32_t>(all.size());
         for (std::uint32_t i = 0; i <= run.sides; ++i) {
-            all.push_back(
-                {i > 0 ? first + i - 1 : kNone, i < run.sides ? first + i + 1 : kNone});
+            all.push_back({i > 0 ? first + i - 1 : kNone, i < run.sides ? first + i + 1 : kNone});
         }
     }
     if (layout.seam_is_smooth) {
@@ -119,8 +118,7 @@ std::vector<OrganSheet> organ_sheets(std::span<const OrganPoint> points,
         sheet.layout = layout_of(blended, used);
         for (std::size_t i = begin; i < end; ++i) {
             const ContourPointer from = contour_of(i);
-            const ContourPointer to =
-                i + 1 - begin < blended.size() ? contour_of(i + 1) : from;
+            const ContourPointer to = i + 1 - begin < blended.size() ? contour_of(i + 1) : from;
             const std::vector<glm::dvec2> a = columns_of(from, sheet.layout);
             const std::vector<glm::dvec2> b = columns_of(to, sheet.layout);
             const std::vector<AxisStation> stations =

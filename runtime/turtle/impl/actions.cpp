@@ -154,8 +154,8 @@ ActionTable make_actions(const Bytecode& bytecode, const TurtleOptions& options)
         if (action.quick == QuickAction::Restore && options.branches != nullptr) {
             action.quick = QuickAction::None; // restore() calls the watcher
         }
-        if (table.draws_organs && (action.quick == QuickAction::Forward ||
-                                   action.quick == QuickAction::Restore)) {
+        if (table.draws_organs &&
+            (action.quick == QuickAction::Forward || action.quick == QuickAction::Restore)) {
             action.quick = QuickAction::None; // they may add points to an organ, or end it
         }
         table.by_code.push_back(action);

@@ -45,7 +45,7 @@ struct Brush {
     double second_heading = 0.0;        // degrees from the first heading to the left
     std::uint32_t segment = kNoSegment; // the last one drawn on the path
     ItemColour colour = 0;
-    std::uint16_t colour_index = 0; // the last index that was set
+    std::uint16_t colour_index = 0;     // the last index that was set
     std::uint32_t contour = kNoContour; // index in Bytecode::contours
     float tangent_before = 1.0F;        // of the axes of organs, relative to the chord
     float tangent_after = 1.0F;

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Organs: surfaces around an axis, with closed forms of their areas and volumes, and an axis computed
 // in another way.
-#include "runtime/meshing/organ_shape.h"
-
 #include "runtime/derive/derive.h"
 #include "runtime/meshing/impl/organ_axis.h"
+#include "runtime/meshing/organ_shape.h"
 #include "runtime/turtle/organs.h"
 #include "runtime/turtle/turtle.h"
 #include "tests/support/bytecode_builder.h"
@@ -74,10 +73,11 @@ Drawing draw(const std::string& word, const Contours& contours = {}) {
     Bytecode bytecode = test::BytecodeBuilder().axiom(word).build();
     bytecode.contours = contours;
     const std::vector<std::pair<std::string, TurtleOperation>> known{
-        {"F", Forward},      {"f", Move},         {"+", YawRight},        {"-", YawLeft},
-        {"&", PitchDown},    {"/", RollRight},    {"!", SetWidth},        {"'", SetColour},
-        {"[", Save},         {"]", Restore},      {"%", Cut},             {"B", SurfaceBegin},
-        {"P", SurfacePoint}, {"E", SurfaceEnd},   {"T", SurfaceTangents}};
+        {"F", Forward},      {"f", Move},       {"+", YawRight},
+        {"-", YawLeft},      {"&", PitchDown},  {"/", RollRight},
+        {"!", SetWidth},     {"'", SetColour},  {"[", Save},
+        {"]", Restore},      {"%", Cut},        {"B", SurfaceBegin},
+        {"P", SurfacePoint}, {"E", SurfaceEnd}, {"T", SurfaceTangents}};
     for (BytecodeSymbol& symbol : bytecode.symbols) {
         for (const auto& [name, operation] : known) {
             symbol.turtle = symbol.name == name ? operation : symbol.turtle;
@@ -149,8 +149,7 @@ TEST_CASE("an organ around a circle is a torus") {
     const double radius = 0.05 / std::sin(kPi / 36.0); // of the circle through the points
     CHECK(test::volume_of(mesh) == Approx(2.0 * kPi * kPi * radius * 0.01).epsilon(0.01));
     const double caps = 2.0 * polygon_area(0.1, 48);
-    CHECK(test::area_of(mesh) ==
-          Approx(4.0 * kPi * kPi * radius * 0.1 + caps).epsilon(0.01));
+    CHECK(test::area_of(mesh) == Approx(4.0 * kPi * kPi * radius * 0.1 + caps).epsilon(0.01));
     CHECK(test::triangles_turned_over(mesh) == 0);
 }
 

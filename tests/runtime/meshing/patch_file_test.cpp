@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Surface files of cpfg: closed forms of patches, and files that are cut, huge or no numbers.
 #include "runtime/meshing/patch_file.h"
-
 #include "tests/support/mesh_checks.h"
 
 #include <string>
@@ -89,8 +88,8 @@ TEST_CASE("triangles are counter-clockwise seen from the side of the normals") {
 
 TEST_CASE("the directions of the file turn the surface") {
     // The surface of the file grows along +Z, its upper side along +Y.
-    const Result<UserMesh> mesh = read(
-        header("X: 0 Y: 0 Z: 1", "X: 0 Y: 1 Z: 0") + flat_patch("leaf"));
+    const Result<UserMesh> mesh =
+        read(header("X: 0 Y: 0 Z: 1", "X: 0 Y: 1 Z: 0") + flat_patch("leaf"));
     REQUIRE(mesh);
     for (const glm::vec3& position : mesh.value().positions) {
         CHECK(position.y == Approx(0.0F).margin(1e-6)); // z of the file is constant
