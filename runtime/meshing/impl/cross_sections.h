@@ -4,7 +4,7 @@
 // breaks. A smooth stretch between two corners is a run.
 #pragma once
 
-#include "compiler/bytecode/bytecode.h"
+#include "runtime/turtle/skeleton.h"
 
 #include <glm/vec2.hpp>
 
