@@ -16,7 +16,8 @@ namespace lsys {
 namespace {
 
 constexpr std::string_view kBlanks = " \t\r";
-constexpr std::uint32_t kSides = 8;     // the default of cpfg
+constexpr std::uint32_t kSides = 8; // the default of cpfg
+constexpr std::uint32_t kMinSides = 3;
 constexpr std::uint32_t kMaxSides = 63; // a contour has at most 64 points
 constexpr std::size_t kMaxPoints = 1000;
 constexpr std::size_t kMaxFiles = 256;
@@ -237,8 +238,8 @@ CpfgOrgans read_organs(std::string_view view, const FileBeside& beside) {
             }
         }
     }
-    const std::uint32_t sides = organs.sides == 0 ? kSides : std::max(organs.sides, 3U);
-    organs.sides = std::min(organs.sides, kMaxSides);
+    organs.sides = organs.sides == 0 ? 0 : std::clamp(organs.sides, kMinSides, kMaxSides);
+    const std::uint32_t sides = organs.sides == 0 ? kSides : organs.sides;
     for (const auto& [number, name] : organs.contour_files) {
         const std::optional<std::string> text = beside(name);
         organs.contours.emplace(number,

@@ -72,4 +72,9 @@ TEST_CASE("surfaces and contours are listed in the view file") {
     CHECK(object_text(organs.surfaces.at("l")) == "\"leaf.s#0.25\"");
     CHECK(object_text(organs.surfaces.at("m")) == "\"other.s\"");
     CHECK_FALSE(organs.surfaces.at("l").can_be_read);
+    CHECK(read_organs("contour sides: 1\n", no_file).sides == 3);
+    CHECK(read_organs("polygonization level: 0\n", no_file).sides == 3);
+    CHECK(read_organs("polygonization level: 3\n", no_file).sides == 16);
+    CHECK(read_organs("contour sides: 1000\n", no_file).sides == 63);
+    CHECK(read_organs("projection: parallel\n", no_file).sides == 0);
 }
