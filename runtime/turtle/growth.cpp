@@ -46,7 +46,7 @@ struct MovingSegment {
 struct MovingObject {
     Motion motion;
     Ends<float> size{};
-    std::uint32_t old = kNone; // of an organ with equal point counts: its index in `before`
+    std::uint32_t old = kNone; // of an organ with as many points, or fewer: index in `before`
 };
 
 struct MovingPolygon {
@@ -224,7 +224,7 @@ struct SkeletonGrowth::State {
                 set_end(moving.motion, 0, old.position, old.frame);
                 moving.size[0] = old.size;
                 if (is_organ(object) &&
-                    points_of(before, old).size() == points_of(after, object).size()) {
+                    points_of(before, old).size() <= points_of(after, object).size()) {
                     moving.old = old_of[i];
                 }
                 is_kept[old_of[i]] = true;
@@ -346,7 +346,8 @@ struct SkeletonGrowth::State {
         out.corners.resize(corners.size());
     }
 
-    /// Moves the points of an organ between those of object `old` of `before` and its own.
+    /// Moves the points of an organ between those of object `old` of `before` and its own. New
+    /// points come out of the last old one.
     void pose_organ(std::uint32_t old,
                     double progress,
                     const PlacedObject& object,
@@ -355,12 +356,13 @@ struct SkeletonGrowth::State {
         const Organ& organ = out.organs[object.mesh_file];
         const auto part = static_cast<float>(progress);
         for (std::uint32_t k = 0; k < organ.point_count; ++k) {
+            const OrganPoint& old_point = from[std::min<std::size_t>(k, from.size() - 1)];
             OrganPoint& point = out.organ_points[organ.first_point + k];
-            point.position = glm::mix(from[k].position, point.position, part);
-            Ends<glm::quat> turn{from[k].frame, point.frame};
+            point.position = glm::mix(old_point.position, point.position, part);
+            Ends<glm::quat> turn{old_point.frame, point.frame};
             use_shorter_turn(turn);
             point.frame = glm::quat(interpolated(turn, progress));
-            point.width = glm::mix(from[k].width, point.width, part);
+            point.width = glm::mix(old_point.width, point.width, part);
         }
     }
 

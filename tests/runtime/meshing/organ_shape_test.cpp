@@ -4,6 +4,7 @@
 #include "runtime/derive/derive.h"
 #include "runtime/meshing/impl/organ_axis.h"
 #include "runtime/meshing/organ_shape.h"
+#include "runtime/turtle/growth.h"
 #include "runtime/turtle/organs.h"
 #include "runtime/turtle/turtle.h"
 #include "tests/support/bytecode_builder.h"
@@ -406,4 +407,38 @@ TEST_CASE("an organ moves and grows with its object") {
     CHECK(test::bounds_of(mesh).high.y == Approx(3.0));
     skeleton.objects[0].size = 0.0F;
     CHECK(mesh_of(skeleton).indices.empty());
+}
+
+TEST_CASE("new points of an organ come out of its last one") {
+    Skeleton before = draw("!(0.4,16)B f(1)E").skeleton;
+    Skeleton after = draw("!(0.4,16)B f(1)P f(1)E").skeleton;
+    before.object_origins.push_back({0, 0});
+    after.object_origins.push_back({0, 0});
+    const std::vector<Origin> ancestors{{0, 0}};
+    const SkeletonGrowth growth(before, after, 1, ancestors);
+    CHECK(growth.counts().kept == 1);
+    Skeleton pose;
+    for (const double part : {0.0, 0.25, 0.5, 1.0}) {
+        growth.pose(part, pose);
+        const Mesh mesh = mesh_of(pose);
+        CHECK(test::topology_of(mesh).open_edges == 0);
+        CHECK(test::bounds_of(mesh).high.y == Approx(1.0 + part));
+    }
+}
+
+TEST_CASE("an organ that vanishes shrinks") {
+    Skeleton before = draw("!(0.4,16)[B f(1)E]B f(2)E").skeleton;
+    Skeleton after = draw("!(0.4,16)B f(2)E").skeleton;
+    before.object_origins.push_back({0, 0});
+    before.object_origins.push_back({1, 0});
+    after.object_origins.push_back({0, 0});
+    const std::vector<Origin> ancestors{{1, 0}};
+    const SkeletonGrowth growth(before, after, 1, ancestors);
+    Skeleton pose;
+    growth.pose(0.5, pose);
+    REQUIRE(pose.objects.size() == 2);
+    CHECK(pose.organs.size() == 2);
+    CHECK(points_of(pose, pose.objects[0]).back().position.y == 2.0F);
+    CHECK(points_of(pose, pose.objects[1]).back().position.y == 1.0F);
+    CHECK(pose.objects[1].size < 1.0F);
 }
