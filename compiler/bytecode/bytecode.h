@@ -102,7 +102,7 @@ struct BytecodeSymbol {
     SymbolKind kind = SymbolKind::Plain;
     bool ignored = false; // contexts skip the symbol (#ignore, #consider)
     TurtleOperation turtle = TurtleOperation::Nothing;
-    std::string mesh_file; // path of the file, for TurtleOperation::MeshFile
+    std::string mesh_file; // for MeshFile; for SetContour: the name of a contour, or empty
     Sense sense = Sense::Nothing;
 
     /// Whether the symbol is a sense module, `?NAME`.
@@ -215,6 +215,23 @@ struct BytecodeCurve {
     std::vector<CurveKnot> points;
 };
 
+/// A point of a cross-section: x along the turtle's right axis, y along its up axis, relative to
+/// the width.
+struct ContourPoint {
+    float x = 0.0F;
+    float y = 0.0F;
+
+    friend bool operator==(const ContourPoint&, const ContourPoint&) = default;
+};
+inline constexpr std::size_t kMinContourPoints = 2;
+inline constexpr std::size_t kMaxContourPoints = 64;
+
+/// A `#contour`: the cross-section of an organ. It is closed if its last point equals the first.
+struct BytecodeContour {
+    std::string name;
+    std::vector<ContourPoint> points;
+};
+
 /// The file of a picture, relative to the grammar; empty if there is none.
 struct BytecodePicture {
     std::string path;
@@ -258,6 +275,7 @@ struct Bytecode {
     std::vector<BytecodeAxiom> axioms;     // in file order, at least one
     bool uses_steps = false;               // some expression calls steps()
     std::vector<BytecodeCurve> curves;
+    std::vector<BytecodeContour> contours;         // in source order
     std::vector<BytecodeMaterial> materials;       // sorted by index
     std::vector<BytecodeEnvironment> environments; // in source order, all kinds
     std::uint32_t stack_depth = 0;                 // max stack depth of any code

@@ -22,6 +22,7 @@ public:
     std::string run() {
         header();
         symbols();
+        contours();
         materials();
         environments();
         for (std::size_t i = 0; i < bytecode_.globals.size(); ++i) {
@@ -95,6 +96,20 @@ private:
         return asks_environment(sense) ? fmt::format(" asks {}", static_cast<std::uint32_t>(sense))
                : sense == Sense::Nothing ? ""
                                          : " asks the turtle";
+    }
+
+    void contours() {
+        if (!bytecode_.contours.empty()) {
+            line("\ncontours");
+        }
+        for (const BytecodeContour& contour : bytecode_.contours) {
+            std::string text;
+            for (const ContourPoint& point : contour.points) {
+                text +=
+                    fmt::format("{} {} {}", text.empty() ? "" : ",", real(point.x), real(point.y));
+            }
+            line("      {}{}", contour.name, text);
+        }
     }
 
     void materials() {

@@ -32,13 +32,15 @@ namespace lsys {
 //  11  Flare of stems, collars, shapes of tips; taper of the pipe model.
 //  12  Profile Cpfg, its trait for the corners of polygons, and its operations.
 //  13  Sense modules, environments, the stages of sweeps.
-inline constexpr std::uint32_t kModuleFileVersion = 13;
+//  14  Contours, the operations of organs, SurfaceBegin to SetContour, and the trait of their
+//      tangents.
+inline constexpr std::uint32_t kModuleFileVersion = 14;
 
 #define LSYS_VERSION_MATTERS                                                                       \
     "what a .lsb file can hold has changed: raise kModuleFileVersion, add a line to its history, " \
     "then set this number"
 static_assert(kCountOf<Opcode> == 54, LSYS_VERSION_MATTERS);
-static_assert(kCountOf<TurtleOperation> == 64, LSYS_VERSION_MATTERS);
+static_assert(kCountOf<TurtleOperation> == 69, LSYS_VERSION_MATTERS);
 static_assert(kCountOf<TurtleProfile> == 13, LSYS_VERSION_MATTERS);
 static_assert(kCountOf<RewritingMode> == 4, LSYS_VERSION_MATTERS);
 static_assert(kCountOf<ChoiceScope> == 2, LSYS_VERSION_MATTERS);
@@ -51,7 +53,7 @@ static_assert(kCountOf<SymbolKind> == 5, LSYS_VERSION_MATTERS);
 static_assert(kCountOf<PatternKind> == 3, LSYS_VERSION_MATTERS);
 static_assert(kCountOf<Stage> == 5, LSYS_VERSION_MATTERS);
 static_assert(kFieldCount<Settings> == 33, LSYS_VERSION_MATTERS);
-static_assert(kFieldCount<TurtleTraits> == 12, LSYS_VERSION_MATTERS);
+static_assert(kFieldCount<TurtleTraits> == 13, LSYS_VERSION_MATTERS);
 static_assert(kFieldCount<Pipe> == 3, LSYS_VERSION_MATTERS);
 static_assert(kFieldCount<Flare> == 3, LSYS_VERSION_MATTERS);
 static_assert(kFieldCount<BytecodeSymbol> == 7, LSYS_VERSION_MATTERS);
@@ -64,6 +66,8 @@ static_assert(kFieldCount<SiteRange> == 2, LSYS_VERSION_MATTERS);
 static_assert(kFieldCount<PlaceRun> == 6, LSYS_VERSION_MATTERS);
 static_assert(kFieldCount<TableRange> == 2, LSYS_VERSION_MATTERS);
 static_assert(kFieldCount<BytecodeCurve> == 2, LSYS_VERSION_MATTERS);
+static_assert(kFieldCount<BytecodeContour> == 2, LSYS_VERSION_MATTERS);
+static_assert(kFieldCount<ContourPoint> == 2, LSYS_VERSION_MATTERS);
 static_assert(kFieldCount<BytecodeMaterial> == 11, LSYS_VERSION_MATTERS);
 static_assert(kFieldCount<BytecodePicture> == 2, LSYS_VERSION_MATTERS);
 static_assert(kCountOf<EnvironmentKind> == 7, LSYS_VERSION_MATTERS);
@@ -73,7 +77,7 @@ static_assert(kFieldCount<EnvironmentSurface> == 3, LSYS_VERSION_MATTERS);
 static_assert(kFieldCount<BytecodeAxiom> == 4, LSYS_VERSION_MATTERS);
 static_assert(kFieldCount<WordTemplate> == 5, LSYS_VERSION_MATTERS);
 static_assert(kFieldCount<BytecodeProduction> == 16, LSYS_VERSION_MATTERS);
-static_assert(kFieldCount<Bytecode> == 23, LSYS_VERSION_MATTERS);
+static_assert(kFieldCount<Bytecode> == 24, LSYS_VERSION_MATTERS);
 #undef LSYS_VERSION_MATTERS
 
 [[nodiscard]] std::string write_module_file(const Bytecode& bytecode);

@@ -59,6 +59,7 @@ struct TurtleTraits {
     float first_turn = 0.0F;             // initial heading, in degrees to the left of +Y
     std::uint16_t first_colour = 0;      // initial colour, an index of the palette
     float leaf_droop = 0.0F;             // default bending of leaves by gravity, 0 to 1
+    float organ_tangent = 1.0F;          // initial tangents of organs, relative to the chord
 
     friend bool operator==(const TurtleTraits&, const TurtleTraits&) = default;
 };

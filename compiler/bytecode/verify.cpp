@@ -44,8 +44,9 @@ public:
     explicit Verifier(const Bytecode& bytecode) : bytecode_(bytecode) {}
 
     std::optional<std::string> run() {
-        if (settings() && curves() && symbols() && folded() && sites() && materials() &&
-            environments() && places() && globals() && axioms() && productions() && ends()) {
+        if (settings() && curves() && contours() && symbols() && folded() && sites() &&
+            materials() && environments() && places() && globals() && axioms() && productions() &&
+            ends()) {
             return std::nullopt;
         }
         return std::move(problem_);
@@ -115,6 +116,30 @@ private:
         return true;
     }
 
+    bool contours() {
+        for (std::size_t i = 0; i < bytecode_.contours.size(); ++i) {
+            const BytecodeContour& contour = bytecode_.contours[i];
+            if (contour.points.size() < kMinContourPoints ||
+                contour.points.size() > kMaxContourPoints || contour.name.empty() ||
+                !printable(contour.name)) {
+                return fail("contour {} has {} points", i, contour.points.size());
+            }
+            for (const ContourPoint& point : contour.points) {
+                if (!std::isfinite(point.x) || !std::isfinite(point.y)) {
+                    return fail("a point of contour {} is not finite", i);
+                }
+            }
+        }
+        return true;
+    }
+
+    /// Whether the symbol sets a contour that does not exist.
+    [[nodiscard]] bool lacks_contour(const BytecodeSymbol& symbol) const {
+        return symbol.turtle == TurtleOperation::SetContour && !symbol.mesh_file.empty() &&
+               std::ranges::find(bytecode_.contours, symbol.mesh_file, &BytecodeContour::name) ==
+                   bytecode_.contours.end();
+    }
+
     bool symbols() {
         for (std::size_t i = 0; i < bytecode_.symbols.size(); ++i) {
             const BytecodeSymbol& symbol = bytecode_.symbols[i];
@@ -135,6 +160,9 @@ private:
             }
             if (symbol.senses() && (!plain || !is_sense(symbol.sense))) {
                 return fail("symbol {} senses nothing that there is", i);
+            }
+            if (lacks_contour(symbol)) {
+                return fail("symbol {} sets a contour that does not exist", i);
             }
             parameters_.push_back(symbol.parameter_count);
         }

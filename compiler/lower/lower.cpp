@@ -30,6 +30,9 @@ public:
         for (const Curve& curve : program_.curves) {
             bytecode_.curves.push_back({std::string(names_.text(curve.name)), curve.points});
         }
+        for (const ProgramContour& contour : program_.contours) {
+            bytecode_.contours.push_back({std::string(names_.text(contour.name)), contour.points});
+        }
         materials();
         environments();
         symbols();

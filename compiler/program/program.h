@@ -59,7 +59,7 @@ struct Symbol {
     SymbolKind kind = SymbolKind::Plain;
     bool ignored = false;
     TurtleOperation turtle = TurtleOperation::Nothing;
-    std::string mesh_file;
+    std::string mesh_file; // for MeshFile; for SetContour: the name of a contour, or empty
     Sense sense = Sense::Nothing;
 };
 
@@ -158,6 +158,13 @@ struct Curve {
     std::vector<CurveKnot> points; // points, with the slopes that set_slopes() computes
 };
 
+/// `#contour`: the cross-section of an organ.
+struct ProgramContour {
+    NameId name = kNoName;
+    SourceSpan span;
+    std::vector<ContourPoint> points;
+};
+
 /// The file of a picture, relative to the root file; empty if there is none.
 struct MaterialPictureName {
     std::string path;
@@ -244,6 +251,7 @@ struct Program {
     std::vector<Constant> constants;
     std::vector<Global> globals;
     std::vector<Curve> curves;
+    std::vector<ProgramContour> contours;         // in source order
     std::vector<ProgramMaterial> materials;       // in source order, one per colour index
     std::vector<ProgramEnvironment> environments; // in source order; Symbol::sense numbers them
     std::vector<Production> productions;          // by stage

@@ -34,6 +34,7 @@ public:
         settings();
         symbols();
         curves();
+        contours();
         materials();
         environments();
         constants();
@@ -138,17 +139,30 @@ private:
         }
     }
 
+    template <typename Points>
+    void points(const Points& list) {
+        for (std::size_t i = 0; i < list.size(); ++i) {
+            out_ += i == 0 ? " " : ", ";
+            append_number(out_, list[i].x);
+            out_ += ' ';
+            append_number(out_, list[i].y);
+        }
+        out_ += '\n';
+    }
+
     void curves() {
         for (const Curve& curve : program_.curves) {
             out_ += "curve ";
             name(curve.name);
-            for (std::size_t i = 0; i < curve.points.size(); ++i) {
-                out_ += i == 0 ? " " : ", ";
-                append_number(out_, curve.points[i].x);
-                out_ += ' ';
-                append_number(out_, curve.points[i].y);
-            }
-            out_ += '\n';
+            points(curve.points);
+        }
+    }
+
+    void contours() {
+        for (const ProgramContour& contour : program_.contours) {
+            out_ += "contour ";
+            name(contour.name);
+            points(contour.points);
         }
     }
 

@@ -184,14 +184,19 @@ constexpr auto kCpfg = joined(kForwardAndMove,
                                         {"g", MoveWithoutVertex},
                                         {"@O", CentredSphere},
                                         {"@o", LevelDisk},
-                                        {"@c", LevelDisk}}));
+                                        {"@c", LevelDisk},
+                                        {"@Gs", SurfaceBegin},
+                                        {"@Gc", SurfacePoint, 1, "rings, not read"},
+                                        {"@Ge", SurfaceEnd, 1, "rings, not read"},
+                                        {"@Gt", SurfaceTangents},
+                                        {"@#", SetContour, 1, "number of the contour"}}));
 
 constexpr std::array<std::span<const TurtleCommand>, kCountOf<TurtleProfile>> kProfiles{
 #define LSYS_TURTLE_PROFILE(identifier, ...) std::span<const TurtleCommand>(k##identifier),
 #include "compiler/bytecode/turtle_profiles.def"
 };
 
-constexpr std::array<TurtleObject, 9> kObjects{{
+constexpr std::array<TurtleObject, 14> kObjects{{
     {"BRANCH", Branch},
     {"SPHERE", Sphere},
     {"HETEROCYST", Heterocyst},
@@ -201,6 +206,11 @@ constexpr std::array<TurtleObject, 9> kObjects{{
     {"CONE", Cone},
     {"CUBE", Cube},
     {"DISK", Disk},
+    {"SURFACE_BEGIN", SurfaceBegin},
+    {"SURFACE_POINT", SurfacePoint},
+    {"SURFACE_END", SurfaceEnd},
+    {"SURFACE_TANGENTS", SurfaceTangents},
+    {"CONTOUR", SetContour},
 }};
 /// Whether #object has a name for an operation that places an object. True for operations that need
 /// no name: mesh files, objects that are commands of a profile, and operations without an object.

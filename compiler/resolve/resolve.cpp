@@ -3,6 +3,7 @@
 
 #include "compiler/resolve/impl/attempts.h"
 #include "compiler/resolve/impl/constants.h"
+#include "compiler/resolve/impl/contours.h"
 #include "compiler/resolve/impl/declarations.h"
 #include "compiler/resolve/impl/definitions.h"
 #include "compiler/resolve/impl/environments.h"
@@ -69,7 +70,7 @@ public:
         : resolution_(resolution), values_(resolution.program.values), constants_(resolution),
           expressions_(resolution, values_, constants_), symbols_(resolution),
           definitions_(resolution, constants_, expressions_), materials_(resolution, expressions_),
-          environments_(resolution, expressions_, symbols_),
+          contours_(resolution, expressions_), environments_(resolution, expressions_, symbols_),
           declarations_(resolution, symbols_, environments_) {}
 
     void run(SetResolver& settings) {
@@ -106,6 +107,9 @@ public:
                 break;
             case StatementKind::Curve:
                 expressions_.define_curve(ast.curves[statement.index]);
+                break;
+            case StatementKind::Contour:
+                contours_.contour(ast.contours[statement.index]);
                 break;
             case StatementKind::Material:
                 materials_.material(ast.materials[statement.index], statement.span);
@@ -271,6 +275,7 @@ private:
     SymbolTable symbols_;
     DefinitionResolver definitions_;
     MaterialResolver materials_;
+    ContourResolver contours_;
     EnvironmentResolver environments_;
     DeclarationResolver declarations_;
     std::optional<SourceSpan> first_axiom_;

@@ -29,7 +29,7 @@
   "Columns by which the second and later lines of a statement are indented."
   :type 'natnum)
 
-(defconst lsys-value-statements '("curve" "define" "function" "include" "module" "n" "object" "param")
+(defconst lsys-value-statements '("contour" "curve" "define" "function" "include" "module" "n" "object" "param")
   "Statements of values, without `#'.")
 (defconst lsys-functions '("abs" "acos" "asin" "atan" "atan2" "binomial" "ceil" "clamp" "cos" "exp" "floor" "if" "log" "max" "min" "mix" "mod" "normal" "poisson" "pow" "round" "sign" "sin" "sqrt" "step" "steps" "tan")
   "Functions of the language.")
@@ -117,7 +117,7 @@ turtle commands."
      (1 font-lock-keyword-face)
      (2 font-lock-function-name-face))
     ("\\(#\\w+\\)\\s-*:" 1 font-lock-function-name-face)
-    ("\\(#\\(?:define\\|param\\|function\\|curve\\)\\)\\s-+\\(\\w+\\)"
+    ("\\(#\\(?:define\\|param\\|function\\|curve\\|contour\\)\\)\\s-+\\(\\w+\\)"
      2 font-lock-variable-name-face)
     ("\\(#\\(?:object\\|include\\)\\)[^;\"]*\\(\"[^\"\n]*\"\\)" 2 font-lock-string-face)
     (,(concat "\\_<" (regexp-opt lsys-functions) "\\_>\\s-*(") 0 font-lock-builtin-face)
@@ -161,7 +161,7 @@ turtle commands."
   (setq-local imenu-generic-expression
               '(("Productions" "^\\s-*#\\(?:\\(?:decompose\\|interpret\\|down\\|up\\)\\s-+\\)?\\(\\w+\\)\\s-*:" 1)
                 ("Constants" "^\\s-*#\\(?:define\\|param\\)\\s-+\\(\\w+\\)" 1)
-                ("Functions" "^\\s-*#\\(?:function\\|curve\\)\\s-+\\(\\w+\\)" 1))))
+                ("Functions" "^\\s-*#\\(?:function\\|curve\\|contour\\)\\s-+\\(\\w+\\)" 1))))
 
 ;;;###autoload
 (add-to-list 'auto-mode-alist '("\\.lsys\\'" . lsys-mode))

@@ -147,6 +147,7 @@ enum class StatementKind : std::uint8_t {
     Param,       // #param NAME expr {min, max};
     Function,    // #function NAME(formals) expr;
     Curve,       // #curve NAME x y, x y, ...;
+    Contour,     // #contour NAME x y, x y, ...;
     Material,    // #material INDEX key values ...;
     Sense,       // #sense NAME KIND key values ...;
     Module,      // #module NAME(formals);
@@ -191,7 +192,7 @@ struct FunctionNode {
     ExpressionId body = kNoExpression;
 };
 
-/// Coordinates x y x y ... in Ast::expression_lists.
+/// A #curve or #contour. Coordinates x y x y ... in Ast::expression_lists.
 struct CurveNode {
     NameId name = kNoName;
     SourceSpan name_span;
@@ -208,6 +209,8 @@ struct ObjectNode {
     SourceSpan object_span;
     bool is_file = false; // "leaf.obj"
     std::string object;   // SPHERE, or a file name
+    std::string contour;  // `ring` in `#object C CONTOUR ring;`; empty if there is none
+    SourceSpan contour_span;
 };
 
 struct IncludeNode {
@@ -322,6 +325,7 @@ struct Ast {
     std::vector<ParamNode> params;
     std::vector<FunctionNode> functions;
     std::vector<CurveNode> curves;
+    std::vector<CurveNode> contours;
     std::vector<MaterialNode> materials;
     std::vector<SenseNode> senses;
     std::vector<ModuleDeclarationNode> module_declarations;

@@ -206,6 +206,11 @@ void AstBuilder::curve(NameId name, SourceSpan name_span, std::uint32_t count) {
     ast_.curves.push_back({name, name_span, take_arguments(count)});
 }
 
+void AstBuilder::contour(NameId name, SourceSpan name_span, std::uint32_t count) {
+    begin_node(StatementKind::Contour, ast_.contours.size());
+    ast_.contours.push_back({name, name_span, take_arguments(count)});
+}
+
 void AstBuilder::module_declaration(ModuleList modules) {
     begin_node(StatementKind::Module, ast_.module_declarations.size());
     ast_.module_declarations.push_back({modules});
@@ -214,7 +219,13 @@ void AstBuilder::module_declaration(ModuleList modules) {
 void AstBuilder::object(
     SourceSpan keyword, ModuleList name, NameId object, SourceSpan span, bool is_file) {
     begin_node(StatementKind::Object, ast_.objects.size());
-    ast_.objects.push_back({keyword, name, span, is_file, std::string(names_.text(object))});
+    ast_.objects.push_back(
+        {keyword, name, span, is_file, std::string(names_.text(object)), {}, {}});
+}
+
+void AstBuilder::contour_of_object(NameId contour, SourceSpan span) {
+    ast_.objects.back().contour = names_.text(contour);
+    ast_.objects.back().contour_span = span;
 }
 
 void AstBuilder::include(NameId path, SourceSpan span) {
@@ -377,6 +388,9 @@ void AstBuilder::rollback() {
             break;
         case StatementKind::Curve:
             ast_.curves.pop_back();
+            break;
+        case StatementKind::Contour:
+            ast_.contours.pop_back();
             break;
         case StatementKind::Material:
             ast_.materials.pop_back();

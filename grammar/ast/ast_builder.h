@@ -97,9 +97,12 @@ public:
                   ExpressionId body);
     /// The coordinates are the last `count` arguments.
     void curve(NameId name, SourceSpan name_span, std::uint32_t count);
+    void contour(NameId name, SourceSpan name_span, std::uint32_t count);
     void module_declaration(ModuleList modules);
     /// `object` is the name of an object of the library or, with `is_file`, of a file.
     void object(SourceSpan keyword, ModuleList name, NameId object, SourceSpan span, bool is_file);
+    /// Adds the name of a contour to the #object added last.
+    void contour_of_object(NameId contour, SourceSpan span);
     void include(NameId path, SourceSpan span);
     void set_word(NameId word, SourceSpan span);
     void set_number(ExpressionId value, SourceSpan span);

@@ -72,9 +72,12 @@ private:
             expression(node.body);
             return;
         }
-        case StatementKind::Curve: {
-            const CurveNode& node = ast_.curves[statement.index];
-            out_ += "curve ";
+        case StatementKind::Curve:
+        case StatementKind::Contour: {
+            const bool is_curve = statement.kind == StatementKind::Curve;
+            const CurveNode& node =
+                is_curve ? ast_.curves[statement.index] : ast_.contours[statement.index];
+            out_ += is_curve ? "curve " : "contour ";
             name(node.name);
             list(node.coordinates);
             return;
@@ -98,6 +101,7 @@ private:
             modules(node.name);
             out_ += node.is_file ? " file " : " ";
             out_ += node.object;
+            out_ += node.contour.empty() ? "" : " " + node.contour;
             return;
         }
         case StatementKind::Include:

@@ -239,7 +239,8 @@ CONTROL [\x01-\x08\x0B\x0C\x0E-\x1F\x7F]
                           } else if (scan.keyword == Keyword::Function) {
                               scan.enter(Part::FunctionHead);
                               scan.name_before = true; // the `(` is next
-                          } else if (scan.keyword == Keyword::Curve || scan.keyword == Keyword::Sense) {
+                          } else if (scan.keyword == Keyword::Curve || scan.keyword == Keyword::Contour ||
+                                     scan.keyword == Keyword::Sense) {
                               scan.enter(Part::Setting);
                           } else {
                               scan.enter(scan.keyword == Keyword::Set ? Part::Setting : Part::Value);
@@ -344,7 +345,8 @@ CONTROL [\x01-\x08\x0B\x0C\x0E-\x1F\x7F]
                           }
                         }
   ","                   {
-                          const bool separates = scan.keyword == Keyword::Curve;
+                          const bool separates =
+                              scan.keyword == Keyword::Curve || scan.keyword == Keyword::Contour;
                           return Token(separates ? Parser::token::TOK_COMMA : Parser::token::TOK_OTHER,
                                        session.token());
                         }

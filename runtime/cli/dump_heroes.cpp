@@ -16,6 +16,7 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <cmath>
 #include <iterator>
 #include <optional>
@@ -216,6 +217,13 @@ private:
             key.place.angle, key.place.sides, key.place.colour);
         if (key.place.second_heading != 0.0F) {
             put(" second heading {}", key.place.second_heading);
+        }
+        if (key.place.contour != kNoContour) {
+            put(" contour {}", (*cache_.skeleton.contours)[key.place.contour].name);
+        }
+        const std::array tangents{key.place.tangent_before, key.place.tangent_after};
+        if (tangents != std::array{1.0F, 1.0F}) {
+            put(" tangents {} {}", tangents[0], tangents[1]);
         }
         if (key.has_vertical) {
             put(" elevation {} roll {}", without_noise(key.elevation), without_noise(key.roll));

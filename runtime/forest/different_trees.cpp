@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "runtime/forest/different_trees.h"
 
+#include "runtime/turtle/organs.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -50,9 +52,11 @@ Moments moments_of(const InstanceCache& cache, const Instance& instance) {
         }
         for (std::uint32_t i = range.begin.objects; i < range.end.objects; ++i) {
             const PlacedObject& object = cache.skeleton.objects[i];
-            ++moments.items;
-            moments.add(back * (glm::dvec3(object.position) - instance.position),
-                        static_cast<double>(std::abs(object.size)));
+            for_each_point_of(cache.skeleton, object, [&](const glm::vec3& point) {
+                ++moments.items;
+                moments.add(back * (glm::dvec3(point) - instance.position),
+                            static_cast<double>(std::abs(object.size)));
+            });
         }
         for (std::uint32_t i = range.begin.polygons; i < range.end.polygons; ++i) {
             const Polygon& polygon = cache.skeleton.polygons[i];

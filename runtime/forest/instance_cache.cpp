@@ -23,8 +23,8 @@ constexpr std::uint32_t kExpansionGeneration = 0xFFFFFFFEu;
 /// Records instances while the turtle draws the heroes.
 class Recorder : public BranchWatcher {
 public:
-    Recorder(const CacheOptions& options, InstanceCache& cache)
-        : options_(options), cache_(cache) {}
+    Recorder(const CacheOptions& options, bool draws_organs, InstanceCache& cache)
+        : options_(options), draws_organs_(draws_organs), cache_(cache) {}
 
     void begin_hero(std::uint32_t hero, const TurtlePlace& place, const DrawnCounts& drawn) {
         hero_ = hero;
@@ -182,6 +182,11 @@ private:
              {place.width, place.taper, place.step, place.angle, place.second_heading}) {
             add_real(branch.id, value);
         }
+        if (draws_organs_) {
+            add(place.contour);
+            add_real(branch.id, place.tangent_before);
+            add_real(branch.id, place.tangent_after);
+        }
         add(place.sides);
         add(place.colour);
         if (is_own(place.colour)) {
@@ -241,6 +246,7 @@ private:
     }
 
     const CacheOptions& options_;
+    bool draws_organs_; // keys then have the contour and the tangents
     InstanceCache& cache_;
     std::vector<std::vector<InstanceExit>> exits_;     // by instance
     std::vector<std::vector<DrawnRange>> ranges_;      // by instance
@@ -259,7 +265,11 @@ private:
 CacheOutcome record_heroes(const Bytecode& bytecode, const CacheOptions& options) {
     CacheOutcome outcome;
     InstanceCache cache;
-    Recorder recorder(options, cache);
+    const bool draws_organs =
+        std::ranges::any_of(bytecode.symbols, [](const BytecodeSymbol& symbol) {
+            return symbol.turtle == TurtleOperation::SurfaceBegin;
+        });
+    Recorder recorder(options, draws_organs, cache);
     TurtleOptions turtle_options;
     turtle_options.mesh_lengths = options.mesh_lengths;
     turtle_options.looks = options.looks;

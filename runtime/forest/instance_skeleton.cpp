@@ -2,6 +2,7 @@
 #include "runtime/forest/instance_skeleton.h"
 
 #include "runtime/forest/instance_meshes.h"
+#include "runtime/turtle/organs.h"
 
 #include <cstddef>
 #include <iterator>
@@ -81,6 +82,7 @@ void append_placed(const Skeleton& part,
     for (const PlacedObject& each : part.objects) {
         skeleton.objects.push_back(placed(each));
         place(skeleton.objects.back().position, &skeleton.objects.back().frame);
+        copy_organ(part, skeleton.objects.back(), skeleton);
     }
     const auto first_corner = static_cast<std::uint32_t>(skeleton.corners.size());
     for (const Polygon& each : part.polygons) {
@@ -113,6 +115,7 @@ Skeleton skeleton_of(const InstanceCache& cache, const Instance& instance) {
     Skeleton skeleton;
     skeleton.mesh_files = cache_skeleton.mesh_files;
     skeleton.looks = cache_skeleton.looks;
+    skeleton.contours = cache_skeleton.contours;
     skeleton.l3d_compatible_surface = cache_skeleton.l3d_compatible_surface;
     skeleton.box_segments = cache_skeleton.box_segments;
     skeleton.leaf_droop = cache_skeleton.leaf_droop;
@@ -142,6 +145,7 @@ Skeleton skeleton_of(const InstanceCache& cache, const Instance& instance) {
         for (std::uint32_t i = range.begin.objects; i < range.end.objects; ++i) {
             PlacedObject object = cache_skeleton.objects[i];
             object.parent = number_of(object.parent);
+            copy_organ(cache_skeleton, object, skeleton);
             skeleton.objects.push_back(object);
         }
         for (std::uint32_t i = range.begin.polygons; i < range.end.polygons; ++i) {

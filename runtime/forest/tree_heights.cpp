@@ -4,6 +4,7 @@
 #include "grammar/base/hash.h"
 #include "runtime/base/workers.h"
 #include "runtime/forest/instance_meshes.h"
+#include "runtime/turtle/organs.h"
 #include "runtime/turtle/plant_size.h"
 
 #include <algorithm>
@@ -30,7 +31,7 @@ void for_each_point(const InstanceCache& cache, const Instance& instance, const 
             visit(tip(skeleton.segments[i]));
         }
         for (std::uint32_t i = range.begin.objects; i < range.end.objects; ++i) {
-            visit(skeleton.objects[i].position);
+            for_each_point_of(skeleton, skeleton.objects[i], visit);
         }
         for (std::uint32_t i = range.begin.polygons; i < range.end.polygons; ++i) {
             const Polygon& polygon = skeleton.polygons[i];

@@ -7,6 +7,7 @@
 #include "runtime/meshing/impl/l3d_shapes.h"
 #include "runtime/meshing/impl/mesh_builder.h"
 #include "runtime/meshing/impl/objects.h"
+#include "runtime/meshing/impl/organs.h"
 #include "runtime/meshing/impl/polygons.h"
 #include "runtime/meshing/impl/ring_segments.h"
 #include "runtime/meshing/impl/solid.h"
@@ -45,6 +46,7 @@ std::optional<Stop> build_solid(const Skeleton& skeleton,
     flat_builder.set_looks(skeleton.looks);
     append_polygons(skeleton, user_meshes, plain, flat_builder);
     append_objects(skeleton, user_meshes, plain, flat_builder);
+    append_organs(skeleton, plain, flat_builder);
     std::optional<Stop> stop = flat_builder.finish();
     MeshBuilder builder(options, mesh);
     builder.set_looks(skeleton.looks);
@@ -75,6 +77,7 @@ std::optional<Stop> build(const Skeleton& skeleton,
     if (skeleton.l3d_compatible_surface && options.method == MeshMethod::Tubes) {
         append_l3d_shapes(skeleton, builder);
         append_objects(skeleton, user_meshes, options, builder); // all objects except leaves
+        append_organs(skeleton, options, builder);
         return builder.finish();
     }
     switch (options.method) {
@@ -96,6 +99,7 @@ std::optional<Stop> build(const Skeleton& skeleton,
     }
     append_polygons(skeleton, user_meshes, options, builder);
     append_objects(skeleton, user_meshes, options, builder);
+    append_organs(skeleton, options, builder);
     return builder.finish();
 }
 

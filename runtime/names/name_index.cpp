@@ -369,6 +369,13 @@ private:
                 add_expression(ast_.expression_lists[ast_.curves[i].coordinates.first + k]);
             }
             break;
+        case StatementKind::Contour:
+            outline_.name = names_.text(ast_.contours[i].name);
+            outline_.name_place = place(ast_.contours[i].name_span);
+            for (std::uint32_t k = 0; k < ast_.contours[i].coordinates.count; ++k) {
+                add_expression(ast_.expression_lists[ast_.contours[i].coordinates.first + k]);
+            }
+            break;
         case StatementKind::Material:
             add_values(ast_.materials[i].values, material_keys());
             break;

@@ -2,7 +2,9 @@
 #include "runtime/turtle/growth.h"
 
 #include "runtime/turtle/impl/correspondence.h"
+#include "runtime/turtle/organs.h"
 
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/gtc/quaternion.hpp>
 
@@ -44,7 +46,8 @@ struct MovingSegment {
 
 struct MovingObject {
     Motion motion;
-    BeforeAndAfter<float> size{};
+    Ends<float> size{};
+    std::uint32_t old = kNone; // of an organ with as many points, or fewer: index in `before`
 };
 
 struct MovingPolygon {
@@ -222,6 +225,10 @@ struct SkeletonGrowth::State {
                 const PlacedObject& old = before.objects[old_of[i]];
                 set_end(moving.motion, 0, old.position, old.frame);
                 moving.size[0] = old.size;
+                if (is_organ(object) &&
+                    points_of(before, old).size() <= points_of(after, object).size()) {
+                    moving.old = old_of[i];
+                }
                 is_kept[old_of[i]] = true;
                 ++counts.kept;
             }
@@ -320,6 +327,8 @@ struct SkeletonGrowth::State {
         out.objects = from.objects;
         out.polygons = from.polygons;
         out.corners = from.corners;
+        out.organs = from.organs;
+        out.organ_points = from.organ_points;
     }
 
     /// Copies the drawing of `after`, then the shrinking items of `before`. pose() then moves all
@@ -330,12 +339,34 @@ struct SkeletonGrowth::State {
             out.segments.push_back(before.segments[index]);
         }
         for (const std::uint32_t index : shrinking_objects) {
-            out.objects.push_back(before.objects[index]);
+            PlacedObject object = before.objects[index];
+            copy_organ(before, object, out);
+            out.objects.push_back(object);
         }
         for (const std::uint32_t index : shrinking_polygons) {
             out.polygons.push_back(before.polygons[index]);
         }
         out.corners.resize(corners.size());
+    }
+
+    /// Moves the points of an organ between those of object `old` of `before` and its own. New
+    /// points come out of the last old one.
+    void pose_organ(std::uint32_t old,
+                    double progress,
+                    const PlacedObject& object,
+                    Skeleton& out) const {
+        const std::span<const OrganPoint> from = points_of(before, before.objects[old]);
+        const Organ& organ = out.organs[object.mesh_file];
+        const auto part = static_cast<float>(progress);
+        for (std::uint32_t k = 0; k < organ.point_count; ++k) {
+            const OrganPoint& old_point = from[std::min<std::size_t>(k, from.size() - 1)];
+            OrganPoint& point = out.organ_points[organ.first_point + k];
+            point.position = glm::mix(old_point.position, point.position, part);
+            Ends<glm::quat> turn{old_point.frame, point.frame};
+            use_shorter_turn(turn);
+            point.frame = glm::quat(interpolated(turn, progress));
+            point.width = glm::mix(old_point.width, point.width, part);
+        }
     }
 
     void pose(double part, Skeleton& out) const {
@@ -377,6 +408,9 @@ struct SkeletonGrowth::State {
             object.size =
                 static_cast<float>(interpolated(moving.size[0], moving.size[1], progress));
             object.parent = moving.motion.parent;
+            if (moving.old != kNone) {
+                pose_organ(moving.old, progress, object, out);
+            }
         }
         for (std::size_t i = 0; i < polygons.size(); ++i) {
             const MovingPolygon& moving = polygons[i];
@@ -419,6 +453,7 @@ SkeletonGrowth& SkeletonGrowth::operator=(SkeletonGrowth&&) noexcept = default;
 void SkeletonGrowth::pose(double part, Skeleton& out) const {
     out.mesh_files = state_->after.mesh_files;
     out.looks = state_->after.looks;
+    out.contours = state_->after.contours;
     out.l3d_compatible_surface = state_->after.l3d_compatible_surface;
     out.leaf_droop = state_->after.leaf_droop;
     out.box_segments = state_->after.box_segments;

@@ -3,6 +3,7 @@
 
 #include "grammar/base/contract.h"
 #include "runtime/base/out_of_memory.h"
+#include "runtime/turtle/organs.h"
 
 #include <algorithm>
 #include <cmath>
@@ -194,7 +195,7 @@ Bounds bounds_of(const Skeleton& skeleton) {
         bounds.add(tip(segment));
     }
     for (const PlacedObject& object : skeleton.objects) {
-        bounds.add(object.position);
+        for_each_point_of(skeleton, object, [&](const glm::vec3& point) { bounds.add(point); });
     }
     for (const glm::vec3& corner : skeleton.corners) {
         bounds.add(corner);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "runtime/turtle/skeleton.h"
 
+#include "runtime/turtle/organs.h"
+
 #include <fmt/format.h>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -46,13 +48,23 @@ void append_segment(const Skeleton& skeleton, std::uint64_t index, std::string& 
 
 void append_object(const Skeleton& skeleton, std::uint64_t index, std::string& text) {
     const PlacedObject& o = skeleton.objects[index];
-    const std::string name = o.kind == TurtleOperation::MeshFile
-                                 ? fmt::format("\"{}\"", skeleton.mesh_files[o.mesh_file])
-                                 : std::string(name_of(o.kind));
+    const bool has_file = o.kind == TurtleOperation::MeshFile;
+    const std::string name = is_organ(o) ? "surface"
+                             : has_file  ? fmt::format("\"{}\"", skeleton.mesh_files[o.mesh_file])
+                                         : std::string(name_of(o.kind));
     fmt::format_to(std::back_inserter(text),
                    "object {} {} parent {} order {} at {} frame {} size {} colour {}", index, name,
                    parent_text(o.parent), o.order, vector_text(o.position), frame_text(o.frame),
                    o.size, text_of(o.colour));
+    for (const OrganPoint& point : points_of(skeleton, o)) {
+        fmt::format_to(std::back_inserter(text), "{} {} frame {} width {} colour {} sides {}",
+                       &point == points_of(skeleton, o).data() ? ":" : ",",
+                       vector_text(point.position), frame_text(point.frame), point.width,
+                       text_of(point.colour), point.sides);
+        if (point.contour != kNoContour) {
+            text += fmt::format(" contour {}", (*skeleton.contours)[point.contour].name);
+        }
+    }
 }
 
 void append_polygon(const Skeleton& skeleton, std::uint64_t index, std::string& text) {
@@ -93,7 +105,7 @@ SkeletonStats measure(const Skeleton& skeleton) {
         ++stats.segments_by_order[segment.order];
     }
     for (const PlacedObject& object : skeleton.objects) {
-        add_point(object.position);
+        for_each_point_of(skeleton, object, add_point);
     }
     for (const glm::vec3& corner : skeleton.corners) {
         add_point(corner);

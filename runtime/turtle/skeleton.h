@@ -56,13 +56,35 @@ static_assert(sizeof(Segment) == 60);
 /// An item of the object library, drawn from `position` along the frame's +Y.
 struct PlacedObject {
     TurtleOperation kind = TurtleOperation::Nothing; // an operation that places an object
-    std::uint32_t mesh_file = 0;                     // index in Skeleton::mesh_files, for MeshFile
+    // Index in Skeleton::mesh_files, for MeshFile; in Skeleton::organs, for SurfaceBegin.
+    std::uint32_t mesh_file = 0;
     glm::vec3 position{};
     float size = 1.0F; // scale factor
     glm::quat frame{1.0F, 0.0F, 0.0F, 0.0F};
     std::uint32_t parent = kNoSegment;
     ItemColour colour = 0;
     std::uint16_t order = 0;
+};
+
+inline constexpr std::uint32_t kNoContour = 0xFFFFFFFFu;
+
+/// A point of the axis of an organ (docs/language.md section 15), in the frame of its PlacedObject,
+/// at size 1.
+struct OrganPoint {
+    glm::vec3 position{}; // m
+    glm::quat frame{1.0F, 0.0F, 0.0F, 0.0F};
+    float width = 0.0F;                 // m, by which the contour is scaled
+    float tangent_before = 1.0F;        // length of the tangent before the point, relative to the
+    float tangent_after = 1.0F;         // chord; and after it
+    std::uint32_t contour = kNoContour; // index in Skeleton::contours; kNoContour: a circle
+    ItemColour colour = 0;
+    std::uint8_t sides = 0;
+};
+
+/// The axis of an organ: `point_count` items, at least two, of Skeleton::organ_points.
+struct Organ {
+    std::uint32_t first_point = 0;
+    std::uint32_t point_count = 0;
 };
 
 inline constexpr std::uint32_t kNoPicture = 0xFFFFFFFFu;
@@ -92,6 +114,9 @@ struct Skeleton {
     LargeVector<PlacedObject> objects;
     LargeVector<Polygon> polygons;
     LargeVector<glm::vec3> corners;
+    LargeVector<Organ> organs;
+    LargeVector<OrganPoint> organ_points;
+    std::shared_ptr<const std::vector<BytecodeContour>> contours; // null: none
     std::vector<std::string> mesh_files; // paths of meshes and pictures, as written in the grammar
     std::shared_ptr<const Looks> looks;  // looks of the `#material`s; null: none
     bool l3d_compatible_surface = false; // meshes as the program L3D makes them
@@ -107,6 +132,7 @@ struct Skeleton {
     [[nodiscard]] std::uint64_t byte_count() const {
         return segments.size() * sizeof(Segment) + objects.size() * sizeof(PlacedObject) +
                polygons.size() * sizeof(Polygon) + corners.size() * sizeof(glm::vec3) +
+               organs.size() * sizeof(Organ) + organ_points.size() * sizeof(OrganPoint) +
                (segment_origins.size() + object_origins.size() + polygon_origins.size()) *
                    sizeof(Origin);
     }

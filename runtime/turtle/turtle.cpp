@@ -154,6 +154,7 @@ std::optional<Stop> Turtle::State::run(std::span<const C> codes,
     if (end.stop) {
         return end.stop;
     }
+    has_origins = !origins.empty();
     const float* next = parameters.data();
     while (!codes.empty()) {
         if (options.cancelled != nullptr && options.cancelled->load(std::memory_order_relaxed)) {
@@ -220,8 +221,8 @@ Turtle::~Turtle() = default;
 
 std::optional<Stop> Turtle::reserve(const Word& word) {
     State& state = *state_;
-    if (state.interprets) {
-        return std::nullopt; // productions of #interpret decide how much is drawn
+    if (state.interprets || state.table.draws_organs) {
+        return std::nullopt; // productions of #interpret, or organs, decide how much is drawn
     }
     std::uint64_t segments = 0;
     std::uint64_t objects = 0;
@@ -283,6 +284,7 @@ std::optional<Stop> Turtle::finish() {
         for (const OpenPolygon& open : state.polygons.all()) {
             state.note_at(TurtleFaultKind::UnclosedPolygon, open.position, open.code);
         }
+        static_cast<void>(state.close_all_organs()); // returns false if it sets `stop`
     }
     return state.end.stop;
 }
@@ -295,6 +297,7 @@ void Turtle::begin_word(std::uint64_t seed) {
     state.stack.clear();
     state.watched.clear();
     state.polygons = OpenPolygons(state.traits.corners_are_ends);
+    state.organs = {};
     state.pending = {};
     state.position = 0;
     state.cut = 0;

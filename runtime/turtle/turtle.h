@@ -39,8 +39,11 @@ enum class TurtleFaultKind : std::uint8_t {
     SidesOutOfRange,  // fewer than 3 or more than 64 sides: clamped
     ColourOutOfRange, // below 0 or above 65,535: clamped
     RgbOutOfRange,    // a part below 0 or above 1: clamped
+    SurfaceOutside,   // a point or end of an organ that is not open: ignored
+    SurfaceWithin,    // an organ that begins within another of the same branch: ignored
+    SmallSurface,     // an organ whose points are all at one place: not drawn
 };
-inline constexpr std::size_t kTurtleFaultKindCount = 12;
+inline constexpr std::size_t kTurtleFaultKindCount = 15;
 inline constexpr std::uint64_t kMaxSkeletonItems = 0xFFFFFFF0u;
 inline constexpr std::uint32_t kMinSides = 3;
 inline constexpr std::uint32_t kMaxSides = 64;
@@ -69,8 +72,11 @@ struct TurtlePlace {
     float second_heading = 0.0F; // degrees from the first heading to the left
     std::uint32_t sides = 0;
     ItemColour colour = 0;
-    std::uint32_t colour_index = 0; // the last index that was set, even if `colour` is no index
-    std::uint32_t order = 0;        // open brackets
+    std::uint32_t colour_index = 0;     // the last index that was set, even if `colour` is no index
+    std::uint32_t order = 0;            // open brackets
+    std::uint32_t contour = kNoContour; // index in Bytecode::contours; kNoContour: a circle
+    float tangent_before = 1.0F;        // tangents of the axes of organs, relative to the chord
+    float tangent_after = 1.0F;
 };
 
 /// Counts of the items drawn so far.

@@ -60,6 +60,17 @@ Wording wording_of(TurtleFaultKind kind) {
         return {DiagnosticCode::ColourOutOfRange,
                 "sets a colour component below 0 or above 1; the nearest allowed value is used",
                 "red, green and blue are from 0 to 1; bound them with `clamp`"};
+    case TurtleFaultKind::SurfaceOutside:
+        return {DiagnosticCode::StraySurface,
+                "is a point or the end of a surface that is not open, and is ignored",
+                "begin a surface with SURFACE_BEGIN in the same branch"};
+    case TurtleFaultKind::SurfaceWithin:
+        return {DiagnosticCode::StraySurface, "begins a surface within another one, and is ignored",
+                "end the first surface, or begin the second in a branch of its own"};
+    case TurtleFaultKind::SmallSurface:
+        return {DiagnosticCode::SmallSurface,
+                "begins a surface whose points are all at one place, which is not drawn",
+                "move with `f` or `F` between its points"};
     }
     return {DiagnosticCode::NotFinite, "", ""};
 }

@@ -50,7 +50,7 @@ template <typename Stream, typename Value>
 void describe_traits(Stream& stream, Value& traits) {
     auto& [leaf_moves, object_moves, object_has_step_scale, forward_has_width, width_is_relative,
            l3d_compatible_surface, box_segments, corners_are_ends, taper, first_turn, first_colour,
-           leaf_droop] = traits;
+           leaf_droop, organ_tangent] = traits;
     stream.truth(leaf_moves);
     stream.truth(object_moves);
     stream.truth(object_has_step_scale);
@@ -63,6 +63,7 @@ void describe_traits(Stream& stream, Value& traits) {
     stream.real(first_turn);
     stream.number(first_colour);
     stream.real(leaf_droop);
+    stream.real(organ_tangent);
 }
 
 template <typename Stream, typename Value>
@@ -233,6 +234,17 @@ void describe_curve(Stream& stream, Value& curve) {
 }
 
 template <typename Stream, typename Value>
+void describe_contour(Stream& stream, Value& contour) {
+    auto& [name, points] = contour;
+    stream.text(name);
+    stream.table(points, [](auto& s, auto& row) {
+        auto& [x, y] = row;
+        s.real(x);
+        s.real(y);
+    });
+}
+
+template <typename Stream, typename Value>
 void describe_picture(Stream& stream, Value& picture) {
     auto& [path, site] = picture;
     stream.text(path);
@@ -304,8 +316,8 @@ template <typename Stream, typename Value>
 void describe(Stream& stream, Value& bytecode) {
     auto& [settings, generations, files, symbols, folded, constants, globals, patterns,
            template_codes, instructions, sites, site_ranges, template_places, productions,
-           rule_count, context_group_count, axioms, uses_steps, curves, materials, environments,
-           stack_depth, local_count] = bytecode;
+           rule_count, context_group_count, axioms, uses_steps, curves, contours, materials,
+           environments, stack_depth, local_count] = bytecode;
     auto&& undigested = stream.outside_digest();
     describe_settings(stream, settings);
     undigested.optional_number(generations);
@@ -327,6 +339,7 @@ void describe(Stream& stream, Value& bytecode) {
     stream.table(axioms, [](auto& s, auto& row) { describe_axiom(s, row); });
     stream.truth(uses_steps);
     stream.table_or_none(curves, [](auto& s, auto& row) { describe_curve(s, row); });
+    undigested.table(contours, [](auto& s, auto& row) { describe_contour(s, row); });
     undigested.table(materials, [](auto& s, auto& row) { describe_material(s, row); });
     stream.table_or_none(environments, [](auto& s, auto& row) { describe_environment(s, row); });
     undigested.number(stack_depth);

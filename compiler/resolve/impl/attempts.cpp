@@ -39,7 +39,7 @@ void AttemptedStatements::read(std::string_view text) {
         ++at;
         const std::string_view keyword = leading_identifier(text.substr(at, 16));
         if (keyword == "define" || keyword == "param" || keyword == "function" ||
-            keyword == "curve" || keyword == "sense") {
+            keyword == "curve" || keyword == "sense" || keyword == "contour") {
             const std::string_view rest = text.substr(at);
             const auto end =
                 static_cast<std::size_t>(keyword.data() + keyword.size() - rest.data());

@@ -19,8 +19,8 @@ public:
     /// Whether the text has `#keyword`, or a line with the same meaning in another notation
     /// (`axiom: F`, `n = 5`). Precondition: `keyword` is "w" or "n".
     [[nodiscard]] bool has(std::string_view keyword) const;
-    /// Whether `#define NAME`, `#param NAME`, `#function NAME`, `#curve NAME` or `#sense NAME`
-    /// occurs anywhere in the text.
+    /// Whether `#define NAME`, `#param NAME`, `#function NAME`, `#curve NAME`, `#sense NAME` or
+    /// `#contour NAME` occurs anywhere in the text.
     [[nodiscard]] bool defines(std::string_view name) const;
 
 private:

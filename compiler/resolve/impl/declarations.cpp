@@ -140,6 +140,39 @@ bool DeclarationResolver::check_file_name(const ObjectNode& node) {
     return false;
 }
 
+/// Reads the name of a contour behind the object; returns false after reporting a mistake.
+bool DeclarationResolver::set_contour(const ObjectNode& node, ObjectBinding& binding) {
+    if (node.contour.empty()) {
+        return true; // CONTOUR alone sets the circle
+    }
+    if (binding.object != TurtleOperation::SetContour) {
+        resolution_.diagnostics
+            .add(DiagnosticCode::BadDeclaration, node.contour_span,
+                 fmt::format("`{}` takes no name", node.object))
+            .help.emplace_back("`CONTOUR` takes the name of a `#contour`");
+        return false;
+    }
+    std::vector<std::string_view> names;
+    for (const CurveNode& contour : resolution_.ast.contours) {
+        names.push_back(resolution_.text(contour.name));
+    }
+    if (std::find(names.begin(), names.end(), node.contour) == names.end()) {
+        Diagnostic& error =
+            resolution_.diagnostics.add(DiagnosticCode::UnknownObject, node.contour_span,
+                                        fmt::format("there is no contour `{}`", node.contour));
+        const std::string nearest = suggestions_.nearest(node.contour, names);
+        if (!nearest.empty()) {
+            suggest(error, node.contour_span, nearest);
+        } else {
+            error.help.push_back(fmt::format(
+                "declare it: `#contour {} 0.5 0, 0 0.5, -0.5 0, 0 -0.5, 0.5 0;`", node.contour));
+        }
+        return false;
+    }
+    binding.mesh_file = node.contour;
+    return true;
+}
+
 std::optional<ObjectBinding> DeclarationResolver::object_of(const ObjectNode& node) {
     ObjectBinding binding;
     binding.object_span = node.object_span;
@@ -158,7 +191,7 @@ std::optional<ObjectBinding> DeclarationResolver::object_of(const ObjectNode& no
     }
     if (const auto object = find_turtle_object(node.object)) {
         binding.object = *object;
-        return binding;
+        return set_contour(node, binding) ? std::optional(binding) : std::nullopt;
     }
     std::vector<std::string_view> objects;
     for (const TurtleObject& object : turtle_objects()) {

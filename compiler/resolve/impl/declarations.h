@@ -26,6 +26,7 @@ public:
 private:
     [[nodiscard]] bool check_file_name(const ObjectNode& node);
     [[nodiscard]] std::optional<ObjectBinding> object_of(const ObjectNode& node);
+    [[nodiscard]] bool set_contour(const ObjectNode& node, ObjectBinding& binding);
     void bind(const ModuleView& module, ObjectBinding binding);
     void ignore_module(const ModuleView& module,
                        bool considers,

@@ -468,6 +468,9 @@ void ExpressionResolver::report_not_allowed(const Expression& expression,
     case ExpressionPlace::Curve:
         where = "in a curve";
         break;
+    case ExpressionPlace::Contour:
+        where = "in a contour";
+        break;
     case ExpressionPlace::Material:
         where = "in a material";
         break;

@@ -31,6 +31,7 @@ enum class ExpressionPlace : std::uint8_t {
     Probability,
     Function,    // the body of a #function
     Curve,       // a coordinate of a #curve
+    Contour,     // a coordinate of a #contour
     Material,    // a number of a #material
     Environment, // a number of a #sense
     Local,       // the value of a `let`

@@ -19,9 +19,14 @@ bool is_letter(const std::string& name) {
            ((name[0] >= 'a' && name[0] <= 'z') || (name[0] >= 'A' && name[0] <= 'Z'));
 }
 
+/// Commands of generalised cylinders.
+bool is_organ_command(std::string_view name) {
+    return name == "@Gs" || name == "@Gc" || name == "@Ge" || name == "@Gt" || name == "@#";
+}
+
 /// Whether the turtle profile `cpfg` has the command, which begins with `@`.
 bool is_drawn(std::string_view name) {
-    return name == "@v" || name == "@O" || name == "@o" || name == "@c";
+    return name == "@v" || name == "@O" || name == "@o" || name == "@c" || is_organ_command(name);
 }
 
 /// Whether the module asks for the turtle's state or, `?E`, an environment process.
@@ -113,10 +118,45 @@ void CpfgWriter::check_module(CpfgModule& module) {
 
 /// Records the symbol after a `~` as a surface.
 void CpfgWriter::add_surface(const CpfgModule& module) {
-    surfaces_.insert(module.name);
-    expressions_.warn_left_out(module.span, "surface " + module.name,
-                               "the surface `" + shown(module.name) +
-                                   "` is drawn as a leaf: its file is not read");
+    surfaces_.emplace(module.name, module.span);
+}
+
+/// Binds the letters behind `~` to the surfaces of the view file, and writes its contours.
+void CpfgWriter::write_organs() {
+    for (const auto& [name, span] : surfaces_) {
+        const auto found = organs_.surfaces.find(name);
+        const bool is_read = found != organs_.surfaces.end() && found->second.can_be_read;
+        if (!is_read) {
+            expressions_.warn_left_out(
+                span, "surface " + name,
+                "the surface `" + shown(name) + "` is drawn as a leaf: " +
+                    (found == organs_.surfaces.end()
+                         ? "no view file lists its file"
+                         : "`" + shown(found->second.file) + "` cannot be read"));
+        }
+        if (is_letter(name)) {
+            out_.put("#object " + name + " " + (is_read ? object_text(found->second) : "LEAF") +
+                         ";\n",
+                     header_);
+        }
+    }
+    if (std::ranges::none_of(used_, is_organ_command)) {
+        return;
+    }
+    if (organs_.sides != 0) {
+        out_.put("#set sides " + std::to_string(organs_.sides) + ";\n", header_);
+    }
+    for (const auto& [number, points] : organs_.contours) {
+        if (!points.empty()) {
+            out_.put(contour_statement(number, points), header_);
+            continue;
+        }
+        const std::string what = std::to_string(number);
+        expressions_.warn_left_out(header_, "contour " + what,
+                                   "contour " + what + " is a circle: `" +
+                                       shown(organs_.contour_files.at(number)) +
+                                       "` cannot be read as a contour");
+    }
 }
 
 /// The .lsys module of a symbol.
@@ -192,10 +232,12 @@ void CpfgWriter::read_view_file() {
     if (!text) {
         return;
     }
-    view_ = read_view(text.value(), [&](std::string_view name) -> std::optional<std::string> {
+    const FileBeside beside = [&](std::string_view name) -> std::optional<std::string> {
         Result<std::string> file = context_.load(folder + std::string(name));
         return file ? std::optional(std::move(file).value()) : std::nullopt;
-    });
+    };
+    view_ = read_view(text.value(), beside);
+    organs_ = read_organs(text.value(), beside);
     if (!view_.bending.empty() &&
         (view_.is_elastic || used_.count("_") != 0 || used_.count("@Ts") != 0)) {
         expressions_.warn_left_out(header_, "bending",
@@ -232,11 +274,7 @@ void CpfgWriter::write_settings(std::string_view turtle) {
         write_setting("#set seed ", seed_, nullptr);
     }
     write_setting("#n = ", length_, "0");
-    for (const std::string& name : surfaces_) {
-        if (is_letter(name)) {
-            out_.put("#object " + name + " LEAF;\n", header_);
-        }
-    }
+    write_organs();
     write_declarations();
     if (environment_) {
         out_.put("#sense E program;\n", *environment_);

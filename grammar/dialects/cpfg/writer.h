@@ -9,6 +9,7 @@
 
 #include "grammar/dialects/cpfg/curves.h"
 #include "grammar/dialects/cpfg/expressions.h"
+#include "grammar/dialects/cpfg/organs.h"
 #include "grammar/dialects/cpfg/session.h"
 
 #include <cstddef>
@@ -54,6 +55,7 @@ private:
     void write_setting(const char* begin, ForeignId expression, const char* fallback);
     void write_depth(const char* begin, ForeignId expression, Stage stage);
     void read_view_file();
+    void write_organs();
     void write_constants();
     void write_declarations();
     void write_names(const char* begin, const std::vector<CpfgModule>& list);
@@ -118,7 +120,8 @@ private:
     std::set<std::string> used_;                   // names of all modules
     std::set<std::pair<std::string, bool>> forms_; // names of modules; true: with arguments
     std::set<std::string> matched_;                // names in predecessors and contexts
-    std::set<std::string> surfaces_;
+    std::map<std::string, SourceSpan> surfaces_;   // letters behind `~`, with the first place
+    CpfgOrgans organs_;
     std::optional<SourceSpan> environment_;   // the first `?E`
     std::map<std::string, int> alternatives_; // count of rewriting productions, by key_of()
 };

@@ -104,7 +104,8 @@ void LexemeReader::read_keyword() {
     } else if (name == "object" || name == "include") {
         shape_ = name == "include" && next == '"' ? Other : Declaration;
         area_ = Area::Object;
-    } else if (name == "set" || name == "curve" || name == "material" || name == "sense") {
+    } else if (name == "set" || name == "curve" || name == "contour" || name == "material" ||
+               name == "sense") {
         shape_ = name == "material" || name == "sense" ? Keyed : Setting;
         area_ = Area::Set;
     } else if (name == "function") {

@@ -199,7 +199,7 @@ BreakClass PieceReader::break_class() const {
                    ? BreakClass::Fine
                    : BreakClass::Never;
     default:
-        // A cell begins after a `:`, a pair of numbers of a #curve after a `,`.
+        // A cell begins after a `:`, a pair of numbers of a #curve or #contour after a `,`.
         return (previous_.kind == Colon || (previous_.kind == Comma && parentheses_ == 0)) &&
                        current_.kind != Semicolon
                    ? BreakClass::Fine

@@ -136,6 +136,7 @@ public:
         case Keyword::Function:
             return repair_function();
         case Keyword::Curve:
+        case Keyword::Contour:
             repair_curve();
             break;
         case Keyword::Set:
@@ -383,8 +384,9 @@ private:
             plain += numbers[i];
         }
         Diagnostic& diagnostic =
-            report(all, "a point of a curve is two numbers, `x y`, without parentheses, and commas "
-                        "stand between points");
+            report(all, fmt::format("a point of a {} is two numbers, `x y`, without parentheses, "
+                                    "and commas stand between points",
+                                    keyword_ == Keyword::Curve ? "curve" : "contour"));
         add_fix(diagnostic, "write `" + plain + "`", draft_.span(all.begin, all.end), plain, false);
         if (!draft_.replace(all.begin, all.end, plain)) {
             leave_out();
@@ -450,6 +452,11 @@ private:
         const Piece rest = trimmed(text(), end, statement_.end);
         const std::string_view extra = text_of(text(), rest);
         if (extra.empty() || rest.begin == end || !(is_letter(extra[0]) || is_digit(extra[0]))) {
+            return;
+        }
+        const bool has_contour = text().substr(object, end - object) == "CONTOUR" &&
+                                 leading_word(extra).size() == extra.size();
+        if (has_contour) {
             return;
         }
         const std::size_t digit = extra.find_first_of("0123456789.");

@@ -16,10 +16,10 @@ namespace lsys {
 
 namespace {
 
-constexpr std::array<std::string_view, 19> kSpellings{
-    "",          "n",         "define", "param",   "function", "curve",  "material",
-    "sense",     "module",    "object", "include", "set",      "ignore", "consider",
-    "decompose", "interpret", "down",   "up",      "w"};
+constexpr std::array<std::string_view, 20> kSpellings{
+    "",         "n",         "define",    "param",  "function", "curve", "contour",
+    "material", "sense",     "module",    "object", "include",  "set",   "ignore",
+    "consider", "decompose", "interpret", "down",   "up",       "w"};
 
 /// The keys of `#set`, which compiler/bytecode/settings.def defines.
 constexpr std::array<std::string_view, 28> kSettings{

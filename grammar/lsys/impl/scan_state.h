@@ -23,6 +23,7 @@ enum class Keyword : std::uint8_t {
     Param,
     Function,
     Curve,
+    Contour,
     Material,
     Sense,
     Module,

@@ -24,14 +24,14 @@ constexpr const char* kFourParts =
     "condition";
 
 /// Tokens by Keyword.
-constexpr std::array<Token::Kind, 19> kKeywordTokens{
-    Parser::token::TOK_LABEL,     Parser::token::TOK_N,        Parser::token::TOK_DEFINE,
-    Parser::token::TOK_PARAM,     Parser::token::TOK_FUNCTION, Parser::token::TOK_CURVE,
-    Parser::token::TOK_MATERIAL,  Parser::token::TOK_SENSE,    Parser::token::TOK_MODULE,
-    Parser::token::TOK_OBJECT,    Parser::token::TOK_INCLUDE,  Parser::token::TOK_SET,
-    Parser::token::TOK_IGNORE,    Parser::token::TOK_CONSIDER, Parser::token::TOK_DECOMPOSE,
-    Parser::token::TOK_INTERPRET, Parser::token::TOK_DOWN,     Parser::token::TOK_UP,
-    Parser::token::TOK_W};
+constexpr std::array<Token::Kind, 20> kKeywordTokens{
+    Parser::token::TOK_LABEL,     Parser::token::TOK_N,         Parser::token::TOK_DEFINE,
+    Parser::token::TOK_PARAM,     Parser::token::TOK_FUNCTION,  Parser::token::TOK_CURVE,
+    Parser::token::TOK_CONTOUR,   Parser::token::TOK_MATERIAL,  Parser::token::TOK_SENSE,
+    Parser::token::TOK_MODULE,    Parser::token::TOK_OBJECT,    Parser::token::TOK_INCLUDE,
+    Parser::token::TOK_SET,       Parser::token::TOK_IGNORE,    Parser::token::TOK_CONSIDER,
+    Parser::token::TOK_DECOMPOSE, Parser::token::TOK_INTERPRET, Parser::token::TOK_DOWN,
+    Parser::token::TOK_UP,        Parser::token::TOK_W};
 
 Token keyword_token(ParseSession& session, std::string_view word, SourceSpan span) {
     const Keyword keyword = session.scan.keyword;
@@ -221,11 +221,12 @@ std::optional<Keyword> report_unknown_statement(ParseSession& session, std::stri
         const std::string name = "#set " + std::string(*key);
         add_fix(diagnostic, "did you mean `" + name + "`?", span, name, false);
     } else {
-        diagnostic.help.emplace_back("statements are `#n`, `#define`, `#param`, `#function`, "
-                                     "`#curve`, `#material`, `#sense`, `#module`, `#object`, "
-                                     "`#include`, `#set`, `#ignore :`, `#consider :`, `#w :`, "
-                                     "`#decompose`, `#interpret`, `#down`, `#up` and productions, "
-                                     "`#name : ...`");
+        diagnostic.help.emplace_back(
+            "statements are `#n`, `#define`, `#param`, `#function`, "
+            "`#curve`, `#contour`, `#material`, `#sense`, `#module`, "
+            "`#object`, `#include`, `#set`, `#ignore :`, `#consider :`, `#w :`, "
+            "`#decompose`, `#interpret`, `#down`, `#up` and productions, "
+            "`#name : ...`");
     }
     return meant;
 }
@@ -337,9 +338,9 @@ Token start_without_hash(ParseSession& session, std::string_view word) {
     const char next = word.empty() ? '\0' : next_character(text, scan.end);
     const bool takes_words =
         keyword == Keyword::Define || keyword == Keyword::Param || keyword == Keyword::Function ||
-        keyword == Keyword::Curve || keyword == Keyword::Set || keyword == Keyword::Material ||
-        keyword == Keyword::Sense || keyword == Keyword::Object || keyword == Keyword::Include ||
-        keyword == Keyword::Module || names_production(keyword);
+        keyword == Keyword::Curve || keyword == Keyword::Contour || keyword == Keyword::Set ||
+        keyword == Keyword::Material || keyword == Keyword::Sense || keyword == Keyword::Object ||
+        keyword == Keyword::Include || keyword == Keyword::Module || names_production(keyword);
     const bool is_statement = !word.empty() && (next == ':' || takes_words ||
                                                 (keyword == Keyword::Generations && next == '='));
     const bool after_statement = // on the line of a statement, after its `;`
@@ -478,8 +479,9 @@ bool report_needless_sign(ParseSession& session) {
     ScanState& scan = session.scan;
     const bool takes_none = scan.keyword == Keyword::Define || scan.keyword == Keyword::Param ||
                             scan.keyword == Keyword::Function || scan.keyword == Keyword::Curve ||
-                            scan.keyword == Keyword::Set || scan.keyword == Keyword::Material ||
-                            scan.keyword == Keyword::Sense || scan.keyword == Keyword::Generations;
+                            scan.keyword == Keyword::Contour || scan.keyword == Keyword::Set ||
+                            scan.keyword == Keyword::Material || scan.keyword == Keyword::Sense ||
+                            scan.keyword == Keyword::Generations;
     if (!scan.part_empty || !takes_none || !scan.open.empty()) {
         return false;
     }

@@ -48,6 +48,8 @@ std::string name_expected(const ScanState& scan) {
         return "the name of the function";
     case Keyword::Curve:
         return "the name of the curve";
+    case Keyword::Contour:
+        return "the name of the contour";
     case Keyword::Sense:
         return "the name of the environment";
     default:
@@ -67,7 +69,8 @@ std::vector<std::string> expected_in_words(const Unexpected& error, const ScanSt
     add(error.expects(Kind::S_NAMES), "a module");
     add(expects_value && error.part != Part::Setting, "a value");
     add(expects_value && error.part == Part::Setting, "a number or a word");
-    add(!expects_value && error.expects(Kind::S_IDENTIFIER), name_expected(scan));
+    const bool has_object = error.part == Part::ObjectValue && error.expects(Kind::S_SEMICOLON);
+    add(!expects_value && error.expects(Kind::S_IDENTIFIER) && !has_object, name_expected(scan));
     add(error.expects(Kind::S_STRING), "a file name in quotes");
     add(expects_operator, "an operator");
     add(!expects_operator && error.expects(Kind::S_STAR), "`*`");

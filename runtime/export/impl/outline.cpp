@@ -3,6 +3,7 @@
 
 #include "runtime/export/impl/opacity_outline.h"
 #include "runtime/meshing/looks.h"
+#include "runtime/meshing/organ_shape.h"
 #include "runtime/meshing/shapes.h"
 #include "runtime/meshing/texture.h"
 
@@ -199,6 +200,15 @@ std::vector<Outline> object_outlines(const PlacedObject& object,
     }
     // The calyx, the last part of a flower, is drawn first, so that petals cover it.
     std::rotate(outlines.begin(), outlines.end() - (outlines.size() > 1 ? 1 : 0), outlines.end());
+    return outlines;
+}
+
+std::vector<Outline> organ_outlines(const Skeleton& skeleton, const PlacedObject& object) {
+    std::vector<Outline> outlines;
+    for (OrganStrip& strip : organ_strips(skeleton, object)) {
+        outlines.push_back(
+            {std::move(strip.corners), {}, plain_colour(skeleton.looks.get(), strip.colour)});
+    }
     return outlines;
 }
 

@@ -28,6 +28,9 @@ struct Outline {
 [[nodiscard]] std::vector<Outline> object_outlines(const PlacedObject& object,
                                                    const std::vector<UserMesh>& user_meshes,
                                                    const Looks* looks);
+/// Outlines of the strips of an organ, from its begin to its end. Precondition: is_organ(object).
+[[nodiscard]] std::vector<Outline> organ_outlines(const Skeleton& skeleton,
+                                                  const PlacedObject& object);
 /// The convex hull, counter-clockwise; fewer than three corners for points on a line. Sorts
 /// `points`.
 [[nodiscard]] std::vector<glm::vec2> convex_hull(std::vector<glm::vec2>& points);

@@ -9,6 +9,7 @@
 #include "runtime/export/impl/text.h"
 #include "runtime/meshing/looks.h"
 #include "runtime/meshing/texture.h"
+#include "runtime/turtle/organs.h"
 
 #include <fmt/format.h>
 #include <glm/common.hpp>
@@ -75,8 +76,10 @@ const std::vector<Outline>& Drawing::outlines(const PlacedObject& object) {
         const std::vector<UserMesh> none;
         const bool given = info_.user_meshes != nullptr;
         found = outlines_
-                    .emplace(key, object_outlines(object, given ? *info_.user_meshes : none,
-                                                  skeleton_.looks.get()))
+                    .emplace(key, is_organ(object)
+                                      ? organ_outlines(skeleton_, object)
+                                      : object_outlines(object, given ? *info_.user_meshes : none,
+                                                        skeleton_.looks.get()))
                     .first;
     }
     return found->second;

@@ -43,6 +43,7 @@ SymbolKindNumber symbol_kind(StatementKind kind) {
         return SymbolKindNumber::Class;
     case StatementKind::Object:
     case StatementKind::Sense:
+    case StatementKind::Contour:
         return SymbolKindNumber::Object;
     case StatementKind::Include:
         return SymbolKindNumber::File;

@@ -22,6 +22,7 @@ constexpr auto kStatementHelps = std::to_array<StatementHelp>({
     {"#function", "#function NAME(x, ...) expr;", "function of numbers"},
     {"#curve", "#curve NAME x y, x y, ...;",
      "function of one number, a smooth line through points"},
+    {"#contour", "#contour NAME x y, x y, ...;", "cross-section of organs"},
     {"#material", "#material INDEX key value ...;", "appearance of a colour index"},
     {"#sense", "#sense NAME KIND key value ...;", "environment that modules `?NAME` ask"},
     {"#module", "#module NAME(formals);",

@@ -2,7 +2,9 @@
 #include "runtime/meshing/impl/thinning.h"
 
 #include "runtime/base/random.h"
+#include "runtime/meshing/impl/directions.h"
 #include "runtime/meshing/shapes.h"
+#include "runtime/turtle/organs.h"
 
 #include <glm/geometric.hpp>
 
@@ -80,6 +82,12 @@ void order_paths(const Skeleton& skeleton, ThinningOrder& order) {
     }
 }
 
+/// Triangles of an organ, with about two steps between points.
+std::uint64_t estimated_triangles(std::span<const OrganPoint> points) {
+    constexpr std::uint64_t kTrianglesPerSide = 4;
+    return kTrianglesPerSide * (points.size() - 1) * usable_sides(points.front().sides);
+}
+
 void order_foliage(const Skeleton& skeleton, ThinningOrder& order) {
     using Key = std::tuple<bool, std::uint8_t, std::uint32_t, ItemColour>;
     std::map<Key, std::uint32_t> numbers;
@@ -93,7 +101,11 @@ void order_foliage(const Skeleton& skeleton, ThinningOrder& order) {
         if (i < objects) {
             const PlacedObject& object = skeleton.objects[i];
             group = {.kind = object.kind, .mesh_file = object.mesh_file};
-            key = {false, static_cast<std::uint8_t>(object.kind), object.mesh_file, object.colour};
+            if (is_organ(object)) { // all organs of a colour are a group
+                group.mesh_file = 0;
+                group.organ_triangles = estimated_triangles(points_of(skeleton, object));
+            }
+            key = {false, static_cast<std::uint8_t>(object.kind), group.mesh_file, object.colour};
         } else {
             const Polygon& polygon = skeleton.polygons[i - objects];
             group.is_polygons = true;
@@ -236,9 +248,11 @@ std::vector<float> growth_of(const Skeleton& skeleton,
                 std::span(skeleton.corners).subspan(polygon.first_corner, polygon.corner_count));
             coarse_area = area;
         } else {
-            const auto size = static_cast<double>(skeleton.objects[item].size);
-            area = size * size * fine[group].area;
-            coarse_area = size * size * coarse[group].area;
+            const PlacedObject& object = skeleton.objects[item];
+            const auto size = static_cast<double>(object.size);
+            const bool organ = is_organ(object);
+            area = organ ? organ_area(skeleton, object) : size * size * fine[group].area;
+            coarse_area = organ ? area : size * size * coarse[group].area;
         }
         total_area[group] += area;
         kept_area[group] += rank < kept ? coarse_area : 0.0;
@@ -302,6 +316,10 @@ std::vector<FoliageShape> foliage_shapes(const ThinningOrder& order,
     std::vector<FoliageShape> shapes(order.groups.size());
     for (std::size_t i = 0; i < shapes.size(); ++i) {
         const FoliageGroup& group = order.groups[i];
+        if (group.organ_triangles != 0) {
+            shapes[i].triangles = std::max<std::uint64_t>(4, group.organ_triangles >> 2 * level);
+            continue;
+        }
         const bool is_file = group.kind == TurtleOperation::MeshFile;
         if (group.is_polygons || (is_file && group.mesh_file >= user_meshes.size())) {
             continue;
@@ -337,6 +355,7 @@ void thin_skeleton(const Skeleton& skeleton,
     segments.clear();
     thin.mesh_files = skeleton.mesh_files;
     thin.looks = skeleton.looks;
+    thin.contours = skeleton.contours;
     thin.leaf_droop = skeleton.leaf_droop;
     thin.tube_shape = skeleton.tube_shape;
     std::vector<std::uint32_t> places;
@@ -358,6 +377,7 @@ void thin_skeleton(const Skeleton& skeleton,
             continue;
         }
         PlacedObject& object = thin.objects.emplace_back(skeleton.objects[item]);
+        copy_organ(skeleton, object, thin);
         object.parent = object.parent < places.size() ? places[object.parent] : kNoSegment;
         const glm::vec3 centre = object.frame * (object.size * fine[group].centre);
         object.size *= factor;

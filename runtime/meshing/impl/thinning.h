@@ -21,6 +21,7 @@ struct FoliageGroup {
     bool is_polygons = false;                        // false: objects
     TurtleOperation kind = TurtleOperation::Nothing; // kind of the objects
     std::uint32_t mesh_file = 0;                     // mesh file of the objects
+    std::uint64_t organ_triangles = 0; // of an organ at level 0, estimated; 0 for other objects
 };
 
 /// The ranks of all parts of a plant; parts of low rank stay longest. Items of foliage are numbered

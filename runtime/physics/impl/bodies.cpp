@@ -11,6 +11,8 @@
 // faces the wind: the mean over all directions.
 #include "runtime/physics/impl/bodies.h"
 
+#include "runtime/turtle/organs.h"
+
 #include <glm/geometric.hpp>
 #include <glm/gtc/quaternion.hpp>
 
@@ -239,11 +241,14 @@ Bodies make_bodies(const Skeleton& rest, double surface_mass) {
     for (const PlacedObject& object : rest.objects) {
         if (object.parent < out.body_of_segment.size()) {
             const double size = magnitude(std::abs(object.size));
-            const glm::dvec3 place = place_of(object.position) -
-                                     place_of(rest.segments[object.parent].base) +
-                                     0.5 * size * heading_of(object.frame);
+            const bool organ = is_organ(object);
+            const double area = organ ? organ_area(rest, object) : size * size;
+            const glm::dvec3 middle =
+                organ ? place_of(organ_middle(rest, object))
+                      : place_of(object.position) + 0.5 * size * heading_of(object.frame);
+            const glm::dvec3 place = middle - place_of(rest.segments[object.parent].base);
             const std::uint32_t b = out.body_of_segment[object.parent];
-            add_sheet(size * size, surface_mass, place, out.bodies[b], loads[b]);
+            add_sheet(area, surface_mass, place, out.bodies[b], loads[b]);
         }
     }
     for (const Polygon& polygon : rest.polygons) {

@@ -3,6 +3,7 @@
 
 #include "grammar/base/paths.h"
 #include "grammar/base/source.h"
+#include "runtime/meshing/patch_file.h"
 #include "runtime/meshing/texture.h"
 #include "runtime/meshing/user_mesh.h"
 #include "runtime/pipeline/grammar.h"
@@ -399,7 +400,7 @@ Outcome<MeshFiles> read_mesh_files(const std::string& grammar_file,
         if (symbol.turtle != TurtleOperation::MeshFile && !is_polygon_picture) {
             continue;
         }
-        const std::string path = path_text(folder / path_of(symbol.mesh_file));
+        const std::string path = path_text(folder / path_of(path_without_scale(symbol.mesh_file)));
         if (is_polygon_picture || is_picture(path)) {
             std::shared_ptr<const Texture>& picture = budget.pictures[path];
             if (picture == nullptr) {
@@ -422,7 +423,8 @@ Outcome<MeshFiles> read_mesh_files(const std::string& grammar_file,
         if (!text) {
             return step.fail(text.error());
         }
-        Result<UserMesh> mesh = read_obj(text.value(), budget.left - text.value().size());
+        Result<UserMesh> mesh =
+            read_object_file(symbol.mesh_file, text.value(), budget.left - text.value().size());
         if (!mesh) {
             return step.fail(Error{fmt::format("cannot use `{}`: {}", path, mesh.error().message),
                                    mesh.error().kind});

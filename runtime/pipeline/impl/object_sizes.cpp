@@ -2,9 +2,9 @@
 #include "runtime/pipeline/impl/object_sizes.h"
 
 #include "grammar/base/paths.h"
+#include "runtime/meshing/patch_file.h"
 #include "runtime/meshing/shapes.h"
 #include "runtime/meshing/texture.h"
-#include "runtime/meshing/user_mesh.h"
 #include "runtime/pipeline/step.h"
 
 #include <fmt/format.h>
@@ -72,7 +72,7 @@ Outcome<SensingOptions> read_object_sizes(const std::filesystem::path& folder,
         }
         sizes.mesh_lengths.resize(bytecode.symbols.size(), 1.0F);
         sizes.mesh_areas.resize(bytecode.symbols.size(), 0.0);
-        const std::string path = path_text(folder / path_of(symbol.mesh_file));
+        const std::string path = path_text(folder / path_of(path_without_scale(symbol.mesh_file)));
         const Result<std::string> bytes =
             step.read_referenced(path, {~std::uint64_t{0}, budget.left});
         if (!bytes) {
@@ -92,7 +92,7 @@ Outcome<SensingOptions> read_object_sizes(const std::filesystem::path& folder,
                                   static_cast<double>(picture.value().height);
             continue;
         }
-        const Result<UserMesh> mesh = read_obj(bytes.value(), left);
+        const Result<UserMesh> mesh = read_object_file(symbol.mesh_file, bytes.value(), left);
         if (!mesh) {
             return refuse(mesh.error());
         }

@@ -2,8 +2,11 @@
 #include "runtime/turtle/impl/actions.h"
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <numbers>
+#include <string_view>
+#include <system_error>
 
 namespace lsys {
 
@@ -41,6 +44,33 @@ Action action_of(const BytecodeSymbol& symbol, const Settings& settings) {
     return action;
 }
 
+/// The index of the contour with this name; kNoContour without a name.
+std::uint32_t contour_of(const Bytecode& bytecode, const std::string& name) {
+    const auto found = std::ranges::find(bytecode.contours, name, &BytecodeContour::name);
+    return found == bytecode.contours.end()
+               ? kNoContour
+               : static_cast<std::uint32_t>(found - bytecode.contours.begin());
+}
+
+/// The contours whose names are `contour` and a number, by number.
+std::map<std::uint32_t, std::uint32_t> numbered(const std::vector<BytecodeContour>& contours) {
+    constexpr std::string_view kBegin = "contour";
+    std::map<std::uint32_t, std::uint32_t> numbers;
+    for (std::uint32_t i = 0; i < contours.size(); ++i) {
+        const std::string_view name = contours[i].name;
+        std::uint32_t number = 0;
+        if (!name.starts_with(kBegin)) {
+            continue;
+        }
+        const char* const end = name.data() + name.size();
+        const auto [rest, error] = std::from_chars(name.data() + kBegin.size(), end, number);
+        if (error == std::errc() && rest == end) {
+            numbers.emplace(number, i);
+        }
+    }
+    return numbers;
+}
+
 } // namespace
 
 HalfAngle half_angle(double degrees) {
@@ -60,12 +90,25 @@ bool any_has(const Bytecode& bytecode, TurtleInfo::Trait trait) {
                        [&](const auto& symbol) { return info(symbol.turtle).has(trait); });
 }
 
+std::uint32_t ActionTable::numbered_contour(float number) const {
+    constexpr float kMax = 1e6F;
+    if (!(number >= 0.0F && number <= kMax)) {
+        return kNoContour;
+    }
+    const auto found = numbered_contours.find(static_cast<std::uint32_t>(number));
+    return found == numbered_contours.end() ? kNoContour : found->second;
+}
+
 ActionTable make_actions(const Bytecode& bytecode, const TurtleOptions& options) {
     ActionTable table;
     const std::size_t symbol_count = bytecode.symbols.size();
     // A turn also changes the angle to the second heading, which quick actions do not update.
     const bool angle_is_constant = !any_has(bytecode, TurtleInfo::SecondHeading) &&
                                    !any_has(bytecode, TurtleInfo::ChangesAngle);
+    if (!bytecode.contours.empty()) {
+        table.contours = std::make_shared<const std::vector<BytecodeContour>>(bytecode.contours);
+        table.numbered_contours = numbered(bytecode.contours);
+    }
     std::vector<Action> symbol_actions;
     symbol_actions.reserve(symbol_count);
     for (std::size_t i = 0; i < symbol_count; ++i) {
@@ -80,6 +123,10 @@ ActionTable make_actions(const Bytecode& bytecode, const TurtleOptions& options)
             action.picture = static_cast<std::uint32_t>(table.mesh_files.size());
             table.mesh_files.push_back(symbol.mesh_file);
         }
+        if (symbol.turtle == TurtleOperation::SetContour) {
+            action.contour = contour_of(bytecode, symbol.mesh_file);
+        }
+        table.draws_organs = table.draws_organs || symbol.turtle == TurtleOperation::SurfaceBegin;
         table.reads_text = table.reads_text || symbol.turtle == TurtleOperation::ParameterBegin;
         symbol_actions.push_back(action);
     }
@@ -106,6 +153,10 @@ ActionTable make_actions(const Bytecode& bytecode, const TurtleOptions& options)
         }
         if (action.quick == QuickAction::Restore && options.branches != nullptr) {
             action.quick = QuickAction::None; // restore() calls the watcher
+        }
+        if (table.draws_organs &&
+            (action.quick == QuickAction::Forward || action.quick == QuickAction::Restore)) {
+            action.quick = QuickAction::None; // they may add points to an organ, or end it
         }
         table.by_code.push_back(action);
     }

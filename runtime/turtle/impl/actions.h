@@ -7,6 +7,8 @@
 
 #include <array>
 #include <cstdint>
+#include <map>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -35,13 +37,20 @@ struct Action {
     float default_size = 1.0F;                       // size of an object without a parameter
     std::uint32_t mesh_file = 0;                     // index in Skeleton::mesh_files
     std::uint32_t picture = kNoPicture;              // of a polygon: index in Skeleton::mesh_files
+    std::uint32_t contour = kNoContour;              // of SetContour: index in Bytecode::contours
     char character = '\0';                           // the name, if it is one character
 };
 
 struct ActionTable {
     std::vector<Action> by_code;
     std::vector<std::string> mesh_files;
+    std::shared_ptr<const std::vector<BytecodeContour>> contours; // null: none
     bool reads_text = false; // parentheses may hold a parameter as text
+    bool draws_organs = false;
+    std::map<std::uint32_t, std::uint32_t> numbered_contours; // contours named `contour1` ...
+
+    /// The contour that a module with a number sets; kNoContour, a circle, for an unknown number.
+    [[nodiscard]] std::uint32_t numbered_contour(float number) const;
 };
 
 /// Whether any module of the bytecode has the trait.

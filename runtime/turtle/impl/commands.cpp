@@ -28,6 +28,11 @@ bool Turtle::State::draw(
     if (has_tropism) {
         bend(now.pose, bytecode.settings.tropism);
     }
+    if (organs.is_open_at(stack.size())) {
+        advance(now.pose, length);
+        now.moved = true;
+        return check_finite_pose() && add_organ_point();
+    }
     if (!make_room(skeleton.segments)) {
         return false;
     }
@@ -147,6 +152,9 @@ bool Turtle::State::restore() {
     if (stack.empty()) {
         return fault(TurtleFaultKind::Unbalanced);
     }
+    if (organs.is_open_at(stack.size()) && !close_organ()) {
+        return false;
+    }
     if (!watched.empty() && watched.back() == stack.size()) {
         watched.pop_back();
         options.branches->end(drawn());
@@ -170,6 +178,9 @@ TurtlePlace Turtle::State::current_place() const {
     place.colour = now.colour;
     place.colour_index = now.colour_index;
     place.order = order();
+    place.contour = now.contour;
+    place.tangent_before = now.tangent_before;
+    place.tangent_after = now.tangent_after;
     return place;
 }
 
@@ -447,6 +458,24 @@ bool Turtle::State::execute(const Action& action, const float* arguments) {
         return true;
     case TurtleOperation::PolygonEnd:
         return close_polygon();
+    case TurtleOperation::SurfaceBegin:
+        return begin_organ();
+    case TurtleOperation::SurfacePoint:
+    case TurtleOperation::SurfaceEnd:
+        if (!organs.is_open_at(stack.size())) {
+            note(TurtleFaultKind::SurfaceOutside);
+            return true;
+        }
+        return action.operation == TurtleOperation::SurfacePoint ? add_organ_point()
+                                                                 : close_organ();
+    case TurtleOperation::SurfaceTangents:
+        set_tangents(action, arguments);
+        return true;
+    case TurtleOperation::SetContour:
+        now.contour = action.given > 0 && action.contour == kNoContour
+                          ? table.numbered_contour(arguments[0])
+                          : action.contour;
+        return true;
     case TurtleOperation::Cut:
         cut = 1;
         return true;

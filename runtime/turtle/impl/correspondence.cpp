@@ -2,6 +2,7 @@
 #include "runtime/turtle/impl/correspondence.h"
 
 #include "grammar/base/contract.h"
+#include "runtime/turtle/organs.h"
 
 #include <algorithm>
 #include <cstddef>
@@ -199,12 +200,13 @@ Correspondence find_correspondence(const Skeleton& before,
     const FollowedDrawings followed{before, after, generation, ancestors, modules};
     Correspondence found;
     found.pieces = find_pieces(followed);
-    found.objects = find_pairs(
-        followed, before.object_origins, after.object_origins,
-        [&](std::uint32_t old_item, std::uint32_t new_item) {
-            return before.objects[old_item].kind == after.objects[new_item].kind &&
-                   before.objects[old_item].mesh_file == after.objects[new_item].mesh_file;
-        });
+    found.objects = find_pairs(followed, before.object_origins, after.object_origins,
+                               [&](std::uint32_t old_item, std::uint32_t new_item) {
+                                   const PlacedObject& from = before.objects[old_item];
+                                   const PlacedObject& to = after.objects[new_item];
+                                   return from.kind == to.kind &&
+                                          (is_organ(to) || from.mesh_file == to.mesh_file);
+                               });
     found.polygons = find_pairs(followed, before.polygon_origins, after.polygon_origins,
                                 [](std::uint32_t, std::uint32_t) { return true; });
     return found;

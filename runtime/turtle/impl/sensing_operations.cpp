@@ -319,7 +319,12 @@ bool SensingTurtle::State::execute(const Action& action,
     case TurtleOperation::AddColour:
     case TurtleOperation::SubtractColour:
     case TurtleOperation::SetRgb:
-    case TurtleOperation::Cut: // no effect: the next generation makes the cut
+    case TurtleOperation::SurfaceBegin: // organs have no area for environments
+    case TurtleOperation::SurfacePoint:
+    case TurtleOperation::SurfaceEnd:
+    case TurtleOperation::SurfaceTangents:
+    case TurtleOperation::SetContour:
+    case TurtleOperation::Cut: // what it will cut off is walked too
         return true;
     }
     LSYS_CHECK(false, static_cast<int>(action.operation));

@@ -6,6 +6,7 @@
 #include "runtime/base/out_of_memory.h"
 #include "runtime/derive/interpretation.h"
 #include "runtime/turtle/impl/actions.h"
+#include "runtime/turtle/impl/open_organs.h"
 #include "runtime/turtle/impl/polygons.h"
 #include "runtime/turtle/impl/pose.h"
 #include "runtime/turtle/plant_size.h"
@@ -44,7 +45,10 @@ struct Brush {
     double second_heading = 0.0;        // degrees from the first heading to the left
     std::uint32_t segment = kNoSegment; // the last one drawn on the path
     ItemColour colour = 0;
-    std::uint16_t colour_index = 0; // the last index that was set
+    std::uint16_t colour_index = 0;     // the last index that was set
+    std::uint32_t contour = kNoContour; // index in Bytecode::contours
+    float tangent_before = 1.0F;        // of the axes of organs, relative to the chord
+    float tangent_after = 1.0F;
     std::uint8_t sides = 0;
     bool moved = false; // whether the turtle has moved since `segment` was drawn
 };
@@ -72,6 +76,7 @@ struct Turtle::State {
         const Settings& settings = bytecode.settings;
         skeleton.mesh_files = table.mesh_files;
         skeleton.looks = options.looks;
+        skeleton.contours = table.contours;
         interprets = program.has(Stage::Interpret);
         traits = settings.traits;
         has_tropism = settings.has_tropism;
@@ -93,6 +98,8 @@ struct Turtle::State {
         now.angle = settings.angle;
         now.turn = half_angle(static_cast<double>(settings.angle));
         now.sides = static_cast<std::uint8_t>(std::clamp(settings.sides, kMinSides, kMaxSides));
+        now.tangent_before = traits.organ_tangent;
+        now.tangent_after = traits.organ_tangent;
         now.colour = traits.first_colour;
         now.colour_index = traits.first_colour;
         if (traits.first_turn != 0.0F) {
@@ -149,6 +156,11 @@ struct Turtle::State {
     [[nodiscard]] DrawnCounts drawn() const;
     bool quick_forward(const Action& action, const float* arguments, Pose& pose);
     bool close_polygon();
+    bool begin_organ();
+    bool add_organ_point();
+    bool close_organ();
+    bool close_all_organs();
+    void set_tangents(const Action& action, const float* arguments);
     void set_width(float width);
     void set_sides(float sides);
     void set_colour(double index);
@@ -203,13 +215,14 @@ struct Turtle::State {
     std::vector<TurtleState> stack;
     std::vector<std::size_t> watched; // stack size within each open branch that has a watcher
     OpenPolygons polygons{bytecode.settings.traits.corners_are_ends};
+    OpenOrgans organs;
     DrawingEnd end;
     std::uint64_t position = 0; // index of the current module
     Code code = 0;              // code of the current module
     Origin origin;              // origin of the current module, if the word has origins
     Origin polygon_origin;      // origin of the `{` of the polygon closed last
-    /// 1 + open brackets of a part that is skipped; 0: nothing is skipped.
-    std::uint64_t cut = 0;
+    std::uint64_t cut = 0;      // in a skipped part: 1 + its number of open brackets; else 0
+    bool has_origins = false;   // the words fed last have origins
     bool interprets = false;
     std::unique_ptr<Interpretation> interpretation; // made with the first piece
     std::vector<Code> piece;                        // codes that are interpreted, widened to Code

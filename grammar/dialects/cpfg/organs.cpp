@@ -1,0 +1,265 @@
+// SPDX-License-Identifier: MIT
+#include "grammar/dialects/cpfg/organs.h"
+
+#include "grammar/base/number_chars.h"
+#include "grammar/dialects/impl/text.h"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <optional>
+#include <system_error>
+
+namespace lsys {
+
+namespace {
+
+constexpr std::string_view kBlanks = " \t\r";
+constexpr std::uint32_t kSides = 8; // the default of cpfg
+constexpr std::uint32_t kMinSides = 3;
+constexpr std::uint32_t kMaxSides = 63; // a contour has at most 64 points
+constexpr std::size_t kMaxPoints = 1000;
+constexpr std::size_t kMaxFiles = 256;
+constexpr int kStepsPerSpan = 10; // for lengths along a contour, as in cpfg
+
+struct ContourFile {
+    bool closed = false;
+    std::vector<CurvePoint> points;
+};
+
+std::string_view first_line(std::string_view& text) {
+    const std::size_t end = std::min(text.find('\n'), text.size());
+    const std::string_view line = text.substr(0, end);
+    text.remove_prefix(std::min(end + 1, text.size()));
+    return trimmed(line, kBlanks);
+}
+
+std::string_view first_word(std::string_view& line) {
+    line = trimmed(line, kBlanks);
+    const std::string_view word = line.substr(0, line.find_first_of(" \t"));
+    line.remove_prefix(word.size());
+    return word;
+}
+
+std::optional<double> first_number(std::string_view& line) {
+    const std::string_view word = first_word(line);
+    double value = 0.0;
+    const auto [end, error] = number_from_chars(word.data(), word.data() + word.size(), value);
+    const bool is_number = error == std::errc() && end == word.data() + word.size() &&
+                           std::isfinite(value) && std::abs(value) < 1e30;
+    return is_number ? std::optional(value) : std::nullopt;
+}
+
+std::optional<std::uint32_t> first_count(std::string_view& line, double max) {
+    const std::optional<double> number = first_number(line);
+    return number && *number >= 0.0 && *number <= max
+               ? std::optional(static_cast<std::uint32_t>(*number))
+               : std::nullopt;
+}
+
+bool take(std::string_view& line, std::string_view label) {
+    if (!line.starts_with(label)) {
+        return false;
+    }
+    line.remove_prefix(label.size());
+    return true;
+}
+
+/// Appends a point `times`; returns false if the line is no point.
+bool append_point(std::string_view line, bool has_times, ContourFile& file) {
+    const std::optional<double> x = first_number(line);
+    const std::optional<double> y = first_number(line);
+    if (!x || !y) {
+        return false;
+    }
+    std::uint32_t times = 1;
+    if (has_times) {
+        static_cast<void>(first_number(line)); // z
+        const auto given = first_count(line, kMaxPoints);
+        if (!given) {
+            return false;
+        }
+        times = *given;
+    }
+    file.points.insert(file.points.end(), times, CurvePoint{*x, *y});
+    return file.points.size() <= kMaxPoints;
+}
+
+/// Reads the formats `11 3 open` and `cver 1 1` to `cver 1 3`.
+std::optional<ContourFile> read_contour(std::string_view text) {
+    ContourFile file;
+    std::string_view line = first_line(text);
+    const bool has_times = line.starts_with("cver");
+    std::optional<std::uint32_t> count;
+    if (has_times) {
+        while (!text.empty()) {
+            line = first_line(text);
+            if (take(line, "points:")) {
+                count = first_count(line, kMaxPoints); // of lines; the second number is of points
+            } else if (take(line, "type:")) {
+                line = trimmed(line, kBlanks);
+                file.closed = line.starts_with('c');
+            } else if (count && !line.empty() &&
+                       line.find_first_not_of("+-.0123456789eE \t") == line.npos) {
+                text = {line.data(),
+                        static_cast<std::size_t>(text.data() + text.size() - line.data())};
+                break; // the first point
+            }
+        }
+    } else {
+        count = first_count(line, kMaxPoints);
+        static_cast<void>(first_number(line)); // number of coordinates
+        file.closed = first_word(line) == "closed";
+    }
+    for (std::uint32_t i = 0; count && i < *count; ++i) {
+        if (!append_point(first_line(text), has_times, file)) {
+            return std::nullopt;
+        }
+    }
+    const std::size_t fewest = file.closed ? 3 : 4;
+    return file.points.size() < fewest ? std::nullopt : std::optional(std::move(file));
+}
+
+/// The uniform cubic B-spline at `t` spans from its begin.
+CurvePoint spline_at(const std::vector<CurvePoint>& points, double t) {
+    const double begin = std::floor(t);
+    const double u = t - begin;
+    const double v = 1.0 - u;
+    const std::array<double, 4> weights{
+        v * v * v / 6.0, (3.0 * u * u * u - 6.0 * u * u + 4.0) / 6.0,
+        (-3.0 * u * u * u + 3.0 * u * u + 3.0 * u + 1.0) / 6.0, u * u * u / 6.0};
+    CurvePoint sum;
+    for (std::size_t i = 0; i < weights.size(); ++i) {
+        const CurvePoint& point = points[(static_cast<std::size_t>(begin) + i) % points.size()];
+        sum.x += weights[i] * point.x;
+        sum.y += weights[i] * point.y;
+    }
+    return sum;
+}
+
+/// `count` + 1 points at equal distances along the contour.
+std::vector<CurvePoint> spaced(const ContourFile& file, std::uint32_t count) {
+    const std::size_t spans = file.closed ? file.points.size() : file.points.size() - 3;
+    const std::size_t steps = spans * kStepsPerSpan;
+    std::vector<double> lengths{0.0};
+    CurvePoint before = spline_at(file.points, 0.0);
+    for (std::size_t i = 1; i <= steps; ++i) {
+        // The end of an open contour is the end of its last span.
+        const double t = std::min(static_cast<double>(i) / kStepsPerSpan,
+                                  static_cast<double>(spans) - (file.closed ? 0.0 : 1e-9));
+        const CurvePoint at = spline_at(file.points, t);
+        lengths.push_back(lengths.back() + std::hypot(at.x - before.x, at.y - before.y));
+        before = at;
+    }
+    std::vector<CurvePoint> result;
+    std::size_t step = 1;
+    for (std::uint32_t i = 0; i <= count; ++i) {
+        const double wanted = lengths.back() * i / count;
+        while (step < steps && lengths[step] < wanted) {
+            ++step;
+        }
+        const double span = lengths[step] - lengths[step - 1];
+        const double part = span > 0.0 ? (wanted - lengths[step - 1]) / span : 0.0;
+        const double t = (static_cast<double>(step - 1) + part) / kStepsPerSpan;
+        result.push_back(spline_at(
+            file.points, std::min(t, static_cast<double>(spans) - (file.closed ? 0.0 : 1e-9))));
+    }
+    return result;
+}
+
+/// Turns a closed contour so that its first point lies on the x axis, as cpfg does.
+void turn_to_axis(std::vector<CurvePoint>& points) {
+    const CurvePoint first = points.front();
+    const double length = std::hypot(first.x, first.y);
+    if (!(length > 1e-9)) {
+        return;
+    }
+    for (CurvePoint& point : points) {
+        point = {(point.x * first.x + point.y * first.y) / length,
+                 (point.y * first.x - point.x * first.y) / length};
+    }
+}
+
+/// A number with six digits behind the point at most.
+std::string number_text(double value) {
+    const double rounded = std::round(value * 1e6) / 1e6;
+    std::array<char, 64> buffer{};
+    const auto [end, error] = number_to_fixed_chars(buffer.data(), buffer.data() + buffer.size(),
+                                                    rounded == 0.0 ? 0.0 : rounded);
+    return error == std::errc() ? std::string(buffer.data(), end) : "0";
+}
+
+} // namespace
+
+std::vector<CurvePoint> contour_points(std::string_view text, std::uint32_t sides) {
+    const std::optional<ContourFile> file = read_contour(text);
+    if (!file) {
+        return {};
+    }
+    std::vector<CurvePoint> points = spaced(*file, std::min(sides, kMaxSides));
+    if (file->closed) {
+        points.back() = points.front();
+        turn_to_axis(points);
+    }
+    for (CurvePoint& point : points) {
+        // x of cpfg goes up, y to the right; they are relative to the radius.
+        point = {0.5 * point.y, 0.5 * point.x};
+    }
+    const bool has_extent = std::ranges::any_of(points, [&](const CurvePoint& point) {
+        return std::hypot(point.x - points.front().x, point.y - points.front().y) > 1e-6;
+    });
+    return has_extent ? points : std::vector<CurvePoint>{};
+}
+
+CpfgOrgans read_organs(std::string_view view, const FileBeside& beside) {
+    CpfgOrgans organs;
+    while (!view.empty()) {
+        std::string_view line = first_line(view);
+        if (take(line, "contour sides:")) {
+            organs.sides = first_count(line, 1e6).value_or(0);
+        } else if (take(line, "polygonization level:")) {
+            // Level n is 2^(n + 1) sides.
+            organs.sides = std::uint32_t{2} << first_count(line, 16.0).value_or(2);
+        } else if (take(line, "contour:")) {
+            const auto number = first_count(line, 1e6);
+            const std::string_view file = first_word(line);
+            if (number && !file.empty() && organs.contour_files.size() < kMaxFiles) {
+                organs.contour_files.emplace(*number, file);
+            }
+        } else if (take(line, "surface:")) {
+            const std::string_view letter = first_word(line);
+            CpfgSurface surface{std::string(first_word(line))};
+            surface.scale = first_number(line).value_or(1.0);
+            surface.scale = surface.scale > 0.0 ? surface.scale : 1.0;
+            if (letter.size() == 1 && organs.surfaces.size() < kMaxFiles) {
+                surface.can_be_read = beside(surface.file).has_value();
+                organs.surfaces.emplace(letter, std::move(surface));
+            }
+        }
+    }
+    organs.sides = organs.sides == 0 ? 0 : std::clamp(organs.sides, kMinSides, kMaxSides);
+    const std::uint32_t sides = organs.sides == 0 ? kSides : organs.sides;
+    for (const auto& [number, name] : organs.contour_files) {
+        const std::optional<std::string> text = beside(name);
+        organs.contours.emplace(number,
+                                text ? contour_points(*text, sides) : std::vector<CurvePoint>{});
+    }
+    return organs;
+}
+
+std::string contour_statement(std::uint32_t number, const std::vector<CurvePoint>& points) {
+    std::string text = "#contour contour" + std::to_string(number);
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        text += i == 0 ? " " : ", ";
+        text += number_text(points[i].x) + " " + number_text(points[i].y);
+    }
+    return text + ";\n";
+}
+
+std::string object_text(const CpfgSurface& surface) {
+    return "\"" + surface.file + (surface.scale == 1.0 ? "" : "#" + number_text(surface.scale)) +
+           "\"";
+}
+
+} // namespace lsys

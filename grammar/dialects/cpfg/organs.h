@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: MIT
+// Surfaces and contours of a cpfg model: the lines `surface:`, `contour:` and `contour sides:` of its
+// view file, and the contour files (.con), which hold control points of a uniform cubic B-spline.
+#pragma once
+
+#include "grammar/dialects/cpfg/curves.h"
+
+#include <cstdint>
+#include <map>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace lsys {
+
+/// `surface: l leaf.s 0.5`.
+struct CpfgSurface {
+    std::string file;
+    double scale = 1.0;
+    bool can_be_read = false;
+};
+
+struct CpfgOrgans {
+    std::map<std::string, CpfgSurface> surfaces; // by the letter behind `~`
+    /// Points around the turtle, relative to the width: x to the right, y up; closed if the last
+    /// equals the first. Empty for a file that cannot be read.
+    std::map<std::uint32_t, std::vector<CurvePoint>> contours;
+    std::map<std::uint32_t, std::string> contour_files;
+    std::uint32_t sides = 0; // 0: not given
+};
+
+[[nodiscard]] CpfgOrgans read_organs(std::string_view view, const FileBeside& beside);
+
+/// The points of a contour file at `sides` equal distances along the contour, as cpfg places them;
+/// empty if the text is no contour.
+[[nodiscard]] std::vector<CurvePoint> contour_points(std::string_view text, std::uint32_t sides);
+
+/// The statement `#contour contourNUMBER ...;`, which the module `@#(NUMBER)` of the turtle profile
+/// finds by its name.
+[[nodiscard]] std::string contour_statement(std::uint32_t number,
+                                            const std::vector<CurvePoint>& points);
+
+/// The object of a surface in quotes: `"leaf.s"`, or `"leaf.s#0.5"` with a scale.
+[[nodiscard]] std::string object_text(const CpfgSurface& surface);
+
+} // namespace lsys
