@@ -46,7 +46,7 @@ struct MovingSegment {
 
 struct MovingObject {
     Motion motion;
-    Ends<float> size{};
+    BeforeAndAfter<float> size{};
     std::uint32_t old = kNone; // of an organ with as many points, or fewer: index in `before`
 };
 
@@ -362,7 +362,7 @@ struct SkeletonGrowth::State {
             const OrganPoint& old_point = from[std::min<std::size_t>(k, from.size() - 1)];
             OrganPoint& point = out.organ_points[organ.first_point + k];
             point.position = glm::mix(old_point.position, point.position, part);
-            Ends<glm::quat> turn{old_point.frame, point.frame};
+            BeforeAndAfter<glm::quat> turn{old_point.frame, point.frame};
             use_shorter_turn(turn);
             point.frame = glm::quat(interpolated(turn, progress));
             point.width = glm::mix(old_point.width, point.width, part);
