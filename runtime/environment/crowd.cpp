@@ -6,7 +6,6 @@
 // differences d = p - q. Each coordinate of the mean is the exact total of that coordinate of the
 // near places, rounded once, divided by their number; so it depends neither on the order of modules
 // nor on threads. The direction is p - mean, each component divided by the length.
-#include "runtime/base/out_of_memory.h"
 #include "runtime/environment/environment.h"
 #include "runtime/environment/impl/exact_total.h"
 #include "runtime/environment/impl/input_checks.h"
@@ -131,9 +130,7 @@ public:
         if (auto failure = check_places(word.places)) {
             return failure;
         }
-        using Failure = std::optional<EnvironmentFailure>;
-        return catch_out_of_memory([&]() -> Failure { return answer_all(word.places, answers); },
-                                   []() -> Failure { return stopped(Stop::OutOfMemory); });
+        return answer_all(word.places, answers);
     }
 
 private:

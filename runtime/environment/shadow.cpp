@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Environments of kind Shadow: every place shades a pyramid of voxels below it (Palubicki et al.
 // 2009, section 4). The shadow is evaluated at the voxels of the places only.
-#include "runtime/base/out_of_memory.h"
 #include "runtime/environment/environment.h"
 #include "runtime/environment/impl/input_checks.h"
 #include "runtime/environment/impl/shadow_layers.h"
@@ -36,9 +35,7 @@ public:
         if (bytes > context_.max_bytes) {
             return beyond_memory(bytes);
         }
-        return catch_out_of_memory(
-            [&] { return answer_places(word.places, answers); },
-            []() -> std::optional<EnvironmentFailure> { return stopped(Stop::OutOfMemory); });
+        return answer_places(word.places, answers);
     }
 
 private:

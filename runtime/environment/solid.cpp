@@ -10,7 +10,6 @@
 // distances the first counts, planes before meshes; squared distances are compared between
 // triangles, of one mesh or of several.
 #include "grammar/base/contract.h"
-#include "runtime/base/out_of_memory.h"
 #include "runtime/environment/environment.h"
 #include "runtime/environment/impl/input_checks.h"
 #include "runtime/environment/impl/triangle_tree.h"
@@ -53,12 +52,7 @@ public:
     }
 
     std::optional<EnvironmentFailure> begin(std::uint64_t /*seed*/) override {
-        using Failure = std::optional<EnvironmentFailure>;
-        return catch_out_of_memory([&]() -> Failure { return build_trees(); },
-                                   [&]() -> Failure {
-                                       trees_.clear();
-                                       return stopped(Stop::OutOfMemory);
-                                   });
+        return build_trees();
     }
 
     std::optional<EnvironmentFailure> answer(const SensedWord& word,
@@ -70,9 +64,7 @@ public:
         if (word.places.empty()) {
             return std::nullopt;
         }
-        using Failure = std::optional<EnvironmentFailure>;
-        return catch_out_of_memory([&]() -> Failure { return answer_all(word.places, answers); },
-                                   []() -> Failure { return stopped(Stop::OutOfMemory); });
+        return answer_all(word.places, answers);
     }
 
 private:
