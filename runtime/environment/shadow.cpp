@@ -5,6 +5,7 @@
 #include "runtime/environment/impl/input_checks.h"
 #include "runtime/environment/impl/shadow_layers.h"
 #include "runtime/environment/impl/shadow_run.h"
+#include "runtime/environment/impl/vectors.h"
 #include "runtime/environment/impl/voxel_tiles.h"
 
 #include <algorithm>
@@ -51,8 +52,8 @@ private:
             const Vector3& at = places[i].position;
             // The axis of the plant is in the middle of a column. Rounding errors of a height that
             // is a multiple of the cell do not move it to the voxel below.
-            return Vector3{std::floor(at[0] / cell + 0.5), std::floor(at[1] / cell + 0x1p-20),
-                           std::floor(at[2] / cell + 0.5)};
+            return Vector3{fast_floor(at[0] / cell + 0.5), fast_floor(at[1] / cell + 0x1p-20),
+                           fast_floor(at[2] / cell + 0.5)};
         });
         if (failure) {
             if (failure->stop == Stop::Diagnosed) {

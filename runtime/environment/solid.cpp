@@ -12,6 +12,7 @@
 #include "grammar/base/contract.h"
 #include "runtime/environment/environment.h"
 #include "runtime/environment/impl/input_checks.h"
+#include "runtime/environment/impl/space_order.h"
 #include "runtime/environment/impl/triangle_tree.h"
 #include "runtime/environment/impl/vectors.h"
 
@@ -72,17 +73,13 @@ private:
                                                  std::vector<float>& answers) const {
         // Places next to each other are answered one after the other, because they meet the same
         // nodes of the trees.
-        constexpr std::size_t kPlaces = 1U << 8;        // of one piece of work
-        constexpr std::size_t kPlacesPerLeaf = 1U << 4; // of the tree that orders places
+        constexpr std::size_t kPlaces = 1U << 8; // of one piece of work
         const std::size_t count = places.size();
-        const std::uint64_t bytes = tree_bytes_ + count * sizeof(SplitItem) +
-                                    split_node_count(count, kPlacesPerLeaf) * sizeof(SplitNode);
+        const std::uint64_t bytes = tree_bytes_ + count * kSpaceOrderBytes;
         if (bytes > context_.max_bytes) {
             return beyond_memory(bytes);
         }
-        LargeVector<SplitItem> order = split_items(places);
-        static_cast<void>(
-            build_split_tree(order, kPlacesPerLeaf, *context_.workers, context_.cancelled));
+        const LargeVector<std::uint32_t> order = order_in_space(places, context_);
         context_.workers->for_each((count + kPlaces - 1) / kPlaces, [&](std::uint64_t piece) {
             if (is_cancelled(context_.cancelled)) {
                 return;
@@ -92,12 +89,11 @@ private:
             // Read at once: the processor waits for many places at the same time.
             std::array<Vector3, kPlaces> positions;
             for (std::size_t i = begin; i < end; ++i) {
-                positions[i - begin] = places[order[i].index].position;
+                positions[i - begin] = places[order[i]].position;
             }
             std::vector<std::uint32_t> hints(trees_.size(), 0);
             for (std::size_t i = begin; i < end; ++i) {
-                answer_one(positions[i - begin], hints,
-                           answers.data() + std::size_t{order[i].index} * 4);
+                answer_one(positions[i - begin], hints, answers.data() + std::size_t{order[i]} * 4);
             }
         });
         if (is_cancelled(context_.cancelled)) {
