@@ -187,7 +187,8 @@ void ShellProgram::end() {
     close_descriptor(error_);
 }
 
-/// Waits a little for a program that has closed its output, so that its exit status is its own.
+/// Waits a little for a program that has closed its output, or whose input is closed, so that its
+/// exit status and its messages are its own.
 void ShellProgram::wait_for_exit() {
     constexpr int kLooks = 50;
     constexpr unsigned kPause = 10'000; // microseconds
@@ -199,6 +200,14 @@ void ShellProgram::wait_for_exit() {
             return;
         }
         ::usleep(kPause);
+    }
+}
+
+void ShellProgram::finish() {
+    if (process_ != 0) {
+        close_descriptor(input_);
+        wait_for_exit();
+        end();
     }
 }
 
