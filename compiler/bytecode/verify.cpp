@@ -2,6 +2,7 @@
 #include "compiler/bytecode/verify.h"
 
 #include "compiler/bytecode/impl/bytecode_contents.h"
+#include "compiler/bytecode/impl/verify_senses.h"
 #include "compiler/bytecode/instructions.h"
 
 #include <fmt/format.h>
@@ -103,7 +104,7 @@ private:
     bool curves() {
         for (std::size_t i = 0; i < bytecode_.curves.size(); ++i) {
             const std::vector<CurveKnot>& points = bytecode_.curves[i].points;
-            if (points.size() < 2 || !printable(bytecode_.curves[i].name)) {
+            if (points.size() < 2 || !is_printable(bytecode_.curves[i].name)) {
                 return fail("curve {} has {} points", i, points.size());
             }
             for (std::size_t k = 0; k < points.size(); ++k) {
@@ -143,7 +144,7 @@ private:
     bool symbols() {
         for (std::size_t i = 0; i < bytecode_.symbols.size(); ++i) {
             const BytecodeSymbol& symbol = bytecode_.symbols[i];
-            if (symbol.name.empty() || !printable(symbol.name)) {
+            if (symbol.name.empty() || !is_printable(symbol.name)) {
                 return fail("symbol {} has no printable name", i);
             }
             if (!is_enumerator(symbol.kind) || !is_enumerator(symbol.turtle)) {
@@ -176,15 +177,6 @@ private:
         return asks_environment(sense)
                    ? static_cast<std::size_t>(sense) < bytecode_.environments.size()
                    : sense >= Sense::Position && sense <= Sense::Left;
-    }
-
-    static bool printable(const std::string& name) {
-        for (const char c : name) {
-            if (static_cast<unsigned char>(c) < 0x20 || c == 0x7F) {
-                return false;
-            }
-        }
-        return true;
     }
 
     bool folded() {
@@ -237,7 +229,7 @@ private:
     bool materials() {
         const auto in_unit = [](float value) { return value >= 0.0F && value <= 1.0F; };
         const auto is_picture = [&](const BytecodePicture& picture) {
-            return printable(picture.path) && site(picture.site);
+            return is_printable(picture.path) && site(picture.site);
         };
         std::uint64_t next = 0;
         for (const BytecodeMaterial& material : bytecode_.materials) {
@@ -257,64 +249,8 @@ private:
     }
 
     bool environments() {
-        if (bytecode_.environments.size() > kMaxEnvironments) {
-            return fail("{} environments", bytecode_.environments.size());
-        }
-        for (const BytecodeEnvironment& e : bytecode_.environments) {
-            if (e.name.empty() || !printable(e.name) || !site(e.site) || !is_enumerator(e.kind) ||
-                !is_enumerator(e.shape)) {
-                return fail("an environment has no name, place or kind");
-            }
-            if (!environment_numbers(e)) {
-                return fail("a number of environment {} is out of its range", e.name);
-            }
-            if (!environment_surfaces(e)) {
-                return fail("a surface of environment {} is malformed", e.name);
-            }
-        }
-        return true;
-    }
-
-    [[nodiscard]] static bool environment_numbers(const BytecodeEnvironment& e) {
-        const auto is_positive = [](float value) { return std::isfinite(value) && value > 0.0F; };
-        const auto is_length = [](float value) { return std::isfinite(value) && value >= 0.0F; };
-        const auto is_finite = [](float value) { return std::isfinite(value); };
-        const bool has_size = e.kind == EnvironmentKind::Map ||
-                              (e.kind == EnvironmentKind::Space && e.shape != SpaceShape::Mesh);
-        const std::size_t axes = e.kind == EnvironmentKind::Map ? 2 : has_size ? 3 : 0;
-        return is_positive(e.cell) && is_positive(e.ratio) && is_positive(e.radius) &&
-               is_length(e.strength) && is_length(e.extinction) && is_length(e.kill) &&
-               e.levels <= kMaxShadowLevels && e.directions >= 1 &&
-               e.directions <= kMaxSkyDirections && e.count >= 1 && e.count <= kMaxMarkers &&
-               e.angle > 0.0F && e.angle <= 360.0F && is_finite(e.low) && is_finite(e.high) &&
-               std::all_of(e.at.begin(), e.at.end(), is_finite) &&
-               std::all_of(e.size.begin(), e.size.begin() + axes, is_positive) &&
-               std::all_of(e.size.begin() + axes, e.size.end(),
-                           [](float value) { return value == 0.0F; });
-    }
-
-    /// Solid: planes, then meshes, at least one. A mesh as the shape of a Space, the picture of a
-    /// Map: one file. Other kinds: none.
-    [[nodiscard]] bool environment_surfaces(const BytecodeEnvironment& e) const {
-        const bool has_file = e.kind == EnvironmentKind::Map ||
-                              (e.kind == EnvironmentKind::Space && e.shape == SpaceShape::Mesh);
-        const bool is_solid = e.kind == EnvironmentKind::Solid;
-        if (is_solid ? e.surfaces.empty() : e.surfaces.size() != (has_file ? 1U : 0U)) {
-            return false;
-        }
-        bool after_file = false;
-        for (const EnvironmentSurface& surface : e.surfaces) {
-            const auto& [a, b, c, d] = surface.plane;
-            const bool is_plane = surface.path.empty();
-            if (!printable(surface.path) || !site(surface.site) ||
-                (is_plane && (!is_solid || after_file || (a == 0.0F && b == 0.0F && c == 0.0F))) ||
-                !std::all_of(surface.plane.begin(), surface.plane.end(),
-                             [](float value) { return std::isfinite(value); })) {
-                return false;
-            }
-            after_file = after_file || !is_plane;
-        }
-        return true;
+        problem_ = environments_problem(bytecode_).value_or("");
+        return problem_.empty();
     }
 
     /// Checks each row of template_places; has_places() checks that each word begins a run.
@@ -354,7 +290,7 @@ private:
     }
 
     bool site(std::uint32_t index) const {
-        return index == kNone || index < bytecode_.sites.size();
+        return is_site(bytecode_, index);
     }
 
     bool globals() {
@@ -363,7 +299,7 @@ private:
         }
         for (std::size_t i = 0; i < bytecode_.globals.size(); ++i) {
             const BytecodeGlobal& global = bytecode_.globals[i];
-            if (!site(global.site) || !printable(global.name)) {
+            if (!site(global.site) || !is_printable(global.name)) {
                 return fail("global {} has no place", i);
             }
             if (!std::isfinite(global.minimum) || !std::isfinite(global.maximum) ||
@@ -403,28 +339,12 @@ private:
         return true;
     }
 
-    /// Whether the successor is one module of the predecessor's name and number of parameters.
-    /// Precondition: the predecessor is one module.
-    [[nodiscard]] bool keeps_structure(const BytecodeProduction& p) const {
-        const std::size_t at = p.successor.codes.first;
-        return p.successor.codes.count == 1 && at < bytecode_.template_codes.size() &&
-               p.predecessor.first < bytecode_.patterns.size() &&
-               bytecode_.template_codes[at] < bytecode_.code_count() &&
-               bytecode_.symbol_of(bytecode_.template_codes[at]) ==
-                   bytecode_.patterns[p.predecessor.first].symbol;
-    }
-
-    [[nodiscard]] bool is_folded(SymbolId symbol) const {
-        return std::any_of(bytecode_.folded.begin(), bytecode_.folded.end(),
-                           [&](const FoldedModule& module) { return module.symbol == symbol; });
-    }
-
     bool productions() {
         std::vector<std::uint32_t> rule_example;
         std::vector<std::uint32_t> group_example;
         for (std::size_t i = 0; i < bytecode_.productions.size(); ++i) {
             const BytecodeProduction& p = bytecode_.productions[i];
-            if (p.name.empty() || !printable(p.name) || !site(p.name_site)) {
+            if (p.name.empty() || !is_printable(p.name) || !site(p.name_site)) {
                 return fail("production {} has no name or no place", i);
             }
             if (!is_enumerator(p.stage) ||
@@ -437,8 +357,7 @@ private:
                 return fail("production {} has more than one module", i);
             }
             if ((p.stage == Stage::Down || p.stage == Stage::Up) &&
-                (!keeps_structure(p) ||
-                 is_folded(bytecode_.patterns[p.predecessor.first].symbol))) {
+                !changes_only_parameters(bytecode_, p)) {
                 return fail("production {} of a sweep changes more than parameters", i);
             }
             const bool is_computed =

@@ -4,6 +4,7 @@
 #include "runtime/base/exact_functions.h"
 
 #include "runtime/base/slow_functions.h"
+#include "runtime/base/trigonometry.h"
 
 #include <array>
 #include <bit>
@@ -171,18 +172,8 @@ TableSineCosine sine_cosine_near_step(int step, const DoubleDouble& rest) {
     return {combined(sine, cosine, 1.0), combined(cosine, sine, -1.0)};
 }
 
-/// Sine and cosine after a number of quarter turns.
-ExactSineCosine turned(double sine, double cosine, std::uint32_t quarter) {
-    switch (quarter) {
-    case 0:
-        return {sine, cosine};
-    case 1:
-        return {cosine, -sine};
-    case 2:
-        return {-sine, -cosine};
-    default:
-        return {-cosine, sine};
-    }
+ExactSineCosine turned(double sine, double cosine, std::uint32_t quarters) {
+    return after_quarter_turns(ExactSineCosine{sine, cosine}, quarters);
 }
 
 std::optional<ExactSineCosine> fast_sine_cosine(const TableAngle& angle) {

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <cmath>
+#include <cstdint>
 #include <numbers>
 
 namespace lsys {
@@ -13,6 +14,21 @@ struct SineCosine {
     double sine = 0.0;
     double cosine = 1.0;
 };
+
+/// Sine and cosine of an angle, from those of the angle less `quarters` quarter turns.
+template <typename Pair>
+[[nodiscard]] Pair after_quarter_turns(const Pair& of, std::uint32_t quarters) {
+    switch (quarters & 3U) {
+    case 0:
+        return of;
+    case 1:
+        return {of.cosine, -of.sine};
+    case 2:
+        return {-of.sine, -of.cosine};
+    default:
+        return {-of.cosine, of.sine};
+    }
+}
 
 /// Sine and cosine of an angle of at most 1e5 radians. The error is below 2.5e-16; for large angles
 /// it is below 1e-16 per quarter turn of the angle.
@@ -31,16 +47,8 @@ struct SineCosine {
     }
     sine = x * (1.0 - sine);
     cosine = 1.0 - cosine;
-    switch (static_cast<int>(quarters) & 3) {
-    case 0:
-        return {sine, cosine};
-    case 1:
-        return {cosine, -sine};
-    case 2:
-        return {-sine, -cosine};
-    default:
-        return {-cosine, sine};
-    }
+    return after_quarter_turns(SineCosine{sine, cosine},
+                               static_cast<std::uint32_t>(static_cast<std::int32_t>(quarters)));
 }
 
 /// The angle of the point (x, y) above the X axis, for x >= 0, in radians from -pi/2 to pi/2; 0 for

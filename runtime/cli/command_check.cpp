@@ -5,6 +5,7 @@
 #include "runtime/cli/including_grammar.h"
 #include "runtime/cli/unified_diff.h"
 #include "runtime/pipeline/grammar.h"
+#include "runtime/pipeline/senses.h"
 #include "runtime/program/files.h"
 #include "runtime/program/host.h"
 #include "runtime/repair/fixes.h"
@@ -38,6 +39,13 @@ GrammarOptions options_of(const std::string& path,
     return options;
 }
 
+/// Adds the errors of files that `#sense` statements of a grammar without other errors name.
+void check_files(const std::string& path, const Project& project, CompiledText& compiled) {
+    if (compiled.has_bytecode) {
+        check_environment_files(path, compiled.grammar, project, compiled.diagnostics);
+    }
+}
+
 ExitStatus check_text(const std::string& path,
                       const GrammarText& text,
                       const CheckCommand& command,
@@ -58,6 +66,7 @@ ExitStatus check_text(const std::string& path,
             return report_error(offered.error(), console);
         }
     }
+    check_files(path, project, compiled.value());
     Diagnostics& diagnostics = compiled.value().diagnostics;
     const ExitStatus status = console.show(diagnostics, *compiled.value().grammar.sources);
     if (compiled.value().definition_error) {
@@ -172,6 +181,7 @@ ExitStatus fix_file(const std::string& path,
             console.info(fmt::format("{} more fixes", fixed.fix_count - fixed.lines.size()));
         }
     }
+    check_files(path, project, fixed.compiled);
     const ExitStatus status =
         console.show(fixed.compiled.diagnostics, *fixed.compiled.grammar.sources);
     if (const std::size_t offers = count_fixes(fixed.compiled.diagnostics); offers != 0) {

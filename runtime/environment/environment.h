@@ -88,6 +88,7 @@ struct EnvironmentContext {
     std::uint64_t max_bytes = ~std::uint64_t{0}; // max bytes that the environment may hold
 };
 
+/// begin() and answer() may throw std::bad_alloc, which EnvironmentSense catches.
 class Environment {
 public:
     Environment() = default;

@@ -164,7 +164,7 @@ public:
         if (!failed) {
             if (std::optional<std::string> reason =
                     read_answers(line, word.places.size(), answers, sizes)) {
-                failed = ProgramFailure{Stop::Diagnosed, std::move(*reason), {}};
+                failed = ProgramFailure{Stop::Diagnosed, std::move(*reason), program_->finish()};
             }
         }
         if (!failed) {

@@ -42,6 +42,8 @@ public:
     /// Sends `line`, which has no line break, and waits for a line of at most `max_bytes`.
     [[nodiscard]] virtual std::optional<ProgramFailure>
     ask(const std::string& line, std::uint64_t max_bytes, std::string& answer) = 0;
+    /// Ends the program and returns the last lines of its standard error.
+    [[nodiscard]] virtual std::string finish() = 0;
 };
 
 /// Starts the command line `command` of a shell. `seconds`: max time of an answer.

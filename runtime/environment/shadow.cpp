@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 // Environments of kind Shadow: every place shades a pyramid of voxels below it (Palubicki et al.
 // 2009, section 4). The shadow is evaluated at the voxels of the places only.
-#include "runtime/base/out_of_memory.h"
 #include "runtime/environment/environment.h"
 #include "runtime/environment/impl/input_checks.h"
 #include "runtime/environment/impl/shadow_layers.h"
 #include "runtime/environment/impl/shadow_run.h"
+#include "runtime/environment/impl/vectors.h"
 #include "runtime/environment/impl/voxel_tiles.h"
 
 #include <algorithm>
@@ -36,9 +36,7 @@ public:
         if (bytes > context_.max_bytes) {
             return beyond_memory(bytes);
         }
-        return catch_out_of_memory(
-            [&] { return answer_places(word.places, answers); },
-            []() -> std::optional<EnvironmentFailure> { return stopped(Stop::OutOfMemory); });
+        return answer_places(word.places, answers);
     }
 
 private:
@@ -52,11 +50,10 @@ private:
         const auto cell = static_cast<double>(declared_.cell);
         auto failure = tiles.build(places.size(), [&](std::size_t i) {
             const Vector3& at = places[i].position;
-            // The X and Z of the plant's axis are in the middle of a voxel. A place at a height
-            // that is a multiple of the voxel's edge stays in the voxel above that height in spite
-            // of rounding errors.
-            return Vector3{std::floor(at[0] / cell + 0.5), std::floor(at[1] / cell + 0x1p-20),
-                           std::floor(at[2] / cell + 0.5)};
+            // The axis of the plant is in the middle of a column. Rounding errors of a height that
+            // is a multiple of the cell do not move it to the voxel below.
+            return Vector3{fast_floor(at[0] / cell + 0.5), fast_floor(at[1] / cell + 0x1p-20),
+                           fast_floor(at[2] / cell + 0.5)};
         });
         if (failure) {
             if (failure->stop == Stop::Diagnosed) {

@@ -2,7 +2,6 @@
 // Environments of kind Sky: the part of the light of an overcast sky that reaches a place through
 // the leaf area above it (Beer-Lambert law).
 #include "runtime/base/exact_functions.h"
-#include "runtime/base/out_of_memory.h"
 #include "runtime/environment/environment.h"
 #include "runtime/environment/impl/input_checks.h"
 #include "runtime/environment/impl/leaf_area.h"
@@ -55,9 +54,7 @@ public:
         if (word.places.empty()) {
             return std::nullopt;
         }
-        return catch_out_of_memory(
-            [&] { return answer_places(word, answers); },
-            []() -> std::optional<EnvironmentFailure> { return stopped(Stop::OutOfMemory); });
+        return answer_places(word, answers);
     }
 
 private:

@@ -10,9 +10,9 @@
 // equal distances the first is taken, planes before meshes. Triangles, of one mesh or of several,
 // are compared by squared distances.
 #include "grammar/base/contract.h"
-#include "runtime/base/out_of_memory.h"
 #include "runtime/environment/environment.h"
 #include "runtime/environment/impl/input_checks.h"
+#include "runtime/environment/impl/space_order.h"
 #include "runtime/environment/impl/triangle_tree.h"
 #include "runtime/environment/impl/vectors.h"
 
@@ -53,12 +53,7 @@ public:
     }
 
     std::optional<EnvironmentFailure> begin(std::uint64_t /*seed*/) override {
-        using Failure = std::optional<EnvironmentFailure>;
-        return catch_out_of_memory([&]() -> Failure { return build_trees(); },
-                                   [&]() -> Failure {
-                                       trees_.clear();
-                                       return stopped(Stop::OutOfMemory);
-                                   });
+        return build_trees();
     }
 
     std::optional<EnvironmentFailure> answer(const SensedWord& word,
@@ -70,28 +65,21 @@ public:
         if (word.places.empty()) {
             return std::nullopt;
         }
-        using Failure = std::optional<EnvironmentFailure>;
-        return catch_out_of_memory([&]() -> Failure { return answer_all(word.places, answers); },
-                                   []() -> Failure { return stopped(Stop::OutOfMemory); });
+        return answer_all(word.places, answers);
     }
 
 private:
     std::optional<EnvironmentFailure> answer_all(std::span<const SensePlace> places,
                                                  std::vector<float>& answers) const {
-        // Places near each other are answered one after the other, because their searches visit the
-        // same nodes of the trees.
-        constexpr std::size_t kPlaces = 1U << 8; // places per piece of work
-        // Places per leaf of the tree that sorts them in space.
-        constexpr std::size_t kPlacesPerLeaf = 1U << 4;
+        // Places next to each other are answered one after the other, because they meet the same
+        // nodes of the trees.
+        constexpr std::size_t kPlaces = 1U << 8; // of one piece of work
         const std::size_t count = places.size();
-        const std::uint64_t bytes = tree_bytes_ + count * sizeof(SplitItem) +
-                                    split_node_count(count, kPlacesPerLeaf) * sizeof(SplitNode);
+        const std::uint64_t bytes = tree_bytes_ + count * kSpaceOrderBytes;
         if (bytes > context_.max_bytes) {
             return beyond_memory(bytes);
         }
-        LargeVector<SplitItem> order = split_items(places);
-        static_cast<void>(
-            build_split_tree(order, kPlacesPerLeaf, *context_.workers, context_.cancelled));
+        const LargeVector<std::uint32_t> order = order_in_space(places, context_);
         context_.workers->for_each((count + kPlaces - 1) / kPlaces, [&](std::uint64_t piece) {
             if (is_cancelled(context_.cancelled)) {
                 return;
@@ -102,12 +90,11 @@ private:
             // same time.
             std::array<Vector3, kPlaces> positions;
             for (std::size_t i = begin; i < end; ++i) {
-                positions[i - begin] = places[order[i].index].position;
+                positions[i - begin] = places[order[i]].position;
             }
             std::vector<std::uint32_t> hints(trees_.size(), 0);
             for (std::size_t i = begin; i < end; ++i) {
-                answer_one(positions[i - begin], hints,
-                           answers.data() + std::size_t{order[i].index} * 4);
+                answer_one(positions[i - begin], hints, answers.data() + std::size_t{order[i]} * 4);
             }
         });
         if (is_cancelled(context_.cancelled)) {

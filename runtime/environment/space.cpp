@@ -11,7 +11,6 @@
 // by their number; the answer is this mean divided by its length.
 #include "grammar/base/contract.h"
 #include "grammar/base/hash.h"
-#include "runtime/base/out_of_memory.h"
 #include "runtime/environment/environment.h"
 #include "runtime/environment/impl/input_checks.h"
 #include "runtime/environment/impl/marker_search.h"
@@ -40,9 +39,7 @@ public:
         LSYS_CHECK(declared.count > 0 && declared.count <= kMaxMarkers);
     }
 
-    std::optional<EnvironmentFailure> begin(std::uint64_t seed) override {
-        return caught([&] { return draw(seed); });
-    }
+    std::optional<EnvironmentFailure> begin(std::uint64_t seed) override { return draw(seed); }
 
     std::optional<EnvironmentFailure> answer(const SensedWord& word,
                                              std::vector<float>& answers,
@@ -50,7 +47,7 @@ public:
         if (auto failure = check_places(word.places)) {
             return failure;
         }
-        return caught([&] { return compete(word.places, answers); });
+        return compete(word.places, answers);
     }
 
     void append_markers(std::vector<Vector3>& markers) const override {
@@ -63,12 +60,6 @@ public:
 
 private:
     using Failure = std::optional<EnvironmentFailure>;
-
-    template <typename Work>
-    [[nodiscard]] static Failure caught(const Work& work) {
-        return catch_out_of_memory([&]() -> Failure { return work(); },
-                                   []() -> Failure { return stopped(Stop::OutOfMemory); });
-    }
 
     [[nodiscard]] Failure cancelled_or_none() const {
         return is_cancelled(context_.cancelled) ? Failure(stopped(Stop::Cancelled)) : std::nullopt;

@@ -4,6 +4,7 @@
 #include "grammar/base/contract.h"
 #include "runtime/base/out_of_memory.h"
 #include "runtime/base/random.h"
+#include "runtime/environment/impl/input_checks.h"
 #include "runtime/environment/neighbours.h"
 
 #include <algorithm>
@@ -33,6 +34,14 @@ RuntimeError error_at(RuntimeErrorKind kind,
         word.parameters().subspan(module.first_parameter, bytecode.stored_parameters(module.code));
     error.parameters.assign(parameters.begin(), parameters.end());
     return error;
+}
+
+/// The failure of `work`, also if it runs out of memory.
+template <typename Work>
+std::optional<EnvironmentFailure> caught(const Work& work) {
+    return catch_out_of_memory(
+        [&]() -> std::optional<EnvironmentFailure> { return work(); },
+        []() -> std::optional<EnvironmentFailure> { return stopped(Stop::OutOfMemory); });
 }
 
 void append_size(std::uint64_t size, std::string& bytes) {
@@ -176,7 +185,7 @@ std::optional<Stop> EnvironmentSense::begin(std::uint64_t seed,
     sensed_.clear();
     organs_.clear();
     for (std::size_t i = 0; i < environments_.size(); ++i) {
-        if (std::optional<EnvironmentFailure> failure = environments_[i]->begin(seed)) {
+        if (auto failure = caught([&] { return environments_[i]->begin(seed); })) {
             return end_failed(i, std::move(*failure), nullptr, 0, end);
         }
     }
@@ -279,8 +288,8 @@ EnvironmentSense::ask(std::size_t index, Word& word, std::uint32_t age, Derivati
         options_.neighbours->append_organs(age, all_organs);
         sensed_word.organs = all_organs;
     }
-    if (std::optional<EnvironmentFailure> failure =
-            environments_[index]->answer(sensed_word, sensed.answers, sensed.sizes)) {
+    if (auto failure = caught(
+            [&] { return environments_[index]->answer(asked, sensed.answers, sensed.sizes); })) {
         return end_failed(index, std::move(*failure), &word, age, end);
     }
     if (!all_places.empty()) {

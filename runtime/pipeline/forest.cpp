@@ -209,9 +209,9 @@ struct GrownStage {
     std::shared_ptr<const SourceMap> sources;
     AxiomPlace axiom;
     bool can_reuse_branches = false; // some branch can be replaced by a recorded one
-    /// The scene wants it to sense neighbours, but no environment reads shade.
-    bool cannot_sense_neighbours = false;
-    std::vector<BranchOrigin> origins; // by instance; empty for a stage without `origins_of`
+    bool is_blind = false; // should sense its surroundings, but asks no environment with shade
+    std::vector<BranchOrigin> origins; // by instance; empty unless grow_stage() is asked for them
+    std::vector<std::string> programs; // names of environments of kind Program
 };
 
 /// The origins of the instances, by instance; empty if the cache has no origins.
@@ -283,8 +283,14 @@ Outcome<GrownStage> grow_stage(const SceneSpecies& species,
         return step.end();
     }
     grown.user_meshes = std::move(meshes.meshes);
+    grown.programs = program_names(grammar.bytecode);
+    Project own_project = project; // with the commands for this species
+    std::erase_if(own_project.environments, [&](const EnvironmentCommand& command) {
+        return std::find(grown.programs.begin(), grown.programs.end(), command.name) ==
+               grown.programs.end();
+    });
     PlantSenses senses;
-    if (!step.take(read_senses(path, grammar, project), senses)) {
+    if (!step.take(read_senses(path, grammar, own_project), senses)) {
         return step.end();
     }
     if (species.senses_surroundings && !senses_shade(grammar.bytecode)) {
@@ -502,6 +508,7 @@ grow_species(const LoadedScene& loaded, const Project& project, const PreviousFo
     grown.forest.key = scene.placement.key;
     NotedAxioms noted;
     std::set<const Texture*> known_pictures; // already counted in the budget
+    std::vector<std::string> programs;       // names of environments of kind Program
     for (const SceneSpecies& species : scene.species) {
         const std::string path = path_in(loaded.folder, species.grammar.path);
         if (!project.host.file_exists(path)) {
@@ -557,8 +564,9 @@ grow_species(const LoadedScene& loaded, const Project& project, const PreviousFo
                 return step.end(stage.stop());
             }
             last = std::move(stage.value());
-            if (last.cannot_sense_neighbours) {
-                return end_without_senses(species, path, loaded, step);
+            programs.insert(programs.end(), last.programs.begin(), last.programs.end());
+            if (last.is_blind) {
+                return end_blind(species, path, loaded, step);
             }
             std::move(last.stages.begin(), last.stages.end(),
                       std::back_inserter(forest_species.stages));
@@ -591,6 +599,13 @@ grow_species(const LoadedScene& loaded, const Project& project, const PreviousFo
             return step.end(Stop::Diagnosed);
         }
         measure_crowns(forest_species);
+    }
+    // The environments of reused species are not known; their commands were checked before.
+    const std::vector<std::optional<std::size_t>>& reused = grown.reused_species;
+    if (std::all_of(reused.begin(), reused.end(), [](const auto& each) { return !each; })) {
+        if (const Result<void> known = check_commands(project.environments, programs); !known) {
+            return step.fail(known.error());
+        }
     }
     grown.cache_seconds = growing.seconds();
     return step.done(std::move(grown));

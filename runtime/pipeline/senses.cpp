@@ -7,6 +7,8 @@
 #include "runtime/pipeline/impl/object_sizes.h"
 #include "runtime/pipeline/step.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <filesystem>
 #include <optional>
@@ -61,6 +63,10 @@ read_senses(const std::string& grammar_file, const Grammar& grammar, const Proje
     Step step(project);
     PlantSenses senses;
     const Bytecode& bytecode = grammar.bytecode;
+    if (const Result<void> known = check_commands(project.environments, program_names(bytecode));
+        !known) {
+        return step.fail(known.error());
+    }
     if (bytecode.environments.empty() && !bytecode.has_senses()) {
         return step.done(std::move(senses));
     }
@@ -81,9 +87,13 @@ read_senses(const std::string& grammar_file, const Grammar& grammar, const Proje
     }
     const std::filesystem::path folder = path_of(grammar_file).parent_path();
     FileBudget budget{project.limits.max_bytes};
-    if (!step.take(read_environment_files(folder, grammar, project, budget), senses.files)) {
-        return step.end();
+    Diagnostics diagnostics;
+    std::optional<std::vector<EnvironmentFiles>> files =
+        read_environment_files(folder, grammar, project, budget, diagnostics);
+    if (!step.diagnose(std::move(diagnostics), grammar.sources) || !files) {
+        return step.end_diagnosed();
     }
+    senses.files = std::move(*files);
     const bool has_sky =
         std::any_of(bytecode.environments.begin(), bytecode.environments.end(),
                     [](const auto& each) { return each.kind == EnvironmentKind::Sky; });
@@ -93,6 +103,43 @@ read_senses(const std::string& grammar_file, const Grammar& grammar, const Proje
         return step.end();
     }
     return step.done(std::move(senses));
+}
+
+void check_environment_files(const std::string& grammar_file,
+                             const Grammar& grammar,
+                             const Project& project,
+                             Diagnostics& diagnostics) {
+    FileBudget budget{project.limits.max_bytes};
+    static_cast<void>(read_environment_files(path_of(grammar_file).parent_path(), grammar, project,
+                                             budget, diagnostics));
+}
+
+std::vector<std::string> program_names(const Bytecode& bytecode) {
+    std::vector<std::string> names;
+    for (const BytecodeEnvironment& environment : bytecode.environments) {
+        if (environment.kind == EnvironmentKind::Program) {
+            names.push_back(environment.name);
+        }
+    }
+    return names;
+}
+
+Result<void> check_commands(const std::vector<EnvironmentCommand>& commands,
+                            const std::vector<std::string>& names) {
+    for (const EnvironmentCommand& command : commands) {
+        if (std::find(names.begin(), names.end(), command.name) != names.end()) {
+            continue;
+        }
+        std::string known;
+        for (const std::string& name : names) {
+            known += fmt::format("{}`{}`", known.empty() ? "" : ", ", name);
+        }
+        return Error{fmt::format("--environment {}: the grammar has no `#sense {} program`; {}",
+                                 command.name, command.name,
+                                 known.empty() ? "no program answers any environment of it"
+                                               : "programs answer " + known)};
+    }
+    return {};
 }
 
 } // namespace lsys

@@ -26,8 +26,22 @@ struct PlantSenses {
 
 /// Reads the files of the environments, whose paths are absolute or relative to `grammar_file`.
 /// Stop::Diagnosed: a file is missing or unusable, or no program is given for an environment of
-/// kind Program.
+/// kind Program. Stop::Failed: a command of the project is for an environment that the grammar does
+/// not declare.
 [[nodiscard]] Outcome<PlantSenses>
 read_senses(const std::string& grammar_file, const Grammar& grammar, const Project& project);
+
+/// Reads the files of the environments like read_senses(), and reports those that are missing or
+/// unusable.
+void check_environment_files(const std::string& grammar_file,
+                             const Grammar& grammar,
+                             const Project& project,
+                             Diagnostics& diagnostics);
+
+/// The names of the environments of kind Program.
+[[nodiscard]] std::vector<std::string> program_names(const Bytecode& bytecode);
+/// The error of a command for an environment that is none of `names`, those of kind Program.
+[[nodiscard]] Result<void> check_commands(const std::vector<EnvironmentCommand>& commands,
+                                          const std::vector<std::string>& names);
 
 } // namespace lsys

@@ -39,6 +39,9 @@ public:
                             const std::atomic<bool>* cancelled,
                             std::string& answer);
 
+    /// Closes the standard input of the program, which has half a second to end, and ends it.
+    void finish();
+
     /// How the program has ended: "exit status 3" or "signal 9"; after Reply::Ended.
     [[nodiscard]] const std::string& exit_text() const { return exit_text_; }
     /// The last characters that the program wrote to its standard error.

@@ -70,6 +70,11 @@ public:
         return failure;
     }
 
+    std::string finish() override {
+        program_.finish();
+        return last_lines(program_.messages());
+    }
+
 private:
     platform::ShellProgram program_;
     double seconds_ = 0.0;

@@ -3,7 +3,6 @@
 
 #include "runtime/base/out_of_memory.h"
 #include "runtime/turtle/impl/sensing_state.h"
-#include "runtime/turtle/impl/text_commands.h"
 
 #include <algorithm>
 #include <limits>
@@ -17,7 +16,6 @@ namespace {
 /// Modules between two checks for cancellation, and modules per piece of a word that is
 /// interpreted.
 constexpr std::size_t kPiece = std::size_t{1} << 16;
-constexpr std::size_t kMaxText = 1023; // characters of a parameter of L3D
 
 /// Area of an object of size 1, m^2.
 double unit_area(const BytecodeSymbol& symbol, std::size_t index, const SensingOptions& options) {
@@ -212,33 +210,21 @@ bool SensingTurtle::State::execute_pending() {
 /// Reads the next module of a word of L3D, whose parameters are characters in parentheses.
 bool SensingTurtle::State::take_character(Code character, const float* arguments) {
     const Action& action = table.by_code[character];
-    if (pending.in_parameter) {
-        if (action.operation != TurtleOperation::ParameterEnd) {
-            if (pending.text.size() < kMaxText) {
-                pending.text += action.character == '\0' ? '?' : action.character;
-            }
-            return true;
-        }
-        pending.in_parameter = false;
-        const float value = leading_number(pending.text);
-        const bool one_is_default =
-            bytecode.settings.traits.l3d_compatible_surface &&
-            info(table.by_code[pending.code].operation).has(TurtleInfo::OneIsDefault);
-        if (!(one_is_default && value == 1.0F)) {
+    switch (pending.take(action)) {
+    case TextStep::Text:
+        return true;
+    case TextStep::Parameter:
+        if (const auto value = pending.parameter(table.by_code[pending.code].operation,
+                                                 bytecode.settings.traits.l3d_compatible_surface)) {
             pending.given = 1;
-            pending.arguments[0] = value;
+            pending.arguments[0] = *value;
         }
         return execute_pending();
+    case TextStep::Command:
+        break;
     }
-    if (pending.is_set) {
-        if (action.operation == TurtleOperation::ParameterBegin) {
-            pending.in_parameter = true;
-            pending.text.clear();
-            return true;
-        }
-        if (!execute_pending()) {
-            return false;
-        }
+    if (pending.is_set && !execute_pending()) {
+        return false;
     }
     pending.is_set = true;
     pending.code = character;

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Measures environments that sense places, markers and meshes. Prints the median of several runs
-// for each case, with one thread and with the number of threads in the first argument (2 without an
-// argument). Asserts nothing about time.
+// Measures environments that sense places, markers and meshes: the median of some runs for each case,
+// with one thread and with as many as the first argument says (2 without). The second argument, a
+// kind of environment, leaves out all others. The hash of the answers tells whether a change of the
+// algorithm keeps their bits. Asserts nothing about time.
 #include "runtime/environment/environment.h"
 #include "tests/bench/measure.h"
 #include "tests/runtime/environment/solids.h"
@@ -15,6 +16,7 @@
 #include <memory>
 #include <random>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace {
@@ -66,8 +68,9 @@ void measure(const std::string& name,
         answers.push_back(
             bench::seconds([&] { stop_at(environment->answer(word, numbers, sizes)); }));
     }
-    fmt::print("{:<52} {} threads: begin {:8.1f} ms, answer {:8.1f} ms\n", name, threads,
-               1e3 * bench::median(begins), 1e3 * bench::median(answers));
+    fmt::print("{:<52} {} threads: begin {:8.1f} ms, answer {:8.1f} ms, hash {:016x}\n", name,
+               threads, 1e3 * bench::median(begins), 1e3 * bench::median(answers),
+               bench::hash(numbers));
     std::fflush(stdout);
 }
 
@@ -133,10 +136,18 @@ int main(int argument_count, char** arguments) {
     if (threads < 1) {
         bench::fail("the number of threads is not a positive number");
     }
+    const std::string_view only = argument_count > 2 ? arguments[2] : "";
+    const auto is_wanted = [&](std::string_view kind) { return only.empty() || only == kind; };
     for (const std::uint32_t count : {1U, static_cast<std::uint32_t>(threads)}) {
-        measure_space(count);
-        measure_crowd(count);
-        measure_solid(count);
+        if (is_wanted("space")) {
+            measure_space(count);
+        }
+        if (is_wanted("crowd")) {
+            measure_crowd(count);
+        }
+        if (is_wanted("solid")) {
+            measure_solid(count);
+        }
     }
     return 0;
 }

@@ -2,6 +2,7 @@
 #include "tests/bench/measure.h"
 
 #include "compiler/compile.h"
+#include "grammar/base/hash.h"
 #include "grammar/lsys/parse.h"
 
 #include <fmt/format.h>
@@ -28,6 +29,14 @@ double median(std::vector<double> values) {
 void fail(const std::string& what) {
     fmt::print(stderr, "bench: {}\n", what);
     std::exit(1);
+}
+
+std::uint64_t hash(const std::vector<float>& numbers) {
+    std::uint64_t state = 0;
+    for (const float number : numbers) {
+        state = combine_numbers(state, number);
+    }
+    return finish(state);
 }
 
 Bytecode compile_text(const std::string& text) {

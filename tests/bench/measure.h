@@ -5,6 +5,7 @@
 
 #include "compiler/bytecode/bytecode.h"
 
+#include <cstdint>
 #include <functional>
 #include <string>
 #include <vector>
@@ -16,6 +17,8 @@ namespace lsys::bench {
 /// Precondition: `values` is not empty.
 [[nodiscard]] double median(std::vector<double> values);
 [[noreturn]] void fail(const std::string& what);
+/// Hash of the bits of all numbers.
+[[nodiscard]] std::uint64_t hash(const std::vector<float>& numbers);
 [[nodiscard]] Bytecode compile_text(const std::string& text);
 
 } // namespace lsys::bench

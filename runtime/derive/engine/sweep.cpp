@@ -98,6 +98,7 @@ public:
           parameters_(parameters),
           chooser_(plan_, keys_, view_, plan_.needs_contexts() ? &sweep.contexts_ : nullptr) {
         bases_[kConstantBase] = program_.constants();
+        bases_[kSlotBase] = slots_.data();
     }
 
     /// Visits the modules from `place` up to `end`. On a fault returns false, with its module in
@@ -200,7 +201,7 @@ private:
                 continue;
             }
             if (candidate.condition.count != 0) {
-                const float value = program_.condition_value(candidate, bases_);
+                const float value = program_.condition_value(candidate, bases_, slots_.data());
                 if (!std::isfinite(value)) {
                     return false;
                 }
@@ -234,13 +235,12 @@ private:
         return true;
     }
 
-    /// Computes all new parameters before it stores the first, because each may depend on all old
-    /// ones.
-    [[nodiscard]] bool write(const SweepCandidate& candidate, float* own) const {
+    /// Computes all values before it stores the first, because they may read each other.
+    [[nodiscard]] bool write(const SweepCandidate& candidate, float* own) {
         std::array<float, kMaxSweepParameters> values; // NOLINT: written before they are read
         bool finite = true;
         for (std::uint32_t i = 0; i < candidate.chains.count; ++i) {
-            values[i] = program_.parameter_value(candidate, i, bases_);
+            values[i] = program_.parameter_value(candidate, i, bases_, slots_.data());
             finite = finite && std::isfinite(values[i]);
         }
         if (finite) {
@@ -287,6 +287,7 @@ private:
     Chooser<C> chooser_;
     std::vector<float> values_; // values computed by visit_general()
     SweepBases bases_{};
+    std::array<float, kMaxSweepSlots> slots_{};
     SweepNeighbour axis_;
     Stack<SweepNeighbour> branches_; // of this level: from first_branch_ on, the last first
     std::size_t first_branch_ = 0;

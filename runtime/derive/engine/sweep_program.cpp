@@ -21,6 +21,17 @@ using Chain = std::vector<SweepOperation>;
 /// Longer chains are left to the stack machine.
 constexpr std::size_t kMaxChain = 32;
 
+/// Number of slots that a chain uses.
+std::uint32_t slot_count(const Chain& chain) {
+    std::uint32_t count = 0;
+    for (std::size_t i = 1; i < chain.size(); ++i) {
+        if (chain[i].opcode == Opcode::Formal) {
+            count = std::max(count, chain[i].slot + 1);
+        }
+    }
+    return count;
+}
+
 } // namespace
 
 /// The Domain of interpret() whose values are chains.
@@ -77,11 +88,22 @@ public:
         if (y.size() != 1 && x.size() == 1 && commutes) {
             std::swap(x, y);
         }
-        if (x.empty() || y.size() != 1 || x.size() == kMaxChain) {
+        if (x.empty() || y.empty() || x.size() + y.size() > kMaxChain) {
             return {};
         }
-        x.push_back({opcode, y[0].base, y[0].index});
-        return x;
+        if (y.size() == 1) {
+            x.push_back({opcode, y[0].base, y[0].index});
+            return x;
+        }
+        // The value of y waits while that of x is computed.
+        const std::uint32_t slot = slot_count(x);
+        if (slot == kMaxSweepSlots) {
+            return {};
+        }
+        x.front().slot = slot;
+        y.insert(y.end(), x.begin(), x.end());
+        y.push_back({opcode, kSlotBase, slot});
+        return y;
     }
     bool take(Chain x, const std::uint32_t* /*at*/) {
         taken_.push_back(std::move(x));

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
-// SweepProgram: the productions of a sweep, compiled to the operations that its loop executes.
-// Productions whose expressions are chains, `((a op b) op c) op d` with formals and constants as
-// operands, and whose context is one module and the branches before it, need neither the stack
-// machine nor tables of neighbours: the loop remembers the neighbours as it visits them. Symbols
-// with other productions have Kind::General.
+// SweepProgram: the productions of a sweep in the form that its loop runs. Productions whose
+// expressions are chains and whose context is one module and the branches before it need neither the
+// stack machine nor tables of neighbours: the loop keeps the neighbours while it passes them. A
+// chain is an expression of formals, constants and operators without a condition or a draw; a value
+// that an operator needs later, `c op d` in `(a op b) op (c op d)`, waits in a slot. Symbols with
+// other productions have Kind::General.
 #pragma once
 
 #include "compiler/bytecode/arithmetic.h"
@@ -21,19 +22,24 @@ namespace lsys {
 /// Max modules of a context, and max parameters of a module, that a SweepProgram handles.
 inline constexpr std::size_t kMaxSweepContexts = 4;
 inline constexpr std::size_t kMaxSweepParameters = 16;
+/// Max values of a chain that wait at the same time.
+inline constexpr std::uint32_t kMaxSweepSlots = 8;
 
 /// Parameters of the modules that a production reads: the module's own, the constants, then the
-/// modules of the context in text order.
-using SweepBases = std::array<const float*, 2 + kMaxSweepContexts>;
+/// modules of the context in text order, then the slots of values that wait.
+using SweepBases = std::array<const float*, 3 + kMaxSweepContexts>;
 inline constexpr std::uint32_t kOwnBase = 0;
 inline constexpr std::uint32_t kConstantBase = 1;
 inline constexpr std::uint32_t kFirstContextBase = 2;
+inline constexpr std::uint32_t kSlotBase = kFirstContextBase + kMaxSweepContexts;
 
-/// One operation of a chain: value = opcode(value, bases[base][index]). Formal: the operand itself.
+/// One operation of a chain: value = opcode(value, bases[base][index]). Formal: the value so far
+/// moves to `slot`, and the operand becomes the value.
 struct SweepOperation {
     Opcode opcode = Opcode::Formal;
     std::uint32_t base = 0;
     std::uint32_t index = 0;
+    std::uint32_t slot = 0;
 };
 
 /// A neighbour of a module: kNoSymbol if there is none.
@@ -81,29 +87,34 @@ public:
     }
     [[nodiscard]] const SweepContext& branch(std::uint32_t index) const { return branches_[index]; }
     [[nodiscard]] const float* constants() const { return constants_.data(); }
-    /// The value of a condition.
-    [[nodiscard]] float condition_value(const SweepCandidate& candidate,
-                                        const SweepBases& bases) const {
-        return value(candidate.condition, bases);
+    /// The value of a condition. `slots`: those of kSlotBase.
+    [[nodiscard]] float
+    condition_value(const SweepCandidate& candidate, const SweepBases& bases, float* slots) const {
+        return value(candidate.condition, bases, slots);
     }
     /// Value `index` of the successor.
     [[nodiscard]] float parameter_value(const SweepCandidate& candidate,
                                         std::uint32_t index,
-                                        const SweepBases& bases) const {
-        return value(chains_[candidate.chains.first + index], bases);
+                                        const SweepBases& bases,
+                                        float* slots) const {
+        return value(chains_[candidate.chains.first + index], bases, slots);
     }
     [[nodiscard]] std::uint64_t held_bytes() const;
 
 private:
     class Compiler; // compiles expressions to chains
 
-    [[nodiscard]] float value(TableRange chain, const SweepBases& bases) const {
+    [[nodiscard]] float value(TableRange chain, const SweepBases& bases, float* slots) const {
         const SweepOperation* operation = operations_.data() + chain.first;
         const SweepOperation* const end = operation + chain.count;
         float result = bases[operation->base][operation->index];
         for (++operation; operation != end; ++operation) {
             const float operand = bases[operation->base][operation->index];
             switch (operation->opcode) {
+            case Opcode::Formal:
+                slots[operation->slot] = result;
+                result = operand;
+                break;
             case Opcode::Add:
                 result = result + operand;
                 break;

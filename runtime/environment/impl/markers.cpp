@@ -58,14 +58,6 @@ MarkerShape::MarkerShape(const BytecodeEnvironment& declared,
     extent_ = minus(high, low_);
 }
 
-Vector3 MarkerShape::position(const std::array<float, 3>& units) const {
-    Vector3 position;
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-        position[axis] = low_[axis] + static_cast<double>(units[axis]) * extent_[axis];
-    }
-    return position;
-}
-
 bool MarkerShape::holds(const std::array<float, 3>& units) const {
     if (shape_ == SpaceShape::Box) {
         return true;

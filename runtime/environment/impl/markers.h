@@ -29,7 +29,13 @@ public:
                 const TriangleTree* crown);
 
     /// low + u (high - low) along each axis, in binary64.
-    [[nodiscard]] Vector3 position(const std::array<float, 3>& units) const;
+    [[nodiscard]] Vector3 position(const std::array<float, 3>& units) const {
+        Vector3 position;
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            position[axis] = low_[axis] + static_cast<double>(units[axis]) * extent_[axis];
+        }
+        return position;
+    }
     /// Whether the point is inside. Ball, dome and cone are tested in coordinates of the box: with
     /// X = 2 u - 1, Z likewise, and Y = 2 u - 1 for a ball and u for the others, a ball and a dome
     /// are (X^2 + Y^2) + Z^2 <= 1, a cone X^2 + Z^2 <= (1 - Y)^2.

@@ -12,6 +12,12 @@ void NearestTriangle::build(std::span<const LeafTriangle> triangles,
                             Workers& workers) {
     constexpr std::size_t kPieces = 1U << 10; // cylinders of one piece of work
     triangles_ = triangles;
+    corners_.clear();
+    corners_.reserve(triangles.size());
+    for (const LeafTriangle& triangle : triangles) {
+        const auto& [a, b, c] = triangle.vertices;
+        corners_.push_back({vertices_[a], vertices_[b], vertices_[c]});
+    }
     find_frame();
     const LargeVector<WideChild> children = make_wide_nodes(split, nodes_);
     workers.for_each((children.size() + kPieces - 1) / kPieces, [&](std::uint64_t number) {
@@ -127,7 +133,7 @@ void NearestTriangle::fill_cylinder(const WideChild& child) {
     node.radius[lane] = upper_float(std::sqrt(radius_squared) + cylinder_margin_);
 }
 
-Lanes NearestTriangle::least_squared(const Node& node, const std::array<float, 3>& at) {
+inline Lanes NearestTriangle::least_squared(const Node& node, const std::array<float, 3>& at) {
     const Lanes x = at[0] - node.middle[0];
     const Lanes y = at[1] - node.middle[1];
     const Lanes z = at[2] - node.middle[2];
@@ -153,7 +159,7 @@ void NearestTriangle::find(const Vector3& place, NearestPoint& nearest, std::uin
             is_bounded ? upper_float(distance * distance) : std::numeric_limits<float>::infinity();
     };
     const auto consider = [&](std::uint32_t at) {
-        const NearestPoint point = nearest_point(triangle(at), place);
+        const NearestPoint point = nearest_point(corners_[at], place);
         const std::uint32_t index = triangles_[at].index + 1;
         if (point.squared < nearest.squared ||
             (point.squared == nearest.squared && index < next_index)) {
@@ -193,7 +199,8 @@ void NearestTriangle::find(const Vector3& place, NearestPoint& nearest, std::uin
 
 std::uint64_t NearestTriangle::bytes(std::size_t triangles) {
     const std::uint64_t nodes = wide_node_count(triangles);
-    return nodes * sizeof(Node) + (triangles + nodes) * sizeof(WideChild);
+    return nodes * sizeof(Node) + (triangles + nodes) * sizeof(WideChild) +
+           triangles * sizeof(Triangle);
 }
 
 } // namespace lsys

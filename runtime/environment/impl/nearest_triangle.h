@@ -64,19 +64,15 @@ private:
     void fill_cylinder(const WideChild& child);
     [[nodiscard]] Vector3 axis_of(const WideChild& child) const;
     [[nodiscard]] Vector3 middle_of(const WideChild& child, const Vector3& axis) const;
-    [[nodiscard]] Triangle triangle(std::size_t at) const {
-        const std::array<std::uint32_t, 3>& corners = triangles_[at].vertices;
-        return {vertices_[corners[0]], vertices_[corners[1]], vertices_[corners[2]]};
-    }
-    /// Lower bounds of the squared distances to the children, except for errors within
-    /// FramedPlace::margin.
+    /// Not above the squared distance to each child, apart from the margin.
     [[nodiscard]] static Lanes least_squared(const Node& node, const std::array<float, 3>& at);
 
     const std::vector<Vector3>& vertices_;
     std::span<const LeafTriangle> triangles_;
     Frame frame_;
-    double cylinder_margin_ = 0.0; // enlargement of the cylinders, in units of the frame
-    LargeVector<Node> nodes_;      // the root first
+    double more_ = 0.0;       // by which cylinders are larger than their triangles, in the frame
+    LargeVector<Node> nodes_; // the root first
+    LargeVector<Triangle> corners_; // of `triangles_`: neighbours in space are so in memory
 };
 
 } // namespace lsys

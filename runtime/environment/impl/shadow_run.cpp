@@ -155,6 +155,8 @@ void ShadowRun::read_sources() {
     sources_.clear();
     rows_.clear();
     place_count_ = 0;
+    const auto width = static_cast<std::uint32_t>(width_); // negative coordinates are beyond it
+    const auto depth = static_cast<std::uint32_t>(depth_);
     const std::int64_t high_y = targets_.back().y + reach_;
     for (;;) {
         std::int64_t y = kNoRow;
@@ -171,7 +173,9 @@ void ShadowRun::read_sources() {
                 const TileVoxel voxel = tiles_.voxel(neighbour.next);
                 const std::int32_t x = voxel.x + neighbour.x;
                 const std::int32_t z = voxel.z + neighbour.z;
-                if (x >= 0 && x < width_ && z >= 0 && z < depth_) {
+                // One condition, because most of it is unpredictable.
+                if ((static_cast<std::uint32_t>(x) < width) &
+                    (static_cast<std::uint32_t>(z) < depth)) {
                     const auto count =
                         static_cast<std::int64_t>(tiles_.place_count(neighbour.next));
                     sources_.push_back({x, z, count});

@@ -7,7 +7,7 @@
 #include "runtime/base/png_samples.h"
 #include "runtime/environment/closed_mesh.h"
 #include "runtime/meshing/user_mesh.h"
-#include "runtime/pipeline/step.h"
+#include "runtime/pipeline/impl/relative_path_help.h"
 
 #include <fmt/format.h>
 
@@ -81,9 +81,11 @@ class EnvironmentReader {
 public:
     EnvironmentReader(const std::filesystem::path& folder,
                       const Grammar& grammar,
+                      const Project& project,
                       FileBudget& budget,
-                      Step& step)
-        : folder_(folder), grammar_(grammar), budget_(budget), step_(step) {}
+                      Diagnostics& diagnostics)
+        : folder_(folder), grammar_(grammar), project_(project), budget_(budget),
+          diagnostics_(diagnostics) {}
 
     /// Reads the files of an environment. Returns false after an error.
     bool read(const BytecodeEnvironment& environment, EnvironmentFiles& files) {
@@ -96,13 +98,12 @@ public:
                                           ? read_picture(surface, files.picture)
                                           : read_mesh(surface, environment, files);
             if (!done) {
-                has_limit_ = has_limit_ || done.error().kind == ErrorKind::Limit;
-                ok = report(done.error(), surface) && ok;
+                ok = false;
+                report(done.error(), surface);
             }
         }
         return ok;
     }
-    [[nodiscard]] bool has_limit() const { return has_limit_; }
 
 private:
     [[nodiscard]] std::string path_to(const EnvironmentSurface& surface) const {
@@ -111,11 +112,10 @@ private:
 
     Result<std::string> read_bytes(const std::string& path) const {
         Result<std::string> bytes =
-            step_.project().host.read_referenced_file(path, {~std::uint64_t{0}, budget_.left});
+            project_.host.read_referenced_file(path, {~std::uint64_t{0}, budget_.left});
         if (!bytes) {
-            return Error{
-                fmt::format("cannot read `{}`: {}", shown_path(path), bytes.error().message),
-                bytes.error().kind};
+            return Error{fmt::format("cannot read `{}`: {}", path, bytes.error().message),
+                         bytes.error().kind};
         }
         return bytes;
     }
@@ -131,7 +131,7 @@ private:
         }
         const Result<UserMesh> read = read_obj(text.value(), budget_.left - text.value().size());
         if (!read) {
-            return Error{fmt::format("cannot use `{}`: {}", shown_path(path), read.error().message),
+            return Error{fmt::format("cannot use `{}`: {}", path, read.error().message),
                          read.error().kind};
         }
         Vector3 offset{}; // SpaceEnvironment moves a shape of markers itself
@@ -153,12 +153,12 @@ private:
         budget_.take(mesh.vertices.size() * sizeof(Vector3) +
                      mesh.triangles.size() * sizeof(mesh.triangles[0]));
         if (mesh.triangles.empty()) {
-            return Error{fmt::format("cannot use `{}`: it has no face", shown_path(path))};
+            return Error{fmt::format("cannot use `{}`: it has no face", path)};
         }
         if (is_shape && !mesh_closure(mesh).closed) {
             return Error{fmt::format("cannot use `{}` as a shape: it is not closed, so it has no "
                                      "inside",
-                                     shown_path(path))};
+                                     path)};
         }
         return {};
     }
@@ -174,7 +174,7 @@ private:
                                               ? read_jpeg_greys(bytes.value(), left)
                                               : read_png_greys(bytes.value(), left);
         if (!read) {
-            return Error{fmt::format("cannot use `{}`: {}", shown_path(path), read.error().message),
+            return Error{fmt::format("cannot use `{}`: {}", path, read.error().message),
                          read.error().kind};
         }
         picture = std::move(read.value());
@@ -182,8 +182,7 @@ private:
         return {};
     }
 
-    /// Reports an error about a file. Returns whether the step may continue.
-    bool report(const Error& error, const EnvironmentSurface& surface) {
+    void report(const Error& error, const EnvironmentSurface& surface) {
         const bool is_limit = error.kind == ErrorKind::Limit;
         Diagnostic diagnostic = make_diagnostic(is_limit ? DiagnosticCode::LimitReached
                                                          : DiagnosticCode::EnvironmentFile,
@@ -199,35 +198,32 @@ private:
             }
         }
         diagnostic.help.emplace_back(is_limit ? "raise the limit with `--max-memory`"
-                                              : "the path is relative to the file that holds the "
-                                                "`#sense`");
-        return step_.diagnose(std::move(diagnostic), grammar_.sources);
+                                              : relative_path_help("#sense", folder_, grammar_));
+        diagnostics_.add(std::move(diagnostic));
     }
 
     const std::filesystem::path& folder_;
     const Grammar& grammar_;
+    const Project& project_;
     FileBudget& budget_;
-    Step& step_;
-    bool has_limit_ = false;
+    Diagnostics& diagnostics_;
 };
 
 } // namespace
 
-Outcome<std::vector<EnvironmentFiles>> read_environment_files(const std::filesystem::path& folder,
-                                                              const Grammar& grammar,
-                                                              const Project& project,
-                                                              FileBudget& budget) {
-    Step step(project);
-    EnvironmentReader reader(folder, grammar, budget, step);
+std::optional<std::vector<EnvironmentFiles>>
+read_environment_files(const std::filesystem::path& folder,
+                       const Grammar& grammar,
+                       const Project& project,
+                       FileBudget& budget,
+                       Diagnostics& diagnostics) {
+    EnvironmentReader reader(folder, grammar, project, budget, diagnostics);
     std::vector<EnvironmentFiles> files(grammar.bytecode.environments.size());
     bool ok = true;
     for (std::size_t i = 0; i < files.size(); ++i) {
         ok = reader.read(grammar.bytecode.environments[i], files[i]) && ok;
     }
-    if (reader.has_limit()) {
-        return step.end(Stop::Limit);
-    }
-    return ok ? step.done(std::move(files)) : step.end(Stop::Diagnosed);
+    return ok ? std::optional(std::move(files)) : std::nullopt;
 }
 
 } // namespace lsys

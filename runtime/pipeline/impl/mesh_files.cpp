@@ -7,6 +7,7 @@
 #include "runtime/meshing/texture.h"
 #include "runtime/meshing/user_mesh.h"
 #include "runtime/pipeline/grammar.h"
+#include "runtime/pipeline/impl/relative_path_help.h"
 #include "runtime/pipeline/step.h"
 
 #include <fmt/format.h>
@@ -297,8 +298,10 @@ private:
 
 /// The warning or, if a limit of memory is reached, the error that a picture of a material is
 /// missing.
-Diagnostic
-picture_diagnostic(const Error& error, const BytecodePicture& picture, const Grammar& grammar) {
+Diagnostic picture_diagnostic(const Error& error,
+                              const BytecodePicture& picture,
+                              const std::filesystem::path& folder,
+                              const Grammar& grammar) {
     const bool is_limit = error.kind == ErrorKind::Limit;
     Diagnostic diagnostic =
         make_diagnostic(is_limit ? DiagnosticCode::LimitReached : DiagnosticCode::MaterialPicture,
@@ -314,8 +317,8 @@ picture_diagnostic(const Error& error, const BytecodePicture& picture, const Gra
         }
     }
     diagnostic.help.emplace_back(is_limit ? "raise the limit with `--max-memory`"
-                                          : "the path is relative to the file that holds the "
-                                            "`#material`; PNG and JPEG files are read");
+                                          : relative_path_help("#material", folder, grammar) +
+                                                "; PNG and JPEG files are read");
     return diagnostic;
 }
 
@@ -338,8 +341,8 @@ std::optional<Stop> read_looks(const std::filesystem::path& folder,
         if (picture == nullptr) {
             Result<Texture> read = read_picture_file(path, budget.left, step.project());
             if (!read) {
-                const bool may_go_on =
-                    step.diagnose(picture_diagnostic(read.error(), name, grammar), grammar.sources);
+                const bool may_go_on = step.diagnose(
+                    picture_diagnostic(read.error(), name, folder, grammar), grammar.sources);
                 if (read.error().kind == ErrorKind::Limit) {
                     stop = Stop::Limit;
                 } else if (!may_go_on) {

@@ -188,8 +188,8 @@ void ShellProgram::end() {
     close_descriptor(error_);
 }
 
-/// Waits up to half a second for a program that has closed its output, so that it can exit with its
-/// own status before end() kills it.
+/// Waits a little for a program that has closed its output, or whose input is closed, so that its
+/// exit status and its messages are its own.
 void ShellProgram::wait_for_exit() {
     constexpr int kMaxPolls = 50;
     constexpr unsigned kPause = 10'000; // microseconds
@@ -201,6 +201,14 @@ void ShellProgram::wait_for_exit() {
             return;
         }
         ::usleep(kPause);
+    }
+}
+
+void ShellProgram::finish() {
+    if (process_ != 0) {
+        close_descriptor(input_);
+        wait_for_exit();
+        end();
     }
 }
 

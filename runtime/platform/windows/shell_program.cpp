@@ -19,6 +19,8 @@ ShellProgram::Reply ShellProgram::ask(const std::string& /*line*/,
     return Reply::Ended;
 }
 
+void ShellProgram::finish() {}
+
 void end_shell_programs() noexcept {}
 
 } // namespace lsys::platform

@@ -8,6 +8,7 @@
 #include "runtime/turtle/impl/actions.h"
 #include "runtime/turtle/impl/sensing_polygons.h"
 #include "runtime/turtle/impl/sensing_pose.h"
+#include "runtime/turtle/impl/text_commands.h"
 #include "runtime/turtle/sensing_turtle.h"
 
 #include <memory>
@@ -50,13 +51,10 @@ struct SensingBrush {
 };
 
 /// The last command read from a word of L3D, executed when the text of its parameter is complete.
-struct PendingSensing {
-    bool is_set = false;
-    bool in_parameter = false;
+struct PendingSensing : TextCommand {
     Code code = 0;
     std::uint8_t given = 0;
     std::array<float, kTurtleArguments> arguments{};
-    std::string text;
 };
 
 struct SensingTurtle::State {

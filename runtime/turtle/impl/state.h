@@ -9,6 +9,7 @@
 #include "runtime/turtle/impl/open_organs.h"
 #include "runtime/turtle/impl/polygons.h"
 #include "runtime/turtle/impl/pose.h"
+#include "runtime/turtle/impl/text_commands.h"
 #include "runtime/turtle/plant_size.h"
 #include "runtime/turtle/turtle.h"
 
@@ -54,15 +55,11 @@ struct Brush {
 };
 
 /// The last command read from a word of L3D, executed when the text of its parameter is complete.
-struct PendingCommand {
-    static constexpr std::size_t kMaxLength = 1023; // characters of `text`
-    bool is_set = false;
-    bool in_parameter = false;
+struct PendingCommand : TextCommand {
     Action action;
     std::uint64_t position = 0;
     Code code = 0;
     Origin origin;
-    std::string text;
 };
 
 /// Brush and pose. run_some() copies the two separately, because it keeps the pose in registers.

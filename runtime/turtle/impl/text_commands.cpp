@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: MIT
-// Words of L3D: a `(` directly after a command begins the text of its parameter, up to the first
-// `)`. So a command is executed when the next module, or this `)`, is read.
 #include "runtime/turtle/impl/text_commands.h"
 
 #include "grammar/base/number_chars.h"
@@ -10,6 +8,9 @@
 
 namespace lsys {
 
+namespace {
+
+/// The number at the start of `text`, after blanks and a sign; 0 if there is none.
 float leading_number(std::string_view text) {
     while (!text.empty() && (text[0] == ' ' || text[0] == '\t')) {
         text.remove_prefix(1);
@@ -24,6 +25,33 @@ float leading_number(std::string_view text) {
     return value;
 }
 
+} // namespace
+
+TextStep TextCommand::take(const Action& action) {
+    if (in_parameter && action.operation == TurtleOperation::ParameterEnd) {
+        in_parameter = false;
+        return TextStep::Parameter;
+    }
+    if (in_parameter) {
+        if (text.size() < kMaxLength) {
+            text += action.character == '\0' ? '?' : action.character;
+        }
+        return TextStep::Text;
+    }
+    if (is_set && action.operation == TurtleOperation::ParameterBegin) {
+        in_parameter = true;
+        text.clear();
+        return TextStep::Text;
+    }
+    return TextStep::Command;
+}
+
+std::optional<float> TextCommand::parameter(TurtleOperation command, bool is_compatible) const {
+    const float value = leading_number(text);
+    const bool one_is_default = is_compatible && info(command).has(TurtleInfo::OneIsDefault);
+    return one_is_default && value == 1.0F ? std::nullopt : std::optional(value);
+}
+
 bool Turtle::State::execute_pending() {
     pending.is_set = false;
     position = pending.position;
@@ -35,32 +63,21 @@ bool Turtle::State::execute_pending() {
 
 /// Reads the next module of the word. Returns false once the drawing has ended.
 bool Turtle::State::take_character(const Action& action, Code character, const float* arguments) {
-    if (pending.in_parameter) {
-        if (action.operation != TurtleOperation::ParameterEnd) {
-            if (pending.text.size() < PendingCommand::kMaxLength) {
-                pending.text += action.character == '\0' ? '?' : action.character;
-            }
-            return true;
-        }
-        pending.in_parameter = false;
-        const float value = leading_number(pending.text);
-        const bool one_is_default = traits.l3d_compatible_surface &&
-                                    info(pending.action.operation).has(TurtleInfo::OneIsDefault);
-        if (!(one_is_default && value == 1.0F)) {
+    switch (pending.take(action)) {
+    case TextStep::Text:
+        return true;
+    case TextStep::Parameter:
+        if (const auto value =
+                pending.parameter(pending.action.operation, traits.l3d_compatible_surface)) {
             pending.action.given = 1;
-            pending.action.arguments[0] = value;
+            pending.action.arguments[0] = *value;
         }
         return execute_pending();
+    case TextStep::Command:
+        break;
     }
-    if (pending.is_set) {
-        if (action.operation == TurtleOperation::ParameterBegin) {
-            pending.in_parameter = true;
-            pending.text.clear();
-            return true;
-        }
-        if (!execute_pending()) {
-            return false;
-        }
+    if (pending.is_set && !execute_pending()) {
+        return false;
     }
     pending.is_set = true;
     // A branch is executed at once: it may have more arguments than an Action.

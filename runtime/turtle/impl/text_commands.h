@@ -1,12 +1,36 @@
 // SPDX-License-Identifier: MIT
-// Numbers in words of L3D, whose parameters are characters in parentheses.
+// Words of L3D: a `(` directly after a command begins the text of its parameter, up to the first
+// `)`. So a command is executed when the next module, or this `)`, is read.
 #pragma once
 
-#include <string_view>
+#include "runtime/turtle/impl/actions.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
 
 namespace lsys {
 
-/// The number at the start of `text`, after blanks and a sign; 0 if there is none.
-[[nodiscard]] float leading_number(std::string_view text);
+/// Meaning of a module of such a word.
+enum class TextStep : std::uint8_t {
+    Text,      // belongs to the parameter of the pending command
+    Parameter, // ends the parameter, which parameter() returns: the pending command is complete
+    Command,   // a command, before which a pending one is executed
+};
+
+/// The last command read, of which the turtles keep more.
+struct TextCommand {
+    static constexpr std::size_t kMaxLength = 1023; // characters of `text`
+    bool is_set = false;
+    bool in_parameter = false;
+    std::string text; // of the parameter
+
+    /// Reads the next module.
+    [[nodiscard]] TextStep take(const Action& action);
+    /// The number at the start of the text, after blanks and a sign; 0 if there is none. No value if
+    /// 1 stands for the default of `command`, as in L3D itself (`is_compatible`).
+    [[nodiscard]] std::optional<float> parameter(TurtleOperation command, bool is_compatible) const;
+};
 
 } // namespace lsys
