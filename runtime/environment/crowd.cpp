@@ -3,9 +3,9 @@
 // (Mech & Prusinkiewicz 1996, "Visual models of plants interacting with their environment").
 //
 // The arithmetic, in binary64: a place q is near p if (dx^2 + dy^2) + dz^2 < radius^2, with the
-// differences d = p - q. Each coordinate of the mean is the exact total of that coordinate of the
-// near places, rounded once, divided by their number; so it depends neither on the order of modules
-// nor on threads. The direction is p - mean, each component divided by the length.
+// differences d = p - q. Each coordinate of the sum of p - q over the near places is exact and rounded
+// once; so it depends neither on the order of modules nor on threads, and it is 0 for places equal to
+// p. The direction is this sum, each component divided by the length.
 #include "runtime/environment/environment.h"
 #include "runtime/environment/impl/exact_total.h"
 #include "runtime/environment/impl/input_checks.h"

@@ -71,9 +71,9 @@ public:
 private:
     std::optional<EnvironmentFailure> answer_all(std::span<const SensePlace> places,
                                                  std::vector<float>& answers) const {
-        // Places next to each other are answered one after the other, because they meet the same
-        // nodes of the trees.
-        constexpr std::size_t kPlaces = 1U << 8; // of one piece of work
+        // Places near each other are answered one after the other, because their searches visit the
+        // same nodes of the trees.
+        constexpr std::size_t kPlaces = 1U << 8; // places per piece of work
         const std::size_t count = places.size();
         const std::uint64_t bytes = tree_bytes_ + count * kSpaceOrderBytes;
         if (bytes > context_.max_bytes) {

@@ -289,7 +289,7 @@ EnvironmentSense::ask(std::size_t index, Word& word, std::uint32_t age, Derivati
         sensed_word.organs = all_organs;
     }
     if (auto failure = caught(
-            [&] { return environments_[index]->answer(asked, sensed.answers, sensed.sizes); })) {
+            [&] { return environments_[index]->answer(sensed_word, sensed.answers, sensed.sizes); })) {
         return end_failed(index, std::move(*failure), &word, age, end);
     }
     if (!all_places.empty()) {

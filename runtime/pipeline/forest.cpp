@@ -209,8 +209,9 @@ struct GrownStage {
     std::shared_ptr<const SourceMap> sources;
     AxiomPlace axiom;
     bool can_reuse_branches = false; // some branch can be replaced by a recorded one
-    bool is_blind = false; // should sense its surroundings, but asks no environment with shade
-    std::vector<BranchOrigin> origins; // by instance; empty unless grow_stage() is asked for them
+    /// The scene wants it to sense neighbours, but no environment reads shade.
+    bool cannot_sense_neighbours = false;
+    std::vector<BranchOrigin> origins; // by instance; empty for a stage without `origins_of`
     std::vector<std::string> programs; // names of environments of kind Program
 };
 
@@ -565,8 +566,8 @@ grow_species(const LoadedScene& loaded, const Project& project, const PreviousFo
             }
             last = std::move(stage.value());
             programs.insert(programs.end(), last.programs.begin(), last.programs.end());
-            if (last.is_blind) {
-                return end_blind(species, path, loaded, step);
+            if (last.cannot_sense_neighbours) {
+                return end_without_senses(species, path, loaded, step);
             }
             std::move(last.stages.begin(), last.stages.end(),
                       std::back_inserter(forest_species.stages));

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Measures environments that sense places, markers and meshes: the median of some runs for each case,
-// with one thread and with as many as the first argument says (2 without). The second argument, a
-// kind of environment, leaves out all others. The hash of the answers tells whether a change of the
-// algorithm keeps their bits. Asserts nothing about time.
+// Measures environments that sense places, markers and meshes. Prints the median of several runs
+// for each case, with one thread and with the number of threads in the first argument (2 without an
+// argument). The second argument names the only kind of environment to measure. The hash of the
+// answers shows whether a change of the algorithm keeps their bits. Asserts nothing about time.
 #include "runtime/environment/environment.h"
 #include "tests/bench/measure.h"
 #include "tests/runtime/environment/solids.h"

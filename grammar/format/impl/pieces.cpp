@@ -153,7 +153,7 @@ void PieceReader::describe(Piece& piece) {
     if (is_in_list_) {
         // Prefer breaks at outer levels, then at blanks, then before branches.
         piece.rank =
-            brackets_ * 4 + (piece.blank_before ? 0 : 2) + (is_module(current_, '[') ? 0 : 1);
+            brackets_ * 4 + (piece.has_blank_before ? 0 : 2) + (is_module(current_, '[') ? 0 : 1);
     } else if (begins_local()) {
         piece.rank = 1; // rather before `let` than between local values
     } else if (current_.kind == LexemeKind::Operator) {

@@ -64,15 +64,16 @@ private:
     void fill_cylinder(const WideChild& child);
     [[nodiscard]] Vector3 axis_of(const WideChild& child) const;
     [[nodiscard]] Vector3 middle_of(const WideChild& child, const Vector3& axis) const;
-    /// Not above the squared distance to each child, apart from the margin.
+    /// Lower bounds of the squared distances to the children, except for errors within
+    /// FramedPlace::margin.
     [[nodiscard]] static Lanes least_squared(const Node& node, const std::array<float, 3>& at);
 
     const std::vector<Vector3>& vertices_;
     std::span<const LeafTriangle> triangles_;
     Frame frame_;
-    double more_ = 0.0;       // by which cylinders are larger than their triangles, in the frame
+    double cylinder_margin_ = 0.0; // enlargement of the cylinders, in units of the frame
     LargeVector<Node> nodes_; // the root first
-    LargeVector<Triangle> corners_; // of `triangles_`: neighbours in space are so in memory
+    LargeVector<Triangle> corners_; // those of `triangles_`; neighbours in space are neighbours in memory
 };
 
 } // namespace lsys

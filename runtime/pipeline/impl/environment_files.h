@@ -14,9 +14,9 @@
 
 namespace lsys {
 
-/// Reads all of them, by index in Bytecode::environments. `folder`: of the grammar. Errors at the
-/// name of a file that is missing, cannot be read, has no face or, for a shape of markers, is open;
-/// no value after an error.
+/// Reads the files of all environments, by index in Bytecode::environments. `folder`: the folder of
+/// the grammar. Reports, at the name of the file, files that are missing or cannot be read, meshes
+/// without faces, and shapes of markers that are not closed; no value after such an error.
 [[nodiscard]] std::optional<std::vector<EnvironmentFiles>>
 read_environment_files(const std::filesystem::path& folder,
                        const Grammar& grammar,

@@ -188,8 +188,8 @@ void ShellProgram::end() {
     close_descriptor(error_);
 }
 
-/// Waits a little for a program that has closed its output, or whose input is closed, so that its
-/// exit status and its messages are its own.
+/// Waits up to half a second for a program that has closed its output, or whose input is closed, so
+/// that it can exit with its own status and messages before end() kills it.
 void ShellProgram::wait_for_exit() {
     constexpr int kMaxPolls = 50;
     constexpr unsigned kPause = 10'000; // microseconds
