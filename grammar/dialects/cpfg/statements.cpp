@@ -320,6 +320,10 @@ void CpfgExpressions::call_statement(const CpfgStatement& statement) {
     }
     const bool known =
         std::find(kProcedures.begin(), kProcedures.end(), called.text) != kProcedures.end();
+    const bool is_read = !called.parts.empty() && files_.count(tree_[called.parts[0]].text) != 0;
+    if (called.text == "fclose" && is_read) {
+        return; // nothing is written
+    }
     if (called.text == "fscanf") {
         read_numbers(called);
     } else if (called.text == "srand") {
