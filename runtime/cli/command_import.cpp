@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "grammar/base/counted_text.h"
 #include "grammar/base/paths.h"
+#include "grammar/dialects/other_language.h"
 #include "grammar/format/format.h"
 #include "runtime/cli/commands.h"
+#include "runtime/cli/import_table.h"
 #include "runtime/pipeline/grammar.h"
 #include "runtime/pipeline/value_edits.h"
 #include "runtime/program/files.h"
@@ -30,7 +32,37 @@ struct Imported {
     std::string text; // a .lsys grammar
     Dialect dialect = Dialect::Lsys;
     std::uint64_t warnings = 0;
+    std::string reason; // the first error; empty if the text is complete
 };
+
+/// The first error among diagnostics, or an empty text.
+std::string first_error(const Diagnostics& diagnostics) {
+    for (const Diagnostic& diagnostic : diagnostics.all()) {
+        if (diagnostic.severity == Severity::Error) {
+            return diagnostic.message;
+        }
+    }
+    return {};
+}
+
+/// The first error of an outcome without a value, or an empty text.
+std::string first_error(const Messages& messages) {
+    for (const Message& message : messages.all()) {
+        if (message.kind == Message::Kind::Error) {
+            return message.text;
+        }
+        if (std::string text = first_error(message.diagnostics); !text.empty()) {
+            return text;
+        }
+    }
+    return {};
+}
+
+/// Prints an error and keeps it as the reason.
+ExitStatus fail(const Error& error, const Console& console, Imported& imported) {
+    imported.reason = error.message;
+    return report_error(error, console);
+}
 
 /// A .lsys text with the generations, constants and settings of the command line in place of its
 /// own.
@@ -60,18 +92,19 @@ ExitStatus import_text(const std::string& path,
     Result<CompiledText> compiled = compile_text(
         path, std::move(text), options, project.limits.max_modules, make_include_loader(project));
     if (!compiled) {
-        return report_error(compiled.error(), console);
+        return fail(compiled.error(), console, imported);
     }
     CompiledText& made = compiled.value();
     if (made.definition_error) {
-        return report_error(*made.definition_error, console);
+        return fail(*made.definition_error, console, imported);
     }
     const ExitStatus status = console.show(made.diagnostics, *made.grammar.sources);
     imported.warnings = made.diagnostics.count(Severity::Warning);
+    imported.reason = first_error(made.diagnostics);
     if (status == ExitStatus::Ok) {
         const Result<std::string> changed = with_options(made.grammar.translation, options);
         if (!changed) {
-            return report_error(changed.error(), console);
+            return fail(changed.error(), console, imported);
         }
         imported.text = fmt::format(
             "// Imported from `{}`, {}{}.\n{}", path_text(path_of(shown_path(path)).filename()),
@@ -87,15 +120,22 @@ write_imported(const std::string& path, const std::string& text, const Console& 
     return report_result(write_file(path, text, console), console);
 }
 
-/// The regular files of a folder, sorted by name.
-Result<std::vector<fs::path>> files_of(const std::string& folder) {
+/// The regular files of a folder and its sub-folders, sorted by path, relative to the folder. Skips
+/// hidden folders and the folder `except`.
+Result<std::vector<fs::path>> files_of(const std::string& folder, const fs::path& except) {
     std::error_code error;
+    std::error_code ignored;
     std::vector<fs::path> files;
-    for (fs::directory_iterator at(path_of(folder), error), end; !error && at != end;
+    const fs::path root = path_of(folder);
+    for (fs::recursive_directory_iterator at(root, error), end; !error && at != end;
          at.increment(error)) {
-        std::error_code ignored;
-        if (at->is_regular_file(ignored)) {
-            files.push_back(at->path());
+        const bool is_hidden = path_text(at->path().filename()).starts_with('.');
+        if (at->is_directory(ignored)) {
+            if (is_hidden || fs::equivalent(at->path(), except, ignored)) {
+                at.disable_recursion_pending();
+            }
+        } else if (at->is_regular_file(ignored)) {
+            files.push_back(at->path().lexically_relative(root));
         }
     }
     if (error) {
@@ -112,8 +152,7 @@ struct FolderImport {
     fs::path folder;
     std::set<std::string> names; // names of the files written by this run
     ExitStatus status = ExitStatus::Ok;
-    std::uint64_t imported = 0;
-    std::uint64_t failed = 0;
+    ImportTable table{};
 };
 
 /// `name` with `_` in place of blanks, control characters and slashes, and before a leading dot.
@@ -137,89 +176,88 @@ std::string unused_path(const std::string& stem, FolderImport& import) {
     return path_text(import.folder / path_of(name));
 }
 
-/// Writes a file whose name the program chose; replaces an existing file only with --force.
-ExitStatus
+/// Writes a file whose name the program chose; replaces an existing file only with --force. Returns
+/// the error that was printed.
+Result<void>
 write_new_file(const std::string& path, const std::string& text, const FolderImport& import) {
+    std::error_code error;
+    fs::create_directories(path_of(path).parent_path(), error);
+    if (error) {
+        return Error{fmt::format("cannot make the folder of `{}`: {}", path, error.message())};
+    }
     if (import.command.force) {
-        return write_imported(path, text, import.console);
+        return write_file(path, text, import.console);
     }
     std::error_code ignored;
     if (fs::exists(fs::symlink_status(path_of(path), ignored))) {
-        return report_error(Error{fmt::format("`{}` is there already; --force replaces it", path)},
-                            import.console);
+        return Error{fmt::format("`{}` is there already; --force replaces it", path)};
     }
     Result<Output> output = Output::create(path, import.console);
     if (!output) {
-        return report_error(output.error(), import.console);
+        return output.error();
     }
     Result<void> done = output.value().write(text);
-    if (done) {
-        done = output.value().commit();
-    }
-    return report_result(done, import.console);
+    return done ? output.value().commit() : done;
 }
 
-/// Imports one system to `stem`.lsys and prints one line about it.
-Result<void> import_one(const std::string& path,
-                        GrammarText text,
-                        const GrammarOptions& options,
-                        const std::string& stem,
-                        FolderImport& import) {
-    const Console& console = import.console;
-    const std::string_view title = row_of(text.dialect).title;
+/// Imports one system to `stem`.lsys and adds a row about it.
+void import_one(const std::string& path,
+                GrammarText text,
+                const GrammarOptions& options,
+                const std::string& stem,
+                FolderImport& import) {
+    const std::string title(row_of(text.dialect).title);
     Imported imported;
     ExitStatus status =
-        import_text(path, std::move(text), options, import.command.run, console, imported);
+        import_text(path, std::move(text), options, import.command.run, import.console, imported);
     std::string output_path;
     if (status == ExitStatus::Ok) {
         output_path = unused_path(stem, import);
-        status = write_new_file(output_path, imported.text, import);
+        if (const Result<void> written = write_new_file(output_path, imported.text, import);
+            !written) {
+            status = fail(written.error(), import.console, imported);
+        }
     }
-    (status == ExitStatus::Ok ? import.imported : import.failed) += 1;
     import.status = more_severe(import.status, status);
     const std::string what =
         options.system.empty() ? path : fmt::format("{}: `{}`", path, options.system);
-    return console.write(status == ExitStatus::Ok
-                             ? fmt::format("{}: {}, {}, written to {}\n", what, title,
-                                           counted(imported.warnings, "warning"), output_path)
-                             : fmt::format("{}: {}, not imported\n", what, title));
+    if (status != ExitStatus::Ok) {
+        import.table.add(ImportTable::Kind::Failed, what, title, imported.reason);
+        return;
+    }
+    const std::string warnings =
+        imported.warnings == 0 ? "" : ", " + counted(imported.warnings, "warning");
+    import.table.add(ImportTable::Kind::Imported, what, title,
+                     fmt::format("written to {}{}", output_path, warnings));
 }
 
 /// Imports the systems of a file to `prefix`NAME.lsys. Skips a system with the name of an earlier
 /// system, ignoring letter case.
-Result<void> import_systems(const std::string& path,
-                            const GrammarText& text,
-                            const std::string& prefix,
-                            FolderImport& import) {
+void import_systems(const std::string& path,
+                    const GrammarText& text,
+                    const std::string& prefix,
+                    FolderImport& import) {
     std::set<std::string> seen;
     for (const std::string& system : systems_in(text.dialect, text.bytes)) {
         if (import.console.interrupted()) {
             import.status = ExitStatus::Interrupted;
-            return {};
+            return;
         }
         std::string lower_case = system;
         std::transform(lower_case.begin(), lower_case.end(), lower_case.begin(), [](char c) {
             return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
         });
         if (!seen.insert(lower_case).second) {
-            ++import.failed;
             import.status = more_severe(import.status, ExitStatus::AuthorErrors);
-            if (Result<void> written = import.console.write(fmt::format(
-                    "{}: `{}`: a second system of this name, not imported\n", path, system));
-                !written) {
-                return written;
-            }
+            import.table.add(ImportTable::Kind::Failed, fmt::format("{}: `{}`", path, system),
+                             std::string(row_of(text.dialect).title),
+                             "a second system of this name");
             continue;
         }
         GrammarOptions options = import.command.grammar;
         options.system = system;
-        if (Result<void> written =
-                import_one(path, text, options, prefix + file_name(system), import);
-            !written) {
-            return written;
-        }
+        import_one(path, text, options, prefix + file_name(system), import);
     }
-    return {};
 }
 
 Result<void> make_folder(const fs::path& folder) {
@@ -230,54 +268,61 @@ Result<void> make_folder(const fs::path& folder) {
                  : Result<void>();
 }
 
-ExitStatus end_import(const Result<void>& result, const FolderImport& import) {
-    if (!result) {
-        return report_error(result.error(), import.console);
-    }
-    if (import.status == ExitStatus::Interrupted) {
-        return import.status;
-    }
+ExitStatus end_import(const FolderImport& import) {
     const Result<void> written =
-        import.console.write(fmt::format("{} imported, {} not\n", import.imported, import.failed));
+        import.console.write(import.table.text(import.console.options().quiet));
     return written ? import.status : report_error(written.error(), import.console);
 }
 
-/// Imports all systems of the files of a folder. Skips .lsys and .lsb files, and files that are not
-/// grammars of a known dialect.
+/// Why a file of a folder is no grammar to import; empty if it is one.
+std::string reason_not_to_read(const fs::path& path, const Outcome<GrammarText>& text) {
+    if (path.extension() == ".lsb") {
+        return "a compiled grammar";
+    }
+    if (!text) {
+        const std::string reason = first_error(text.messages());
+        return reason.empty() ? "no grammar" : reason;
+    }
+    if (text.value().dialect != Dialect::Lsys) {
+        return {};
+    }
+    const auto other = recognise_other_language(text.value().bytes);
+    return other ? other->name : "a .lsys grammar";
+}
+
+/// Imports all systems of the files of a folder and its sub-folders.
 ExitStatus import_folder(const ImportCommand& command, const Console& console) {
-    const Result<std::vector<fs::path>> files = files_of(command.folder);
+    const fs::path output = path_of(command.output.empty() ? command.folder : command.output);
+    const Result<std::vector<fs::path>> files = files_of(command.folder, output);
     if (!files) {
         return report_error(files.error(), console);
     }
-    FolderImport import{
-        command, console, path_of(command.output.empty() ? command.folder : command.output), {}};
+    FolderImport import{command, console, output, {}};
     if (const Result<void> made = make_folder(import.folder); !made) {
         return report_error(made.error(), console);
     }
-    for (const fs::path& path : files.value()) {
+    for (const fs::path& relative : files.value()) {
         if (console.interrupted()) {
-            return ExitStatus::Interrupted;
+            import.status = ExitStatus::Interrupted;
+            break;
         }
-        if (path.extension() == ".lsb") {
-            continue;
-        }
-        Outcome<GrammarText> text = read_grammar(path_text(path), command.grammar.dialect,
-                                                 make_project(console, command.run));
-        if (!text || text.value().dialect == Dialect::Lsys) {
+        const std::string path = path_text(path_of(command.folder) / relative);
+        Outcome<GrammarText> text =
+            read_grammar(path, command.grammar.dialect, make_project(console, command.run));
+        if (std::string reason = reason_not_to_read(relative, text); !reason.empty()) {
+            import.table.add(ImportTable::Kind::NotRead, path, {}, std::move(reason));
             continue;
         }
         const bool several = has_systems(text.value().dialect) && command.grammar.system.empty() &&
                              systems_in(text.value().dialect, text.value().bytes).size() > 1;
-        const std::string name = path_text(path.filename());
-        const Result<void> result =
-            several ? import_systems(path_text(path), text.value(), name + ".", import)
-                    : import_one(path_text(path), std::move(text.value()), command.grammar, name,
-                                 import);
-        if (!result) {
-            return report_error(result.error(), console);
+        const std::string stem = path_text(relative);
+        if (several) {
+            import_systems(path, text.value(), stem + ".", import);
+        } else {
+            import_one(path, std::move(text.value()), command.grammar, stem, import);
         }
     }
-    return end_import({}, import);
+    return end_import(import);
 }
 
 /// Imports all systems of a file to the folder of `-o`.
@@ -287,8 +332,8 @@ import_to_folder(const ImportCommand& command, const GrammarText& text, const Co
         return report_error(made.error(), console);
     }
     FolderImport import{command, console, path_of(command.output), {}};
-    const Result<void> result = import_systems(command.file, text, "", import);
-    return end_import(result, import);
+    import_systems(command.file, text, "", import);
+    return end_import(import);
 }
 
 bool is_folder(const std::string& path) {

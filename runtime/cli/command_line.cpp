@@ -292,7 +292,8 @@ void add_forest(CLI::App& app, ForestCommand& command) {
 
 void add_import(CLI::App& app, ImportCommand& command) {
     app.add_option("FILE", command.file, "A grammar of another dialect; `-` is standard input");
-    app.add_option("--all", command.folder, "Import all grammars of a folder")->type_name("FOLDER");
+    app.add_option("--all", command.folder, "Import all grammars of a folder and its sub-folders")
+        ->type_name("FOLDER");
     app.add_option("-o,--output", command.output,
                    "Output file, or a folder for --all and for all systems of FILE; `-` is "
                    "standard output (default: standard output; with --all beside the originals)")

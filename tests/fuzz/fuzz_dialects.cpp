@@ -33,13 +33,17 @@ void try_system(const std::string& text, lsys::Dialect dialect, const std::strin
 void try_view(const std::string& text) {
     const lsys::CpfgView view =
         lsys::read_view(text, [&](std::string_view) { return std::optional<std::string>(text); });
-    std::string grammar = "#n = 1;\n#w : A(0.5);\n#p : A(x) : * : F(0";
+    std::string grammar = "#n = 1;\n#w : A(0.5);\n";
+    std::string sum = "0";
     for (const lsys::CpfgCurve& curve : view.curves) {
         if (!curve.points.empty() && grammar.size() < 100'000) {
-            grammar += " + " + lsys::curve_at(curve, "x");
+            const std::string name = "f" + std::to_string(grammar.size());
+            grammar += lsys::curve_statements(curve, {name, name + "_table", name + "_between"});
+            sum += " + " + name + "(x)";
         }
     }
-    const CompiledText compiled = compile_text(grammar + ");\n", lsys::Dialect::Lsys, "");
+    grammar += "#p : A(x) : * : F(" + sum + ");\n";
+    const CompiledText compiled = compile_text(grammar, lsys::Dialect::Lsys, "");
     if (compiled.bytecode) {
         static_cast<void>(derived_text(*compiled.bytecode));
     }

@@ -19,6 +19,8 @@ constexpr std::size_t kSamples = 100; // the default of cpfg
 constexpr double kTolerance = 1e-3;   // relative to the range of values of the curve
 constexpr std::size_t kMaxPoints = 1000;
 constexpr std::size_t kMaxCurves = 256;
+constexpr std::size_t kMaxSamples = 1'000'000;
+constexpr std::size_t kMaxTable = 256; // points of a `#curve`
 
 /// Removes the first line of `text`; returns it without blanks at its ends.
 std::string_view next_line(std::string_view& text) {
@@ -42,7 +44,16 @@ bool read_number(std::string_view& text, double& value) {
     return error == std::errc() && std::isfinite(value);
 }
 
-/// Curves of a .func or .fset file: `name:` begins one, `points:` counts lines that follow.
+/// A whole number at the beginning of `text`; 0 if there is none or it is above `most`.
+std::size_t read_count(std::string_view text, std::size_t most) {
+    double value = 0.0;
+    const bool fits =
+        read_number(text, value) && value >= 0.0 && value <= static_cast<double>(most);
+    return fits ? static_cast<std::size_t>(value) : 0;
+}
+
+/// Curves of a .func or .fset file: `name:` begins one, `points:` counts lines that follow. A line
+/// has x, y and perhaps a multiplicity.
 void read_curves(std::string_view text, std::vector<CpfgCurve>& curves) {
     CpfgCurve curve;
     while (!text.empty() && curves.size() < kMaxCurves) {
@@ -51,22 +62,28 @@ void read_curves(std::string_view text, std::vector<CpfgCurve>& curves) {
             curve.name = *name;
             continue;
         }
+        if (auto samples = value_of(line, "samples:")) {
+            curve.samples = read_count(*samples, kMaxSamples);
+            continue;
+        }
         auto count_text = value_of(line, "points:");
         double count = 0.0;
         if (!count_text || !read_number(*count_text, count) || count < 2.0 ||
             count > static_cast<double>(kMaxPoints)) {
             continue;
         }
-        while (static_cast<double>(curve.points.size()) < count && !text.empty()) {
+        double lines = 0.0;
+        for (; lines < count && !text.empty(); ++lines) {
             std::string_view pair = next_line(text);
             CurvePoint point;
             if (!read_number(pair, point.x) || !read_number(pair, point.y) ||
                 (!curve.points.empty() && point.x < curve.points.back().x)) {
                 break;
             }
-            curve.points.push_back(point);
+            const std::size_t times = std::max<std::size_t>(read_count(pair, kMaxPoints), 1);
+            curve.points.insert(curve.points.end(), times, point);
         }
-        if (static_cast<double>(curve.points.size()) == count) {
+        if (lines == count && curve.points.size() <= kMaxPoints) {
             curves.push_back(curve);
         }
         curve = {};
@@ -162,6 +179,13 @@ std::string number(double value) {
     return error == std::errc() ? std::string(buffer.data(), end) : "0";
 }
 
+/// The binary32 nearest to `value`, as text.
+std::string shortest(double value) {
+    constexpr double kMax = 1e30;
+    const double inside = std::clamp(value, -kMax, kMax);
+    return text_of(inside == 0.0 ? 0.0F : static_cast<float>(inside));
+}
+
 std::string in_parentheses(const std::string& text) {
     return text.starts_with("-") ? "(" + text + ")" : text;
 }
@@ -193,7 +217,8 @@ CpfgView read_view(std::string_view text, const FileBeside& beside) {
             }
         } else if (auto function = value_of(line, "function:")) {
             const std::size_t before = view.curves.size();
-            const std::string_view path = function->substr(0, function->find_first_of(" \t"));
+            const std::size_t end = std::min(function->find_first_of(" \t"), function->size());
+            const std::string_view path = function->substr(0, end);
             if (const auto curve = beside(path)) {
                 read_curves(*curve, view.curves);
             }
@@ -201,9 +226,56 @@ CpfgView read_view(std::string_view text, const FileBeside& beside) {
             view.curves.resize(before + 1);
             const std::string_view file = path.substr(path.find_last_of('/') + 1);
             view.curves.back().file = file.substr(0, file.find('.'));
+            if (view.curves.back().samples == 0) { // files of the older version have no `samples:`
+                view.curves.back().samples = read_count(function->substr(end), kMaxSamples);
+            }
         }
     }
     return view;
+}
+
+std::vector<double> curve_table(const CpfgCurve& curve) {
+    constexpr std::size_t kDegree = 3;
+    constexpr double kError = 1e-3; // of x, at which cpfg ends its search
+    std::vector<double> table;
+    if (curve.samples < 3 || curve.samples > kMaxTable || curve.points.size() <= kDegree) {
+        return table;
+    }
+    const auto spans = static_cast<double>(curve.points.size() - kDegree);
+    for (std::size_t i = 0; i < curve.samples; ++i) {
+        const double x = static_cast<double>(i) / static_cast<double>(curve.samples - 1);
+        double low = 0.0;
+        double high = 1.0;
+        CurvePoint point;
+        for (int step = 0; step < 60; ++step) { // fewer unless the curve does not reach x
+            const double middle = (low + high) / 2.0;
+            point = spline(curve.points, kDegree, middle * spans);
+            (point.x > x ? high : low) = middle;
+            if (std::abs(point.x - x) <= kError) {
+                break;
+            }
+        }
+        table.push_back(point.y);
+    }
+    return table;
+}
+
+std::string curve_statements(const CpfgCurve& curve, const CpfgCurveNames& names) {
+    const std::string head = "#function " + names.function + "(x) ";
+    const std::vector<double> table = curve_table(curve);
+    if (table.empty()) {
+        return head + curve_at(curve, "x") + ";\n";
+    }
+    if (std::all_of(table.begin(), table.end(), [&](double y) { return y == table[0]; })) {
+        return head + in_parentheses(shortest(table[0])) + ";\n";
+    }
+    std::string text = "#curve " + names.table;
+    for (std::size_t i = 0; i < table.size(); ++i) {
+        text += (i == 0 ? " " : ", ") + std::to_string(i) + " " + shortest(table[i]);
+    }
+    return text + ";\n#function " + names.between + "(u) mix(" + names.table + "(floor(u)), " +
+           names.table + "(floor(u) + 1), u - floor(u));\n" + head + names.between +
+           "(clamp(x, 0, 1)*" + std::to_string(table.size() - 1) + ");\n";
 }
 
 std::string curve_at(const CpfgCurve& curve, const std::string& x) {

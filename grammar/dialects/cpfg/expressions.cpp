@@ -3,6 +3,7 @@
 
 #include "grammar/ast/number.h"
 #include "grammar/ast/reports.h"
+#include "grammar/dialects/impl/text.h"
 
 #include <algorithm>
 #include <array>
@@ -35,8 +36,9 @@ bool is_integer(std::string_view text) {
     return !text.empty() && text.find_first_not_of("0123456789") == text.npos;
 }
 
-/// `text` as a name of .lsys, or `fallback`.
-std::string as_name(std::string_view text, std::string_view fallback) {
+} // namespace
+
+std::string cpfg_name_of(std::string_view text, std::string_view fallback) {
     std::string name;
     for (const char c : text) {
         const bool is_letter = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
@@ -46,8 +48,6 @@ std::string as_name(std::string_view text, std::string_view fallback) {
     const bool has_letter = name.find_first_not_of('_') != name.npos;
     return has_letter ? name : std::string(fallback);
 }
-
-} // namespace
 
 bool is_cpfg_number(std::string_view text) {
     return !text.empty() && literal_length(text) == text.size();
@@ -78,46 +78,6 @@ ForeignId CpfgExpressions::read(ForeignId value, SourceSpan span) {
     ForeignNode node = tree_[value];
     node.span = node.token = span;
     return tree_.add(std::move(node));
-}
-
-/// An element of an array, read from the array's curve; an index out of range reads the nearest
-/// one.
-ForeignId CpfgExpressions::element(const ForeignNode& node) {
-    const auto found = arrays_.find(node.text);
-    if (found == arrays_.end()) {
-        return unsupported(node.span, "`" + shown(node.text) + "` is not an array");
-    }
-    Array& array = found->second;
-    if (array.sizes.size() != node.parts.size()) {
-        return unsupported(node.span, "`" + shown(node.text) + "` has " +
-                                          std::to_string(array.sizes.size()) + " dimensions");
-    }
-    ForeignId index = kNoForeign;
-    for (std::size_t i = 0; i < node.parts.size(); ++i) {
-        ForeignId part = term(node.parts[i]);
-        if (tree_[part].kind != ForeignKind::Number || !is_integer(tree_[part].text)) {
-            part = tree_.call("floor", {part}, node.token);
-        }
-        if (node.parts.size() > 1) { // clamp each index to its dimension
-            const std::string last = std::to_string(array.sizes[i] - 1);
-            part = tree_.call("clamp",
-                              {part, tree_.number("0", node.token), tree_.number(last, node.token)},
-                              node.token);
-        }
-        if (i == 0) {
-            index = part;
-            continue;
-        }
-        const ForeignId size = tree_.number(std::to_string(array.sizes[i]), node.token);
-        index = tree_.binary("+", tree_.binary("*", index, size, node.token), part, node.token);
-    }
-    if (array.values.size() == 1) {
-        return array.values[0];
-    }
-    if (array.name.empty()) {
-        array.name = unique_name(as_name(node.text, "array"), function_names_);
-    }
-    return tree_.call(array.name, {index}, node.token);
 }
 
 std::string CpfgExpressions::known_literal(ForeignId value) {
@@ -168,6 +128,23 @@ ForeignId CpfgExpressions::name(const ForeignNode& node) {
     return first_value(node.text, node.span);
 }
 
+std::optional<double> CpfgExpressions::known_point(std::size_t curve, ForeignId x) {
+    const std::optional<double> known = known_values_.of(x);
+    const auto [found, is_new] = tables_.try_emplace(curve);
+    std::vector<double>& table = found->second;
+    if (is_new) {
+        table = curve_table(curves_[curve]);
+    }
+    if (!known || table.empty()) {
+        return std::nullopt;
+    }
+    const double place = std::clamp(*known, 0.0, 1.0) * static_cast<double>(table.size() - 1);
+    const auto below = static_cast<std::size_t>(place);
+    const std::size_t above = std::min(below + 1, table.size() - 1);
+    const double part = place - static_cast<double>(below);
+    return (1.0 - part) * table[below] + part * table[above];
+}
+
 /// The equivalent of `func(which, x)`, where `which` is a number or the name of a function of the
 /// set.
 ForeignId CpfgExpressions::curve(const ForeignNode& node) {
@@ -191,13 +168,19 @@ ForeignId CpfgExpressions::curve(const ForeignNode& node) {
     }
     const ForeignId x = term(node.parts[1]);
     if (index < curves_.size() && !curves_[index].points.empty()) {
-        std::string& name = curve_names_[index];
-        if (name.empty()) {
-            const CpfgCurve& found = curves_[index];
-            name = unique_name(as_name(found.name.empty() ? found.file : found.name, "func"),
-                               function_names_);
+        if (const std::optional<double> known = known_point(index, x)) {
+            return tree_.number(text_of(static_cast<float>(*known)), node.token);
         }
-        return tree_.call(name, {x}, node.token);
+        CpfgCurveNames& names = curve_names_[index];
+        if (names.function.empty()) {
+            const CpfgCurve& found = curves_[index];
+            const std::string name =
+                cpfg_name_of(found.name.empty() ? found.file : found.name, "func");
+            names.function = unique_name(name, function_names_);
+            names.table = unique_name(name + "_table", function_names_);
+            names.between = unique_name(name + "_between", function_names_);
+        }
+        return tree_.call(names.function, {x}, node.token);
     }
     if (stage_ == Stage::Interpret && !in_header_) {
         warn_left_out(node.span, "func " + shown_name,
@@ -304,8 +287,8 @@ void CpfgExpressions::write_functions(Translation& out, SourceSpan place) const 
     if (has_normal_) {
         out.put(kNormal, place);
     }
-    for (const auto& [index, name] : curve_names_) {
-        out.put("#function " + name + "(x) " + curve_at(curves_[index], "x") + ";\n", place);
+    for (const auto& [index, names] : curve_names_) {
+        out.put(curve_statements(curves_[index], names), place);
     }
     for (const auto& [variable, array] : arrays_) {
         if (array.name.empty()) {

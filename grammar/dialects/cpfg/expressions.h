@@ -6,6 +6,7 @@
 #pragma once
 
 #include "grammar/dialects/cpfg/curves.h"
+#include "grammar/dialects/cpfg/known_values.h"
 #include "grammar/dialects/cpfg/session.h"
 
 #include <cstdint>
@@ -21,7 +22,8 @@ namespace lsys {
 class CpfgExpressions {
 public:
     CpfgExpressions(CpfgSession& session, const std::vector<CpfgCurve>& curves)
-        : session_(session), tree_(session.expressions), curves_(curves) {}
+        : session_(session), tree_(session.expressions), curves_(curves),
+          known_values_(session.expressions) {}
 
     /// Runs `define:`, `Start:` and the other blocks of the header.
     void read_header();
@@ -52,6 +54,11 @@ public:
 
 private:
     using Variables = std::map<std::string, ForeignId>; // nodes without parts
+    /// A file of numbers, opened by `fopen` in `Start:`.
+    struct DataFile {
+        std::string text;
+        std::size_t at = 0; // where the next number begins
+    };
     struct Array {
         std::vector<int> sizes;
         std::vector<ForeignId> values;
@@ -62,9 +69,14 @@ private:
     [[nodiscard]] ForeignId call(const ForeignNode& node);
     [[nodiscard]] ForeignId random_call(const ForeignNode& node, std::vector<ForeignId> arguments);
     [[nodiscard]] ForeignId curve(const ForeignNode& node);
+    /// The value of a curve at a known `x` in its table, or nullopt.
+    [[nodiscard]] std::optional<double> known_point(std::size_t curve, ForeignId x);
     [[nodiscard]] ForeignId element(const ForeignNode& node);
     [[nodiscard]] ForeignId binary(const ForeignNode& node);
     [[nodiscard]] ForeignId draw(SourceSpan span) { return tree_.draw(draws_++, span); }
+    /// Position of an element in Array::values, or nullopt if its indices are not known.
+    [[nodiscard]] std::optional<std::size_t> known_place(const Array& array,
+                                                         const ForeignNode& node);
     [[nodiscard]] ForeignId truncated(ForeignId value, SourceSpan span);
     /// The node of a variable, as read at `span`.
     [[nodiscard]] ForeignId read(ForeignId value, SourceSpan span);
@@ -74,6 +86,14 @@ private:
     void assign(const std::string& variable, ForeignId value, SourceSpan span);
     void run(const CpfgStatement& statement);
     void branch(const CpfgStatement& statement);
+    void loop(const CpfgStatement& statement);
+    void assign_element(const CpfgStatement& statement);
+    void set_element(const ForeignNode& target, ForeignId value, SourceSpan span);
+    [[nodiscard]] bool opens_file(const CpfgStatement& statement);
+    void read_numbers(const ForeignNode& call);
+    /// A node with a known number.
+    [[nodiscard]] ForeignId number_node(double value, SourceSpan span);
+    [[nodiscard]] ForeignId folded(ForeignId value);
     void call_statement(const CpfgStatement& statement);
     void define_array(const CpfgStatement& statement);
     void find_changed_globals(const std::vector<int>& statements);
@@ -108,13 +128,18 @@ private:
     std::map<std::string, ForeignId> increments_; // per global: amount that each step adds
     std::set<std::string> assigned_each_step_; // globals that each step assigns before reading them
     std::map<std::string, Array> arrays_;
+    std::map<std::string, DataFile> files_; // by the variable
     /// Names of functions in .lsys, by index in curves_; only of curves that expressions call.
-    std::map<std::size_t, std::string> curve_names_;
+    std::map<std::size_t, CpfgCurveNames> curve_names_;
+    std::map<std::size_t, std::vector<double>> tables_; // by index in curves_
     std::set<std::string> function_names_;
     std::set<std::string> formals_;
     std::set<std::string> changed_globals_; // globals that blocks of a step assign
     std::set<Stage> reported_stages_;       // stages whose step statements have been reported
     std::set<std::string> warned_;
+    KnownValues known_values_;
+    int loops_ = 0;                   // loops that are being unrolled, one in another
+    std::size_t loop_statements_ = 0; // statements of loops run so far
     std::uint32_t draws_ = 0;
     std::size_t end_of_constants_ = 0;
     Stage stage_ = Stage::Rewrite;
@@ -127,6 +152,8 @@ private:
     bool quiet_ = false;
 };
 
+/// `text` as a name of .lsys, or `fallback`.
+[[nodiscard]] std::string cpfg_name_of(std::string_view text, std::string_view fallback);
 [[nodiscard]] bool is_cpfg_number(std::string_view text);
 /// Whether a number is 0. Precondition: is_cpfg_number(text).
 [[nodiscard]] bool is_cpfg_zero(std::string_view text);

@@ -4,12 +4,15 @@
 // weight`, then decomposition and homomorphism. A line that begins with a tab continues the line
 // before. The turtle is the profile `cpfg`.
 #include "cpfg/parser.h"
+#include "grammar/ast/reports.h"
 #include "grammar/dialects/cpfg/preprocessor.h"
 #include "grammar/dialects/cpfg/session.h"
+#include "grammar/dialects/cpfg/systems.h"
 #include "grammar/dialects/cpfg/writer.h"
 #include "grammar/dialects/impl/frontends.h"
 
 #include <algorithm>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -42,9 +45,8 @@ ForeignId CpfgSession::add(ForeignNode expression) {
 int CpfgSession::add(CpfgStatement statement) {
     for (const std::vector<int>* const block : {&statement.block, &statement.otherwise}) {
         for (const int index : *block) {
-            const bool nests = statement.kind == CpfgStatementKind::If;
-            const int depth = nests ? statements[static_cast<std::size_t>(index)].depth + 1 : 1;
-            statement.depth = std::max(statement.depth, depth);
+            statement.depth =
+                std::max(statement.depth, statements[static_cast<std::size_t>(index)].depth + 1);
         }
     }
     if (statement.depth > static_cast<int>(kMaxDepth)) {
@@ -63,31 +65,49 @@ void CpfgSession::production(CpfgProduction made) {
     productions.push_back(std::move(made));
 }
 
-void CpfgSession::begin_system(SourceSpan label_span) {
-    ++systems;
-    if (systems == 2) {
-        report_unsupported(label_span, "a second L-system of the file, which the first would call");
-    }
-    stage = Stage::Rewrite;
+std::string_view recognise_cpfg(std::string_view text) {
+    return cpfg_systems(text).empty() ? std::string_view() : "a line `Lsystem:`";
 }
 
-std::string_view recognise_cpfg(std::string_view text) {
-    for (std::size_t at = 0; at < text.size();) {
-        const std::size_t end = std::min(text.find('\n', at), text.size());
-        std::string_view line = text.substr(at, end - at);
-        at = end + 1;
-        line.remove_prefix(std::min(line.find_first_not_of(" \t"), line.size()));
-        if (!line.starts_with("Lsystem") && !line.starts_with("lsystem")) {
-            continue;
-        }
-        line.remove_prefix(7);
-        line.remove_prefix(std::min(line.find_first_not_of(" \t"), line.size()));
-        if (line.starts_with(":")) {
-            return "a line `Lsystem:`";
-        }
+namespace {
+
+/// The part of a text with the system that the context names, or with the first one. nullopt after
+/// a report.
+std::optional<CpfgSystem> choose(const Translation& text, const ParseContext& context) {
+    const std::vector<CpfgSystem> systems = cpfg_systems(text.text());
+    if (systems.empty()) {
+        return CpfgSystem{{}, 0, text.text().size()};
     }
-    return {};
+    const auto place = [&](const CpfgSystem& system) {
+        const auto begin = static_cast<std::uint32_t>(system.begin);
+        const std::size_t line = std::min(text.text().find('\n', begin), text.text().size());
+        return text.origin(begin, static_cast<std::uint32_t>(line));
+    };
+    const std::string_view wanted = context.system;
+    const auto found = std::find_if(systems.begin(), systems.end(), [&](const CpfgSystem& system) {
+        return wanted.empty() || system.name == wanted;
+    });
+    if (found == systems.end()) {
+        Diagnostic& error =
+            context.diagnostics.add(DiagnosticCode::WhichSystem, place(systems.front()),
+                                    "this file has no system `" + shown(wanted) + "`");
+        std::string names;
+        for (const CpfgSystem& system : systems) {
+            names += (names.empty() ? "" : ", ") + shown(system.name);
+        }
+        error.help.push_back("it holds " + names);
+        return std::nullopt;
+    }
+    if (wanted.empty() && systems.size() > 1) {
+        Diagnostic& warning =
+            context.diagnostics.add(DiagnosticCode::ForeignIgnored, place(systems[1]),
+                                    "only the first L-system of the file is read");
+        warning.help.push_back("`--system " + shown(systems[1].name) + "` reads this one");
+    }
+    return *found;
 }
+
+} // namespace
 
 void translate_cpfg(const DialectRow& row, const ParseContext& context, Translation& translation) {
     const FileId root = translation.file();
@@ -95,7 +115,14 @@ void translate_cpfg(const DialectRow& row, const ParseContext& context, Translat
     static_cast<void>(text.report_overflow(context.diagnostics));
     CpfgSession session(text, context);
     if (!context.diagnostics.has_errors()) {
-        const CpfgScanning scanning(session, text.text());
+        const std::optional<CpfgSystem> system = choose(text, context);
+        if (!system) {
+            return;
+        }
+        session.begin_at(static_cast<std::uint32_t>(system->begin));
+        const CpfgScanning scanning(
+            session,
+            std::string_view(text.text()).substr(system->begin, system->end - system->begin));
         cpfg_grammar::Parser parser(session, scanning.scanner());
         static_cast<void>(parser.parse()); // errors have been reported
     }

@@ -340,6 +340,15 @@ void CpfgWriter::write_names(const char* begin, const std::vector<CpfgModule>& l
             wanted.insert(std::string(1, c));
         }
     }
+    // A command of several letters is skipped if all of them are.
+    const auto is_wanted = [&](const std::string& name) {
+        if (is_query(name)) {
+            return wanted.count(name) != 0;
+        }
+        const auto has = [&](char c) { return wanted.count(std::string(1, c)) != 0; };
+        return session_.considers ? std::any_of(name.begin(), name.end(), has)
+                                  : std::all_of(name.begin(), name.end(), has);
+    };
     for (const CpfgModule& module : list) {
         if (!session_.considers && (module.name == "[" || module.name == "]")) {
             expressions_.warn_left_out(
@@ -349,8 +358,7 @@ void CpfgWriter::write_names(const char* begin, const std::vector<CpfgModule>& l
     }
     std::set<std::string> spelled_names;
     for (const auto& [name, has_arguments] : forms_) {
-        if (wanted.count(is_query(name) ? name : name.substr(0, 1)) != 0 && name != "[" &&
-            name != "]") {
+        if (name != "[" && name != "]" && is_wanted(name)) {
             spelled_names.insert(spelled(name, has_arguments));
         }
     }

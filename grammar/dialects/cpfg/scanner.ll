@@ -33,6 +33,14 @@ using Mode = lsys::CpfgSession::Mode;
         value->emplace<std::string>(TEXT);                                                                        \
         return Token::TOK_##kind;                                                                  \
     } while (false)
+/* A command of several letters, without the blanks between them. */
+#define COMMAND                                                                                    \
+    do {                                                                                           \
+        std::string name = TEXT;                                                                   \
+        std::erase_if(name, [](char c) { return c == ' ' || c == '\t' || c == '\r'; });             \
+        value->emplace<std::string>(std::move(name));                                              \
+        return Token::TOK_SYMBOL;                                                                  \
+    } while (false)
 %}
 
 B       [ \t\r]
@@ -109,8 +117,9 @@ NUMBER  ([0-9]+("."[0-9]*)?|"."[0-9]+)([eE][+-]?[0-9]+)?
                           return Token::TOK_OPEN;
                         }
   ")"                   { return Token::TOK_CLOSE; }
-  "@"[GTCDPBS][a-z]     { OPERATOR(SYMBOL); }
-  "@"[^ \t\r\n]         { OPERATOR(SYMBOL); }
+  "@"{B}*[GTCDPBS]{B}*[a-z] { COMMAND; }
+  "@"[^<>:* \t\r\n]     { COMMAND; }
+  "@"{B}+[A-Za-z#]      { COMMAND; }
   "?"[PHULRE]           { OPERATOR(SYMBOL); }
   [\x21-\x7E]           { OPERATOR(SYMBOL); }
   .                     { return Token::TOK_OTHER; }

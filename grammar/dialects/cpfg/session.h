@@ -22,10 +22,11 @@ enum class CpfgStatementKind : std::uint8_t { Assign, Call, If, Loop, Array };
 struct CpfgStatement {
     CpfgStatementKind kind = CpfgStatementKind::Call;
     ForeignId target = kNoForeign;   // Assign: a Name or Index. Array: an Index
-    ForeignId value = kNoForeign;    // Assign, Call; the condition of If
-    std::vector<int> block{};        // indices of the statements of If
+    ForeignId value = kNoForeign;    // Assign, Call; the condition of If and Loop
+    std::vector<int> block{};        // indices of the statements of If and Loop
     std::vector<int> otherwise{};    // ... of its else
     std::vector<ForeignId> values{}; // Array
+    bool tests_last = false;         // Loop: do { block } while (value);
     SourceSpan span{};
     int depth = 1;
 };
@@ -65,6 +66,7 @@ public:
     std::vector<CpfgProduction> productions;
     std::vector<CpfgModule> axiom;
     std::optional<SourceSpan> axiom_span;
+    std::optional<SourceSpan> ring; // `ring Lsystem`: the first module is next to the last one
     std::vector<CpfgModule> ignored;
     std::vector<CpfgModule> considered;
     bool ignores = false;
@@ -90,6 +92,8 @@ public:
     bool in_arguments = false;
     bool in_label = false; // whether the scanner is in the label `Lsystem: 1`
 
+    /// Sets where in `text` the scanner begins.
+    void begin_at(std::uint32_t place) { at_ = place; }
     /// Consumes the next `length` bytes; returns their span.
     SourceSpan take(std::uint32_t length) {
         at_ += length;
@@ -106,7 +110,7 @@ public:
         context.diagnostics.add(DiagnosticCode::ForeignFeature, span, std::move(message));
     }
     void production(CpfgProduction made);
-    void begin_system(SourceSpan label_span);
+    void begin_system() { ++systems; }
 
 private:
     std::uint32_t at_ = 0;

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <optional>
 #include <string_view>
 #include <utility>
@@ -278,13 +277,15 @@ void CpfgExpressions::run(const std::vector<int>& statements) {
 }
 
 void CpfgExpressions::run(const CpfgStatement& statement) {
+    loop_statements_ += loops_ != 0 ? 1 : 0;
     switch (statement.kind) {
     case CpfgStatementKind::Assign: {
         const ForeignNode target = tree_[statement.target];
         if (target.kind == ForeignKind::Index) {
-            static_cast<void>(
-                unsupported(statement.span,
-                            "an element of an array that is changed while the word is derived"));
+            assign_element(statement);
+            return;
+        }
+        if (opens_file(statement)) {
             return;
         }
         const bool global =
@@ -296,7 +297,7 @@ void CpfgExpressions::run(const CpfgStatement& statement) {
                                                 "production"));
             return;
         }
-        assign(target.text, term(statement.value), statement.span);
+        assign(target.text, folded(term(statement.value)), statement.span);
         break;
     }
     case CpfgStatementKind::Call:
@@ -306,7 +307,7 @@ void CpfgExpressions::run(const CpfgStatement& statement) {
         branch(statement);
         break;
     case CpfgStatementKind::Loop:
-        static_cast<void>(unsupported(statement.span, "a loop"));
+        loop(statement);
         break;
     case CpfgStatementKind::Array:
         define_array(statement);
@@ -321,7 +322,13 @@ void CpfgExpressions::call_statement(const CpfgStatement& statement) {
     }
     const bool known =
         std::find(kProcedures.begin(), kProcedures.end(), called.text) != kProcedures.end();
-    if (called.text == "srand") {
+    const bool is_read = !called.parts.empty() && files_.count(tree_[called.parts[0]].text) != 0;
+    if (called.text == "fclose" && is_read) {
+        return; // nothing is written
+    }
+    if (called.text == "fscanf") {
+        read_numbers(called);
+    } else if (called.text == "srand") {
         warn_left_out(called.span, "srand",
                       "`srand` is left out: random numbers are those of lsc, by its own seed");
     } else if (known) {
@@ -335,7 +342,7 @@ void CpfgExpressions::call_statement(const CpfgStatement& statement) {
 void CpfgExpressions::branch(const CpfgStatement& statement) {
     const SourceSpan span = tree_[statement.value].span;
     ForeignId test = term(statement.value);
-    if (const std::string known = known_literal(test); !known.empty()) {
+    if (const std::string known = known_literal(folded(test)); !known.empty()) {
         run(is_cpfg_zero(known) ? statement.otherwise : statement.block);
         return;
     }
@@ -376,35 +383,6 @@ void CpfgExpressions::branch(const CpfgStatement& statement) {
         }
         assign(name, tree_.call("if", {read(test, span), a, b}, span), span);
     }
-}
-
-void CpfgExpressions::define_array(const CpfgStatement& statement) {
-    constexpr int kMaxElements = 256;
-    const ForeignNode target = tree_[statement.target];
-    Array array;
-    int count = 1;
-    for (const ForeignId part : target.parts) {
-        const std::string size = known_literal(term(part));
-        int value = 0;
-        std::from_chars(size.data(), size.data() + size.size(), value);
-        if (value <= 0 || value > kMaxElements / count) {
-            static_cast<void>(
-                unsupported(target.span, "an array whose size is not a number from 1 to 256"));
-            return;
-        }
-        array.sizes.push_back(value);
-        count *= value;
-    }
-    for (const ForeignId value : statement.values) {
-        const ForeignId made = term(value);
-        if (tree_.has_draw(made)) {
-            static_cast<void>(unsupported(statement.span, "random numbers in an array"));
-            return;
-        }
-        array.values.push_back(made);
-    }
-    array.values.resize(static_cast<std::size_t>(count), tree_.number("0", statement.span));
-    arrays_[target.text] = std::move(array);
 }
 
 } // namespace lsys

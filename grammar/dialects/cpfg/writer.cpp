@@ -3,6 +3,9 @@
 
 #include "grammar/ast/number.h"
 #include "grammar/ast/reports.h"
+#include "grammar/dialects/cpfg/clock_module.h"
+#include "grammar/dialects/cpfg/commands.h"
+#include "grammar/dialects/cpfg/module_sequences.h"
 
 #include <algorithm>
 #include <cctype>
@@ -39,6 +42,9 @@ CpfgWriter::CpfgWriter(CpfgSession& session, Translation& out)
       expressions_(session, view_.curves), tree_(session.expressions) {}
 
 void CpfgWriter::write(std::string_view turtle) {
+    add_productions_of_commands(session_);
+    join_module_sequences(session_);
+    move_statements_of_clock(session_);
     find_names();
     read_view_file();
     expressions_.read_header();
@@ -413,6 +419,13 @@ bool CpfgWriter::check(const CpfgProduction& production) {
         return false;
     }
     const bool contexts = !production.left.empty() || !production.right.empty();
+    if (session_.ring && production.stage == Stage::Rewrite &&
+        (contexts || production.predecessor.size() > 1)) {
+        session_.report_unsupported(*session_.ring, "contexts in a ring L-system, whose word has "
+                                                    "no ends");
+        session_.ring.reset(); // one report
+        return false;
+    }
     if (contexts && production.stage == Stage::Decompose) {
         session_.report_unsupported(production.span, "contexts in a decomposition");
         return false;

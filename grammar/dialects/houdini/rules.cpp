@@ -140,7 +140,10 @@ void HoudiniWriter::write_rule(const HoudiniRule& rule, std::size_t index) {
     for (std::size_t i = 0; i < variants.size(); ++i) {
         std::string name = "r" + std::to_string(index);
         name += variants.size() > 1 ? "_" + std::to_string(i + 1) : "";
-        write_variant(rule, variants[i], name);
+        write_variant(rule, variants[i], name, false);
+        if (!fraction_.empty()) {
+            write_variant(rule, variants[i], name + "_last", true);
+        }
     }
 }
 
@@ -181,8 +184,10 @@ void HoudiniWriter::write_pattern(const std::vector<HoudiniModule>& modules,
 
 void HoudiniWriter::write_variant(const HoudiniRule& rule,
                                   const ParameterCounts& counts,
-                                  const std::string& name) {
+                                  const std::string& name,
+                                  bool is_last) {
     std::size_t slot = 0;
+    is_last_ = is_last;
     fresh_ = 0;
     omitted_parameters_.clear();
     translation_.put("#" + name + " : ", rule.span);
@@ -200,11 +205,18 @@ void HoudiniWriter::write_variant(const HoudiniRule& rule,
     }
     translation_.put(" : ", rule.span);
     const bool weighted = has_probability_[group_of(rule)];
+    const std::string generation =
+        (is_last ? "step() == " : "step() != ") + std::to_string(generations_ - 1U);
     if (const auto chance = probabilities_.find(&rule); chance != probabilities_.end()) {
         expressions_.warn_random(rule.span);
-        translation_.put("* ~ " + chance->second, rule.span);
+        translation_.put((fraction_.empty() ? "*" : generation) + " ~ " + chance->second,
+                         rule.span);
     } else if (rule.condition != kNoForeign) {
-        write_expression(rule.condition, {HoudiniPlace::Condition, &rule, &omitted_parameters_});
+        translation_.put(fraction_.empty() ? "" : generation + " && (", rule.span);
+        write_expression(rule.condition, {HoudiniPlace::Condition, &rule, &zeros_});
+        translation_.put(fraction_.empty() ? "" : ")", rule.span);
+    } else if (!fraction_.empty()) {
+        translation_.put(generation, rule.span);
     } else if (!weighted) {
         translation_.put("*", rule.span);
     }
@@ -229,6 +241,7 @@ void HoudiniWriter::write_variant(const HoudiniRule& rule,
     tree_.write_locals(" : ", first, tree_.locals().size(), {}, translation_);
     translation_.put(" : ", rule.span);
     write_word(word);
+    is_last_ = false;
     translation_.put(";\n", {rule.span.file, rule.span.end, rule.span.end});
 }
 

@@ -42,6 +42,20 @@ NUMBER   ([0-9]+("."[0-9]*)?|"."[0-9]+)([eE][-+]?[0-9]+)?
     BEGIN(VALUE);
     return Token::TOK_KEY;
 }
+[A-Za-z][A-Za-z]+([ _-]+[A-Za-z]+)*{BLANK}*":"{BLANK}*[^=\n\0\r\t :][^=\n\0]*/"\n" { /* no rule, which has a `=` */
+    const std::string_view line(yytext, static_cast<std::size_t>(yyleng));
+    const std::string_view key = line.substr(0, line.find(':'));
+    const int kind = lsys::houdini_key(key) == "rule" ? 0 : session.any_key_token(key);
+    const auto length = kind == 0 ? static_cast<std::uint32_t>(key.size() + 1) : session.length_of_key(key);
+    session.put_back(static_cast<std::uint32_t>(yyleng) - length);
+    yyless(static_cast<int>(length));
+    *location = session.last();
+    if (kind != 0) {
+        BEGIN(VALUE);
+        return kind;
+    }
+    BEGIN(MODULES);
+}
 [A-Za-z][A-Za-z]+([ _-]+[A-Za-z]+)*{BLANK}*[:=] {
     const int kind = session.key_token({yytext, static_cast<std::size_t>(yyleng) - 1});
     if (kind == 0) { // a line of modules

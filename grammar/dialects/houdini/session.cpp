@@ -45,6 +45,11 @@ int HoudiniSession::key_token(std::string_view text) {
     return find_houdini_setting(key) != nullptr ? Token::TOK_KEY : 0;
 }
 
+int HoudiniSession::any_key_token(std::string_view text) {
+    const int token = key_token(text);
+    return token != 0 ? token : houdini_grammar::Parser::token::TOK_KEY;
+}
+
 std::uint32_t HoudiniSession::length_of_key(std::string_view text) {
     return static_cast<std::uint32_t>(text.find_last_not_of(kBlanks) + 1);
 }

@@ -65,6 +65,8 @@ public:
     /// The token of a line's first word; 0 if the word is not a key. `text` includes the blanks
     /// after the word.
     int key_token(std::string_view text);
+    /// key_token() of a line that can only be a setting: an unknown key is one, too.
+    int any_key_token(std::string_view text);
     [[nodiscard]] static std::uint32_t length_of_key(std::string_view text);
     [[nodiscard]] bool wants_modules() const { return wants_modules_; }
     void open() { ++depth_; }

@@ -9,12 +9,15 @@
 namespace lsys {
 
 enum class HoudiniSettingKind : std::uint8_t {
-    Generations,
-    Number,  // a `#set`
-    Value,   // b, c or d
-    Gravity, // the default parameter of the command T
+    Generations, // perhaps a fraction
+    Number,      // a `#set`
+    Value,       // b, c or d
+    Gravity,     // the default parameter of the command T
     Seed,
     Ignore, // symbols that contexts skip
+    Switch, // on, off, 1 or 0
+    Scale,  // of random lengths, angles and widths
+    Unused, // has no effect here
 };
 
 struct HoudiniSettingRow {

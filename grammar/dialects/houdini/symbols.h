@@ -29,6 +29,12 @@ public:
     [[nodiscard]] std::uint32_t count(const HoudiniModule& module) const;
     [[nodiscard]] bool occurs(std::string_view symbol) const { return symbols_.contains(symbol); }
 
+    /// Whether the axiom or a successor has the symbol with `count` parameters.
+    [[nodiscard]] bool occurs_with(std::string_view symbol, std::uint32_t count) const {
+        const auto found = symbols_.find(symbol);
+        return found != symbols_.end() && (found->second.counts >> count & 1U) != 0;
+    }
+
     static constexpr std::uint32_t kMaxParameters = 60;
 
 private:

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: MIT
 #include "grammar/dialects/houdini/writer.h"
 
+#include "grammar/ast/number.h"
 #include "grammar/ast/reports.h"
 #include "grammar/base/utf8.h"
 #include "grammar/dialects/impl/letter_modules.h"
 #include "grammar/dialects/impl/text.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 namespace lsys {
@@ -33,18 +35,63 @@ void HoudiniWriter::report_unsupported(SourceSpan place, const std::string& mess
 
 void HoudiniWriter::read_settings() {
     for (const HoudiniSetting& setting : session_.settings) {
-        const HoudiniSettingRow* const row = find_houdini_setting(houdini_key(text(setting.key)));
         SourceSpan value = setting.value;
         value.end = value.begin + static_cast<std::uint32_t>(trimmed(text(value)).size());
-        if (row == nullptr) { // unreachable: the scanner only passes known keys
+        const HoudiniSettingRow* const row = find_houdini_setting(houdini_key(text(setting.key)));
+        if (row == nullptr || row->kind == HoudiniSettingKind::Unused) {
+            session_.context.diagnostics.add(
+                DiagnosticCode::ForeignIgnored, setting.key,
+                "`" + shown(text(setting.key)) +
+                    (row == nullptr ? "` is no setting that lsc reads" : "` has no effect here"));
             continue;
         }
-        if (row->kind != HoudiniSettingKind::Ignore && !is_number(text(value), "+-")) {
-            report_syntax(value, "`" + shown(text(value)) + "` is not a number");
-        } else if (!settings_.emplace(row->name, value).second) {
-            report_syntax(setting.key, "this setting occurs twice");
-        }
+        read_setting(*row, setting.key, value);
     }
+    read_generations();
+}
+
+void HoudiniWriter::read_setting(const HoudiniSettingRow& row, SourceSpan key, SourceSpan value) {
+    const std::string word = lowered(text(value));
+    const bool is_switch = row.kind == HoudiniSettingKind::Switch;
+    if (is_switch && word != "on" && word != "off" && word != "1" && word != "0") {
+        report_syntax(value, "`" + shown(text(value)) + "` is not `on` or `off`");
+    } else if (!is_switch && row.kind != HoudiniSettingKind::Ignore &&
+               !is_number(text(value), "+-")) {
+        report_syntax(value, "`" + shown(text(value)) + "` is not a number");
+    } else if (!settings_.emplace(row.name, value).second) {
+        report_syntax(key, "this setting occurs twice");
+    }
+}
+
+/// Splits the number of generations: 4.25 is 5 generations, of which the last one has a quarter of
+/// its lengths, angles and widths.
+void HoudiniWriter::read_generations() {
+    const auto found = settings_.find("n");
+    if (found == settings_.end()) {
+        return;
+    }
+    constexpr float kMax = 1'000'000.0F;
+    const float value = read_literal(number("n", "0")).value;
+    const float whole = std::floor(value);
+    if (!(value > 0.0F && value < kMax) || whole == value) {
+        return; // .lsys reports numbers that are too large or negative
+    }
+    generations_ = static_cast<std::uint32_t>(whole) + 1;
+    const std::string digits = number("n", "0"); // as written: 0.3, not 0.3000002
+    const std::size_t point = digits.find('.');
+    fraction_ = point != digits.npos && digits.find_first_of("eE") == digits.npos
+                    ? "0" + digits.substr(point)
+                    : text_of(value - whole);
+}
+
+/// Whether a switch is on, as all are in a new node.
+bool HoudiniWriter::is_on(std::string_view name) const {
+    const auto found = settings_.find(name);
+    if (found == settings_.end()) {
+        return true;
+    }
+    const std::string word = lowered(text(found->second));
+    return word == "on" || word == "1";
 }
 
 /// The value of a setting as written in the file, or `fallback`.
@@ -63,8 +110,13 @@ void HoudiniWriter::write_settings(std::string_view turtle) {
             continue;
         }
         translation_.put(key == "n" ? "#n = " : "#set " + std::string(key) + " ", found->second);
-        translation_.put(number(key, ""), found->second);
+        const bool is_fraction = key == "n" && !fraction_.empty();
+        translation_.put(is_fraction ? std::to_string(generations_) : number(key, ""),
+                         found->second);
         translation_.put(";\n");
+    }
+    if (settings_.count("random_scale") != 0) {
+        translation_.put("#set interpret_depth 1;\n#set at_depth stop;\n");
     }
     if (std::any_of(session_.rules.begin(), session_.rules.end(),
                     [](const HoudiniRule& rule) { return rule.probability != kNoForeign; })) {
@@ -155,6 +207,7 @@ void HoudiniWriter::write(std::string_view turtle) {
     for (std::size_t i = 0; i < session_.rules.size(); ++i) {
         write_ageing(session_.rules[i], i + 1);
     }
+    write_random_scale();
 }
 
 void HoudiniWriter::write_symbol(const HoudiniModule& module) {
@@ -197,19 +250,27 @@ void HoudiniWriter::name_locals(const Word& word, std::size_t first, std::set<st
 
 void HoudiniWriter::write_word(const Word& word) {
     for (const Lowered& made : word) {
-        const HoudiniModule& module = *made.module;
-        const SourceSpan place = symbols_.count(module) != 0 ? module.parentheses : module.symbol;
-        if (made.name.empty()) {
-            write_symbol(module);
+        if (is_last_) {
+            write_scaled(made);
         } else {
-            translation_.put(made.name, module.symbol);
+            write_module(made);
         }
-        for (std::size_t i = 0; i < made.arguments.size(); ++i) {
-            translation_.put(i == 0 ? "(" : ", ", place);
-            tree_.write(made.arguments[i], {}, translation_);
-        }
-        translation_.put(made.arguments.empty() ? "" : ")", place);
     }
+}
+
+void HoudiniWriter::write_module(const Lowered& made) {
+    const HoudiniModule& module = *made.module;
+    const SourceSpan place = symbols_.count(module) != 0 ? module.parentheses : module.symbol;
+    if (made.name.empty()) {
+        write_symbol(module);
+    } else {
+        translation_.put(made.name, module.symbol);
+    }
+    for (std::size_t i = 0; i < made.arguments.size(); ++i) {
+        translation_.put(i == 0 ? "(" : ", ", place);
+        tree_.write(made.arguments[i], {}, translation_);
+    }
+    translation_.put(made.arguments.empty() ? "" : ")", place);
 }
 
 /// Warns, once per symbol, that lsc ignores the effect of the symbol.

@@ -41,14 +41,21 @@ private:
     [[nodiscard]] std::string number(std::string_view name, const char* fallback) const;
 
     void read_settings();
+    void read_setting(const HoudiniSettingRow& row, SourceSpan key, SourceSpan value);
+    void read_generations();
+    [[nodiscard]] bool is_on(std::string_view name) const;
+    void write_random_scale();
     void write_settings(std::string_view turtle);
     void write_values();
     [[nodiscard]] bool reads_variable(std::string_view value) const;
     [[nodiscard]] bool calls(std::string_view function) const;
 
     void write_rule(const HoudiniRule& rule, std::size_t index);
-    void
-    write_variant(const HoudiniRule& rule, const ParameterCounts& counts, const std::string& name);
+    /// Writes a variant of a rule; is_last: for the last, fractional generation.
+    void write_variant(const HoudiniRule& rule,
+                       const ParameterCounts& counts,
+                       const std::string& name,
+                       bool is_last);
     void write_pattern(const std::vector<HoudiniModule>& modules,
                        const ParameterCounts& counts,
                        std::size_t& slot);
@@ -65,6 +72,10 @@ private:
     /// Finds which local values from index `first` on a word reads, and gives them names.
     void name_locals(const Word& word, std::size_t first, std::set<std::string> taken);
     void write_word(const Word& word);
+    void write_module(const Lowered& made);
+    /// Scales a command of the last, fractional generation: its parameter, or the values of the
+    /// turtle before the command, restored behind it.
+    void write_scaled(const Lowered& made);
     void write_expression(ForeignId expression, const HoudiniScope& scope);
     [[nodiscard]] Lowered lower_module(const HoudiniModule& module, const HoudiniScope& scope);
     bool lower_special(Lowered& made, char symbol, const HoudiniScope& scope);
@@ -90,11 +101,13 @@ private:
     // Probability in place of a condition with `rand`.
     std::map<const HoudiniRule*, std::string> probabilities_;
     std::map<std::string_view, bool> aged_; // symbols whose ageing rule is written
-    /// Parameters that the variant of a rule lacks.
-    std::vector<std::string_view> omitted_parameters_;
-    std::string warned_;                  // symbols that have been reported
-    std::uint32_t fresh_ = 0;             // count of generated parameter names
-    std::size_t premise_local_count_ = 0; // locals of the premise; first in tree_.locals()
+    std::vector<std::string_view> zeros_;   // parameters that the variant of a rule lacks
+    std::string warned_;                    // symbols that have been reported
+    std::uint32_t fresh_ = 0;               // count of generated parameter names
+    std::uint32_t generations_ = 0;         // rounded up
+    std::string fraction_;                  // part of the last generation; empty: all of it
+    bool is_last_ = false;                  // writing the last, fractional generation
+    std::size_t premise_local_count_ = 0;   // locals of the premise; first in tree_.locals()
 };
 
 } // namespace lsys

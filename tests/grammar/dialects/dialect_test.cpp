@@ -73,9 +73,11 @@ TEST_CASE("the dialect of a text is recognised") {
 
 TEST_CASE("files of one dialect may hold several systems") {
     for (const DialectRow& row : dialects()) {
-        CHECK(has_systems(row.dialect) == (row.dialect == Dialect::Fractint));
-        CHECK(row.systems("one { }\ntwo { }\n").empty() == !has_systems(row.dialect));
+        const bool is_collection = row.dialect == Dialect::Fractint || row.dialect == Dialect::Cpfg;
+        CHECK(has_systems(row.dialect) == is_collection);
     }
+    CHECK(systems_in(Dialect::Cpfg, "Lsystem: 1\nAxiom: A\nendlsystem\nLsystem : main \n") ==
+          std::vector<std::string>{"1", "main"});
     CHECK(systems_in(Dialect::Fractint, "one { }\ntwo { }\n") ==
           std::vector<std::string>{"one", "two"});
 }

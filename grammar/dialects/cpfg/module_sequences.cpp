@@ -1,0 +1,212 @@
+// SPDX-License-Identifier: MIT
+#include "grammar/dialects/cpfg/module_sequences.h"
+
+#include "grammar/dialects/cpfg/known_values.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <iterator>
+#include <string>
+#include <utility>
+
+namespace lsys {
+
+namespace {
+
+using Modules = std::vector<CpfgModule>;
+
+constexpr std::size_t kMaxLetters = 16; // of a module name in back quotes
+
+bool is_same(const CpfgModule& a, const CpfgModule& b) {
+    return a.name == b.name && a.arguments.size() == b.arguments.size();
+}
+
+/// Whether `list` has the modules of `sequence` from index `at` on.
+bool has_at(const Modules& list, std::size_t at, const Modules& sequence) {
+    return at + sequence.size() <= list.size() &&
+           std::equal(sequence.begin(), sequence.end(),
+                      list.begin() + static_cast<std::ptrdiff_t>(at), is_same);
+}
+
+class Sequences {
+public:
+    explicit Sequences(CpfgSession& session)
+        : session_(session), known_values_(session.expressions) {}
+
+    void join() {
+        for (const CpfgProduction& production : session_.productions) {
+            const Modules& modules = production.predecessor;
+            if (production.stage != Stage::Rewrite && modules.size() > 1 &&
+                !is_listed(production.stage, modules) && may_join(production.stage, modules)) {
+                found_.push_back({production.stage, modules});
+            }
+        }
+        std::vector<CpfgProduction> all;
+        for (CpfgProduction& production : session_.productions) {
+            join_in(production);
+            all.push_back(std::move(production));
+        }
+        for (const Sequence& sequence : found_) {
+            if (!always_holds(sequence, all)) {
+                all.push_back(taking_apart(sequence));
+            }
+        }
+        session_.productions = std::move(all);
+    }
+
+private:
+    struct Sequence {
+        Stage stage{};
+        Modules modules;
+    };
+
+    [[nodiscard]] bool is_listed(Stage stage, const Modules& modules) const {
+        return std::any_of(found_.begin(), found_.end(), [&](const Sequence& each) {
+            return each.stage == stage && each.modules.size() == modules.size() &&
+                   has_at(modules, 0, each.modules);
+        });
+    }
+
+    [[nodiscard]] bool is_always(const CpfgProduction& production) {
+        return production.condition == kNoForeign ||
+               known_values_.of(production.condition).value_or(0.0) != 0.0;
+    }
+
+    [[nodiscard]] bool may_join(Stage stage, const Modules& modules) {
+        std::size_t letters = 0;
+        for (const CpfgModule& module : modules) {
+            letters += module.name.size();
+        }
+        const bool has_brackets =
+            std::any_of(modules.begin(), modules.end(), [](const CpfgModule& module) {
+                return std::string_view("[]{}%@?$").find(module.name[0]) != std::string_view::npos;
+            });
+        return letters <= kMaxLetters && !has_brackets && is_first(stage, modules) &&
+               !may_stay(stage, modules);
+    }
+
+    /// Whether no other production of the stage may apply to the modules: to the first alone before
+    /// one of the sequence, to more or fewer of them, or to some of them if none of the sequence
+    /// applies.
+    [[nodiscard]] bool is_first(Stage stage, const Modules& modules) {
+        bool always = false;
+        bool parts_alone = false; // productions of the parts
+        for (const CpfgProduction& production : session_.productions) {
+            const Modules& other = production.predecessor;
+            if (production.stage != stage || other.empty()) {
+                continue;
+            }
+            const bool is_own = other.size() == modules.size() && has_at(other, 0, modules);
+            always = always || (is_own && is_always(production));
+            if (is_own) {
+                continue;
+            }
+            if (is_same(other[0], modules[0]) && !always &&
+                (other.size() == 1 || has_at(other, 0, modules) || has_at(modules, 0, other))) {
+                return false;
+            }
+            parts_alone = parts_alone ||
+                          std::any_of(modules.begin(), modules.end(), [&](const CpfgModule& part) {
+                              return is_same(part, other[0]);
+                          });
+        }
+        return always || (stage == Stage::Interpret && !parts_alone);
+    }
+
+    /// Whether the first module of the sequence may be in a word: then cpfg would find the sequence
+    /// among modules of different successors.
+    [[nodiscard]] bool may_stay(Stage stage, const Modules& modules) const {
+        const auto occurs = [&](const Modules& list) {
+            return std::any_of(list.begin(), list.end(), [&](const CpfgModule& module) {
+                return is_same(module, modules[0]);
+            });
+        };
+        const auto occurs_apart = [&](const Modules& list) {
+            for (std::size_t i = 0; i < list.size(); ++i) {
+                if (has_at(list, i, modules)) {
+                    i += modules.size() - 1;
+                } else if (is_same(list[i], modules[0])) {
+                    return true;
+                }
+            }
+            return false;
+        };
+        return occurs(session_.axiom) ||
+               std::any_of(session_.productions.begin(), session_.productions.end(),
+                           [&](const CpfgProduction& production) {
+                               const Modules& list = production.successor;
+                               return production.stage == Stage::Interpret ? false
+                                      : stage == Stage::Decompose          ? occurs_apart(list)
+                                                                           : occurs(list);
+                           });
+    }
+
+    /// One module in place of `count` modules from `first` on.
+    static CpfgModule joined(const CpfgModule* first, std::size_t count) {
+        CpfgModule made = *first;
+        for (std::size_t i = 1; i < count; ++i) {
+            made.name += first[i].name;
+            made.arguments.insert(made.arguments.end(), first[i].arguments.begin(),
+                                  first[i].arguments.end());
+        }
+        made.has_arguments = !made.arguments.empty();
+        return made;
+    }
+
+    /// Joins the sequences of the predecessor and the successor. The word that a stage reads is
+    /// written by that stage and by those before it.
+    void join_in(CpfgProduction& production) const {
+        for (const Sequence& sequence : found_) {
+            const std::size_t count = sequence.modules.size();
+            if (production.stage == sequence.stage && production.predecessor.size() == count &&
+                has_at(production.predecessor, 0, sequence.modules)) {
+                production.predecessor = {joined(production.predecessor.data(), count)};
+            }
+            if (production.stage == Stage::Interpret && sequence.stage != Stage::Interpret) {
+                continue;
+            }
+            Modules made;
+            for (std::size_t i = 0; i < production.successor.size(); ++i) {
+                if (has_at(production.successor, i, sequence.modules)) {
+                    made.push_back(joined(&production.successor[i], count));
+                    i += count - 1;
+                } else {
+                    made.push_back(production.successor[i]);
+                }
+            }
+            production.successor = std::move(made);
+        }
+    }
+
+    [[nodiscard]] bool always_holds(const Sequence& sequence,
+                                    const std::vector<CpfgProduction>& productions) {
+        const CpfgModule module = joined(sequence.modules.data(), sequence.modules.size());
+        return std::any_of(
+            productions.begin(), productions.end(), [&](const CpfgProduction& production) {
+                return production.stage == sequence.stage && production.predecessor.size() == 1 &&
+                       is_same(production.predecessor[0], module) && is_always(production);
+            });
+    }
+
+    /// The production that writes the modules of a sequence if no other applies.
+    static CpfgProduction taking_apart(const Sequence& sequence) {
+        CpfgProduction made;
+        made.stage = sequence.stage;
+        made.predecessor = {joined(sequence.modules.data(), sequence.modules.size())};
+        made.successor = sequence.modules;
+        made.span = made.arrow = sequence.modules[0].span;
+        return made;
+    }
+
+    CpfgSession& session_;
+    KnownValues known_values_;
+    std::vector<Sequence> found_;
+};
+
+} // namespace
+
+void join_module_sequences(CpfgSession& session) {
+    Sequences(session).join();
+}
+
+} // namespace lsys

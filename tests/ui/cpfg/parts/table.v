@@ -1,0 +1,1 @@
+function: table.func 100
