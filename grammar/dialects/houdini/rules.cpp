@@ -213,7 +213,7 @@ void HoudiniWriter::write_variant(const HoudiniRule& rule,
                          rule.span);
     } else if (rule.condition != kNoForeign) {
         translation_.put(fraction_.empty() ? "" : generation + " && (", rule.span);
-        write_expression(rule.condition, {HoudiniPlace::Condition, &rule, &zeros_});
+        write_expression(rule.condition, {HoudiniPlace::Condition, &rule, &omitted_parameters_});
         translation_.put(fraction_.empty() ? "" : ")", rule.span);
     } else if (!fraction_.empty()) {
         translation_.put(generation, rule.span);

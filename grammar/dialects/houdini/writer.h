@@ -101,7 +101,8 @@ private:
     // Probability in place of a condition with `rand`.
     std::map<const HoudiniRule*, std::string> probabilities_;
     std::map<std::string_view, bool> aged_; // symbols whose ageing rule is written
-    std::vector<std::string_view> zeros_;   // parameters that the variant of a rule lacks
+    /// Parameters that the variant of a rule lacks.
+    std::vector<std::string_view> omitted_parameters_;
     std::string warned_;                    // symbols that have been reported
     std::uint32_t fresh_ = 0;               // count of generated parameter names
     std::uint32_t generations_ = 0;         // rounded up
