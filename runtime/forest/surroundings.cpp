@@ -168,7 +168,7 @@ double mean_height(const InstanceCache& cache, std::uint64_t key) {
     return sum / kMeasuredTrees;
 }
 
-float open_yaw(const Forest& forest, const Tree& tree) {
+float random_yaw(const Forest& forest, const Tree& tree) {
     const PhiloxBlock words = philox4x32(
         {std::bit_cast<std::uint32_t>(tree.position.x),
          std::bit_cast<std::uint32_t>(tree.position.z), kOpenYawGeneration, tree.number},

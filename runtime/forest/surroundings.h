@@ -29,8 +29,8 @@ inline constexpr double kNeighbourReach = 2.0;
 /// Height of the lowest plant that takes a quarter, as a part of the height of the tree: flowers
 /// and seedlings below a tree do not shade it.
 inline constexpr double kNeighbourHeight = 0.5;
-/// Distance in crown radii at which the neighbours of heroes stand: the middle of the distances at
-/// which trees take quarters. Shadow is short, so crowns that only touch would hardly shade.
+/// Distance, in crown radii, at which the neighbours of heroes stand while these grow: half of
+/// kNeighbourReach. At kNeighbourReach the crowns would only touch, and hardly shade each other.
 inline constexpr double kNeighbourDistance = 1.0;
 
 /// The quarters that are taken around the heroes of a case: bit q stands for the quarter whose

@@ -203,7 +203,7 @@ Outcome<GroundPictures> make_ground_pictures(const LoadedScene& loaded,
 /// One stage of a species: its heroes with one number of generations, and the mesh files of its
 /// grammar.
 struct GrownStage {
-    std::vector<ForestStage> stages; // one, or one for each case of Surroundings
+    std::vector<ForestStage> stages; // one stage, or one for each case of Surroundings
     std::vector<SensedStage> sensed; // by stage; empty unless SceneSpecies::keeps_senses
     std::vector<UserMesh> user_meshes;
     Settings settings;      // settings of the grammar
@@ -620,6 +620,13 @@ grow_species(const LoadedScene& loaded, const Project& project, const PreviousFo
             return step.end(Stop::Diagnosed);
         }
         grown.sensed.push_back(finished(scale, forest_species, std::move(sensed)));
+    }
+    // The environments of reused species are not known; their commands were checked before.
+    const std::vector<std::optional<std::size_t>>& reused = grown.reused_species;
+    if (std::all_of(reused.begin(), reused.end(), [](const auto& each) { return !each; })) {
+        if (const Result<void> known = check_commands(project.environments, programs); !known) {
+            return step.fail(known.error());
+        }
     }
     measure_plants(grown.forest);
     grown.cache_seconds = growing.seconds();

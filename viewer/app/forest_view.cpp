@@ -98,7 +98,7 @@ ForestView::~ForestView() {
     streamer_.reset();
     renderer_->show_lines({});
     renderer_->show_senses({});
-    renderer_->show_plant(Mesh{}); // instead of the forest, which ends with document_
+    renderer_->show_plant(Mesh{}); // replaces the forest, which document_ owns
 }
 
 /// Called on the file watch's thread.
