@@ -124,6 +124,7 @@ struct PlaceCommand : SceneCommand {
     bool stats = false;
 };
 
+/// Options that `lsc tiles` and `lsc serve` share.
 struct TileScene : SceneCommand {
     TileOptions tiles;
     std::string trees; // a file of `lsc place`; empty: the scene is placed

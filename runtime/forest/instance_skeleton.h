@@ -14,7 +14,8 @@ namespace lsys {
 /// kNoSegment.
 [[nodiscard]] Skeleton skeleton_of(const InstanceCache& cache, const Instance& instance);
 
-/// The segments of the heroes at whose tip a branch that was left out begins with a segment.
+/// The segments of the heroes with a fork (glossary of runtime/forest/README.md) whose branch draws
+/// a segment at its entry.
 [[nodiscard]] std::vector<std::uint32_t> forked_segments(const InstanceCache& cache);
 
 /// The stand-in of a slot: its first instance, which PartSkeletons::whole() takes for every

@@ -62,7 +62,7 @@ struct RunError {
     Failure failure = Failure::NotFinite;
     std::string production;     // empty for an unmatched bracket and for errors before generation 0
     std::uint64_t position = 0; // in the word that is rewritten; unmatched bracket: in the last
-    std::uint32_t generation = 0; // age of this word
+    std::uint32_t generation = 0; // age of the word that `position` refers to
     Module module;                // the first module that the production rewrites
 };
 

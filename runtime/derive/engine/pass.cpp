@@ -61,7 +61,7 @@ void Passes::report_progress(std::uint32_t generation, std::uint64_t modules) {
     if (!options_.progress || before / kProgressStride == (before + modules) / kProgressStride) {
         return;
     }
-    const std::unique_lock<std::mutex> only_one(progress_, std::try_to_lock);
+    const std::unique_lock<std::mutex> only_one(progress_mutex_, std::try_to_lock);
     if (only_one.owns_lock()) {
         options_.progress(generation + 1, before + modules);
     }

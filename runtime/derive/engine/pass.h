@@ -102,7 +102,7 @@ private:
     std::uint64_t parameters_ = 0;
     std::uint64_t other_bytes_ = 0;
     std::atomic<std::uint64_t> written_{0};
-    std::mutex progress_;
+    std::mutex progress_mutex_;
     RuntimeError error_;
     LimitReport limit_;
 };

@@ -37,7 +37,7 @@ ForestPlan::ForestPlan(const ForestScene& scene, float cell, std::uint32_t threa
         ++stages_[first_stage_[tree.species] + forest.stage_of(tree)].trees;
     }
     sort_trees(cell);
-    cut_cells();
+    split_cells_into_pieces();
     count_pieces(threads);
     find_groups();
 }
@@ -95,7 +95,7 @@ std::vector<TreeExpander> ForestPlan::make_expanders() const {
     return expanders;
 }
 
-void ForestPlan::cut_cells() {
+void ForestPlan::split_cells_into_pieces() {
     for (ForestCell& cell : cells_) {
         cell.first_piece = pieces_.size();
         for (std::uint64_t done = 0; done < cell.tree_count; done += kPieceTrees) {

@@ -85,7 +85,7 @@ public:
 
 private:
     void sort_trees(float cell);
-    void cut_cells();
+    void split_cells_into_pieces();
     void count_pieces(std::uint32_t threads);
     void find_groups();
     template <typename Visit>

@@ -153,8 +153,7 @@ std::string small_letters(std::string text) {
 } // namespace
 
 std::vector<std::string> object_file_names(const std::vector<std::string>& files) {
-    // Names of the materials of the library, and of the pictures that are written beside a mesh
-    // file.
+    // Names of the built-in materials, and of the pictures that are written beside a mesh file.
     std::set<std::string> taken{"", "bark", "bark normals", "leaf", "polygon", "impostor"};
     std::vector<std::string> names;
     for (const std::string& file : files) {

@@ -22,7 +22,7 @@ namespace lsys {
 /// By radius: the min number of sides with which a polygon stays within a distance of its circle.
 class SideCounts {
 public:
-    /// `deviation`: greater than 0, in the unit of radii.
+    /// `deviation`: greater than 0, in the same unit as the radii.
     explicit SideCounts(float deviation);
 
     /// The smallest odd number of sides for which radius * (1 - cos(pi / sides)) is at most the

@@ -36,11 +36,13 @@ namespace lsys {
     const glm::dvec3 v(q.x, q.y, q.z);
     const double sine_squared = glm::dot(v, v); // of half the angle
     const double sign = q.w < 0.0 ? -1.0 : 1.0;
-    if (sine_squared < 1e-4) { // series of asin(x) / x
-        const double x = sine_squared;
+    if (sine_squared < 1e-4) {
+        // The series of asin(s) / s in powers of s2 = s^2; s is the sine.
+        const double s2 = sine_squared;
         return sign * 2.0 *
                (1.0 +
-                x * (1.0 / 6.0 + x * (3.0 / 40.0 + x * (15.0 / 336.0 + x * 105.0 / 3456.0)))) *
+                s2 * (1.0 / 6.0 +
+                     s2 * (3.0 / 40.0 + s2 * (15.0 / 336.0 + s2 * 105.0 / 3456.0)))) *
                v;
     }
     const double sine = std::sqrt(sine_squared);
