@@ -107,6 +107,19 @@ private:
     std::unordered_set<char> letters_; // letters of all words, only with `names letters`
 };
 
+/// `text`, the rest of a line, without its comments `/* ... */`.
+std::string without_comments(std::string_view text) {
+    std::string rest;
+    for (std::size_t at = 0; at < text.size();) {
+        const std::size_t open = std::min(text.find("/*", at), text.size());
+        rest += text.substr(at, open - at);
+        const std::size_t close = text.find("*/", std::min(open + 2, text.size()));
+        at = close == std::string_view::npos ? text.size() : close + 2;
+        rest += ' ';
+    }
+    return rest;
+}
+
 class CommentSearch {
 public:
     CommentSearch(Resolution& resolution, const std::vector<bool>& known, NameSplitter& splitter)
@@ -190,9 +203,11 @@ void check_stray_comments(Resolution& resolution,
             continue;
         }
         const std::string_view line = line_at(text, slashes.begin);
-        if (line.size() > 2 && search.is_comment(line.substr(2), slashes.file)) {
+        const std::string rest =
+            without_comments(line.substr(std::min<std::size_t>(2, line.size())));
+        if (search.is_comment(rest, slashes.file)) {
             report_stray_comment(resolution.diagnostics, line, slashes,
-                                 search.may_be_modules(line.substr(2), slashes.file));
+                                 search.may_be_modules(rest, slashes.file));
         }
     }
 }
