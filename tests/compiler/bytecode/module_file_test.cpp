@@ -45,10 +45,21 @@ TEST_CASE("a module file is read back as it was written") {
     CHECK(read.value().template_places[1].stride == 2);
 }
 
+TEST_CASE("contours are read back as they were written") {
+    Bytecode bytecode = test::small_bytecode();
+    bytecode.contours = {{"ring", {{0.5F, 0.0F}, {0.0F, 0.25F}}}};
+    const Result<Bytecode> read = read_module_file(write_module_file(bytecode));
+    REQUIRE(read.ok());
+    REQUIRE(read.value().contours.size() == 1);
+    CHECK(read.value().contours[0].name == "ring");
+    CHECK(read.value().contours[0].points == bytecode.contours[0].points);
+    CHECK(digest(read.value()) == digest(test::small_bytecode())); // words do not depend on them
+}
+
 TEST_CASE("the bytes of a module file change only with its version") {
     // If this number changes, the format of the file has changed: increase kModuleFileVersion.
-    REQUIRE(kModuleFileVersion == 13);
-    CHECK(checksum(write_module_file(test::small_bytecode())) == 0x4800E0B513DD3239);
+    REQUIRE(kModuleFileVersion == 14);
+    CHECK(checksum(write_module_file(test::small_bytecode())) == 0xCBD3B6C170426315);
 }
 
 TEST_CASE("every truncation of a module file is refused") {
@@ -78,11 +89,11 @@ TEST_CASE("foreign, older, newer and longer files have different errors") {
     CHECK(refusal("#w : A;\n") == "not a compiled grammar (.lsb)");
     std::string newer = bytes;
     newer[8] = static_cast<char>(kModuleFileVersion + 1);
-    CHECK(refusal(newer) == "made by a newer lsc (format 14, this one reads 13)");
+    CHECK(refusal(newer) == "made by a newer lsc (format 15, this one reads 14)");
     std::string older = bytes;
     older[8] = 5;
     CHECK(refusal(older) ==
-          "made by an older lsc (format 5, this one reads 13): compile the grammar again");
+          "made by an older lsc (format 5, this one reads 14): compile the grammar again");
     CHECK(refusal(bytes + "x") == "the file is damaged: 1 bytes follow its end");
     std::string damaged = bytes;
     damaged.back() = static_cast<char>(damaged.back() ^ 1);

@@ -44,6 +44,26 @@ TEST_CASE("symbols and folded modules are checked") {
     CHECK(verdict([](Bytecode& b) { b.template_codes[1] = 6; }) == "code 6 does not exist");
 }
 
+TEST_CASE("contours and the modules that set them are checked") {
+    const BytecodeContour ring{"ring", {{0.5F, 0.0F}, {0.0F, 0.5F}, {0.5F, 0.0F}}};
+    const auto with = [&](const std::function<void(Bytecode&)>& change) {
+        return verdict([&](Bytecode& b) {
+            b.contours = {ring};
+            b.symbols[1].turtle = TurtleOperation::SetContour;
+            b.symbols[1].mesh_file = "ring";
+            change(b);
+        });
+    };
+    CHECK(with([](Bytecode&) {}).empty());
+    CHECK(with([](Bytecode& b) { b.symbols[1].mesh_file.clear(); }).empty()); // a circle
+    CHECK(with([](Bytecode& b) { b.symbols[1].mesh_file = "ping"; }) ==
+          "symbol 1 sets a contour that does not exist");
+    CHECK(with([](Bytecode& b) { b.contours[0].points.resize(1); }) == "contour 0 has 1 points");
+    CHECK(with([](Bytecode& b) { b.contours[0].points.resize(65); }) == "contour 0 has 65 points");
+    CHECK(with([](Bytecode& b) { b.contours[0].points[1].y = HUGE_VALF; }) ==
+          "a point of contour 0 is not finite");
+}
+
 TEST_CASE("heads are checked") {
     CHECK(verdict([](Bytecode& b) { b.patterns[1].first_formal = 0; }) ==
           "pattern item 1 is malformed");

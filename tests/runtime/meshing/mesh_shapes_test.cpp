@@ -226,8 +226,11 @@ TEST_CASE("every operation that places an object has a shape") {
         // The turtle places spheres and disks for these two.
         const bool is_placed_as_another =
             operation == TurtleOperation::CentredSphere || operation == TurtleOperation::LevelDisk;
-        const bool is_shape = info(operation).drawn == DrawnKind::Object &&
-                              operation != TurtleOperation::MeshFile && !is_placed_as_another;
+        // Files and organs have meshes of their own.
+        const bool has_own_mesh =
+            operation == TurtleOperation::MeshFile || operation == TurtleOperation::SurfaceBegin;
+        const bool is_shape =
+            info(operation).drawn == DrawnKind::Object && !has_own_mesh && !is_placed_as_another;
         CAPTURE(std::string(name_of(operation)));
         CHECK(make_shape(operation, 0).parts.empty() == !is_shape);
     }
