@@ -74,8 +74,8 @@ private:
         }
     }
 
-    /// Of an original and its copies, removes those with modules that the axiom does not lead to. If
-    /// these are all, the original stays, for the warning about it.
+    /// Removes, of an original and its copies, those with modules that the axiom does not lead to.
+    /// If these are all, the original stays, for the warning about it.
     void remove_unused(std::vector<CpfgProduction>& all,
                        const std::vector<std::size_t>& originals) const {
         std::set<Command> written;
@@ -116,8 +116,8 @@ private:
         all = std::move(kept);
     }
 
-    /// Whether a production of the stage may rewrite letter `at` of a command. When cpfg interprets a
-    /// word, its `@` takes the letters after it, so that a homomorphism does not see them.
+    /// Whether a production of the stage may rewrite letter `at` of a command. When cpfg interprets
+    /// a word, its `@` takes the letters after it, so that a homomorphism does not see them.
     static bool may_rewrite(Stage stage, std::size_t at) {
         return stage != Stage::Interpret || at == 0;
     }
