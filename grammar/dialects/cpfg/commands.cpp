@@ -50,8 +50,10 @@ public:
         std::vector<std::size_t> originals; // per production of `all`: the index of its original
         for (const CpfgProduction& production : session_.productions) {
             std::vector<CpfgProduction> copies{production};
-            add_contexts(copies, &CpfgProduction::left);
-            add_contexts(copies, &CpfgProduction::right);
+            if (production.stage == Stage::Rewrite) { // others have no contexts
+                add_contexts(copies, &CpfgProduction::left);
+                add_contexts(copies, &CpfgProduction::right);
+            }
             const std::size_t first = all.size();
             all.insert(all.end(), copies.begin(), copies.end());
             for (const CpfgProduction& copy : copies) {
@@ -72,8 +74,8 @@ private:
         }
     }
 
-    /// Of an original and its copies, removes those with modules that the axiom does not lead to. If
-    /// these are all, the original stays, for the warning about it.
+    /// Removes, of an original and its copies, those with modules that the axiom does not lead to.
+    /// If these are all, the original stays, for the warning about it.
     void remove_unused(std::vector<CpfgProduction>& all,
                        const std::vector<std::size_t>& originals) const {
         std::set<Command> written;
@@ -114,6 +116,12 @@ private:
         all = std::move(kept);
     }
 
+    /// Whether a production of the stage may rewrite letter `at` of a command. When cpfg interprets
+    /// a word, its `@` takes the letters after it, so that a homomorphism does not see them.
+    static bool may_rewrite(Stage stage, std::size_t at) {
+        return stage != Stage::Interpret || at == 0;
+    }
+
     /// Whether `module`, a letter, is letter `at` of a command.
     static bool is_part(const CpfgModule& module, const Command& command, std::size_t at) {
         const auto& [name, arguments] = command;
@@ -136,7 +144,7 @@ private:
             std::map<Stage, std::set<std::size_t>> rewritten;
             for (const CpfgProduction& production : session_.productions) {
                 for (std::size_t at = 0; at < command.first.size(); ++at) {
-                    if (production.predecessor.size() == 1 &&
+                    if (production.predecessor.size() == 1 && may_rewrite(production.stage, at) &&
                         is_part(production.predecessor[0], command, at)) {
                         rewritten[production.stage].insert(at);
                     }
@@ -188,7 +196,8 @@ private:
         }
         for (const auto& [command, span] : commands_) {
             for (std::size_t at = 0; at < command.first.size(); ++at) {
-                if (is_part(production.predecessor[0], command, at)) {
+                if (may_rewrite(production.stage, at) &&
+                    is_part(production.predecessor[0], command, at)) {
                     add_predecessor(production, command, at, all);
                 }
             }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Decompositions and homomorphisms of several modules as one: `S T --> ...`. A production of .lsys in
-// these stages rewrites one module. cpfg matches the modules within one successor, so each sequence
-// `S T` in a successor becomes one module `ST`, with the parameters of both.
+// Decompositions and homomorphisms of several modules as one: `S T --> ...`. A production of .lsys
+// in these stages rewrites one module. cpfg matches the modules within one successor, so each
+// sequence `S T` in a successor becomes one module `ST`, with the parameters of both.
 #pragma once
 
 #include "grammar/dialects/cpfg/session.h"
