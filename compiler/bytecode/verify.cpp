@@ -122,7 +122,7 @@ private:
             const BytecodeContour& contour = bytecode_.contours[i];
             if (contour.points.size() < kMinContourPoints ||
                 contour.points.size() > kMaxContourPoints || contour.name.empty() ||
-                !printable(contour.name)) {
+                !is_printable(contour.name)) {
                 return fail("contour {} has {} points", i, contour.points.size());
             }
             for (const ContourPoint& point : contour.points) {
