@@ -14,7 +14,7 @@ namespace {
 /// Finest level of branches in impostors; a form with more than kMaxTriangles per tree gets a
 /// coarser level.
 constexpr std::uint32_t kFinestLevel = 1;
-constexpr double kMaxTriangles = 70'000.0;
+constexpr double kMaxTriangles = 30'000.0;
 constexpr std::uint32_t kClusterRow = 4; // trees along a side of a cluster
 
 /// Deterministic number from 0 to 1.
