@@ -582,7 +582,7 @@ bool Controls::press_common(const KeyPress& press, View& view, PanelState& panel
         if (press.in_control) {
             return true; // the key ends the use of the control
         }
-        if (panels.focus.has_keys() && !panels.flies) {
+        if ((panels.focus.has_keys() || panels.source.has_focus) && !panels.flies) {
             panels.focus_move = FocusMove::Picture;
             return true;
         }

@@ -5,21 +5,49 @@
 #include <cstddef>
 #include <imgui.h>
 #include <imgui_internal.h>
+#include <string_view>
 
 namespace lsys::view {
 
 namespace {
 
-/// Windows that can have the keyboard while no dialog is open, in the order of the key F6.
-constexpr std::array<const char*, 6> kPanels = {"Panel",    "Buttons", "Trace",
-                                                "Messages", "Making",  "Keys"};
+/// Windows that can have the keyboard beside dialogs, in the order of F6.
+constexpr std::array<const char*, 8> kPanels = {"Panel", "Buttons",  kSourceButtons, kSourceLines,
+                                                "Trace", "Messages", "Making",       "Keys"};
 
-/// The outermost window that has the keyboard; null: the picture has it.
+/// Whether a window is a part of the source pane that has the keyboard on its own. ImGui puts the
+/// names of the windows around it before its own.
+bool is_source_part(const ImGuiWindow& window, std::string_view name) {
+    const std::string_view whole = window.Name;
+    const std::size_t last = whole.find_last_of('/');
+    return (window.Flags & ImGuiWindowFlags_ChildWindow) != 0 && last != std::string_view::npos &&
+           whole.substr(last + 1, name.size()) == name;
+}
+
+/// The window with the keyboard: a panel, without the windows inside it, or a part of the source
+/// pane; null: the picture has it.
 ImGuiWindow* focused_panel() {
     const ImGuiContext& context = *ImGui::GetCurrentContext();
-    return context.NavWindow == nullptr || context.NavDisableHighlight
-               ? nullptr
-               : context.NavWindow->RootWindow;
+    ImGuiWindow* const window = context.NavWindow;
+    if (window == nullptr || context.NavDisableHighlight) {
+        return nullptr;
+    }
+    return is_source_part(*window, kSourceButtons) || is_source_part(*window, kSourceLines)
+               ? window
+               : window->RootWindow;
+}
+
+/// The window of an entry of kPanels; null: there is none.
+ImGuiWindow* find_panel(const char* name) {
+    if (ImGuiWindow* const window = ImGui::FindWindowByName(name)) {
+        return window;
+    }
+    for (ImGuiWindow* const window : ImGui::GetCurrentContext()->Windows) {
+        if (window->WasActive && is_source_part(*window, name)) {
+            return window;
+        }
+    }
+    return nullptr;
 }
 
 /// Whether the window was drawn in the last frame.
@@ -39,7 +67,7 @@ void focus(ImGuiWindow* window) {
     ImGuiWindow* const inner = window->NavLastChildNavWindow;
     ImGuiWindow* const last = is_shown(inner) ? inner : window;
     ImGui::FocusWindow(last);
-    if (last->NavLastIds[0] == 0) {
+    if (last->NavLastIds[0] == 0 && (last->Flags & ImGuiWindowFlags_NoNavInputs) == 0) {
         ImGui::NavInitWindow(last, false);
     }
     context.NavDisableHighlight = false;
@@ -50,12 +78,12 @@ ImGuiWindow* next_panel() {
     const ImGuiWindow* const now = focused_panel();
     std::size_t next = 0;
     for (std::size_t i = 0; i < kPanels.size(); ++i) {
-        if (now != nullptr && ImGui::FindWindowByName(kPanels.at(i)) == now) {
+        if (now != nullptr && find_panel(kPanels.at(i)) == now) {
             next = i + 1;
         }
     }
     for (; next < kPanels.size(); ++next) {
-        ImGuiWindow* const window = ImGui::FindWindowByName(kPanels.at(next));
+        ImGuiWindow* const window = find_panel(kPanels.at(next));
         if (is_shown(window)) {
             return window;
         }

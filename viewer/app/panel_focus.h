@@ -8,7 +8,12 @@
 
 namespace lsys::view {
 
-/// A change of the keyboard focus that the user requests.
+/// Names of the child windows of the source pane that have the keyboard in turn: the buttons, and
+/// the lines, which handle their keys themselves.
+inline constexpr const char* kSourceButtons = "Source buttons";
+inline constexpr const char* kSourceLines = "Source lines";
+
+/// A request of the user.
 enum class FocusMove : std::uint8_t { None, Next, Picture };
 
 /// The kind of the open dialog. Controls handles the keys of its own dialogs, which have no ring.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // SourcePane: its drawing with widgets of ImGui.
 #include "grammar/base/utf8.h"
+#include "viewer/app/panel_focus.h"
 #include "viewer/app/source_pane.h"
 #include "viewer/app/widgets.h"
 
@@ -9,6 +10,7 @@
 #include <algorithm>
 #include <array>
 #include <imgui.h>
+#include <imgui_internal.h>
 
 namespace lsys::view {
 
@@ -385,6 +387,14 @@ void draw_rows(SourcePane& pane, PlantView* plant, SourceActions& actions) {
     ImGui::Dummy({width, at.row_height * static_cast<float>(rows.size())});
 }
 
+/// A ring around the window, as around the control that has the keyboard.
+void draw_focus_ring() {
+    const ImVec2 corner = ImGui::GetWindowPos();
+    const ImVec2 opposite{corner.x + ImGui::GetWindowWidth(), corner.y + ImGui::GetWindowHeight()};
+    ImGui::GetWindowDrawList()->AddRect(corner, opposite,
+                                        ImGui::GetColorU32(ImGuiCol_NavHighlight));
+}
+
 } // namespace
 
 SourceActions
@@ -403,7 +413,7 @@ draw_source_pane(SourcePane& pane, View& view, PlantView* plant, float width, fl
     if (is_open) {
         draw_border(pane, scale, size.y);
         ImGui::SameLine(0.0F, 0.0F);
-        ImGui::BeginChild("Contents", {0.0F, 0.0F}, false, ImGuiWindowFlags_NoNav);
+        ImGui::BeginChild(kSourceButtons, {0.0F, 0.0F});
         ImGui::Dummy({0.0F, 0.0F});
         draw_buttons(pane, view, plant, actions);
         if (pane.source() == nullptr) {
@@ -414,15 +424,23 @@ draw_source_pane(SourcePane& pane, View& view, PlantView* plant, float width, fl
             ImGui::Separator();
             // Each file has its own scroll position.
             ImGui::PushID(static_cast<int>(pane.file_index()));
-            if (ImGui::BeginChild("Text", {0.0F, 0.0F}, false,
+            // Arrow keys do not go from the buttons to the lines; F6 does.
+            ImGui::PushItemFlag(ImGuiItemFlags_NoNav, true);
+            if (ImGui::BeginChild(kSourceLines, {0.0F, 0.0F}, false,
                                   ImGuiWindowFlags_HorizontalScrollbar | ImGuiWindowFlags_NoNav)) {
                 draw_rows(pane, plant, actions);
             }
+            if (ImGui::IsWindowFocused()) {
+                draw_focus_ring();
+            }
             ImGui::EndChild();
+            ImGui::PopItemFlag();
             ImGui::PopID();
         }
         ImGui::EndChild();
-        pane.has_focus = ImGui::IsWindowFocused(ImGuiFocusedFlags_RootAndChildWindows);
+        // A ring around a button means that the button has the keys.
+        pane.has_focus = ImGui::IsWindowFocused(ImGuiFocusedFlags_RootAndChildWindows) &&
+                         !ImGui::GetIO().NavVisible;
     }
     ImGui::End();
     return actions;

@@ -14,8 +14,8 @@ namespace {
 /// Finest level of branches that impostors show; a form whose trees have more than kMaxTriangles
 /// gets a coarser level.
 constexpr std::uint32_t kFinestLevel = 1;
-constexpr double kMaxTriangles = 70'000.0;
-constexpr std::uint32_t kClusterRow = 4; // number of trees along a side of a cluster
+constexpr double kMaxTriangles = 30'000.0;
+constexpr std::uint32_t kClusterRow = 4; // trees along a side of a cluster
 
 /// A number from 0 to 1 that a hash of `a` and `b` determines.
 float random_unit(std::uint32_t a, std::uint32_t b) {

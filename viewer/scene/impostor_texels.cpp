@@ -6,7 +6,9 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
+#include <functional>
 #include <utility>
 
 namespace lsys::view {
@@ -14,6 +16,84 @@ namespace lsys::view {
 namespace {
 
 constexpr std::uint8_t kOpaque = 128; // min opacity of opaque texels
+
+/// Opacity smoothed over the texels beside each texel: contours stay smooth in magnified pictures,
+/// and few texels are equal. 0 to kWhole.
+constexpr std::uint32_t kWhole = 16 * 255;
+std::vector<std::uint32_t> smoothed_opacities(const ImpostorTexels& picture) {
+    const std::size_t width = picture.width;
+    const std::size_t height = picture.height;
+    std::vector<std::uint32_t> rows(width * height); // smoothed along rows
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+        const std::size_t x = i % width;
+        const std::size_t before = x > 0 ? i - 1 : i;
+        const std::size_t after = x + 1 < width ? i + 1 : i;
+        rows[i] = picture.albedos[4 * before + 3] + 2U * picture.albedos[4 * i + 3] +
+                  picture.albedos[4 * after + 3];
+    }
+    std::vector<std::uint32_t> both(rows.size());
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+        const std::size_t y = i / width;
+        const std::size_t before = y > 0 ? i - width : i;
+        const std::size_t after = y + 1 < height ? i + width : i;
+        both[i] = rows[before] + 2U * rows[i] + rows[after];
+    }
+    return both;
+}
+
+/// Smoothed opacity from which the texels around a place are opaque, so that as many are as their
+/// mean opacity demands; 0 if they are empty. `window`: for reuse.
+float threshold_around(const ImpostorTexels& picture,
+                       const std::vector<std::uint32_t>& smoothed,
+                       const Tile& around,
+                       std::vector<std::uint32_t>& window) {
+    window.clear();
+    std::uint32_t sum = 0;
+    for (std::uint32_t y = around.y; y < std::min(around.y + around.side, picture.height); ++y) {
+        for (std::uint32_t x = around.x; x < std::min(around.x + around.side, picture.width); ++x) {
+            const std::size_t at = std::size_t{y} * picture.width + x;
+            sum += picture.albedos[4 * at + 3];
+            window.push_back(smoothed[at]);
+        }
+    }
+    if (sum == 0) {
+        return 0.0F;
+    }
+    const std::size_t opaque_count = std::max<std::size_t>((sum + 127) / 255, 1);
+    const auto last = window.begin() + static_cast<std::ptrdiff_t>(opaque_count - 1);
+    std::nth_element(window.begin(), last, window.end(), std::greater<>());
+    return static_cast<float>(std::max(*last, 1U));
+}
+
+/// Thresholds at the middles of square blocks, between which they are interpolated.
+struct Thresholds {
+    std::uint32_t columns = 0;
+    std::uint32_t rows = 0;
+    std::vector<float> values; // 0: none
+
+    /// `x`, `y`: in blocks, from the middle of the first one on.
+    [[nodiscard]] float at(float x, float y) const {
+        float sum = 0.0F;
+        float weights = 0.0F;
+        const float left = std::floor(x);
+        const float top = std::floor(y);
+        for (std::uint32_t k = 0; k < 4; ++k) {
+            const float column = left + static_cast<float>(k & 1U);
+            const float row = top + static_cast<float>(k >> 1U);
+            const auto last_column = static_cast<float>(columns - 1);
+            const auto last_row = static_cast<float>(rows - 1);
+            const float value =
+                values[static_cast<std::size_t>(std::clamp(row, 0.0F, last_row)) * columns +
+                       static_cast<std::size_t>(std::clamp(column, 0.0F, last_column))];
+            if (value > 0.0F) {
+                const float weight = (1.0F - std::abs(x - column)) * (1.0F - std::abs(y - row));
+                sum += weight * value;
+                weights += weight;
+            }
+        }
+        return weights > 0.0F ? sum / weights : static_cast<float>(kWhole);
+    }
+};
 
 } // namespace
 
@@ -86,34 +166,39 @@ void dilate(ImpostorTexels& picture, std::uint32_t rounds) {
     }
 }
 
-std::vector<std::uint8_t> with_coverage(const ImpostorTexels& picture, double wanted) {
-    std::array<std::size_t, 256> counts{};
-    const std::size_t texels = picture.albedos.size() / 4;
-    for (std::size_t i = 0; i < texels; ++i) {
-        ++counts[picture.albedos[4 * i + 3]];
+std::vector<std::uint8_t> with_coverage(const ImpostorTexels& picture) {
+    constexpr std::uint32_t kBlock = 8;           // texels along a side
+    constexpr std::uint32_t kMargin = kBlock / 2; // the window of a block is larger than the block
+    const std::vector<std::uint32_t> smoothed = smoothed_opacities(picture);
+    Thresholds thresholds{
+        (picture.width + kBlock - 1) / kBlock, (picture.height + kBlock - 1) / kBlock, {}};
+    std::vector<std::uint32_t> window;
+    for (std::uint32_t row = 0; row < thresholds.rows; ++row) {
+        for (std::uint32_t column = 0; column < thresholds.columns; ++column) {
+            const Tile around{column * kBlock - std::min(column * kBlock, kMargin),
+                              row * kBlock - std::min(row * kBlock, kMargin), kBlock + 2 * kMargin};
+            thresholds.values.push_back(threshold_around(picture, smoothed, around, window));
+        }
     }
-    // Finds the lowest opacity among the texels that stay opaque.
-    std::size_t opaque_count = 0;
-    unsigned min_opacity = 255;
-    while (min_opacity > 1 && static_cast<double>(opaque_count + counts[min_opacity]) <
-                                  wanted * static_cast<double>(texels)) {
-        opaque_count += counts[min_opacity];
-        --min_opacity;
+    std::vector<std::uint8_t> cut = picture.albedos;
+    constexpr float kPerTexel = 1.0F / static_cast<float>(kBlock);
+    for (std::size_t i = 0; i < smoothed.size(); ++i) {
+        if (smoothed[i] == 0) {
+            continue;
+        }
+        const auto x = static_cast<float>(i % picture.width);
+        const auto y = static_cast<float>(i / picture.width);
+        const float threshold =
+            thresholds.at((x + 0.5F) * kPerTexel - 0.5F, (y + 0.5F) * kPerTexel - 0.5F);
+        const auto value = static_cast<float>(smoothed[i]);
+        constexpr auto kMiddle = static_cast<float>(kOpaque);
+        const float opacity = value < threshold
+                                  ? (kMiddle - 0.5F) * value / threshold
+                                  : kMiddle + (255.0F - kMiddle) * (value - threshold + 1.0F) /
+                                                  (static_cast<float>(kWhole) - threshold + 1.0F);
+        cut[4 * i + 3] = static_cast<std::uint8_t>(std::min(opacity, 255.0F));
     }
-    std::vector<std::uint8_t> scaled = picture.albedos;
-    for (std::size_t i = 3; i < scaled.size(); i += 4) {
-        scaled[i] =
-            static_cast<std::uint8_t>(std::min(unsigned{scaled[i]} * kOpaque / min_opacity, 255U));
-    }
-    return scaled;
-}
-
-double coverage_of(const ImpostorTexels& picture) {
-    double sum = 0.0;
-    for (std::size_t i = 3; i < picture.albedos.size(); i += 4) {
-        sum += static_cast<double>(picture.albedos[i]) / 255.0;
-    }
-    return 4.0 * sum / static_cast<double>(picture.albedos.size());
+    return cut;
 }
 
 glm::vec4 opaque_box(std::span<const std::uint8_t> picture,

@@ -25,12 +25,10 @@ struct ImpostorTexels {
 /// colour of empty texels into others.
 void dilate(ImpostorTexels& picture, std::uint32_t rounds);
 
-/// Mean opacity of all texels.
-[[nodiscard]] double coverage_of(const ImpostorTexels& picture);
-
-/// Opacities, scaled so that the fraction `wanted` of the texels is opaque at this mip level.
-/// Otherwise trees would thin out at a distance (Castano 2010, "Computing Alpha Mipmaps").
-[[nodiscard]] std::vector<std::uint8_t> with_coverage(const ImpostorTexels& picture, double wanted);
+/// Opacities with as many opaque texels in each part of the picture as its mean opacity demands;
+/// otherwise trees thin out with distance (Castano 2010, "Computing Alpha Mipmaps"). With one
+/// threshold for a whole tree, thin twigs at its edge would vanish, and gaps in its crown close.
+[[nodiscard]] std::vector<std::uint8_t> with_coverage(const ImpostorTexels& picture);
 
 /// A square of texels.
 struct Tile {

@@ -58,7 +58,11 @@ void main() {
     vec3 albedo = tint;
     bool is_translucent = (kind & 2u) != 0u;
 #ifdef CUT_OUT
+#ifdef BAKE
+    vec4 texel = texture(leaf_texture, uv, -2.0);
+#else
     vec4 texel = texture(leaf_texture, uv);
+#endif
 #if defined(BAKE)
     if (texel.a < 0.5) {
         discard;

@@ -37,8 +37,8 @@ out vec4 colour;
 #endif
 void main() {
 #ifdef TURNS
-    // Lower bits of the threshold divide the pixels of each LOD band between both views.
-    float threshold = fract(8.0 * dither_threshold());
+    // Random numbers divide the pixels of each LOD band between both views.
+    float threshold = random_of_pixel();
     bool is_next = threshold >= next_view.y && threshold < next_view.z;
     vec2 across = dFdx(layer_uv.xy), along = dFdy(layer_uv.xy);
     vec3 at_texel = layer_uv + vec3(is_next ? next_view.x : 0.0, 0.0, 0.0);

@@ -384,6 +384,46 @@ TEST_CASE("F6 gives the keyboard to the panels in turn, and arrow keys reach all
     CHECK_FALSE(drawn.panels.focus.has_keys());
 }
 
+TEST_CASE("F6 reaches the buttons and the lines of the source pane") {
+    DrawnPanels drawn(panel_options(sample("teach-param")));
+    REQUIRE(has_plant(drawn));
+    SourcePane& source = drawn.panels.source;
+    source.look.is_shown = true;
+    REQUIRE(drawn.until([&] {
+        source.update(drawn.switcher.current(), [] {});
+        return source.source() != nullptr;
+    }));
+    drawn.frames(3);
+    drawn.press_outside({Key::F6});
+    drawn.press_outside({Key::F6});
+    CHECK(DrawnPanels::focused_window() == "Buttons");
+    drawn.press_outside({Key::F6});
+    CHECK(DrawnPanels::focused_window() == "Source");
+    CHECK(drawn.panels.focus.has_keys());
+    CHECK_FALSE(source.has_focus);
+    // Its first button opens the editor; arrow keys reach the last one, which closes the pane.
+    const auto close =
+        std::find_if(drawn.widgets.begin(), drawn.widgets.end(), [](const Widget& w) {
+            return std::string(w.window->Name).find("Source buttons") != std::string::npos &&
+                   w.id == w.window->GetID("Close");
+        });
+    REQUIRE(close != drawn.widgets.end());
+    const ImGuiID id = close->id;
+    for (int i = 0; i < 6 && ImGui::GetCurrentContext()->NavId != id; ++i) {
+        drawn.press(ImGuiKey_RightArrow);
+    }
+    CHECK(ImGui::GetCurrentContext()->NavId == id);
+    drawn.press_outside({Key::F6});
+    CHECK(source.has_focus);
+    CHECK_FALSE(drawn.panels.focus.has_keys());
+    drawn.press_outside({Key::Down});
+    drawn.press_outside({Key::Down});
+    CHECK(source.selected().first == 2);
+    drawn.press_outside({Key::Escape});
+    CHECK_FALSE(source.has_focus);
+    CHECK(DrawnPanels::focused_window().empty());
+}
+
 TEST_CASE("keys alone change a value") {
     DrawnPanels drawn(panel_options(sample("teach-param")));
     REQUIRE(has_plant(drawn));

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
-// Compares boxes of opaque texels with a search of all texels.
+// Compares boxes of opaque texels with a search of all texels, and counts opaque texels.
 #include "viewer/scene/impostor_texels.h"
 
 #include <catch2/catch.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <random>
@@ -55,4 +56,47 @@ TEST_CASE("the box of a tile has its opaque texels, with a margin, and none of o
 TEST_CASE("the box of a transparent tile is empty") {
     std::vector<std::uint8_t> picture(std::size_t{4} * 16 * 16, 127);
     CHECK(opaque_box(picture, 16, {0, 0, 16}, 3.0F) == glm::vec4(0.0F));
+}
+
+TEST_CASE("a mip level keeps the coverage of each part of a tree") {
+    // The left half has thin twigs, a quarter of each texel, the right half a crown with few gaps.
+    constexpr std::uint32_t kSide = 64;
+    ImpostorTexels picture{kSide, kSide, {}, {}};
+    picture.albedos.resize(std::size_t{4} * kSide * kSide);
+    std::mt19937 draws(3);
+    std::uniform_int_distribution<int> noise(-20, 20);
+    std::array<double, 2> sums{};
+    for (std::uint32_t y = 0; y < kSide; ++y) {
+        for (std::uint32_t x = 0; x < kSide; ++x) {
+            const bool is_crown = x >= kSide / 2;
+            const int opacity = (is_crown ? 210 : 64) + noise(draws);
+            picture.albedos[(std::size_t{y} * kSide + x) * 4 + 3] =
+                static_cast<std::uint8_t>(opacity);
+            sums.at(is_crown ? 1 : 0) += opacity / 255.0;
+        }
+    }
+    const std::vector<std::uint8_t> cut = with_coverage(picture);
+    REQUIRE(cut.size() == picture.albedos.size());
+    std::array<double, 2> counts{};
+    for (std::uint32_t y = 0; y < kSide; ++y) {
+        for (std::uint32_t x = 0; x < kSide; ++x) {
+            const bool is_opaque = cut[(std::size_t{y} * kSide + x) * 4 + 3] >= 128;
+            counts.at(x >= kSide / 2 ? 1 : 0) += is_opaque ? 1.0 : 0.0;
+        }
+    }
+    CHECK(counts[0] == Approx(sums[0]).epsilon(0.2));
+    CHECK(counts[1] == Approx(sums[1]).epsilon(0.2));
+    // Whole and empty pictures stay, and so does a line of whole texels.
+    ImpostorTexels whole{kSide, kSide, std::vector<std::uint8_t>(4 * kSide * kSide, 255), {}};
+    CHECK((with_coverage(whole) == whole.albedos));
+    ImpostorTexels empty{kSide, kSide, std::vector<std::uint8_t>(4 * kSide * kSide, 0), {}};
+    CHECK((with_coverage(empty) == empty.albedos));
+    for (std::uint32_t y = 0; y < kSide; ++y) {
+        empty.albedos[(std::size_t{y} * kSide + y / 3) * 4 + 3] = 255;
+    }
+    const std::vector<std::uint8_t> line = with_coverage(empty);
+    for (std::uint32_t y = 0; y < kSide; ++y) {
+        CAPTURE(y);
+        CHECK(line[(std::size_t{y} * kSide + y / 3) * 4 + 3] >= 128);
+    }
 }

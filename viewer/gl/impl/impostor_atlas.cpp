@@ -221,10 +221,9 @@ void ImpostorAtlas::draw_elevation(const Cylinder& form,
 }
 
 void ImpostorAtlas::upload_layer(std::uint32_t layer, ImpostorTexels picture) {
-    const double wanted = coverage_of(picture);
     for (GLint level = 0; level < kLevels; ++level) {
         dilate(picture, 2);
-        const std::vector<std::uint8_t> scaled = with_coverage(picture, wanted);
+        const std::vector<std::uint8_t> scaled = with_coverage(picture);
         if (level == 0) {
             find_boxes(layer, scaled);
         }
