@@ -9,6 +9,7 @@
 
 #include "grammar/dialects/cpfg/curves.h"
 #include "grammar/dialects/cpfg/expressions.h"
+#include "grammar/dialects/cpfg/looks.h"
 #include "grammar/dialects/cpfg/session.h"
 
 #include <cstddef>
@@ -54,6 +55,7 @@ private:
     void write_setting(const char* begin, ForeignId expression, const char* fallback);
     void write_depth(const char* begin, ForeignId expression, Stage stage);
     void read_view_file();
+    [[nodiscard]] CpfgUses find_uses() const;
     void write_constants();
     void write_declarations();
     void write_names(const char* begin, const std::vector<CpfgModule>& list);
@@ -103,6 +105,8 @@ private:
     Translation& out_;
     SourceSpan header_; // for text without a place of its own
     CpfgView view_;
+    CpfgLooks looks_;
+    std::string materials_; // #material statements of the colours that are used
     CpfgExpressions expressions_;
     ForeignExpressions& tree_;
     // Expressions of settings in .lsys.
