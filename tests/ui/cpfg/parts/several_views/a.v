@@ -1,1 +1,0 @@
-angle increment: 1
