@@ -33,14 +33,15 @@ namespace lsys {
 //  12  Profile Cpfg, its trait for the corners of polygons, and its operations.
 //  13  Sense modules, environments, the stages of sweeps.
 //  14  Contours, the operations of organs, SurfaceBegin to SetContour, and the trait of their
-//      tangents.
+//      tangents; tropisms whose strength the word changes, with their operations; unit and increment
+//      of widths; first colour; operations NarrowWidth, WidenWidth and PreviousColour.
 inline constexpr std::uint32_t kModuleFileVersion = 14;
 
 #define LSYS_VERSION_MATTERS                                                                       \
     "what a .lsb file can hold has changed: raise kModuleFileVersion, add a line to its history, " \
     "then set this number"
 static_assert(kCountOf<Opcode> == 54, LSYS_VERSION_MATTERS);
-static_assert(kCountOf<TurtleOperation> == 69, LSYS_VERSION_MATTERS);
+static_assert(kCountOf<TurtleOperation> == 78, LSYS_VERSION_MATTERS);
 static_assert(kCountOf<TurtleProfile> == 13, LSYS_VERSION_MATTERS);
 static_assert(kCountOf<RewritingMode> == 4, LSYS_VERSION_MATTERS);
 static_assert(kCountOf<ChoiceScope> == 2, LSYS_VERSION_MATTERS);
@@ -49,10 +50,14 @@ static_assert(kCountOf<RandomSource> == 2, LSYS_VERSION_MATTERS);
 static_assert(kCountOf<AtDepth> == 2, LSYS_VERSION_MATTERS);
 static_assert(kCountOf<LoadRule> == 2, LSYS_VERSION_MATTERS);
 static_assert(kCountOf<TipShape> == 3, LSYS_VERSION_MATTERS);
+static_assert(kCountOf<WidthUnit> == 2, LSYS_VERSION_MATTERS);
+static_assert(kCountOf<TropismKind> == 4, LSYS_VERSION_MATTERS);
 static_assert(kCountOf<SymbolKind> == 5, LSYS_VERSION_MATTERS);
 static_assert(kCountOf<PatternKind> == 3, LSYS_VERSION_MATTERS);
 static_assert(kCountOf<Stage> == 5, LSYS_VERSION_MATTERS);
-static_assert(kFieldCount<Settings> == 33, LSYS_VERSION_MATTERS);
+static_assert(kFieldCount<Settings> == 37, LSYS_VERSION_MATTERS);
+static_assert(kFieldCount<StepTropism> == 5, LSYS_VERSION_MATTERS);
+static_assert(std::tuple_size_v<StepTropisms> == 11, LSYS_VERSION_MATTERS);
 static_assert(kFieldCount<TurtleTraits> == 13, LSYS_VERSION_MATTERS);
 static_assert(kFieldCount<Pipe> == 3, LSYS_VERSION_MATTERS);
 static_assert(kFieldCount<Flare> == 3, LSYS_VERSION_MATTERS);

@@ -24,6 +24,8 @@ constexpr EnumNames<WeightRule> kWeightRules{"one", "any"};
 constexpr EnumNames<AtDepth> kAtDepths{"error", "stop"};
 constexpr EnumNames<LoadRule> kLoadRules{"carried", "own"};
 constexpr EnumNames<TipShape> kTipShapes{"flat", "round", "broken"};
+constexpr EnumNames<WidthUnit> kWidthUnits{"metres", "pixels"};
+constexpr EnumNames<TropismKind> kTropismKinds{"", "after", "before", "twist"};
 constexpr EnumNames<RandomSource> kRandomSources{"philox", "glibc"};
 constexpr EnumNames<TurtleProfile> kTurtleProfiles{
 #define LSYS_TURTLE_PROFILE(identifier, name, ...) name,
@@ -37,7 +39,8 @@ constexpr std::array<TurtleTraits, kCountOf<TurtleProfile>> kTurtleTraits{{
 static_assert(!kRewritingModes.back().empty() && !kChoiceScopes.back().empty() &&
                   !kWeightRules.back().empty() && !kAtDepths.back().empty() &&
                   !kRandomSources.back().empty() && !kLoadRules.back().empty() &&
-                  !kTipShapes.back().empty(),
+                  !kTipShapes.back().empty() && !kWidthUnits.back().empty() &&
+                  !kTropismKinds.back().empty(),
               "an enumerator has no name");
 
 } // namespace
@@ -62,6 +65,12 @@ std::string_view name_of(LoadRule load) {
 }
 std::string_view name_of(TipShape tips) {
     return name_in(kTipShapes, tips);
+}
+std::string_view name_of(WidthUnit unit) {
+    return name_in(kWidthUnits, unit);
+}
+std::string_view name_of(TropismKind kind) {
+    return name_in(kTropismKinds, kind);
 }
 std::string_view name_of(TurtleProfile profile) {
     return name_in(kTurtleProfiles, profile);

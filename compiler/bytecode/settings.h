@@ -29,6 +29,9 @@ LSYS_COUNTED_ENUM(AtDepth, Error, Stop);
 LSYS_COUNTED_ENUM(LoadRule, Carried, Own);
 /// Ends of tubes: a low cone, a half ball, or a jagged break.
 LSYS_COUNTED_ENUM(TipShape, Flat, Round, Broken);
+/// Unit of the widths of branches: metres, or pixels of a picture of the plant, which
+/// runtime/turtle/plant_size.h converts.
+LSYS_COUNTED_ENUM(WidthUnit, Metres, Pixels);
 /// The set of turtle commands by module name (docs/language.md section 7). The resolver reads the
 /// profile; later stages may only print its name.
 enum class TurtleProfile : std::uint8_t {
@@ -67,6 +70,25 @@ struct TurtleTraits {
 
 /// Tropism: a direction x, y, z and the susceptibility e (docs/language.md section 7).
 using Tropism = std::array<float, 4>;
+
+/// What a tropism of the setting `tropisms` turns, and when: the heading after a step, the heading
+/// before a step, or the up axis before a step. None: an unused row.
+LSYS_COUNTED_ENUM(TropismKind, None, After, Before, Twist);
+/// A tropism whose strength the word changes (docs/language.md section 7.9).
+struct StepTropism {
+    TropismKind kind = TropismKind::None;
+    std::array<float, 3> direction{}; // its length is a factor of the strength
+    float strength = 0.0F;            // at the start of the word
+    float increment = 0.0F;           // of the strength, by commands without a number
+    float angle = 0.0F;               // of Before, in degrees between heading and direction
+
+    friend bool operator==(const StepTropism&, const StepTropism&) = default;
+};
+/// The used rows come first.
+using StepTropisms = std::array<StepTropism, 11>;
+[[nodiscard]] inline bool has_tropisms(const StepTropisms& tropisms) {
+    return tropisms.front().kind != TropismKind::None;
+}
 
 /// The pipe model: branch widths computed from the tips (docs/language.md section 7.5).
 struct Pipe {
@@ -133,6 +155,9 @@ constexpr void for_each_setting(Values& settings, Function function) {
 [[nodiscard]] std::string_view name_of(AtDepth at);
 [[nodiscard]] std::string_view name_of(LoadRule load);
 [[nodiscard]] std::string_view name_of(TipShape tips);
+[[nodiscard]] std::string_view name_of(WidthUnit unit);
+/// The word for the kind in `#set tropisms`; empty for None.
+[[nodiscard]] std::string_view name_of(TropismKind kind);
 [[nodiscard]] std::string_view name_of(TurtleProfile profile);
 
 } // namespace lsys

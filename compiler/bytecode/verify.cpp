@@ -71,7 +71,7 @@ private:
             return fail("a setting is not finite");
         }
 #define LSYS_COUNT(field, initial, effect, group, min, max, wanted, misfit)                        \
-    if (s.field < (min) || s.field > (max)) {                                                      \
+    if (static_cast<std::int64_t>(s.field) < (min) || s.field > (max)) {                           \
         return fail(misfit, s.field);                                                              \
     }
 #include "compiler/bytecode/settings.def"
@@ -91,6 +91,14 @@ private:
         if (s.flare != Flare{} && !(factor >= 1.0F && factor <= kMaxFlare && height > 0.0F &&
                                     (roots == 0 || (roots >= kMinRoots && roots <= kMaxRoots)))) {
             return fail("a flare of factor {}, height {} and {} roots", factor, height, roots);
+        }
+        bool ended = false;
+        for (const StepTropism& tropism : s.tropisms) {
+            const bool is_used = tropism.kind != TropismKind::None;
+            if (is_used ? ended : tropism != StepTropism{}) {
+                return fail("a tropism behind the last one");
+            }
+            ended = !is_used;
         }
         if (!(s.collar >= 0.0F)) {
             return fail("a collar of factor {}", s.collar);

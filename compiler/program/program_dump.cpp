@@ -73,6 +73,23 @@ private:
             out_ += fmt::format("  tropism {} {} {} {}\n", s.tropism[0], s.tropism[1], s.tropism[2],
                                 s.tropism[3]);
         }
+        if (has_tropisms(s.tropisms)) {
+            out_ += "  tropisms";
+            for (const StepTropism& each : s.tropisms) {
+                if (each.kind != TropismKind::None) {
+                    out_ += fmt::format(" {} {} {} {} {} {} {}", name_of(each.kind),
+                                        each.direction[0], each.direction[1], each.direction[2],
+                                        each.strength, each.increment, each.angle);
+                }
+            }
+            out_ += '\n';
+        }
+        if (s.width_unit != WidthUnit::Metres) {
+            out_ += fmt::format("  width_unit {}\n", name_of(s.width_unit));
+        }
+        if (s.colour != 0) {
+            out_ += fmt::format("  colour {}\n", s.colour);
+        }
         if (s.height != 0.0F) {
             out_ += fmt::format("  height {}\n", s.height);
         }

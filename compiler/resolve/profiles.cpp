@@ -177,19 +177,30 @@ constexpr auto kSidefx = joined(
 
 // cpfg rolls as the matrices of ABOP 1.5 do: `\\` rolls about the heading, from the up vector
 // towards the right vector.
-constexpr auto kCpfg = joined(kForwardAndMove,
-                              turns({YawLeft, YawRight, PitchDown, PitchUp, RollRight, RollLeft}),
-                              kCommandsExceptTurns,
-                              commands({{"G", ForwardWithoutVertex},
-                                        {"g", MoveWithoutVertex},
-                                        {"@O", CentredSphere},
-                                        {"@o", LevelDisk},
-                                        {"@c", LevelDisk},
-                                        {"@Gs", SurfaceBegin},
-                                        {"@Gc", SurfacePoint, 1, "rings, not read"},
-                                        {"@Ge", SurfaceEnd, 1, "rings, not read"},
-                                        {"@Gt", SurfaceTangents},
-                                        {"@#", SetContour, 1, "number of the contour"}}));
+constexpr auto kCpfg =
+    joined(kForwardAndMove,
+           turns({YawLeft, YawRight, PitchDown, PitchUp, RollRight, RollLeft}),
+           commands({{"|", TurnAround}, {"$", RollUpright}, {"\"", ScaleStep}, kColour}),
+           kPolygonsAndCut,
+           commands({{"G", ForwardWithoutVertex},
+                     {"g", MoveWithoutVertex},
+                     {"@O", CentredSphere},
+                     {"@o", LevelDisk},
+                     {"@c", LevelDisk},
+                     {"@Gs", SurfaceBegin},
+                     {"@Gc", SurfacePoint, 1, "rings, not read"},
+                     {"@Ge", SurfaceEnd, 1, "rings, not read"},
+                     {"@Gt", SurfaceTangents},
+                     {"@#", SetContour, 1, "number of the contour"},
+                     {"!", NarrowWidth},
+                     {"#", WidenWidth},
+                     {",", PreviousColour},
+                     {"_", SetSusceptibility},
+                     {"@Ts", SetTropism},
+                     {"@Ti", AddTropism},
+                     {"@Td", SubtractTropism},
+                     {"@Tp", Untwist},
+                     {"@Tf", KeepTwist}}));
 
 constexpr std::array<std::span<const TurtleCommand>, kCountOf<TurtleProfile>> kProfiles{
 #define LSYS_TURTLE_PROFILE(identifier, ...) std::span<const TurtleCommand>(k##identifier),

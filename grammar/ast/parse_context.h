@@ -15,7 +15,8 @@
 
 namespace lsys {
 
-/// Returns the bytes of the file at a path; its Error is reported at the #include.
+/// Returns the bytes of the file at a path; its Error is reported at the #include. Of a folder,
+/// whose path ends with `/`, the names of its files, sorted, one per line.
 using FileLoader = std::function<Result<std::string>(const std::string& path)>;
 
 /// Inputs and outputs of one parse. All references must outlive the parse.
@@ -29,6 +30,7 @@ struct ParseContext {
     std::string_view system{}; // name of the system to read if a file has several
     /// Receives the spans of all statements, with and without errors; may be null.
     std::vector<SourceSpan>* statements = nullptr;
+    std::string_view view{}; // path of the view file of a cpfg model; empty: found by its name
 };
 
 } // namespace lsys

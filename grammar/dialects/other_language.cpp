@@ -3,6 +3,7 @@
 
 #include "grammar/base/characters.h"
 #include "grammar/dialects/dialect.h"
+#include "grammar/dialects/impl/known_formats.h"
 #include "grammar/dialects/impl/text.h"
 
 #include <algorithm>
@@ -58,7 +59,8 @@ bool is_lsys_statement(std::string_view line) {
         return has_hash && rest.find(':') != std::string_view::npos && line.ends_with(';');
     }
     if (!has_hash) {
-        return behind.starts_with(':') && line.ends_with(';') &&
+        const bool is_scope = behind.starts_with("::"); // of C++ or Rust
+        return behind.starts_with(':') && !is_scope && line.ends_with(';') &&
                std::count(line.begin(), line.end(), ':') >= 2;
     }
     return behind.starts_with(':') || behind.starts_with('=') || word == "set" || word == "param" ||
@@ -169,10 +171,6 @@ std::optional<OtherLanguage> recognise_format(const std::vector<Line>& lines) {
         (text[0] == '[' && (second == '{' || second == '"'))) {
         return language_at(&first, "JSON", "a grammar is text of its own; see `docs/manual.md`");
     }
-    if (text.starts_with("<?xml") || text.starts_with("<!DOCTYPE") || text.starts_with("<svg") ||
-        text.starts_with("<html")) {
-        return language_at(&first, "XML or HTML", "save the grammar alone, as plain text");
-    }
     if (text.starts_with("[[") || find_line(lines, [](std::string_view line) {
                                       return line.starts_with("[[") && line.ends_with("]]");
                                   }) != nullptr) {
@@ -187,6 +185,14 @@ std::optional<OtherLanguage> recognise_format(const std::vector<Line>& lines) {
     });
     if (has_fence || (has_heading && mark != nullptr)) {
         return language_at(&first, "Markdown", "save the grammar alone, as plain text");
+    }
+    std::vector<std::string_view> texts;
+    for (const Line& line : lines) {
+        texts.push_back(line.text);
+    }
+    if (const std::optional<KnownFormat> known = find_known_format(texts)) {
+        return language_at(&lines[known->line], std::string(known->name),
+                           "a grammar is plain text with statements such as `#w : F;`");
     }
     const Line* const scene = find_line(lines, [](std::string_view line) {
         return line.starts_with("#declare ") || line.starts_with("#macro ") ||
@@ -210,7 +216,13 @@ std::optional<OtherLanguage> recognise_format(const std::vector<Line>& lines) {
         return line.starts_with("#include <") || line.starts_with("int main(") ||
                line.starts_with("void main(");
     });
-    return language_at(code, "a C program", "a grammar has statements such as `#w : F;`");
+    if (code != nullptr) {
+        return language_at(code, "a C program", "a grammar has statements such as `#w : F;`");
+    }
+    const std::optional<KnownFormat> plain = find_plain_text(texts);
+    return plain ? language_at(&lines[plain->line], std::string(plain->name),
+                               "a grammar is plain text with statements such as `#w : F;`")
+                 : std::nullopt;
 }
 
 /// Help text for a file in a dialect that lsc reads.

@@ -142,8 +142,14 @@ ExitStatus dump_syntax(const DumpCommand& command, const Console& console) {
     Diagnostics diagnostics;
     const FileId root = sources.add(shown_path(command.file), std::move(grammar.bytes));
     const FileLoader load = make_loader(project, project.limits.max_bytes);
-    const ParseContext context{
-        sources, names, diagnostics, load, command.grammar.bug_compatible, command.grammar.system};
+    const ParseContext context{sources,
+                               names,
+                               diagnostics,
+                               load,
+                               command.grammar.bug_compatible,
+                               command.grammar.system,
+                               nullptr,
+                               command.grammar.view};
     const std::string text = command.stage == DumpStage::Tokens
                                  ? dump_tokens(sources.file(root))
                                  : dump_ast(parse_dialect(root, dialect, context), names, sources);

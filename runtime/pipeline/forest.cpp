@@ -350,6 +350,11 @@ Outcome<GrownStage> grow_stage(const SceneSpecies& species,
             }
         }
     }
+    if (settings.width_unit == WidthUnit::Pixels && !settings.pipe.is_set()) {
+        for (ForestStage& stage : grown.stages) {
+            apply_pixels(material_of(settings), stage.cache.skeleton);
+        }
+    }
     grown.can_reuse_branches = system->kind_count != 0 && species.rho > 0.0F;
     return step.done(std::move(grown));
 }

@@ -177,8 +177,11 @@ bool is_standard_input(const std::string& path) {
 }
 
 FileLoader make_loader(const Project& project, std::uint64_t max_bytes) {
-    return [read = project.host.read_referenced_file,
+    return [read = project.host.read_referenced_file, list = project.host.list_folder,
             left = max_bytes](const std::string& path) mutable {
+        if (list && path.ends_with('/')) {
+            return Result<std::string>(fmt::format("{}", fmt::join(list(path), "\n")));
+        }
         Result<std::string> bytes = read(path, {kMaxSourceBytes, left});
         left -= bytes ? bytes.value().size() : 0;
         return bytes;
@@ -214,6 +217,10 @@ Result<CompiledText> compile_text(const std::string& path,
     if (Result<void> ok = check_system(path, text.dialect, options); !ok) {
         return ok.error();
     }
+    if (!options.view.empty() && text.dialect != Dialect::Cpfg) {
+        return Error{fmt::format("--view: `{}` is {}, which has no view files", shown_path(path),
+                                 row_of(text.dialect).title)};
+    }
     const bool foreign = text.dialect != Dialect::Lsys;
     const std::string_view names = values_of("names", options.settings);
     if (foreign && !names.empty()) {
@@ -223,8 +230,9 @@ Result<CompiledText> compile_text(const std::string& path,
     CompiledText compiled;
     Grammar& grammar = compiled.grammar;
     const FileId root = grammar.sources->add(shown_path(path), std::move(text.bytes));
-    const ParseContext context{*grammar.sources,       grammar.names,  compiled.diagnostics, load,
-                               options.bug_compatible, options.system, &compiled.statements};
+    const ParseContext context{
+        *grammar.sources,       grammar.names,  compiled.diagnostics, load,
+        options.bug_compatible, options.system, &compiled.statements, options.view};
     Ast ast = names.empty() ? parse_dialect(root, text.dialect, context, &grammar.translation)
                             : parse_lsys_with_names(root, names, context);
     apply_levels({}, *grammar.sources, compiled.diagnostics); // `/* lsc: allow CODE */`

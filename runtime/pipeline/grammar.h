@@ -35,6 +35,7 @@ struct EnvironmentMove {
 struct GrammarOptions {
     std::string dialect; // name; empty: detected from the contents, else from the extension
     bool bug_compatible = false;
+    std::string view{}; // path of the view file of a cpfg model; empty: found beside the model
     std::string system; // name in a file of several systems; empty: the only one
     std::vector<Definition> definitions;
     /// Definitions for -D that are ignored if the grammar has no such constant.

@@ -75,6 +75,9 @@ size_plant(const PlantOptions& options, const Grammar& grammar, Step& step, Skel
             return stop;
         }
     }
+    if (settings.width_unit == WidthUnit::Pixels && !settings.pipe.is_set()) {
+        apply_pixels(material, skeleton);
+    }
     const float height = options.height.value_or(settings.height);
     if (height == 0.0F || scale_to_height(static_cast<double>(height), material, skeleton)) {
         return std::nullopt;

@@ -54,6 +54,8 @@ struct Host {
     std::function<Result<std::string>(const std::string& path, const ReadLimit& limit)>
         read_referenced_file;
     std::function<bool(const std::string& path)> file_exists;
+    /// Names of the files of a folder, sorted. May be empty.
+    std::function<std::vector<std::string>(const std::string& folder)> list_folder{};
     /// A flag that the caller sets to true to stop the call; may be null.
     const std::atomic<bool>* cancelled = nullptr;
     /// Reports progress. May be empty.

@@ -6,9 +6,11 @@
 #include "runtime/program/files.h"
 #include "runtime/program/memory_size.h"
 
+#include <algorithm>
 #include <filesystem>
 #include <system_error>
 #include <utility>
+#include <vector>
 
 namespace lsys {
 
@@ -23,6 +25,21 @@ Host make_file_host(const std::atomic<bool>* cancelled) {
     host.file_exists = [](const std::string& path) {
         std::error_code ignored;
         return std::filesystem::exists(path_of(path), ignored);
+    };
+    host.list_folder = [](const std::string& folder) {
+        constexpr std::size_t kMaxFiles = 10'000;
+        std::vector<std::string> names;
+        std::error_code failed;
+        std::filesystem::directory_iterator at(path_of(folder), failed);
+        for (const std::filesystem::directory_iterator end;
+             !failed && at != end && names.size() < kMaxFiles; at.increment(failed)) {
+            std::error_code ignored;
+            if (at->is_regular_file(ignored)) {
+                names.push_back(at->path().filename().string());
+            }
+        }
+        std::sort(names.begin(), names.end());
+        return names;
     };
     host.start_program = start_environment_program;
     host.cancelled = cancelled;

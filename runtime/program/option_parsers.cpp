@@ -131,6 +131,10 @@ void add_grammar(CLI::App& app, GrammarOptions& options, RunOptions& run) {
                    "System to read from a file with several (default: the only one)")
         ->type_name("NAME")
         ->group("Grammar");
+    app.add_option("--view", options.view,
+                   "View file of a cpfg model (default: the one beside the model)")
+        ->type_name("FILE")
+        ->group("Grammar");
     add_parsed(app, "--max-modules", run.limits.max_modules,
                integer(1, std::numeric_limits<std::uint64_t>::max()),
                "Maximum number of modules in a word (default 4294967296)")

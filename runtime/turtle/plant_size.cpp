@@ -188,6 +188,25 @@ std::optional<Stop> apply_pipe(const Pipe& pipe,
     return std::nullopt;
 }
 
+void apply_pixels(const StemMaterial& material, Skeleton& skeleton) {
+    const Bounds bounds = bounds_of(skeleton);
+    if (bounds.empty) {
+        return;
+    }
+    const glm::dvec3 size = glm::dvec3(bounds.high) - glm::dvec3(bounds.low);
+    const double pixel = std::max({size.x, size.y, size.z}) / kPicturePixels;
+    const auto metres = [&](float radius) {
+        return static_cast<float>(std::min(std::max(to_double(radius), 0.5 * kMinPixels) * pixel,
+                                           to_double(std::numeric_limits<float>::max())));
+    };
+    for (Segment& segment : skeleton.segments) {
+        change_segment(segment, material, [&](Segment& each) {
+            each.base_radius = metres(each.base_radius);
+            each.tip_radius = metres(each.tip_radius);
+        });
+    }
+}
+
 Bounds bounds_of(const Skeleton& skeleton) {
     Bounds bounds;
     for (const Segment& segment : skeleton.segments) {

@@ -50,6 +50,14 @@ struct StemMaterial {
                                              std::uint64_t max_bytes,
                                              Skeleton& skeleton);
 
+/// Pixels on the longest side of the picture by which widths in pixels become metres, and the width
+/// of the thinnest branch: 0.4 % of the plant's extent, so that it is seen at every size.
+inline constexpr double kPicturePixels = 500.0;
+inline constexpr double kMinPixels = 2.0;
+/// Converts the widths of all segments from pixels to metres: a pixel is the longest side of
+/// bounds_of() divided by kPicturePixels. Masses and springs follow as in apply_pipe().
+void apply_pixels(const StemMaterial& material, Skeleton& skeleton);
+
 /// The box of a plant: axes of segments, places of objects, corners of polygons; without radii.
 [[nodiscard]] Bounds bounds_of(const Skeleton& skeleton);
 

@@ -43,6 +43,7 @@ double unit_area(const BytecodeSymbol& symbol, std::size_t index, const SensingO
 }
 
 SensingStep step_of(const Action& action, const Bytecode& bytecode) {
+    const bool has_state = has_tropisms(bytecode.settings.tropisms);
     switch (action.quick) {
     case QuickAction::Yaw:
         return SensingStep::Yaw;
@@ -51,11 +52,12 @@ SensingStep step_of(const Action& action, const Bytecode& bytecode) {
     case QuickAction::Roll:
         return SensingStep::Roll;
     case QuickAction::Forward:
-        return bytecode.settings.has_tropism ? SensingStep::Other : SensingStep::Forward;
+        return bytecode.settings.has_tropism || has_state ? SensingStep::Other
+                                                          : SensingStep::Forward;
     case QuickAction::Save:
-        return SensingStep::Save;
+        return has_state ? SensingStep::Other : SensingStep::Save;
     case QuickAction::Restore:
-        return SensingStep::Restore;
+        return has_state ? SensingStep::Other : SensingStep::Restore;
     case QuickAction::NoEffect:
         return SensingStep::NoEffect;
     case QuickAction::None:
@@ -82,7 +84,8 @@ TurtleOptions turtle_options(const SensingOptions& options) {
 SensingTurtle::State::State(const Bytecode& program, SensingOptions wanted)
     : bytecode(program), options(std::move(wanted)),
       table(make_actions(program, turtle_options(options))),
-      polygons(program.settings.traits.corners_are_ends), interprets(program.has(Stage::Interpret)),
+      polygons(program.settings.traits.corners_are_ends), tropisms(program.settings.tropisms),
+      interprets(program.has(Stage::Interpret)),
       has_second_heading(any_has(program, TurtleInfo::SecondHeading)) {
     actions.reserve(table.by_code.size());
     areas.reserve(table.by_code.size());
@@ -117,6 +120,7 @@ void SensingTurtle::State::begin() {
                                 static_cast<double>(settings.traits.first_turn))));
     }
     stack.clear();
+    tropisms.begin();
     polygons = SensingPolygons(settings.traits.corners_are_ends);
     pending = {};
     position = 0;

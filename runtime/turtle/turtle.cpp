@@ -53,7 +53,8 @@ void Turtle::State::run_some(std::span<const C> codes,
     const Action* const actions = table.by_code.data();
     const std::uint64_t first = position;
     const C* const begin = codes.data();
-    const bool plain = !has_tropism && !traits.width_is_relative;
+    const bool has_tropisms = tropisms.any();
+    const bool plain = !has_tropism && !has_tropisms && !traits.width_is_relative;
     Pose pose = now.pose; // kept in registers; now.pose is set before actions that are not quick
     for (const C* at = begin; at != begin + codes.size(); ++at) {
         const Action& action = actions[*at];
@@ -83,7 +84,7 @@ void Turtle::State::run_some(std::span<const C> codes,
                 }
                 break;
             case QuickAction::Save:
-                if (stack.size() < stack.capacity()) {
+                if (stack.size() < stack.capacity() && !has_tropisms) {
                     TurtleState& saved = stack.emplace_back();
                     static_cast<Brush&>(saved) = now;
                     saved.pose = pose;
@@ -91,7 +92,7 @@ void Turtle::State::run_some(std::span<const C> codes,
                 }
                 break;
             case QuickAction::Restore:
-                if (!stack.empty()) {
+                if (!stack.empty() && !has_tropisms) {
                     static_cast<Brush&>(now) = stack.back();
                     pose = stack.back().pose;
                     stack.pop_back();

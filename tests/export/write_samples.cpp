@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Exports every sample in every format, by `lsc export`. Usage: write_samples FOLDER.
+// Exports every sample, and every model of samples/dialects except those of Fractint, whose files
+// hold several, in every format, by `lsc export`. Usage: write_samples FOLDER.
 // FOLDER/counts.txt gets a line `NAME VERTICES TRIANGLES PARTS` for each sample. Plants are exported
 // at the last generation with at most kMaxVertices vertices.
 #include "runtime/export/export.h"
@@ -40,8 +41,31 @@ bool failed(const Sample& sample, const LscRun& run) {
     return run.status != 0;
 }
 
+/// The models of samples/dialects with one system each.
+std::vector<Sample> dialect_models() {
+    std::vector<Sample> models;
+    for (const auto& entry :
+         fs::recursive_directory_iterator(LSYS_SOURCE_DIR + std::string("/samples/dialects"))) {
+        const fs::path& file = entry.path();
+        const std::string folder = file.parent_path().filename().string();
+        const bool is_model = entry.is_regular_file() && file.extension() != ".md" &&
+                              file.extension() != ".v" && folder != "fractint";
+        if (is_model) {
+            models.emplace_back().file = file;
+        }
+    }
+    return models;
+}
+
+/// The name of a file without extension; for models of a dialect, with the dialect before it.
+std::string name_of(const fs::path& file) {
+    const fs::path folder = file.parent_path();
+    const bool is_dialect = folder.parent_path().filename() == "dialects";
+    return (is_dialect ? folder.filename().string() + "-" : "") + file.stem().string();
+}
+
 bool export_sample(const Sample& sample, const fs::path& folder, std::ofstream& counts) {
-    const std::string name = sample.file.stem().string();
+    const std::string name = name_of(sample.file);
     const auto file = [&](std::string_view extension) {
         return (folder / fmt::format("{}.{}", name, extension)).string();
     };
@@ -97,8 +121,11 @@ int main(int argument_count, char** arguments) {
     fs::remove_all(folder);
     fs::create_directories(folder);
     std::ofstream counts(folder / "counts.txt");
-    const std::vector<Sample> samples = lsys::tests::all_samples();
+    std::vector<Sample> samples = lsys::tests::all_samples();
     bool fine = samples.size() > 40;
+    const std::vector<Sample> models = dialect_models();
+    fine = models.size() > 30 && fine;
+    samples.insert(samples.end(), models.begin(), models.end());
     for (const Sample& sample : samples) {
         fine = export_sample(sample, folder, counts) && fine;
     }

@@ -89,6 +89,13 @@ void describe_value(Stream& stream, Value& value) {
         stream.real(factor);
         stream.real(height);
         stream.number(roots);
+    } else if constexpr (std::is_same_v<Type, StepTropism>) {
+        auto& [kind, direction, strength, increment, angle] = value;
+        stream.tag(kind);
+        describe_value(stream, direction);
+        stream.real(strength);
+        stream.real(increment);
+        stream.real(angle);
     } else {
         for (auto& component : value) {
             describe_value(stream, component);

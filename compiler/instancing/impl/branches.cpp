@@ -222,8 +222,10 @@ private:
     void find_effects() {
         for (std::size_t i = 0; i < program_.symbols.size(); ++i) {
             const TurtleOperation turtle = program_.symbols[i].turtle;
-            effects_[i].depends_on_vertical = info(turtle).has(TurtleInfo::DependsOnVertical) ||
-                                              (program_.settings.has_tropism && draws(turtle));
+            effects_[i].depends_on_vertical =
+                info(turtle).has(TurtleInfo::DependsOnVertical) ||
+                ((program_.settings.has_tropism || has_tropisms(program_.settings.tropisms)) &&
+                 draws(turtle));
         }
         std::vector<std::uint32_t> rule_sizes(program_.rule_count, 0);
         for (const Production& production : program_.productions) {

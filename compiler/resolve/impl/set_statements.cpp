@@ -233,6 +233,8 @@ void SetResolver::read_number(const SetNode& node, ExpressionResolver& expressio
         read_seed(node, expressions);
     } else if (key == "tropism") {
         read_tropism(node, expressions);
+    } else if (key == "tropisms") {
+        read_tropisms(node, expressions);
     } else if (key == "height") {
         read_height(node, expressions);
     } else if (key == "pipe") {
@@ -306,6 +308,49 @@ void SetResolver::read_tropism(const SetNode& node, ExpressionResolver& expressi
         }
     }
     settings.has_tropism = true;
+}
+
+void SetResolver::read_tropisms(const SetNode& node, ExpressionResolver& expressions) {
+    constexpr std::uint32_t kMinNumbers = 3; // x, y, z
+    constexpr std::uint32_t kMaxNumbers = 6; // and strength, increment, angle
+    const auto kind_at = [&](std::uint32_t index) {
+        const SetValue value = resolution_.ast.set_values[node.values.first + index];
+        const std::string_view word = value.is_word ? resolution_.text(value.word) : "";
+        TropismKind found = TropismKind::None;
+        for (const TropismKind each : enumerators_of<TropismKind>()) {
+            found = !word.empty() && name_of(each) == word ? each : found;
+        }
+        return found;
+    };
+    StepTropisms tropisms;
+    std::size_t count = 0;
+    bool has_after = false;
+    for (std::uint32_t at = 0; at < node.values.count || count == 0;) {
+        const std::uint32_t first = at;
+        const TropismKind kind = at < node.values.count ? kind_at(at++) : TropismKind::None;
+        std::array<float, kMaxNumbers> numbers{};
+        std::uint32_t given = 0;
+        while (at < node.values.count && given < kMaxNumbers && kind_at(at) == TropismKind::None) {
+            numbers[given++] = number_of(node, at++, expressions).value_or(0.0F);
+        }
+        const bool is_valid =
+            kind != TropismKind::None && given >= kMinNumbers &&
+            (kind == TropismKind::Before || given < kMaxNumbers) &&
+            !(kind == TropismKind::After && has_after) && count < tropisms.size() &&
+            std::ranges::all_of(numbers, [](float number) { return std::isfinite(number); });
+        if (!is_valid) {
+            Diagnostic& error = report_bad_value(
+                node, first < node.values.count ? value_span(node, first) : node.key_span,
+                "takes up to 11 groups: `after`, once, `before` or `twist`, then x, y, z, and "
+                "perhaps strength and increment; `before` also an angle");
+            error.help.emplace_back("for example `#set tropisms before 0 1 0 0.1;`");
+            return;
+        }
+        has_after = has_after || kind == TropismKind::After;
+        tropisms[count++] = {
+            kind, {numbers[0], numbers[1], numbers[2]}, numbers[3], numbers[4], numbers[5]};
+    }
+    resolution_.program.settings.tropisms = tropisms;
 }
 
 void SetResolver::read_height(const SetNode& node, ExpressionResolver& expressions) {

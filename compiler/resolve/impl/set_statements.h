@@ -56,6 +56,7 @@ private:
     [[nodiscard]] std::optional<float>
     read_one(const SetNode& node, const NumberRange& range, ExpressionResolver& expressions);
     void read_tropism(const SetNode& node, ExpressionResolver& expressions);
+    void read_tropisms(const SetNode& node, ExpressionResolver& expressions);
     void read_height(const SetNode& node, ExpressionResolver& expressions);
     void read_pipe(const SetNode& node, ExpressionResolver& expressions);
     void read_flare(const SetNode& node, ExpressionResolver& expressions);

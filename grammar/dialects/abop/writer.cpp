@@ -123,6 +123,9 @@ void AbopWriter::write(std::string_view turtle) {
     write_setting(AbopKey::Angle, "#set angle ");
     write_setting(AbopKey::Step, "#set step ");
     write_setting(AbopKey::Width, "#set width ");
+    if (file_.find(AbopKey::Width) == nullptr && !sets_widths()) {
+        out_.put("#set width_unit pixels;\n"); // so that curves of any size are seen
+    }
     write_setting(AbopKey::Seed, "#set seed ");
     write_setting(AbopKey::Generations, "#n = ");
     for (const AbopSetting& setting : file_.settings) {
@@ -145,6 +148,12 @@ void AbopWriter::write(std::string_view turtle) {
         write_rule(file_.rules[i], i + 1);
     }
     write_drawings();
+}
+
+/// Whether the text has a symbol that changes widths, or a comment with its character.
+bool AbopWriter::sets_widths() const {
+    const std::string_view whole = context_.sources.file(out_.file()).text();
+    return whole.find('!') != kNone || whole.find("#(") != kNone || whole.find("_(") != kNone;
 }
 
 void AbopWriter::write_setting(AbopKey key, std::string_view before) {

@@ -43,6 +43,7 @@ private:
 
     void find_long_names();
     void write_setting(AbopKey key, std::string_view before);
+    [[nodiscard]] bool sets_widths() const;
     [[nodiscard]] bool check_predecessor(const AbopRule& rule);
     void write_rule(const AbopRule& rule, std::size_t index);
     void write_chance(SourceSpan chance);

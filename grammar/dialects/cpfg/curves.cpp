@@ -202,15 +202,6 @@ CpfgView read_view(std::string_view text, const FileBeside& beside) {
         } else if (const auto angle = value_of(line, "angle increment:");
                    angle && view.angle.empty()) {
             view.angle = angle->substr(0, literal_length(*angle));
-        } else if (auto elasticity = value_of(line, "initial elasticity:")) {
-            double value = 0.0;
-            view.is_elastic = !read_number(*elasticity, value) || value != 0.0;
-        } else if (const std::string_view key = line.substr(0, line.find(':'));
-                   view.bending.empty() &&
-                   (key == "tropism direction" || key == "tropism" || key == "torque")) {
-            view.bending = key;
-            // `tropism` and `torque` contain an elasticity; `tropism direction` does not.
-            view.is_elastic = view.is_elastic || key != "tropism direction";
         } else if (auto set = value_of(line, "function set:")) {
             if (const auto curves = beside(*set)) {
                 read_curves(*curves, view.curves);

@@ -30,10 +30,6 @@ struct CpfgCurve {
 struct CpfgView {
     std::string angle; // an expression of .lsys; empty: none is given
     std::vector<CpfgCurve> curves;
-    /// The first line that bends branches, which .lsys cannot express: `tropism direction`,
-    /// `tropism` or `torque`; empty: there is none.
-    std::string bending;
-    bool is_elastic = false; // branches bend without a module `_`
 };
 
 /// The text of a file beside the L-system, by its name; nullopt if it cannot be read.

@@ -3,6 +3,8 @@
 #include "grammar/ast/number.h"
 #include "grammar/ast/reports.h"
 #include "grammar/base/paths.h"
+#include "grammar/dialects/cpfg/materials.h"
+#include "grammar/dialects/cpfg/view_files.h"
 #include "grammar/dialects/cpfg/writer.h"
 #include "grammar/dialects/impl/letter_modules.h"
 
@@ -26,7 +28,8 @@ bool is_organ_command(std::string_view name) {
 
 /// Whether the turtle profile `cpfg` has the command, which begins with `@`.
 bool is_drawn(std::string_view name) {
-    return name == "@v" || name == "@O" || name == "@o" || name == "@c" || is_organ_command(name);
+    return name == "@v" || name == "@O" || name == "@o" || name == "@c" || is_organ_command(name) ||
+           (name.size() == 3 && name.starts_with("@T") && name[2] != 'x');
 }
 
 /// Whether the module asks for the turtle's state or, `?E`, an environment process.
@@ -215,7 +218,7 @@ void CpfgWriter::write_depth(const char* begin, ForeignId expression, Stage stag
     write_setting(begin, depth, nullptr);
 }
 
-/// Reads the view file, which lies beside the L-system and has its name or is called `view.v`.
+/// Reads the view file, and the colours beside it.
 void CpfgWriter::read_view_file() {
     const std::string_view path = context_.sources.file(out_.file()).path();
     const std::size_t dot = path.rfind('.');
@@ -223,27 +226,26 @@ void CpfgWriter::read_view_file() {
         return;
     }
     const std::string folder(folder_of_path(path));
-    std::string view_path = std::string(path.substr(0, dot)) + ".v";
-    Result<std::string> text = context_.load(view_path);
-    if (!text) {
-        view_path = folder + "view.v"; // the name in the objects of L-studio
-        text = context_.load(view_path);
-    }
-    if (!text) {
-        return;
-    }
+    CpfgFiles files = find_cpfg_files(path, context_);
     const FileBeside beside = [&](std::string_view name) -> std::optional<std::string> {
         Result<std::string> file = context_.load(folder + std::string(name));
         return file ? std::optional(std::move(file).value()) : std::nullopt;
     };
-    view_ = read_view(text.value(), beside);
-    organs_ = read_organs(text.value(), beside);
-    if (!view_.bending.empty() &&
-        (view_.is_elastic || used_.count("_") != 0 || used_.count("@Ts") != 0)) {
-        expressions_.warn_left_out(header_, "bending",
-                                   "`" + view_.bending + "` of the view file `" +
-                                       shown(view_path.substr(folder.size())) +
-                                       "` is left out: branches do not bend");
+    view_ = read_view(files.view, beside);
+    organs_ = read_organs(files.view, beside);
+    const CpfgUses uses = find_uses();
+    const unsigned first = first_cpfg_colour(files.view);
+    materials_ = material_statements(files.colours, uses, first);
+    if (!files.colours.empty() && materials_.empty()) {
+        expressions_.warn_left_out(header_, "colours",
+                                   "`" + shown(files.colours_path) +
+                                       "` holds neither 256 colours nor materials");
+    }
+    const FileId view =
+        files.has_view ? context_.sources.add(files.view_path, files.view) : kNoFile;
+    looks_ = read_looks(view, files.view, !materials_.empty(), uses);
+    for (const CpfgLooks::Text& line : looks_.left_out) {
+        expressions_.warn_left_out(line.span, "view " + line.text, line.text);
     }
 }
 
@@ -259,6 +261,10 @@ void CpfgWriter::write_settings(std::string_view turtle) {
     if (!view_.angle.empty()) {
         out_.put("#set angle " + view_.angle + ";\n", header_);
     }
+    for (const CpfgLooks::Text& statement : looks_.statements) {
+        out_.put(statement.text, statement.span.file == kNoFile ? header_ : statement.span);
+    }
+    out_.put(materials_, header_);
     const bool decomposes = has(Stage::Decompose) || bound_.count(Stage::Rewrite) != 0;
     if (decomposes) {
         write_depth("#set decompose_depth ", decompose_depth_, Stage::Decompose);
@@ -306,6 +312,8 @@ void CpfgWriter::write_declarations() {
             const std::string name = spelled(module.name, module.has_arguments);
             const bool draws =
                 is_drawn(module.name) || is_query(module.name) ||
+                (module.name.size() == 1 &&
+                 std::string_view("#,_").find(module.name[0]) != std::string_view::npos) ||
                 (name.size() == 1 && std::string_view("FfGg+-&^\\/|$!\"'[]{}.%").find(name[0]) !=
                                          std::string_view::npos);
             if (!draws && rewritten.count(module.name) == 0 && surfaces_.count(module.name) == 0 &&

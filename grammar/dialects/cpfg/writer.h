@@ -9,6 +9,7 @@
 
 #include "grammar/dialects/cpfg/curves.h"
 #include "grammar/dialects/cpfg/expressions.h"
+#include "grammar/dialects/cpfg/looks.h"
 #include "grammar/dialects/cpfg/organs.h"
 #include "grammar/dialects/cpfg/session.h"
 
@@ -56,6 +57,7 @@ private:
     void write_depth(const char* begin, ForeignId expression, Stage stage);
     void read_view_file();
     void write_organs();
+    [[nodiscard]] CpfgUses find_uses() const;
     void write_constants();
     void write_declarations();
     void write_names(const char* begin, const std::vector<CpfgModule>& list);
@@ -105,6 +107,8 @@ private:
     Translation& out_;
     SourceSpan header_; // place of text that has no place of its own
     CpfgView view_;
+    CpfgLooks looks_;
+    std::string materials_; // #material statements of the colours that are used
     CpfgExpressions expressions_;
     ForeignExpressions& tree_;
     // Expressions of settings in .lsys.

@@ -99,6 +99,8 @@ SettingHelp special(std::string_view name) {
     }
     constexpr auto kMeanings = std::to_array<std::pair<std::string_view, std::string_view>>({
         {"tropism", "x y z e: segments turn towards the direction (x, y, z) by e"},
+        {"tropisms",
+         "`after`, `before` or `twist` x y z e: tropisms whose strength e commands change"},
         {"seed", "seed of the random numbers, from 0"},
         {"spring", "`auto`, or the spring constant of every joint in N m / rad"},
         {"height", "height of the plant in metres"},

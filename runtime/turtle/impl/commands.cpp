@@ -77,6 +77,37 @@ bool Turtle::State::forward(const Action& action, const float* arguments, float 
     return true;
 }
 
+bool Turtle::State::forward_with_tropisms(const Action& action,
+                                          const float* arguments,
+                                          float part) {
+    if (!tropisms.any()) {
+        return forward(action, arguments, part);
+    }
+    tropisms.before_step(now.pose);
+    const bool is_drawn = forward(action, arguments, part);
+    tropisms.after_step(now.pose, true);
+    return is_drawn;
+}
+
+/// Moves ahead by `length` without drawing.
+bool Turtle::State::move(double length, bool adds_corners) {
+    if (tropisms.any()) {
+        tropisms.before_step(now.pose);
+    }
+    if (adds_corners) {
+        polygons.begin_step(now.pose);
+    }
+    advance(now.pose, length);
+    if (adds_corners) {
+        polygons.end_step(now.pose);
+    }
+    if (tropisms.any()) {
+        tropisms.after_step(now.pose, false);
+    }
+    now.moved = true;
+    return check_finite_pose();
+}
+
 /// Draws a tapered segment. Arguments: length, base width, tip width.
 bool Turtle::State::draw_tapered(const Action& action, const float* arguments) {
     const float length = action.given > 0 ? arguments[0] : now.step;
@@ -145,7 +176,12 @@ bool Turtle::State::save() {
     if (stack.size() == stack.capacity() && bytes > options.max_bytes) {
         return stop(Stop::Limit);
     }
-    return within_memory([this] { stack.push_back(now); });
+    return within_memory([this] {
+        stack.push_back(now);
+        if (tropisms.any()) {
+            tropisms.save();
+        }
+    });
 }
 
 bool Turtle::State::restore() {
@@ -161,6 +197,9 @@ bool Turtle::State::restore() {
     }
     now = stack.back();
     stack.pop_back();
+    if (tropisms.any()) {
+        tropisms.restore();
+    }
     return true;
 }
 
@@ -316,24 +355,17 @@ bool Turtle::State::execute(const Action& action, const float* arguments) {
     case TurtleOperation::Forward:
     case TurtleOperation::Branch:
     case TurtleOperation::ForwardWithoutVertex:
-        return forward(action, arguments, 1.0F);
+        return forward_with_tropisms(action, arguments, 1.0F);
     case TurtleOperation::HalfForward:
-        return forward(action, arguments, 0.5F);
+        return forward_with_tropisms(action, arguments, 0.5F);
     case TurtleOperation::TaperedForward:
         return draw_tapered(action, arguments);
     case TurtleOperation::Move:
-    case TurtleOperation::HalfMove: {
-        const float part = action.operation == TurtleOperation::HalfMove ? 0.5F : 1.0F;
-        polygons.begin_step(now.pose);
-        advance(now.pose, static_cast<double>(argument(now.step) * part));
-        polygons.end_step(now.pose);
-        now.moved = true;
-        return check_finite_pose();
-    }
+        return move(static_cast<double>(argument(now.step)), true);
+    case TurtleOperation::HalfMove:
+        return move(static_cast<double>(argument(now.step) * 0.5F), true);
     case TurtleOperation::MoveWithoutVertex:
-        advance(now.pose, static_cast<double>(argument(now.step)));
-        now.moved = true;
-        return check_finite_pose();
+        return move(static_cast<double>(argument(now.step)), false);
     case TurtleOperation::Bend:
         bend(now.pose, {0.0F, -1.0F, 0.0F, argument(0.0F)});
         return true;
@@ -404,6 +436,12 @@ bool Turtle::State::execute(const Action& action, const float* arguments) {
             set_sides(arguments[1]);
         }
         return true;
+    case TurtleOperation::NarrowWidth:
+        set_width(argument(std::max(0.0F, now.width - settings.width_increment)));
+        return true;
+    case TurtleOperation::WidenWidth:
+        set_width(argument(now.width + settings.width_increment));
+        return true;
     case TurtleOperation::ScaleWidth:
         set_width(now.width * argument(settings.width_scale));
         return true;
@@ -436,6 +474,11 @@ bool Turtle::State::execute(const Action& action, const float* arguments) {
         return true;
     case TurtleOperation::SetColour:
         set_colour(action.given != 0 ? static_cast<double>(arguments[0]) : now.colour_index + 1.0);
+        return true;
+    case TurtleOperation::PreviousColour:
+        set_colour(action.given != 0       ? static_cast<double>(arguments[0])
+                   : now.colour_index == 0 ? kColours - 1.0
+                                           : now.colour_index - 1.0);
         return true;
     case TurtleOperation::SetRgb:
         set_rgb(arguments);
@@ -489,6 +532,14 @@ bool Turtle::State::execute(const Action& action, const float* arguments) {
     case TurtleOperation::Disk:
     case TurtleOperation::MeshFile:
         return place(action, arguments);
+    case TurtleOperation::SetSusceptibility:
+    case TurtleOperation::SetTropism:
+    case TurtleOperation::AddTropism:
+    case TurtleOperation::SubtractTropism:
+    case TurtleOperation::Untwist:
+    case TurtleOperation::KeepTwist:
+        tropisms.execute(action.operation, action.given, arguments, now.pose);
+        return true;
     case TurtleOperation::CentredSphere:
     case TurtleOperation::LevelDisk:
         return place_centred(action, argument(now.width));

@@ -33,7 +33,13 @@ void SensingTurtle::State::move(double length, bool adds_corners) {
     if (adds_corners) {
         polygons.begin_step(now.pose.position);
     }
+    if (tropisms.any()) {
+        tropisms.before_step(now.pose);
+    }
     advance(now.pose, length);
+    if (tropisms.any()) {
+        tropisms.after_step(now.pose, false);
+    }
     if (adds_corners) {
         polygons.end_step(now.pose.position);
     }
@@ -49,7 +55,13 @@ void SensingTurtle::State::forward(double length, bool adds_corners) {
         const auto wide = [&](std::size_t i) { return static_cast<double>(tropism[i]); };
         bend(now.pose, {wide(0), wide(1), wide(2)}, wide(3));
     }
+    if (tropisms.any()) {
+        tropisms.before_step(now.pose);
+    }
     advance(now.pose, length);
+    if (tropisms.any()) {
+        tropisms.after_step(now.pose, true);
+    }
     if (adds_corners) {
         polygons.end_step(now.pose.position);
     }
@@ -117,6 +129,9 @@ bool SensingTurtle::State::save() {
     return catch_out_of_memory(
         [&] {
             stack.push_back(now);
+            if (tropisms.any()) {
+                tropisms.save();
+            }
             return true;
         },
         [&] { return stop(Stop::OutOfMemory); });
@@ -133,6 +148,9 @@ bool SensingTurtle::State::restore() {
     }
     now = stack.back();
     stack.pop_back();
+    if (tropisms.any()) {
+        tropisms.restore();
+    }
     return true;
 }
 
@@ -248,6 +266,12 @@ bool SensingTurtle::State::execute(const Action& action,
     case TurtleOperation::SetWidth:
         set_width(argument(now.width * width_scale));
         return true;
+    case TurtleOperation::NarrowWidth:
+        set_width(argument(now.width - settings.width_increment));
+        return true;
+    case TurtleOperation::WidenWidth:
+        set_width(argument(now.width + settings.width_increment));
+        return true;
     case TurtleOperation::ScaleWidth:
         set_width(now.width * argument(width_scale));
         return true;
@@ -303,6 +327,14 @@ bool SensingTurtle::State::execute(const Action& action,
     case TurtleOperation::MeshFile:
         place(action, given, arguments);
         return true;
+    case TurtleOperation::SetSusceptibility:
+    case TurtleOperation::SetTropism:
+    case TurtleOperation::AddTropism:
+    case TurtleOperation::SubtractTropism:
+    case TurtleOperation::Untwist:
+    case TurtleOperation::KeepTwist:
+        tropisms.execute(action.operation, given, arguments, now.pose);
+        return true;
     case TurtleOperation::CentredSphere:
     case TurtleOperation::LevelDisk:
         if (options.organs) {
@@ -318,6 +350,7 @@ bool SensingTurtle::State::execute(const Action& action,
     case TurtleOperation::SetColour:
     case TurtleOperation::AddColour:
     case TurtleOperation::SubtractColour:
+    case TurtleOperation::PreviousColour:
     case TurtleOperation::SetRgb:
     case TurtleOperation::SurfaceBegin: // organs have no area for environments
     case TurtleOperation::SurfacePoint:

@@ -9,6 +9,7 @@
 #include "runtime/turtle/impl/sensing_polygons.h"
 #include "runtime/turtle/impl/sensing_pose.h"
 #include "runtime/turtle/impl/text_commands.h"
+#include "runtime/turtle/impl/tropisms.h"
 #include "runtime/turtle/sensing_turtle.h"
 
 #include <memory>
@@ -107,6 +108,7 @@ struct SensingTurtle::State {
     SensingBrush now;
     std::vector<SensingBrush> stack;
     SensingPolygons polygons;
+    Tropisms tropisms;
     std::vector<SenseModule> waiting; // sense modules of the piece being interpreted
     std::size_t reported = 0;         // number of `waiting` that have been reported
     PendingSensing pending;

@@ -10,6 +10,7 @@
 #include "runtime/turtle/impl/polygons.h"
 #include "runtime/turtle/impl/pose.h"
 #include "runtime/turtle/impl/text_commands.h"
+#include "runtime/turtle/impl/tropisms.h"
 #include "runtime/turtle/plant_size.h"
 #include "runtime/turtle/turtle.h"
 
@@ -89,6 +90,7 @@ struct Turtle::State {
     void begin() {
         const Settings& settings = bytecode.settings;
         now = {};
+        tropisms.begin();
         now.width = settings.width;
         now.taper = traits.taper;
         now.step = settings.step;
@@ -97,8 +99,9 @@ struct Turtle::State {
         now.sides = static_cast<std::uint8_t>(std::clamp(settings.sides, kMinSides, kMaxSides));
         now.tangent_before = traits.organ_tangent;
         now.tangent_after = traits.organ_tangent;
-        now.colour = traits.first_colour;
-        now.colour_index = traits.first_colour;
+        now.colour_index = settings.colour != 0 ? static_cast<std::uint16_t>(settings.colour)
+                                                : traits.first_colour;
+        now.colour = now.colour_index;
         if (traits.first_turn != 0.0F) {
             yaw(now.pose, half_angle(static_cast<double>(traits.first_turn)));
         }
@@ -128,6 +131,8 @@ struct Turtle::State {
     /// Executes one action. Returns false if the drawing has ended; `end.stop` is the reason.
     bool execute(const Action& action, const float* arguments);
     bool forward(const Action& action, const float* arguments, float part);
+    bool forward_with_tropisms(const Action& action, const float* arguments, float part);
+    bool move(double length, bool adds_corners);
     bool draw_tapered(const Action& action, const float* arguments);
     bool
     draw(double length, float base_width, float tip_width, const float* spring, const float* mass);
@@ -213,6 +218,7 @@ struct Turtle::State {
     std::vector<std::size_t> watched; // stack size within each open branch that has a watcher
     OpenPolygons polygons{bytecode.settings.traits.corners_are_ends};
     OpenOrgans organs;
+    Tropisms tropisms{bytecode.settings.tropisms};
     DrawingEnd end;
     std::uint64_t position = 0; // index of the current module
     Code code = 0;              // code of the current module

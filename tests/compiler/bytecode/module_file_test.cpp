@@ -139,6 +139,28 @@ TEST_CASE("random bytes after a valid header are refused without a crash") {
     }
 }
 
+TEST_CASE("tropisms, the unit of widths and the first colour are read back and checked") {
+    Bytecode bytecode = test::small_bytecode();
+    Settings& settings = bytecode.settings;
+    settings.tropisms[0] = {TropismKind::Before, {0.0F, 1.0F, 0.0F}, 0.2F, 0.1F, 90.0F};
+    settings.tropisms[1] = {TropismKind::Twist, {1.0F, 0.0F, 0.0F}, 0.3F, 0.0F, 0.0F};
+    settings.width_unit = WidthUnit::Pixels;
+    settings.width_increment = 0.5F;
+    settings.colour = 128;
+    CHECK(digest(bytecode) == digest(test::small_bytecode())); // saved words stay valid
+    const Result<Bytecode> read = read_module_file(write_module_file(bytecode));
+    REQUIRE(read.ok());
+    CHECK(read.value().settings.tropisms == settings.tropisms);
+    CHECK(read.value().settings.width_unit == WidthUnit::Pixels);
+    CHECK(read.value().settings.width_increment == 0.5F);
+    CHECK(read.value().settings.colour == 128);
+    settings.tropisms[3] = settings.tropisms[1];
+    CHECK(verify(bytecode) == "a tropism behind the last one");
+    settings.tropisms[3] = {};
+    settings.colour = 65536;
+    CHECK(verify(bytecode) == "the first colour 65536");
+}
+
 TEST_CASE("sizes of a plant are read back and checked") {
     Bytecode bytecode = test::small_bytecode();
     bytecode.settings.height = 20.5F;

@@ -138,6 +138,26 @@ TEST_CASE("a flare is a factor, a height and perhaps a number of roots") {
     }
 }
 
+TEST_CASE("tropisms are groups of a kind and numbers") {
+    const test::Compiled c =
+        set("tropisms", "after 0 1 0 0.2 before 1 0 0 twist (1 / 2) 0 0 0.3 0.1 before 0 1 0 1 2 90");
+    CHECK(c.errors().empty());
+    const StepTropisms& tropisms = c.outcome.bytecode->settings.tropisms;
+    CHECK(tropisms[0] == StepTropism{TropismKind::After, {0.0F, 1.0F, 0.0F}, 0.2F, 0.0F, 0.0F});
+    CHECK(tropisms[1] == StepTropism{TropismKind::Before, {1.0F, 0.0F, 0.0F}, 0.0F, 0.0F, 0.0F});
+    CHECK(tropisms[2] == StepTropism{TropismKind::Twist, {0.5F, 0.0F, 0.0F}, 0.3F, 0.1F, 0.0F});
+    CHECK(tropisms[3] == StepTropism{TropismKind::Before, {0.0F, 1.0F, 0.0F}, 1.0F, 2.0F, 90.0F});
+    CHECK(tropisms[4] == StepTropism{});
+    for (const char* const value :
+         {"0 1 0 0.2", "before", "before 0 1", "before 0 1 0 1 2 90 4", "twist 0 1 0 1 2 90",
+          "after 0 1 0 after 0 1 0", "sideways 0 1 0",
+          "before 0 1 0 before 0 1 0 before 0 1 0 before 0 1 0 before 0 1 0 before 0 1 0 "
+          "before 0 1 0 before 0 1 0 before 0 1 0 before 0 1 0 before 0 1 0 before 0 1 0"}) {
+        CAPTURE(std::string(value));
+        CHECK_FALSE(set("tropisms", value).errors().empty());
+    }
+}
+
 TEST_CASE("the help for an unknown key lists every setting") {
     const test::Compiled c = set("no_such_setting_at_all", "1");
     const Diagnostic* error = c.find(DiagnosticCode::UnknownKey);
@@ -147,11 +167,11 @@ TEST_CASE("the help for an unknown key lists every setting") {
         error->help[0] ==
         "the settings are `turtle`, `names`, `rewriting`, `choice`, `weights`, `random`, "
         "`tropism`, `seed`, `spring`, `load`, `at_depth`, `height`, `pipe`, `flare`, "
-        "`tips`, `angle`, `step`, "
+        "`tips`, `tropisms`, `width_unit`, `angle`, `step`, "
         "`width`, "
         "`angle_scale`, `step_scale`, "
-        "`width_scale`, `elasticity`, `density`, `damping`, `collar`, `sides`, `decompose_depth`, "
-        "`interpret_depth`");
+        "`width_scale`, `elasticity`, `density`, `damping`, `collar`, `width_increment`, "
+        "`sides`, `decompose_depth`, `interpret_depth`, `colour`");
 }
 
 TEST_CASE("the parser knows every setting, and adds a missing `set`") {

@@ -236,3 +236,17 @@ TEST_CASE("a flat plant cannot be scaled, and an empty plant need not be") {
     point.objects.emplace_back();
     CHECK_FALSE(scale_to_height(1.0, kWood, point));
 }
+
+TEST_CASE("pixels are parts of the longest side, and at least two wide") {
+    Skeleton plant;
+    test::add_segment(plant, kNoSegment, test::leaning(0.0F), wood(750.0F, 0.5F)); // 1 pixel wide
+    test::add_segment(plant, 0, test::leaning(0.0F), wood(250.0F, 4.0F));          // 8 pixels
+    apply_pixels(kWood, plant);
+    const double pixel = 1000.0 / kPicturePixels;
+    CHECK(width_of(plant.segments[0]) == 2.0 * pixel);
+    CHECK(width_of(plant.segments[1]) == 8.0 * pixel);
+    CHECK(plant.segments[0].mass == mass_of_cone(750.0, pixel, pixel, kDensity));
+    Skeleton empty;
+    apply_pixels(kWood, empty);
+    CHECK(empty.segments.empty());
+}

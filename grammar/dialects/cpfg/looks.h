@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: MIT
+// The lines of a view file of cpfg that say how the turtle draws: tropisms, widths of lines and
+// colours, as settings of .lsys.
+#pragma once
+
+#include "grammar/base/source.h"
+
+#include <set>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace lsys {
+
+/// What a model uses of its view file.
+struct CpfgUses {
+    bool sets_widths = false;      // `#(w)` or `!(w)`
+    bool steps_widths = false;     // `#` or `!`
+    bool steps_colours = false;    // `;` or `,`
+    bool has_elasticity = false;   // `_`
+    bool changes_tropisms = false; // `@Ti`, `@Td` or `@Ts`
+    bool has_textures = false;     // `@Tx`
+    bool has_any_colour = false;   // a colour that is computed
+    std::set<unsigned> colours{};  // constant colours, 0 to 255
+};
+
+/// Settings of .lsys, each with its place, and messages about lines that have no effect here.
+struct CpfgLooks {
+    struct Text {
+        std::string text;
+        SourceSpan span;
+    };
+    std::vector<Text> statements;
+    std::vector<Text> left_out;
+};
+
+/// Reads the lines of a view file about widths, colours and tropisms. `view`: the file with the
+/// text; kNoFile: there is no view file.
+[[nodiscard]] CpfgLooks
+read_looks(FileId view, std::string_view text, bool has_colours, const CpfgUses& uses);
+
+/// Colour at the start of the word unless a view file sets it, as in cpfg.
+inline constexpr unsigned kFirstCpfgColour = 128;
+/// The colour at the start of the word.
+[[nodiscard]] unsigned first_cpfg_colour(std::string_view view);
+
+} // namespace lsys

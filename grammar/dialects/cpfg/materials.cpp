@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: MIT
+#include "grammar/dialects/cpfg/materials.h"
+
+#include "grammar/base/number_chars.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <set>
+
+namespace lsys {
+
+namespace {
+
+/// Shortest text of a number from 0 to 1.
+std::string number_text(double value) {
+    std::array<char, 32> buffer{};
+    const auto [end, error] = number_to_fixed_chars(buffer.data(), buffer.data() + buffer.size(),
+                                                    static_cast<float>(value));
+    return error == std::errc() ? std::string(buffer.data(), end) : "0";
+}
+
+/// A colour of a material, each part 0 to 255.
+using Rgb = std::array<unsigned, 3>;
+
+Rgb rgb_at(std::string_view bytes, std::size_t at) {
+    const auto byte = [&](std::size_t i) {
+        return static_cast<unsigned>(static_cast<unsigned char>(bytes[at + i]));
+    };
+    return {byte(0), byte(1), byte(2)};
+}
+
+std::string colour_text(const Rgb& colour) {
+    std::string text = " colour";
+    for (const unsigned part : colour) {
+        text += " " + number_text(std::round(static_cast<double>(part) / 255.0 * 1e4) / 1e4);
+    }
+    return text;
+}
+
+/// The appearance of a record of materials: index, transparency, then ambient, diffuse, emitted and
+/// specular colour, then shininess.
+std::string material_text(std::string_view record) {
+    constexpr std::size_t kAmbient = 2;
+    constexpr std::size_t kDiffuse = 5;
+    constexpr std::size_t kEmission = 8;
+    constexpr std::size_t kSpecular = 11;
+    constexpr std::size_t kShininess = 14;
+    Rgb colour = rgb_at(record, kDiffuse);
+    const Rgb ambient = rgb_at(record, kAmbient);
+    const Rgb emission = rgb_at(record, kEmission);
+    if (colour == Rgb{}) { // seen by ambient light and its own only
+        for (std::size_t i = 0; i < colour.size(); ++i) {
+            colour[i] = std::max(ambient[i], emission[i]);
+        }
+    }
+    std::string text = colour_text(colour);
+    if (rgb_at(record, kSpecular) != Rgb{}) {
+        // Exponent n of Phong as roughness: sqrt(2 / (n + 2)) (Walter et al. 2007, section 5.1).
+        const auto exponent = static_cast<double>(static_cast<unsigned char>(record[kShininess]));
+        const double roughness = std::sqrt(2.0 / (exponent + 2.0));
+        text += " roughness " + number_text(std::round(roughness * 1e3) / 1e3);
+    }
+    return text;
+}
+
+constexpr std::size_t kColours = 256;
+constexpr std::size_t kMapRecord = 3;
+constexpr std::size_t kMaterialRecord = 15;
+
+} // namespace
+
+std::string
+material_statements(std::string_view colours, const CpfgUses& uses, unsigned first_colour) {
+    const bool is_map = colours.size() == kColours * kMapRecord;
+    if (!is_map && (colours.empty() || colours.size() % kMaterialRecord != 0 ||
+                    colours.size() > kColours * kMaterialRecord)) {
+        return {};
+    }
+    const std::size_t size = is_map ? kMapRecord : kMaterialRecord;
+    std::string text;
+    std::set<unsigned> written;
+    for (std::size_t i = 0; (i + 1) * size <= colours.size(); ++i) {
+        const std::string_view record = colours.substr(i * size, size);
+        const unsigned index = is_map
+                                   ? static_cast<unsigned>(i)
+                                   : static_cast<unsigned>(static_cast<unsigned char>(record[0]));
+        const bool is_used = uses.has_any_colour || uses.steps_colours || index == first_colour ||
+                             uses.colours.count(index) != 0;
+        if (!is_used || !written.insert(index).second) {
+            continue;
+        }
+        text += "#material " + std::to_string(index) +
+                (is_map ? colour_text(rgb_at(record, 0)) : material_text(record)) + ";\n";
+    }
+    return text;
+}
+
+} // namespace lsys

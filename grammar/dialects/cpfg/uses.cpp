@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: MIT
+// The part of CpfgWriter that finds what a model uses of its view file.
+#include "grammar/dialects/cpfg/writer.h"
+
+#include <charconv>
+#include <vector>
+
+namespace lsys {
+
+/// What the model uses of the view file.
+CpfgUses CpfgWriter::find_uses() const {
+    CpfgUses uses;
+    const auto is_any = [&](const char* name, bool has_arguments) {
+        return forms_.count({name, has_arguments}) != 0;
+    };
+    uses.sets_widths = is_any("#", true) || is_any("!", true);
+    uses.steps_widths = is_any("#", false) || is_any("!", false);
+    uses.steps_colours = is_any(";", false) || is_any(",", false);
+    uses.has_elasticity = used_.count("_") != 0;
+    uses.has_textures = used_.count("@Tx") != 0;
+    for (const char* const name : {"@Ti", "@Td", "@Ts"}) {
+        uses.changes_tropisms = uses.changes_tropisms || used_.count(name) != 0;
+    }
+    const auto visit = [&](const std::vector<CpfgModule>& list) {
+        for (const CpfgModule& module : list) {
+            if ((module.name != ";" && module.name != ",") || module.arguments.empty()) {
+                continue;
+            }
+            const ForeignNode& index = expression(module.arguments[0]);
+            unsigned colour = 0;
+            const auto [end, error] =
+                std::from_chars(index.text.data(), index.text.data() + index.text.size(), colour);
+            if (index.kind == ForeignKind::Number && error == std::errc() &&
+                end == index.text.data() + index.text.size()) {
+                uses.colours.insert(colour);
+            } else {
+                uses.has_any_colour = true;
+            }
+        }
+    };
+    visit(session_.axiom);
+    for (const CpfgProduction& production : session_.productions) {
+        visit(production.successor);
+    }
+    return uses;
+}
+
+} // namespace lsys

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: MIT
+// Tropisms whose strength the word changes: the setting `tropisms` (docs/language.md section 7.9).
+// Used by the Turtle and by the SensingTurtle, so that both compute the same axes. The arithmetic
+// is binary64, with correctly rounded sines and cosines.
+#pragma once
+
+#include "compiler/bytecode/settings.h"
+#include "compiler/bytecode/turtle_operation.h"
+#include "runtime/turtle/impl/pose.h"
+#include "runtime/turtle/impl/sensing_pose.h"
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+namespace lsys {
+
+class Tropisms {
+public:
+    explicit Tropisms(const StepTropisms& settings);
+
+    /// Whether the grammar has any.
+    [[nodiscard]] bool any() const { return any_; }
+    /// Returns to the strengths of the settings.
+    void begin();
+    /// Turns the axes before a step.
+    void before_step(SensingPose& pose);
+    void before_step(Pose& pose);
+    /// Turns the axes after a step. `draws`: whether the step draws a segment.
+    void after_step(SensingPose& pose, bool draws);
+    void after_step(Pose& pose, bool draws);
+    /// Executes an operation from SetSusceptibility to KeepTwist.
+    void execute(TurtleOperation operation,
+                 std::uint32_t given,
+                 const float* arguments,
+                 SensingPose& pose);
+    void
+    execute(TurtleOperation operation, std::uint32_t given, const float* arguments, Pose& pose);
+    /// `[` and `]`; may throw std::bad_alloc.
+    void save() { stack_.push_back(now_); }
+    void restore();
+
+private:
+    /// What `[` saves.
+    struct State {
+        std::array<double, std::tuple_size_v<StepTropisms>> strengths{};
+        SensingVector heading{0.0, 1.0, 0.0}; // at the end of the last segment
+        SensingVector up{0.0, 0.0, 1.0};
+    };
+
+    void turn_heading(SensingPose& pose);
+    void twist(SensingPose& pose);
+    void untwist(SensingPose& pose) const;
+    void keep(const SensingPose& pose);
+    /// Index of the row with the number `number` from 1 on among Before and Twist; the count of
+    /// rows if there is none.
+    [[nodiscard]] std::size_t row_of(float number) const;
+
+    StepTropisms rows_;
+    State now_;
+    std::vector<State> stack_;
+    bool any_ = false;
+};
+
+} // namespace lsys

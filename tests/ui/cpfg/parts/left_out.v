@@ -1,0 +1,9 @@
+tropism direction: 0 0 0
+tropism: T: 0 up
+color increment: 5
+texture: F: bark.rgb
+initial scale: 2
+tsurface: t leaf.t 1
+initial line width: thin
+light: V: 1 1 1
+// texture: in a comment

@@ -1,0 +1,2 @@
+line style: polygon
+initial color: 2

@@ -1,0 +1,2 @@
+angle increment: 33
+line style: polygon

@@ -1,0 +1,2 @@
+angle increment: 22
+line style: polygon

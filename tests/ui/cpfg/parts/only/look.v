@@ -1,0 +1,2 @@
+angle increment: 11
+line style: polygon

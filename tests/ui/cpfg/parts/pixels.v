@@ -1,0 +1,2 @@
+initial line width: 3 pixels
+line width increment: 4

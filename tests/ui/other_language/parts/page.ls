@@ -1,0 +1,5 @@
+<!DOCTYPE html>
+<html>
+<head><title>A plant</title></head>
+<body><p>F[+F]F</p></body>
+</html>
