@@ -155,7 +155,6 @@ public:
         write_widths(nowhere);
         return std::move(looks_);
     }
-    void set_has_view() { has_view_ = true; }
 
 private:
     void leave_out(const ViewLine& line, const std::string& why) {
@@ -282,8 +281,8 @@ private:
 
     void write_widths(SourceSpan nowhere) {
         const SourceSpan place = width_place_.value_or(nowhere);
-        // Without a view file, a model that sets widths has them in metres.
-        const bool is_pixel = is_pixel_.value_or(has_view_ || !uses_.sets_widths);
+        // Where no line says it, a model that sets widths has them in metres.
+        const bool is_pixel = is_pixel_.value_or(!uses_.sets_widths);
         if (is_pixel) {
             looks_.statements.push_back({"#set width_unit pixels;\n", place});
         }
@@ -300,7 +299,6 @@ private:
     CpfgLooks looks_;
     bool has_colours_ = false;
     const CpfgUses& uses_;
-    bool has_view_ = false;
     bool has_first_colour_ = false;
     ViewTropism after_;
     std::vector<ViewTropism> rows_;
@@ -315,9 +313,6 @@ private:
 CpfgLooks read_looks(FileId view, std::string_view text, bool has_colours, const CpfgUses& uses) {
     LookReader reader(has_colours, uses);
     const std::string plain = without_comments(text);
-    if (view != kNoFile) {
-        reader.set_has_view();
-    }
     for (const ViewLine& line : lines_of(view, plain)) {
         reader.read(line);
     }

@@ -95,7 +95,8 @@ void FractintWriter::write(std::string_view turtle) {
     for (const RenamedSymbol& renamed : kRenamed) {
         translation_.replace_name(renamed.name, renamed.symbol);
     }
-    translation_.put("#set turtle " + std::string(turtle) + ";\n#set names letters;\n#set width_unit pixels;\n");
+    translation_.put("#set turtle " + std::string(turtle) +
+                     ";\n#set names letters;\n#set width_unit pixels;\n");
     write_angle(*angle);
     translation_.put("\n#w : ", axiom->key);
     write_text(*axiom);

@@ -139,8 +139,8 @@ TEST_CASE("a flare is a factor, a height and perhaps a number of roots") {
 }
 
 TEST_CASE("tropisms are groups of a kind and numbers") {
-    const test::Compiled c =
-        set("tropisms", "after 0 1 0 0.2 before 1 0 0 twist (1 / 2) 0 0 0.3 0.1 before 0 1 0 1 2 90");
+    const test::Compiled c = set(
+        "tropisms", "after 0 1 0 0.2 before 1 0 0 twist (1 / 2) 0 0 0.3 0.1 before 0 1 0 1 2 90");
     CHECK(c.errors().empty());
     const StepTropisms& tropisms = c.outcome.bytecode->settings.tropisms;
     CHECK(tropisms[0] == StepTropism{TropismKind::After, {0.0F, 1.0F, 0.0F}, 0.2F, 0.0F, 0.0F});
@@ -163,15 +163,14 @@ TEST_CASE("the help for an unknown key lists every setting") {
     const Diagnostic* error = c.find(DiagnosticCode::UnknownKey);
     REQUIRE(error != nullptr);
     REQUIRE(error->help.size() == 1);
-    CHECK(
-        error->help[0] ==
-        "the settings are `turtle`, `names`, `rewriting`, `choice`, `weights`, `random`, "
-        "`tropism`, `seed`, `spring`, `load`, `at_depth`, `height`, `pipe`, `flare`, "
-        "`tips`, `tropisms`, `width_unit`, `angle`, `step`, "
-        "`width`, "
-        "`angle_scale`, `step_scale`, "
-        "`width_scale`, `elasticity`, `density`, `damping`, `collar`, `width_increment`, "
-        "`sides`, `decompose_depth`, `interpret_depth`, `colour`");
+    CHECK(error->help[0] ==
+          "the settings are `turtle`, `names`, `rewriting`, `choice`, `weights`, `random`, "
+          "`tropism`, `seed`, `spring`, `load`, `at_depth`, `height`, `pipe`, `flare`, "
+          "`tips`, `tropisms`, `width_unit`, `angle`, `step`, "
+          "`width`, "
+          "`angle_scale`, `step_scale`, "
+          "`width_scale`, `elasticity`, `density`, `damping`, `collar`, `width_increment`, "
+          "`sides`, `decompose_depth`, `interpret_depth`, `colour`");
 }
 
 TEST_CASE("the parser knows every setting, and adds a missing `set`") {
