@@ -42,7 +42,9 @@ constexpr std::array<NearMap, kNearMaps> kNearMapSpecs = {{{8.0F, 0}, {30.0F, 2}
 // Uniform locations of ground.*.glsl.
 constexpr GLint kDisc = 0;
 constexpr GLint kGridStep = 1;
-constexpr GLint kPickedContent = 20;  // in pick.frag.glsl
+constexpr GLint kPickedContent = 20; // in pick.frag.glsl
+// Exponent of the part of a raised exposure that sky and air do not follow.
+constexpr float kSkyAdaptation = 0.8F;
 constexpr float kDiscInRadii = 14.0F; // radius of the ground disc, in radii of the plant
 
 struct Programs {
@@ -368,7 +370,10 @@ private:
         }
         if (is_forest_ && device_.quality() > 0) {
             block.crowns = forest_.draw_crowns(frame.camera.eye);
-            block.sky.w *= forest_.exposure_below_crowns(frame.camera.eye);
+            const float brighter = forest_.exposure_below_crowns(frame.camera.eye);
+            block.sky.w *= brighter;
+            block.near_maps.w = std::pow(brighter, -kSkyAdaptation);
+            block.hills = forest_.hills();
         }
         frame_.fill(std::span<const FrameBlock>(&block, 1));
         glBindBufferBase(GL_UNIFORM_BUFFER, kFrameBinding, frame_.name());

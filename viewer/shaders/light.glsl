@@ -162,7 +162,11 @@ vec2 fog_to(vec3 world_position) {
     return vec2(0.05 * near_sun * near_sun, exp(-frame.sun.w * away));
 }
 vec3 apply_fog(vec3 radiance, vec2 fog) {
-    return mix(frame.horizon.rgb + frame.sun.rgb * fog.x, radiance, fog.y);
+    vec3 air = frame.horizon.rgb + frame.sun.rgb * fog.x;
+#if QUALITY > 0
+    air *= frame.near_maps.w;
+#endif
+    return mix(air, radiance, fog.y);
 }
 vec3 fogged(vec3 radiance, vec3 world_position) {
     return apply_fog(radiance, fog_to(world_position));

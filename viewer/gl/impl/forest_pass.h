@@ -78,6 +78,8 @@ public:
     /// Factor of the exposure for an eye below crowns, which adapts to their shade. Call after
     /// prepare().
     [[nodiscard]] float exposure_below_crowns(const glm::vec3& eye) const;
+    /// FrameBlock::hills: hills stand beyond the forest, none beyond a streamed one.
+    [[nodiscard]] glm::vec4 hills() const;
     /// Draws the trees in shadow map number `map` (below kNearMaps) as branches of a level into the
     /// bound framebuffer, moved by the wind of the prepared frame. The bound FrameBlock must have
     /// `shadow_from_world` as its view_projection.
