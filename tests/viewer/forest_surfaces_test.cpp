@@ -264,6 +264,45 @@ TEST_CASE("from medium quality on, shadows near the eye move with the wind") {
     CHECK(difference_of(at("0", "low"), at("0", "medium")).mean < 20.0);
 }
 
+TEST_CASE("with high quality, shadows far from the eye move with the wind too") {
+    const SurfaceScene files("", "#n = 0;\n#w : !(0.3) F(3)[+(60)F(1)][-(60)F(1)];\n");
+    const auto change = [&](const char* quality) {
+        const auto at = [&](const char* time) {
+            return files.picture(
+                "eye 20,70,16 target 20.01,0,16 fov 2.3",
+                {"--sun", "180,40", "--wind", "14,0,0,0.5", "--time", time, "--quality", quality});
+        };
+        return difference_of(at("0"), at("1.2")).mean;
+    };
+    CHECK(change("medium") == 0.0);
+    CHECK(change("high") > 0.1);
+}
+
+TEST_CASE("with high quality, the edge of a shadow widens with the distance from its caster") {
+    // A pole of 12 m; its shadow falls towards -Z.
+    const SurfaceScene files(kPictured, "#n = 0;\n#w : !(0.6) F(12);\n");
+    write_text(files.folder / "ground.png", encode_png(halves(kRed, kRed)));
+    // Pixels of half light beside the shadow of the pole at a height, in a row across the shadow.
+    const auto edge_width = [&](int height, const char* quality) {
+        const std::string z = std::to_string(20 - height);
+        const Picture picture =
+            files.picture("eye 20.3,2," + z + ".001 target 20.3,0," + z + " fov 33",
+                          {"--sun", "180,45", "--quality", quality}, "160x120");
+        std::vector<int> reds;
+        for (std::uint32_t x = 0; x < picture.width; ++x) {
+            reds.push_back(texel(picture, x, 60)[0]);
+        }
+        const auto [low, high] = std::minmax_element(reds.begin(), reds.end());
+        REQUIRE(*high > *low + 40);
+        const int quarter = (*high - *low) / 4;
+        return std::count_if(reds.begin(), reds.end(), [&](int red) {
+            return red > *low + quarter && red < *high - quarter;
+        });
+    };
+    CHECK(edge_width(9, "high") >= edge_width(2, "high") + 3);
+    CHECK(std::abs(edge_width(9, "medium") - edge_width(2, "medium")) <= 2);
+}
+
 TEST_CASE("from medium quality on, the ground is darker under a crown and at the foot of a trunk") {
     // Two boughs make a crown of 3 m; the ground has one colour.
     const SurfaceScene files(kPictured, "#n = 0;\n#w : !(0.1) F(2)[+(90)F(3)][-(90)F(3)];\n");

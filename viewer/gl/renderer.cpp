@@ -37,12 +37,20 @@ constexpr GLuint kNearShadowTextures = 7; // first unit of kNearMaps; in light.g
 struct NearMap {
     float radius;        // m
     std::uint32_t level; // level of the branches that cast shadows
+    // Depth of the map divided by its width where shadows are soft: casters far above the place
+    // widen the edge of the shadow. kMapDepths of light.glsl has it too.
+    float depth;
 };
-constexpr std::array<NearMap, kNearMaps> kNearMapSpecs = {{{8.0F, 0}, {30.0F, 2}}};
-// Locations of uniforms in ground.*.glsl.
+constexpr std::array<NearMap, kNearMaps> kNearMapSpecs = {{{8.0F, 0, 4.0F}, {30.0F, 2, 1.0F}}};
+// Texture units of the depths of shadow maps, for soft shadows; in light.glsl.
+constexpr GLuint kNearDepthTextures = 10; // of kNearMaps
+constexpr GLuint kShadowDepthTexture = 12;
+// Uniform locations of ground.*.glsl.
 constexpr GLint kDisc = 0;
 constexpr GLint kGridStep = 1;
-constexpr GLint kPickedContent = 20;  // in pick.frag.glsl
+constexpr GLint kPickedContent = 20; // in pick.frag.glsl
+// Exponent of the part of a raised exposure that sky and air do not follow.
+constexpr float kSkyAdaptation = 0.8F;
 constexpr float kDiscInRadii = 14.0F; // radius of the ground disc, in radii of the plant
 
 struct Programs {
@@ -102,7 +110,16 @@ bool overlaps(const Bounds& a, const Bounds& b) {
     return a.low.x <= b.high.x && b.low.x <= a.high.x && a.low.z <= b.high.z && b.low.z <= a.high.z;
 }
 
-/// Element number `index` of the Halton sequence (1964) in a base, 0 to 1.
+/// A shadow map matrix whose depths begin `factor` times as far from the end, towards the sun.
+glm::mat4 deepened(const glm::mat4& matrix, float factor) {
+    glm::mat4 deep = matrix;
+    for (int column = 0; column < 4; ++column) {
+        deep[column].z = (matrix[column].z + (factor - 1.0F) * matrix[column].w) / factor;
+    }
+    return deep;
+}
+
+/// Term number `index` of the Halton sequence (1964) with a base, 0 to 1.
 float halton(std::uint32_t index, std::uint32_t base) {
     float sum = 0.0F;
     for (float part = 1.0F; index != 0; index /= base) {
@@ -368,12 +385,19 @@ private:
         }
         if (is_forest_ && device_.quality() > 0) {
             block.crowns = forest_.draw_crowns(frame.camera.eye);
-            block.sky.w *= forest_.exposure_below_crowns(frame.camera.eye);
+            const float brighter = forest_.exposure_below_crowns(frame.camera.eye);
+            block.sky.w *= brighter;
+            block.near_maps.w = std::pow(brighter, -kSkyAdaptation);
+            block.hills = forest_.hills();
         }
         frame_.fill(std::span<const FrameBlock>(&block, 1));
         glBindBufferBase(GL_UNIFORM_BUFFER, kFrameBinding, frame_.name());
-        if (block.to_sun.w != 0.0F && shadow_.is_stale(shadow_from_world)) {
+        const bool have_moved = is_forest_ && has_soft_shadows() &&
+                                (frame.wind != far_wind_ || frame.time != far_time_);
+        if (block.to_sun.w != 0.0F && (have_moved || shadow_.is_stale(shadow_from_world))) {
             draw_shadows(shadow_from_world, stats);
+            far_wind_ = frame.wind;
+            far_time_ = frame.time;
         }
         target_.begin(area.width, area.height, frame.samples);
         if (frame.transparent) {
@@ -382,6 +406,9 @@ private:
         }
         glDepthFunc(GL_GEQUAL); // reversed depth
         glBindTextureUnit(kShadowTexture, shadow_.texture());
+        if (has_soft_shadows()) {
+            glBindTextureUnit(kShadowDepthTexture, shadow_.depths());
+        }
         if (is_forest_) {
             glPolygonMode(GL_FRONT_AND_BACK,
                           frame.style == PlantStyle::Wireframe ? GL_LINE : GL_FILL);
@@ -437,7 +464,10 @@ private:
         times_.cpu = 1e3 * (platform::thread_cpu_seconds() - cpu_start);
         return stats;
     }
-    /// Value of QUALITY in shaders.
+    /// Whether the edges of shadows widen with the distance from the caster, and the shadows of far
+    /// trees move with the wind.
+    [[nodiscard]] bool has_soft_shadows() const { return device_.quality() > 1; }
+    /// QUALITY of shaders.
     [[nodiscard]] std::uint32_t tier_of(Quality quality) const {
         return quality == Quality::Auto
                    ? (device_.is_software() ? 0 : 1)
@@ -528,20 +558,25 @@ private:
                 glm::round((frame.camera.eye + 0.6F * radius * forward_of(frame.camera)) / step) *
                 step;
             const glm::vec3 half(radius / std::sqrt(3.0F));
-            const glm::mat4 matrix = shadow_matrix({middle - half, middle + half, false},
-                                                   frame.light.to_sun, kShadowTexels);
+            const glm::mat4 lit = shadow_matrix({middle - half, middle + half, false},
+                                                frame.light.to_sun, kShadowTexels);
+            const bool is_soft = has_soft_shadows();
+            const glm::mat4 matrix = is_soft ? deepened(lit, kNearMapSpecs[i].depth) : lit;
             block.near_from_world[i] = matrix;
             block.near_maps[static_cast<int>(i)] =
                 2.0F * radius / static_cast<float>(kShadowTexels);
             block.near_maps.z = 1.0F;
             glBindTextureUnit(kNearShadowTextures + static_cast<GLuint>(i), map.texture());
+            if (is_soft) {
+                glBindTextureUnit(kNearDepthTextures + static_cast<GLuint>(i), map.depths());
+            }
             if (map.is_stale(matrix) || frame.wind != near_wind_ || frame.time != near_time_) {
                 FrameBlock casters = block;
                 casters.view_projection = matrix;
                 near_frame_.fill(std::span<const FrameBlock>(&casters, 1));
                 glBindBufferBase(GL_UNIFORM_BUFFER, kFrameBinding, near_frame_.name());
                 begin_casters(map, matrix);
-                forest_.draw_near_shadows(i, matrix, kNearMapSpecs[i].level, textures_);
+                forest_.draw_near_shadows(i, lit, kNearMapSpecs[i].level, textures_);
                 glDisable(GL_DEPTH_CLAMP);
                 glDisable(GL_POLYGON_OFFSET_FILL);
             }
@@ -619,6 +654,8 @@ private:
     std::vector<ShadowMap> near_shadows_; // one per entry of kNearMapSpecs; made when needed
     Wind near_wind_;                      // wind when near_shadows_ were last drawn
     double near_time_ = 0.0;
+    Wind far_wind_; // wind when shadow_ was last drawn
+    double far_time_ = 0.0;
     MaterialTextures textures_;
     PlantMesh plant_;
     std::unique_ptr<PlantMesh> figure_;     // made when a person is first shown

@@ -59,11 +59,14 @@ void main() {
     float size = at.position_scale.w * forms[tree.form].cylinder.w;
     vec3 world = at.position_scale.xyz + rotate(turn, size * position);
     vec3 in_crown = (world - crown_centre(tree)) / crown_axes(tree);
-    vec3 unswayed = world; // the shadow map shows the trees without wind
+    vec3 shadow_place = world; // place of the shadow map, which shows the trees without wind
 #ifdef CUT_OUT
     world = swayed(world, tree, 1.0);
 #else
     world = swayed(world, tree, 0.0);
+#endif
+#if QUALITY > 1
+    shadow_place = world; // it shows them in the wind
 #endif
     vec3 surface = rotate(turn, octahedral(normal));
     uv = texture_coordinate;
@@ -76,7 +79,7 @@ void main() {
     }
 #ifdef LIT_AT_CORNERS
     float lit =
-        sunlight_at(shadow_map_position(unswayed, frame.to_sun.xyz), crown_sunlight(in_crown));
+        sunlight_at(shadow_map_position(shadow_place, frame.to_sun.xyz), crown_sunlight(in_crown));
     lit = sunlight_near(world, frame.to_sun.xyz, lit);
     float visibility = ambient_visibility(in_crown);
     vec2 fog = fog_to(world);
@@ -110,7 +113,7 @@ void main() {
 #if defined(BAKE)
     world_position = world;
 #elif !defined(LIT_AT_CORNERS)
-    shadow_position = shadow_map_position(unswayed, frame.to_sun.xyz);
+    shadow_position = shadow_map_position(shadow_place, frame.to_sun.xyz);
     fog = fog_to(world);
     from_eye = world - frame.eye_time.xyz;
 #endif

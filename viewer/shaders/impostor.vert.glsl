@@ -89,19 +89,25 @@ void main() {
     vec3 size = tree.scale * picture_size(tree.form, elevation);
     vec3 world_position = centre + (2.0 * at.x - 1.0) * size.x * right +
                           (2.0 * at.y - 1.0) * size.y * up;
-    vec3 unswayed = world_position; // the shadow map shows the trees without wind
+    vec3 unswayed = world_position;
+    world_position = swayed(unswayed, tree, 0.0);
+    // Place of the shadow map, which shows the trees without wind, or in it.
+#if QUALITY > 1
+    vec3 shadow_place = world_position;
+#else
+    vec3 shadow_place = unswayed;
+#endif
     layer_uv = vec3((vec2(view, elevation) + at) / vec2(kYaws, 3),
                   forms[tree.form].layers.x + float(tree.impostor));
     shadow_step = mat3(frame.shadow_from_world) * (to_eye * size.z);
 #ifdef SHADOW
-    plane_shadow_position = (frame.shadow_from_world * vec4(unswayed, 1.0)).xyz;
-    gl_Position = frame.shadow_from_world * vec4(unswayed, 1.0);
+    plane_shadow_position = (frame.shadow_from_world * vec4(shadow_place, 1.0)).xyz;
+    gl_Position = frame.shadow_from_world * vec4(shadow_place, 1.0);
 #else
     vec3 axes = crown_axes(tree);
-    world_position = swayed(unswayed, tree, 0.0);
     plane_crown_position = (unswayed - centre) / axes;
     crown_step = to_eye * size.z / axes;
-    plane_shadow_position = shadow_map_position(unswayed, frame.to_sun.xyz);
+    plane_shadow_position = shadow_map_position(shadow_place, frame.to_sun.xyz);
     fog = fog_to(world_position);
     world_from_impostor = axes_of(tree.yaw, view, elevation);
 #if defined(TURNS) && !defined(DEPTH)

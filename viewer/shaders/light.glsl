@@ -21,6 +21,51 @@ vec3 shadow_map_position(vec3 world_position, vec3 offset) {
     return (frame.shadow_from_world * vec4(moved, 1.0)).xyz;
 }
 
+// Shadows whose edges widen with the distance from the caster, as the disc of the sun makes them
+// (Fernando 2005, "Percentage-Closer Soft Shadows"): the mean depth of the casters around the place
+// gives the width of the edge. `at`: position in the map, 0 to 1; `depth`: depth of the map / width.
+#if QUALITY > 1
+const float kSunSpread = 0.00465; // tangent of half the angle that the sun fills
+const int kDepthTaps = 12;
+const int kSoftTaps = 20;
+// A place of a disc that `count` places fill evenly, after Vogel 1979.
+vec2 disc_place(int index, int count, float turn) {
+    float angle = 2.3999632 * float(index) + turn;
+    return sqrt((float(index) + 0.5) / float(count)) * vec2(cos(angle), sin(angle));
+}
+float soft_sunlight(sampler2DShadow map, sampler2D depths, vec3 at, float depth) {
+    float texel = frame.ground.w;
+    float spread = kSunSpread * depth; // radius of the edge per depth
+    // The disc has another turn at each place, so that the taps leave no copies of an edge.
+    vec2 cell = floor(at.xy / texel * 2.0);
+    float turn = 6.2831853 * fract(52.9829189 * fract(dot(cell, vec2(0.06711056, 0.00583715))));
+    float search = max(spread * at.z, 2.0 * texel);
+    float sum = 0.0, count = 0.0;
+    for (int i = 0; i < kDepthTaps; ++i) {
+        float caster =
+            textureLod(depths, at.xy + search * disc_place(i, kDepthTaps, turn), 0.0).r;
+        if (caster < at.z) {
+            sum += caster;
+            count += 1.0;
+        }
+    }
+    if (count == 0.0) {
+        return 1.0;
+    }
+    float radius = max(spread * (at.z - sum / count), 1.25 * texel);
+    // Far from the middle of the disc the surface itself may be nearer to the sun.
+    float receiver = at.z - 0.5 * radius / depth;
+    float lit = 0.0;
+    for (int i = 0; i < kSoftTaps; ++i) {
+        lit += texture(map, vec3(at.xy + radius * disc_place(i, kSoftTaps, turn), receiver));
+    }
+    return lit / float(kSoftTaps);
+}
+#if !defined(ONE_TAP) && !defined(TWO_TAPS)
+layout(binding = 12) uniform sampler2D shadow_depths;
+#endif
+#endif
+
 // Visible fraction of the sun at a position in the shadow map. `outside`: value outside the map.
 // Reads the map four times, once with ONE_TAP, twice with TWO_TAPS; each read filters four texels.
 float sunlight_at(vec3 at, float outside) {
@@ -38,6 +83,8 @@ float sunlight_at(vec3 at, float outside) {
     vec2 aside = frame.ground.w * vec2(0.6, 0.35);
     lit = 0.5 * (texture(shadow_map, vec3(corner - aside, at.z)) +
                  texture(shadow_map, vec3(corner + aside, at.z)));
+#elif QUALITY > 1
+    lit = soft_sunlight(shadow_map, shadow_depths, vec3(corner, at.z), 1.0);
 #else
     float texel = frame.ground.w;
     lit += texture(shadow_map, vec3(corner + texel * vec2(-0.75, -0.25), at.z));
@@ -54,6 +101,11 @@ float sunlight_at(vec3 at, float outside) {
 #if QUALITY > 0
 layout(binding = 7) uniform sampler2DShadow nearest_map;
 layout(binding = 8) uniform sampler2DShadow near_map;
+#if QUALITY > 1
+layout(binding = 10) uniform sampler2D nearest_depths;
+layout(binding = 11) uniform sampler2D near_depths;
+const float kMapDepths[2] = float[](4.0, 1.0); // depth / width; kNearMapSpecs has them too
+#endif
 float sunlight_of_map(sampler2DShadow map, int which, vec3 place, vec3 offset, float lit) {
     vec3 moved = place + offset * (1.5 * frame.near_maps[which]);
     vec3 at = (frame.near_from_world[which] * vec4(moved, 1.0)).xyz;
@@ -61,6 +113,12 @@ float sunlight_of_map(sampler2DShadow map, int which, vec3 place, vec3 offset, f
     if (edge >= 1.0 || at.z <= 0.0 || at.z >= 1.0) {
         return lit;
     }
+#if QUALITY > 1
+    vec3 corner = vec3(at.xy * 0.5 + 0.5, at.z);
+    float sunlit = which == 0 ? soft_sunlight(map, nearest_depths, corner, kMapDepths[0])
+                              : soft_sunlight(map, near_depths, corner, kMapDepths[1]);
+    return mix(sunlit, lit, smoothstep(0.8, 1.0, edge));
+#else
     float sum = 0.0;
     for (int y = -1; y <= 1; ++y) {
         for (int x = -1; x <= 1; ++x) {
@@ -69,6 +127,7 @@ float sunlight_of_map(sampler2DShadow map, int which, vec3 place, vec3 offset, f
         }
     }
     return mix(sum / 9.0, lit, smoothstep(0.8, 1.0, edge));
+#endif
 }
 float sunlight_near(vec3 place, vec3 offset, float lit) {
     if (frame.near_maps.z == 0.0) {
@@ -162,7 +221,11 @@ vec2 fog_to(vec3 world_position) {
     return vec2(0.05 * near_sun * near_sun, exp(-frame.sun.w * away));
 }
 vec3 apply_fog(vec3 radiance, vec2 fog) {
-    return mix(frame.horizon.rgb + frame.sun.rgb * fog.x, radiance, fog.y);
+    vec3 air = frame.horizon.rgb + frame.sun.rgb * fog.x;
+#if QUALITY > 0
+    air *= frame.near_maps.w;
+#endif
+    return mix(air, radiance, fog.y);
 }
 vec3 fogged(vec3 radiance, vec3 world_position) {
     return apply_fog(radiance, fog_to(world_position));

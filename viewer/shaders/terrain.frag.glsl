@@ -100,6 +100,10 @@ void main() {
 #else
     vec3 light = shade(albedo, normal, world_position, lit, 0.0);
 #endif
+#if QUALITY > 0
+    // The eye below crowns adapts to the shade, and less to sunlit ground far outside the wood.
+    light *= mix(1.0, frame.near_maps.w, smoothstep(50.0, 150.0, fog.z));
+#endif
 #ifdef CANOPY
     // Crowns seen from afar: part of their surface is in the shade of others.
     vec3 crowns = shade_crown(canopy, up, 0.8 * lit, 0.0, 0.9);

@@ -501,6 +501,16 @@ float ForestPass::exposure_below_crowns(const glm::vec3& eye) const {
     return 1.0F + (kMax - 1.0F) * cover * cover;
 }
 
+glm::vec4 ForestPass::hills() const {
+    constexpr float kBeyond = 800.0F; // m, from the forest to the hills
+    if (model_.streamed != nullptr) {
+        return glm::vec4(0.0F);
+    }
+    const Region& region = model_.terrain->region();
+    const auto diagonal = static_cast<float>(std::hypot(region.width, region.depth));
+    return {0.5F * diagonal + kBeyond, bounds().empty ? 0.0F : bounds().low.y, 0.0F, 0.0F};
+}
+
 void ForestPass::list_casters(const glm::mat4& shadow_from_world,
                               std::uint32_t level,
                               NearCasters& casters) {

@@ -82,9 +82,11 @@ public:
     /// Factor of the exposure for an eye below crowns, which has adapted to their shade. Call it
     /// after prepare().
     [[nodiscard]] float exposure_below_crowns(const glm::vec3& eye) const;
-    /// Draws the trees in shadow map number `map` (below kNearMaps), as branches of the level
-    /// `level`, into the bound framebuffer. The wind of the prepared frame moves them.
-    /// Precondition: the view_projection of the bound FrameBlock is `shadow_from_world`.
+    /// FrameBlock::hills: hills stand beyond the forest, none beyond a streamed one.
+    [[nodiscard]] glm::vec4 hills() const;
+    /// Draws the trees in shadow map number `map` (below kNearMaps) as branches of a level into the
+    /// bound framebuffer, moved by the wind of the prepared frame. The bound FrameBlock must have
+    /// `shadow_from_world` as its view_projection.
     void draw_near_shadows(std::size_t map,
                            const glm::mat4& shadow_from_world,
                            std::uint32_t level,

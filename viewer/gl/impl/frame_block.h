@@ -23,11 +23,12 @@ struct FrameBlock {
     glm::vec4 ground{0.0F};
     glm::vec4 wind{0.0F};
     std::array<glm::mat4, 2> near_from_world{glm::mat4(1.0F), glm::mat4(1.0F)};
-    glm::vec4 near_maps{0.0F};
+    glm::vec4 near_maps{0.0F, 0.0F, 0.0F, 1.0F};
     glm::vec4 crowns{0.0F};
+    glm::vec4 hills{0.0F};
     glm::vec4 viewport{0.0F};
 };
-static_assert(sizeof(FrameBlock) == 5 * 64 + 10 * 16);
+static_assert(sizeof(FrameBlock) == 5 * 64 + 11 * 16);
 
 /// Uniforms for the part of a picture within `area`. `shadow_texels`: texels along a side of the
 /// shadow map.

@@ -4,7 +4,7 @@
 namespace lsys::view {
 
 ShadowMap::ShadowMap(Device& device, std::uint32_t texels)
-    : texels_(texels), depth_(make_texture(device, GL_TEXTURE_2D)),
+    : device_(&device), texels_(texels), depth_(make_texture(device, GL_TEXTURE_2D)),
       framebuffer_(make_framebuffer(device)) {
     const auto size = static_cast<GLsizei>(texels);
     glTextureStorage2D(depth_.name(), 1, GL_DEPTH_COMPONENT32F, size, size);
@@ -17,6 +17,20 @@ ShadowMap::ShadowMap(Device& device, std::uint32_t texels)
     glNamedFramebufferTexture(framebuffer_.name(), GL_DEPTH_ATTACHMENT, depth_.name(), 0);
     glNamedFramebufferDrawBuffer(framebuffer_.name(), GL_NONE);
     glNamedFramebufferReadBuffer(framebuffer_.name(), GL_NONE);
+}
+
+GLuint ShadowMap::depths() {
+    if (!depths_) {
+        GLuint name = 0;
+        glGenTextures(1, &name);
+        glTextureView(name, GL_TEXTURE_2D, depth_.name(), GL_DEPTH_COMPONENT32F, 0, 1, 0, 1);
+        depths_ = TextureObject(*device_, name);
+        glTextureParameteri(name, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+        glTextureParameteri(name, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+        glTextureParameteri(name, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
+        glTextureParameteri(name, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+    }
+    return depths_.name();
 }
 
 void ShadowMap::begin(const glm::mat4& matrix) {

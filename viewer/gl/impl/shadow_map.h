@@ -17,7 +17,10 @@ public:
     [[nodiscard]] std::uint32_t texels() const { return texels_; }
     [[nodiscard]] GLuint texture() const { return depth_.name(); }
 
-    /// Whether the map must be drawn again to show the view of `matrix`.
+    /// The depths themselves, as numbers: a view of texture() without comparison.
+    [[nodiscard]] GLuint depths();
+
+    /// Whether the map must be redrawn for `matrix`.
     [[nodiscard]] bool is_stale(const glm::mat4& matrix) const {
         return stale_ || matrix != matrix_;
     }
@@ -27,8 +30,10 @@ public:
     void begin(const glm::mat4& matrix);
 
 private:
+    Device* device_;
     std::uint32_t texels_;
     TextureObject depth_;
+    TextureObject depths_; // made when first needed
     Framebuffer framebuffer_;
     glm::mat4 matrix_{0.0F};
     bool stale_ = true;
