@@ -267,10 +267,10 @@ bool SensingTurtle::State::execute(const Action& action,
         set_width(argument(now.width * width_scale));
         return true;
     case TurtleOperation::NarrowWidth:
-        set_width(argument(now.width - settings.width_increment));
+        set_width(argument(now.width - static_cast<double>(settings.width_increment)));
         return true;
     case TurtleOperation::WidenWidth:
-        set_width(argument(now.width + settings.width_increment));
+        set_width(argument(now.width + static_cast<double>(settings.width_increment)));
         return true;
     case TurtleOperation::ScaleWidth:
         set_width(now.width * argument(width_scale));
