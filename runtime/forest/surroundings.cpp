@@ -27,6 +27,8 @@ constexpr std::array<std::uint32_t, kSurroundings> kTaken{0b0000, 0b0001, 0b0011
 /// docs/language.md sections 6 and 9.
 constexpr std::uint32_t kOpenYawGeneration = 0xFFFFFFFCU;
 constexpr std::uint64_t kTreesPerPiece = 4096;
+/// Trees whose mean is the height of a stage; see ForestStage::plant_height.
+constexpr std::uint32_t kMeasuredTrees = 16;
 constexpr double kTurn = 2.0 * std::numbers::pi;
 
 /// From a tree to a neighbour, on the ground. Differences of binary32 are nearly always exact.
@@ -145,6 +147,23 @@ double crown_radius(const Forest& forest, const Tree& tree) {
            species.stages[forest.first_stage_of(tree)].crown_radius;
 }
 
+double height_of(const Forest& forest, const Tree& tree) {
+    const ForestSpecies& species = forest.species[tree.species];
+    return static_cast<double>(tree.scale) *
+           species.stages[forest.first_stage_of(tree)].plant_height;
+}
+
+/// Mean height in m of the first trees of a cache at scale 1; a tree that draws nothing has 0.
+double mean_height(const InstanceCache& cache, std::uint64_t key) {
+    const HeightTable table = make_height_table(cache);
+    TreeMeasure measure(cache, table, key);
+    double sum = 0.0;
+    for (std::uint32_t number = 0; number < kMeasuredTrees; ++number) {
+        sum += measure.height_of(number).value_or(0.0);
+    }
+    return sum / kMeasuredTrees;
+}
+
 float open_yaw(const Forest& forest, const Tree& tree) {
     const PhiloxBlock words = philox4x32(
         {std::bit_cast<std::uint32_t>(tree.position.x),
@@ -171,11 +190,13 @@ void sense_tree(const Forest& forest,
                 Tree& tree,
                 std::vector<Offset>& offsets) {
     const double reach = kNeighbourReach * crown_radius(forest, tree);
+    const double min_height = kNeighbourHeight * height_of(forest, tree);
     offsets.clear();
     grid.visit_near(static_cast<double>(tree.position.x), static_cast<double>(tree.position.z),
                     reach, [&](const Tree& other) {
                         const Offset offset = offset_between(tree, other);
-                        if (offset.square > 0.0 && offset.square <= reach * reach) {
+                        if (offset.square > 0.0 && offset.square <= reach * reach &&
+                            height_of(forest, other) >= min_height) {
                             offsets.push_back(offset);
                         }
                     });
@@ -225,6 +246,23 @@ double crown_radius_of(const InstanceCache& cache) {
         }
     }
     return count == 0 ? 0.0 : sum / (4.0 * count);
+}
+
+void measure_plants(Forest& forest) {
+    if (!has_sensed_surroundings(forest)) {
+        return;
+    }
+    for (ForestSpecies& species : forest.species) {
+        for (std::size_t first = 0; first < species.stages.size(); first += species.cases()) {
+            const InstanceCache& alone = species.stages[first].cache;
+            const double radius = species.senses_surroundings ? crown_radius_of(alone) : 0.0;
+            const double height = mean_height(alone, forest.key);
+            for (std::size_t i = 0; i < species.cases(); ++i) {
+                species.stages[first + i].crown_radius = radius;
+                species.stages[first + i].plant_height = height;
+            }
+        }
+    }
 }
 
 bool has_sensed_surroundings(const Forest& forest) {

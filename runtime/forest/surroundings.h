@@ -26,6 +26,9 @@ inline constexpr std::array<std::string_view, kSurroundings> kSurroundingsNames{
 /// Distance in crown radii within which a tree takes a quarter of another tree: crowns that are
 /// farther apart do not touch.
 inline constexpr double kNeighbourReach = 2.0;
+/// Height of the lowest plant that takes a quarter, as a part of the height of the tree: flowers
+/// and seedlings below a tree do not shade it.
+inline constexpr double kNeighbourHeight = 0.5;
 /// Distance in crown radii at which the neighbours of heroes stand: the middle of the distances at
 /// which trees take quarters. Shadow is short, so crowns that only touch would hardly shade.
 inline constexpr double kNeighbourDistance = 1.0;
@@ -45,6 +48,10 @@ struct TurnedSurroundings {
 /// width plus the depth of the box around the hero. 0 if they draw nothing.
 [[nodiscard]] double crown_radius_of(const InstanceCache& cache);
 
+/// Sets the crown radii and heights of the stages if a species of the forest senses its
+/// surroundings. Reads the key of the forest. Call it again after any change of species.
+void measure_plants(Forest& forest);
+
 /// Whether a species of the forest senses its surroundings.
 [[nodiscard]] bool has_sensed_surroundings(const Forest& forest);
 /// The largest distance in m at which a tree can depend on another: kNeighbourReach times the
@@ -53,13 +60,14 @@ struct TurnedSurroundings {
                                            std::span<const double> max_scales);
 
 /// Sets the surroundings and the yaw of those `trees` whose species senses them; other trees keep
-/// their values. A quarter is taken if a tree of `all`, of any species, stands in it at most
-/// kNeighbourReach crown radii away; a tree at the same place takes none. Quarter 0 is centred on
-/// the direction of the nearest neighbour (ties: the lowest number); each quarter contains its
-/// border at the lower yaw. A tree without neighbours gets a random yaw, a function of the key of
-/// the forest, its number and its place. `forest`: its trees are not used. `all`: contains the
-/// neighbours of `trees`, and may be the same trees. 0 threads: as many as the machine has. Throws
-/// std::bad_alloc.
+/// their values. A neighbour of a tree is a tree of `all`, of any species, at most kNeighbourReach
+/// crown radii away and at least kNeighbourHeight times as tall, but not at the same place. A
+/// height is the scale times ForestStage::plant_height. A quarter with a neighbour is taken.
+/// Quarter 0 is centred on the direction of the nearest neighbour (ties: the lowest number); each
+/// quarter contains its border at the lower yaw. A tree without neighbours gets a random yaw, a
+/// function of the key of the forest, its number and its place. `forest`: its trees are not used.
+/// `all`: contains the neighbours of `trees`, with their final scales, and may be the same trees. 0
+/// threads: as many as the machine has. Throws std::bad_alloc.
 void sense_surroundings(const Forest& forest,
                         std::span<const Tree> all,
                         std::span<Tree> trees,

@@ -369,17 +369,6 @@ bool size_heroes(const Settings& settings, bool wants_height, ForestSpecies& spe
     return true;
 }
 
-/// Sets the crown radii of a species that senses its surroundings.
-void measure_crowns(ForestSpecies& species) {
-    for (std::size_t first = 0; species.senses_surroundings && first < species.stages.size();
-         first += kSurroundings) {
-        const double radius = crown_radius_of(species.stages[first].cache);
-        for (std::size_t i = 0; i < kSurroundings; ++i) {
-            species.stages[first + i].crown_radius = radius;
-        }
-    }
-}
-
 /// Ends the step with an error: `species` cannot sense its surroundings.
 Step::Ended end_blind(const SceneSpecies& species,
                       const std::string& path,
@@ -589,8 +578,8 @@ grow_species(const LoadedScene& loaded, const Project& project, const PreviousFo
                           last.sources);
             return step.end(Stop::Diagnosed);
         }
-        measure_crowns(forest_species);
     }
+    measure_plants(grown.forest);
     grown.cache_seconds = growing.seconds();
     return step.done(std::move(grown));
 }
@@ -723,7 +712,8 @@ std::uint64_t placement_digest(const Scene& scene,
     }
     for (const ForestSpecies& each : grown.forest.species) {
         for (const ForestStage& stage : each.stages) {
-            state = combine_numbers(state, each.senses_surroundings, stage.crown_radius);
+            state = combine_numbers(state, each.senses_surroundings, stage.crown_radius,
+                                    stage.plant_height);
         }
     }
     return finish(combine_numbers(state, grown.terrain->digest(), sizer.digest()));
@@ -758,6 +748,7 @@ Outcome<void> sense_forest(const Scene& scene, const Project& project, GrownFore
             return step.fail(fmt::format("placement: {}", placed.error().message));
         }
         around = std::move(placed.value().trees);
+        static_cast<void>(sizer.size(around));
         apply_painting(scene.painting, options.region, *grown.terrain, around);
     }
     const bool has_room = catch_out_of_memory(

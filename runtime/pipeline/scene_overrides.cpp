@@ -100,6 +100,10 @@ Result<void> apply(const SceneOverrides& overrides, Scene& scene) {
             species.stages = overrides.stages;
         }
         replace_if_set(overrides.season, species.season);
+        if (overrides.senses_surroundings) {
+            species.senses_surroundings = *overrides.senses_surroundings;
+            species.surroundings_span = {}; // the value does not come from the scene file
+        }
         replace_if_set(overrides.start, species.start);
         replace_if_set(overrides.years_of_stage, species.years_of_stage);
         for (const Definition& definition : overrides.grammar.definitions) {

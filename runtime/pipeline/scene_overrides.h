@@ -56,11 +56,12 @@ struct SceneOverrides {
     std::optional<std::uint32_t> heroes;
     std::optional<float> rho;
     std::optional<std::uint32_t> cache_cap;
-    std::optional<float> tolerance;      // CacheOptions::tolerance
-    std::optional<float> season;         // SceneSpecies::season
-    std::optional<HeightRange> height;   // for the trees of every species
-    std::optional<double> variety;       // InstancingGoal::variety
-    std::optional<std::uint64_t> memory; // InstancingGoal::max_bytes
+    std::optional<float> tolerance;          // CacheOptions::tolerance
+    std::optional<float> season;             // SceneSpecies::season
+    std::optional<bool> senses_surroundings; // of every species
+    std::optional<HeightRange> height;       // for the trees of every species
+    std::optional<double> variety;           // InstancingGoal::variety
+    std::optional<std::uint64_t> memory;     // InstancingGoal::max_bytes
     std::optional<PlacementMethod> method;
     std::optional<std::uint64_t> count;
     std::optional<float> size;          // m, side of a square region with a corner at the origin

@@ -207,6 +207,12 @@ void add_scene_overrides(CLI::App& app, SceneOverrides& overrides, const char* s
                "March, in the north")
         ->type_name("S")
         ->group("Placement");
+    add_choice<std::optional<bool>>(
+        app, "--surroundings", overrides.senses_surroundings,
+        {{"ignored", false}, {"sensed", true}},
+        "Whether plants grow by the trees around them: in the light, or as if alone (default "
+        "ignored)")
+        ->group("Placement");
     add_placement(app, overrides, size);
     add_ground(app, overrides);
     add_cache(app, overrides);

@@ -66,9 +66,9 @@ std::vector<Tree> SquareSource::trees_of(const Region& region) const {
             };
         };
         std::erase_if(trees, is_outside(options_.region));
+        static_cast<void>(sizer_.size(trees));
         const std::vector<Tree> all = trees;
         std::erase_if(trees, is_outside(region));
-        static_cast<void>(sizer_.size(trees));
         sense_surroundings(kinds_, all, trees, 1);
     } else {
         static_cast<void>(sizer_.size(trees));

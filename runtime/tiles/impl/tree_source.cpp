@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <iterator>
 #include <new>
 #include <tuple>
 #include <utility>
@@ -92,21 +93,19 @@ std::vector<Tree> CellTrees::trees_of(const TileId& tile) const {
     options.region = widened(grid_.region_of(tile), kMargin + halo_);
     const Result<Placement> placed = place_trees(options, terrain_);
     LSYS_CHECK(placed, tile.level, tile.column, tile.row);
-    std::vector<Tree> trees;
-    std::vector<Tree> all; // with the trees of the halo; empty if no species senses
+    const auto is_inside = [&](const Tree& tree) {
+        return grid_.tile_at(tile.level, tree.position.x, tree.position.z) == tile;
+    };
+    std::vector<Tree> all; // with the trees of the halo
     for (const Tree& tree : placed.value().trees) {
-        const glm::vec3& at = tree.position;
-        if (!options_.region.contains(at.x, at.z)) {
-            continue;
-        }
-        if (halo_ > 0.0) {
+        if (options_.region.contains(tree.position.x, tree.position.z) &&
+            (halo_ > 0.0 || is_inside(tree))) {
             all.push_back(tree);
         }
-        if (grid_.tile_at(tile.level, at.x, at.z) == tile) {
-            trees.push_back(tree);
-        }
     }
-    static_cast<void>(sizer_.size(trees));
+    static_cast<void>(sizer_.size(all));
+    std::vector<Tree> trees;
+    std::copy_if(all.begin(), all.end(), std::back_inserter(trees), is_inside);
     if (halo_ > 0.0) {
         sense_surroundings(kinds_, all, trees, 1);
     }

@@ -19,6 +19,8 @@ namespace {
 
 constexpr double kPi = std::numbers::pi;
 constexpr double kRadius = 1.5; // m, of the crowns of species 0; species 1 does not sense
+constexpr double kHeight = 8.0; // m, of species 0
+constexpr double kBush = 5.0;   // m, height of species 1
 
 Forest two_species() {
     Forest forest;
@@ -28,8 +30,10 @@ Forest two_species() {
     forest.species[0].stages.resize(kSurroundings);
     for (ForestStage& stage : forest.species[0].stages) {
         stage.crown_radius = kRadius;
+        stage.plant_height = kHeight;
     }
     forest.species[1].stages.resize(1);
+    forest.species[1].stages[0].plant_height = kBush;
     return forest;
 }
 
@@ -117,6 +121,36 @@ TEST_CASE("a neighbour counts at two crown radii and not beyond") {
     CHECK(case_of(trees[1]) == Surroundings::Open);
 }
 
+TEST_CASE("a neighbour counts if it is at least half as tall as the tree") {
+    std::vector<Tree> trees{tree_at(0.0F, 0.0F, 0), tree_at(2.0F, 0.0F, 1), tree_at(0.0F, 2.5F, 2)};
+    const Forest forest = two_species();
+    trees[1].scale = 0.5F; // 4 m
+    trees[2].species = 1;
+    trees[2].scale = 0.81F; // 4.05 m
+    sense_surroundings(forest, trees, trees, 1);
+    CHECK(case_of(trees[0]) == Surroundings::Adjacent);
+    trees[1].scale = std::nextafter(0.5F, 0.0F); // no longer the nearest neighbour
+    sense_surroundings(forest, trees, trees, 1);
+    CHECK(case_of(trees[0]) == Surroundings::One);
+    CHECK(apart(static_cast<double>(trees[0].yaw), -90.0) < 1e-3);
+    CHECK(case_of(trees[1]) == Surroundings::Open); // its crown does not reach the others
+    trees[2].scale = 0.79F;
+    sense_surroundings(forest, trees, trees, 1);
+    CHECK(case_of(trees[0]) == Surroundings::Open);
+}
+
+TEST_CASE("a seedling does not count for a tree, and the tree counts for the seedling") {
+    Forest forest = two_species();
+    ForestSpecies& species = forest.species[0];
+    species.stages.insert(species.stages.begin(), kSurroundings, ForestStage{1, {}, 1.5, 2.0});
+    species.years_of_stage = 10.0F;
+    std::vector<Tree> trees{tree_at(0.0F, 0.0F, 0), tree_at(2.0F, 0.0F, 1)};
+    trees[1].age = 5;
+    sense_surroundings(forest, trees, trees, 1);
+    CHECK(case_of(trees[0]) == Surroundings::Open);
+    CHECK(case_of(trees[1]) == Surroundings::One);
+}
+
 TEST_CASE("of neighbours at one distance that with the lower number is the first") {
     std::vector<Tree> trees{tree_at(0.0F, 0.0F, 5), tree_at(2.0F, 0.0F, 9), tree_at(0.0F, 2.0F, 3)};
     sense_surroundings(two_species(), trees, trees, 1);
@@ -143,7 +177,7 @@ TEST_CASE("only species that sense their surroundings get any, from trees of all
 TEST_CASE("a young tree has the crown of its own stage") {
     Forest forest = two_species();
     ForestSpecies& species = forest.species[0];
-    species.stages.insert(species.stages.begin(), kSurroundings, ForestStage{1, {}, 0.5});
+    species.stages.insert(species.stages.begin(), kSurroundings, ForestStage{1, {}, 0.5, kHeight});
     species.years_of_stage = 10.0F;
     std::vector<Tree> trees{tree_at(0.0F, 0.0F, 0), tree_at(2.0F, 0.0F, 1)};
     trees[0].age = 5;
@@ -176,6 +210,9 @@ std::vector<Tree> random_wood(std::uint32_t seed) {
 
 /// sense_surroundings() for one tree, by looking at all others.
 void sense_directly(const Forest& forest, const std::vector<Tree>& all, Tree& tree) {
+    const auto height = [](const Tree& each) {
+        return static_cast<double>(each.scale) * (each.species == 0 ? kHeight : kBush);
+    };
     const double reach = 2.0 * kRadius * static_cast<double>(tree.scale);
     struct Other {
         double x, z, square;
@@ -188,7 +225,7 @@ void sense_directly(const Forest& forest, const std::vector<Tree>& all, Tree& tr
         const double z =
             static_cast<double>(other.position.z) - static_cast<double>(tree.position.z);
         const double square = x * x + z * z;
-        if (square != 0.0 && square <= reach * reach) {
+        if (square != 0.0 && square <= reach * reach && 2.0 * height(other) >= height(tree)) {
             others.push_back({x, z, square, other.number});
         }
     }

@@ -50,6 +50,25 @@ TEST_CASE("overrides of one species take precedence over those of all species") 
     CHECK(scene.placement.species[1].max_scale == 2.0F);
 }
 
+TEST_CASE("an option sets whether every species senses its surroundings") {
+    Scene scene = two_species();
+    scene.species[0].senses_surroundings = true;
+    scene.species[0].surroundings_span = {FileId{0}, 3, 9};
+    SceneOverrides overrides;
+    REQUIRE(apply(overrides, scene));
+    CHECK(scene.species[0].senses_surroundings);
+    overrides.senses_surroundings = true;
+    REQUIRE(apply(overrides, scene));
+    CHECK(scene.species[1].senses_surroundings);
+    CHECK(scene.species[0].surroundings_span.file == kNoFile);
+    overrides.senses_surroundings = false;
+    overrides.species["birch"].senses_surroundings = true; // one species has priority
+    REQUIRE(apply(overrides, scene));
+    CHECK_FALSE(scene.species[0].senses_surroundings);
+    CHECK(scene.species[1].senses_surroundings);
+    CHECK_FALSE(overrides.changes_placement());
+}
+
 TEST_CASE("options give every species stages, and years are stages without domination") {
     Scene scene = two_species();
     SceneOverrides overrides;

@@ -80,6 +80,7 @@ TEST_CASE("heroes grow with neighbours in the taken quarters of their case") {
         const ForestStage& stage = species.stages[i];
         CAPTURE(kSurroundingsNames[i]);
         CHECK(stage.crown_radius == Approx(6.0));
+        CHECK(stage.plant_height == Approx(9.0)); // 3 m, and 1 m each year
         REQUIRE(stage.cache.slots[0].variant_count == 2);
         for (std::size_t hero = 0; hero < 2; ++hero) {
             const std::array<float, 4> arms = arms_of(stage.cache, hero);
@@ -100,6 +101,7 @@ TEST_CASE("crown radii follow the height of a grammar, and stages have radii of 
     for (std::uint32_t i = 0; i < kSurroundings; ++i) { // the plants are 9 m high without `height`
         CHECK(species.stages[i].generations == 4);
         CHECK(species.stages[i].crown_radius == Approx(8.0));
+        CHECK(species.stages[i].plant_height == Approx(14.0));
         CHECK(species.stages[kSurroundings + i].crown_radius == Approx(12.0));
     }
     CHECK(stage_name(species, 7) == "n6 one");
@@ -137,7 +139,10 @@ TEST_CASE("the short arm of a tree with one neighbour points to it") {
 }
 
 TEST_CASE("a tile of a forest without borders has the surroundings of the larger forest") {
-    Outcome<Wood> made = wood_of("scale = [0.6, 1]\n", kStar);
+    // The heights of neighbours outside the tile count as well, whatever gives the trees a height.
+    const std::string size = GENERATE("scale = [0.4, 1]\n", "height = [4, 10]\n");
+    CAPTURE(size);
+    Outcome<Wood> made = wood_of(size, kStar);
     REQUIRE(made);
     Wood wood = std::move(made.value());
     Scene tile = wood.loaded.scene;

@@ -114,8 +114,10 @@ TEST_CASE("the tiles of a forest that senses its surroundings are those of the w
     kinds.species[0].stages.resize(kSurroundings);
     for (ForestStage& stage : kinds.species[0].stages) {
         stage.crown_radius = 2.0;
+        stage.plant_height = 10.0;
     }
     kinds.species[1].stages.resize(1);
+    kinds.species[1].stages[0].plant_height = 5.0; // counts for smaller trees
     const TreeSizer keeps_scales(std::vector<double>(2, 0.0), kinds);
     for (const PlacementMethod method : kMethods) {
         CAPTURE(static_cast<int>(method));
