@@ -45,6 +45,11 @@ const groups = {
     'species/rose-bush': ['Rose bush', 'Shoots and flowers'],
     'species/dandelion': ['Dandelion', 'From bud to clock'],
   },
+  'Plants that sense': {
+    'competing-tips': ['Branch tips that compete', 'A tip with a neighbour rests'],
+    'two-trees': ['Two trees', 'Their crowns shade each other'],
+    topiary: ['Topiary', 'Clipped by a mesh'],
+  },
   Curves: {
     'abop-1-10a-dragon': ['Dragon curve', 'Two rules of turns'],
     'abop-1-11a-gosper': ['Gosper curve', 'Hexagons filled by one line'],
