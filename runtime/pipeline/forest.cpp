@@ -11,6 +11,7 @@
 #include "runtime/pipeline/grammar.h"
 #include "runtime/pipeline/impl/drawing_end.h"
 #include "runtime/pipeline/impl/mesh_files.h"
+#include "runtime/pipeline/impl/moved_environments.h"
 #include "runtime/pipeline/impl/surrounded_heroes.h"
 #include "runtime/pipeline/impl/variety_note.h"
 #include "runtime/pipeline/senses.h"
@@ -203,6 +204,7 @@ Outcome<GroundPictures> make_ground_pictures(const LoadedScene& loaded,
 /// grammar.
 struct GrownStage {
     std::vector<ForestStage> stages; // one, or one for each case of Surroundings
+    std::vector<SensedStage> sensed; // by stage; empty unless SceneSpecies::keeps_senses
     std::vector<UserMesh> user_meshes;
     Settings settings;      // of the grammar
     SourceSpan height_span; // of `#set height` in the grammar
@@ -277,6 +279,11 @@ Outcome<GrownStage> grow_stage(const SceneSpecies& species,
     }
     grammar.program.reset();
     grammar.bytecode = std::move(system->bytecode);
+    std::vector<EnvironmentMove> moves;
+    for (const auto& [name, by] : species.moves) {
+        moves.push_back({name, by});
+    }
+    move_environments(moves, grammar.bytecode);
     MeshFiles meshes;
     if (!step.take(read_mesh_files(path, grammar, project, budget), meshes)) {
         return step.end();
@@ -303,9 +310,11 @@ Outcome<GrownStage> grow_stage(const SceneSpecies& species,
     cache.cancelled = project.host.cancelled;
     cache.origins = origins_of.has_value();
     std::vector<InstanceCache> caches;
-    CacheOutcome outcome = species.senses_surroundings
-                               ? grow_surrounded_heroes(grammar.bytecode, senses, cache, caches)
-                               : make_instance_cache(grammar.bytecode, cache);
+    std::vector<SensedStage>* const kept = species.keeps_senses ? &grown.sensed : nullptr;
+    CacheOutcome outcome =
+        species.senses_surroundings
+            ? grow_surrounded_heroes(grammar.bytecode, senses, cache, caches, kept)
+            : make_sensing_cache(grammar.bytecode, senses, own_senses.get(), cache, kept);
     if (const std::optional<Stop> stop =
             report_drawing(outcome.derivation_end, outcome.drawing_end, grammar, step)) {
         return step.end(*stop);
@@ -346,9 +355,12 @@ bool has_hits(const ForestSpecies& species) {
 }
 
 /// If the grammar has `#set height`, scales the heroes so that tree 0 of the last stage has this
-/// height at scale 1. Returns false if the plants are flat although the grammar or `wants_height`
-/// requires a height.
-bool size_heroes(const Settings& settings, bool wants_height, ForestSpecies& species) {
+/// height at scale 1, and sets `scale` to the factor. Returns false if the plants are flat although
+/// the grammar or `wants_height` requires a height.
+bool size_heroes(const Settings& settings,
+                 bool wants_height,
+                 ForestSpecies& species,
+                 double& scale) {
     if (settings.height == 0.0F && !wants_height) {
         return true;
     }
@@ -361,12 +373,26 @@ bool size_heroes(const Settings& settings, bool wants_height, ForestSpecies& spe
     }
     if (height && settings.height != 0.0F) {
         species.height = settings.height;
+        scale = static_cast<double>(settings.height) / *height;
         for (ForestStage& stage : species.stages) {
-            scale_cache(static_cast<double>(settings.height) / *height, material_of(settings),
-                        stage.cache);
+            scale_cache(scale, material_of(settings), stage.cache);
         }
     }
     return true;
+}
+
+/// What the heroes of a species sensed, if any is kept.
+std::shared_ptr<const SensedHeroes>
+finished(double scale, const ForestSpecies& species, SensedHeroes sensed) {
+    if (sensed.stages.empty()) {
+        return nullptr;
+    }
+    std::vector<const InstanceCache*> caches;
+    for (const ForestStage& stage : species.stages) {
+        caches.push_back(&stage.cache);
+    }
+    finish_sensed_heroes(scale, caches, sensed);
+    return std::make_shared<const SensedHeroes>(std::move(sensed));
 }
 
 /// Ends the step with an error: `species` cannot sense its surroundings.
@@ -401,6 +427,7 @@ bool has_same_heroes(const SceneSpecies& a, const SceneSpecies& b) {
            a.cache.seed == b.cache.seed && a.cache.cap == b.cache.cap &&
            a.cache.tolerance == b.cache.tolerance && a.settings == b.settings &&
            a.senses_surroundings == b.senses_surroundings && a.season == b.season &&
+           a.moves == b.moves && a.keeps_senses == b.keeps_senses &&
            std::equal(a.definitions.begin(), a.definitions.end(), b.definitions.begin(),
                       b.definitions.end(), same_definition);
 }
@@ -514,6 +541,7 @@ grow_species(const LoadedScene& loaded, const Project& project, const PreviousFo
             messages = previous.grown->messages[*reused];
             step.messages.append(messages);
             grown.axioms.push_back(previous.grown->axioms[*reused]);
+            grown.sensed.push_back(previous.grown->sensed[*reused]);
             forest_species.stages = previous.grown->forest.species[*reused].stages;
             forest_species.height = previous.grown->forest.species[*reused].height;
             meshes = previous.grown->user_meshes[*reused];
@@ -529,6 +557,7 @@ grow_species(const LoadedScene& loaded, const Project& project, const PreviousFo
             continue;
         }
         GrownStage last;
+        SensedHeroes sensed;
         const std::size_t stages = std::max<std::size_t>(species.stages.size(), 1);
         for (std::size_t i = 0; i < stages; ++i) {
             const std::optional<std::uint32_t> generations =
@@ -550,6 +579,7 @@ grow_species(const LoadedScene& loaded, const Project& project, const PreviousFo
             }
             std::move(last.stages.begin(), last.stages.end(),
                       std::back_inserter(forest_species.stages));
+            std::move(last.sensed.begin(), last.sensed.end(), std::back_inserter(sensed.stages));
             meshes = std::move(last.user_meshes);
         }
         AxiomPlace& axiom = grown.axioms.emplace_back(last.axiom);
@@ -565,7 +595,8 @@ grow_species(const LoadedScene& loaded, const Project& project, const PreviousFo
         }
         const std::size_t index = grown.forest.species.size() - 1;
         const bool wants_height = scene.placement.species[index].max_height > 0.0F;
-        if (!size_heroes(last.settings, wants_height, forest_species)) {
+        double scale = 1.0;
+        if (!size_heroes(last.settings, wants_height, forest_species, scale)) {
             const std::string message = fmt::format(
                 "{}: its plants are flat, so they cannot be given a height", forest_species.name);
             if (species.height_span.file != kNoFile) {
@@ -578,6 +609,7 @@ grow_species(const LoadedScene& loaded, const Project& project, const PreviousFo
                           last.sources);
             return step.end(Stop::Diagnosed);
         }
+        grown.sensed.push_back(finished(scale, forest_species, std::move(sensed)));
     }
     measure_plants(grown.forest);
     grown.cache_seconds = growing.seconds();

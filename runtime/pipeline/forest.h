@@ -13,6 +13,7 @@
 #include "runtime/pipeline/file_position.h"
 #include "runtime/pipeline/project.h"
 #include "runtime/pipeline/scene_overrides.h"
+#include "runtime/pipeline/sensed_heroes.h"
 #include "runtime/pipeline/step.h"
 #include "runtime/placement/placement.h"
 #include "runtime/scene/scene.h"
@@ -54,7 +55,9 @@ struct GrownForest {
     /// the heroes are new.
     std::vector<std::optional<std::size_t>> reused_species;
     std::vector<Messages> messages; // by species
-    double cache_seconds = 0.0;     // time to derive and draw the heroes
+    /// By species; null: it senses nothing, or SceneSpecies::keeps_senses is not set.
+    std::vector<std::shared_ptr<const SensedHeroes>> sensed;
+    double cache_seconds = 0.0; // time to derive and draw the heroes
     double place_seconds = 0.0;
 };
 

@@ -136,6 +136,10 @@ Result<void> apply(const SceneOverrides& overrides, Scene& scene) {
         replace_if_set(species_overrides.senses_surroundings, species.senses_surroundings);
         mark_explicit(species_overrides.heroes.has_value(), species_overrides.rho.has_value(),
                       species);
+        for (const EnvironmentMove& move : species_overrides.moves) {
+            std::erase_if(species.moves, [&](const auto& each) { return each.first == move.name; });
+            species.moves.emplace_back(move.name, move.by);
+        }
         PlacementSpecies& placed = scene.placement.species[i];
         replace_if_set(species_overrides.share, placed.share);
         replace_if_set(species_overrides.min_scale, placed.min_scale);

@@ -45,6 +45,7 @@ struct SpeciesOverrides {
     std::optional<std::uint32_t> heroes;
     std::optional<float> rho;
     std::optional<bool> senses_surroundings;
+    std::vector<EnvironmentMove> moves; // of environments; names that a grammar lacks are ignored
 
     friend bool operator==(const SpeciesOverrides&, const SpeciesOverrides&) = default;
 };

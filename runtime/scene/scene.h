@@ -13,6 +13,7 @@
 #include "runtime/terrain/region.h"
 #include "runtime/terrain/terrain.h"
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -116,6 +117,9 @@ struct SceneSpecies {
     CacheOptions cache; // only heroes, seed, cap and tolerance are set
     /// Whether there are heroes for each case of surroundings (runtime/forest/surroundings.h).
     bool senses_surroundings = false;
+    /// Displacements of environments by a viewer, as EnvironmentMove of the pipeline.
+    std::vector<std::pair<std::string, std::array<float, 3>>> moves;
+    bool keeps_senses = false; // keep what heroes sense: GrownForest::sensed
     ExplicitInstancing explicit_instancing;
     SourceSpan span;              // place of `[[species]]`
     SourceSpan height_span;       // place of the value of `height`; kNoFile: none

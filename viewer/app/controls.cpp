@@ -242,13 +242,19 @@ void Controls::apply_to_view(const WindowInput& input,
             press_with_alt(press.key, switcher, panels);
         }
     }
-    const ForestView* const shown = switcher.forest();
-    if (PlantView* const plant = switcher.plant();
-        plant != nullptr && !panels.flies && move_obstacle(input, area, *plant)) {
+    ForestView* const shown = switcher.forest();
+    PlantView* const plant = switcher.plant();
+    WindowInput rest = input;
+    rest.left_drag = glm::vec2(0.0F);
+    if (plant != nullptr && !panels.flies && move_obstacle(input, area, *plant)) {
         pressed_.reset();
-        WindowInput rest = input;
-        rest.left_drag = glm::vec2(0.0F);
         apply(rest, seconds, static_cast<float>(area.height), *plant, panels);
+        return;
+    }
+    if (shown != nullptr && !panels.flies && shown->settings.tool == PaintTool::None &&
+        move_obstacle(input, area, *shown)) {
+        pressed_.reset();
+        apply(rest, seconds, area, *shown, panels);
         return;
     }
     if (!panels.flies && (shown == nullptr || shown->settings.tool == PaintTool::None)) {
@@ -256,9 +262,9 @@ void Controls::apply_to_view(const WindowInput& input,
     } else {
         pressed_.reset();
     }
-    if (ForestView* const forest = switcher.forest()) {
-        apply(input, seconds, area, *forest, panels);
-    } else if (PlantView* const plant = switcher.plant()) {
+    if (shown != nullptr) {
+        apply(input, seconds, area, *shown, panels);
+    } else if (plant != nullptr) {
         apply(input, seconds, static_cast<float>(area.height), *plant, panels);
     }
 }
@@ -467,7 +473,10 @@ void Controls::click(const WindowInput& input, const PixelArea& area, View& view
     }
 }
 
-bool Controls::move_obstacle(const WindowInput& input, const PixelArea& area, PlantView& view) {
+namespace {
+
+template <typename ObstacleView>
+bool move_obstacle_of(ObstacleView& view, const WindowInput& input, const PixelArea& area) {
     bool holds = view.has_grabbed();
     for (const PointerEvent& event : input.pointer_events) {
         const glm::vec2 place = place_in_picture(event.place, area);
@@ -482,6 +491,16 @@ bool Controls::move_obstacle(const WindowInput& input, const PixelArea& area, Pl
         }
     }
     return holds;
+}
+
+} // namespace
+
+bool Controls::move_obstacle(const WindowInput& input, const PixelArea& area, PlantView& view) {
+    return move_obstacle_of(view, input, area);
+}
+
+bool Controls::move_obstacle(const WindowInput& input, const PixelArea& area, ForestView& view) {
+    return move_obstacle_of(view, input, area);
 }
 
 void Controls::use_tool(const WindowInput& input, const PixelArea& area, ForestView& view) {

@@ -122,6 +122,7 @@ inline constexpr auto kForestKeys = std::to_array<KeyHelp>({
     {"Tab", "Fly: look with the mouse, move with W A S D Q E, Shift: faster"},
     {"C", "Copy the camera as text"},
     {"Ctrl+1 to 9, Alt+1 to 9", "Keep a camera, go to it"},
+    {"Shift+drag", "Without a tool: move an obstacle; the plants grow again"},
     {"B", "Brush"},
     {"O", "Single tree"},
     {"X", "Eraser"},
@@ -178,6 +179,8 @@ public:
     /// held.
     [[nodiscard]] static bool
     move_obstacle(const WindowInput& input, const PixelArea& area, PlantView& view);
+    [[nodiscard]] static bool
+    move_obstacle(const WindowInput& input, const PixelArea& area, ForestView& view);
     /// Whether held keys may move the camera.
     [[nodiscard]] bool is_moving() const { return is_moving_; }
 

@@ -120,6 +120,9 @@ Outcome<std::shared_ptr<ForestDocument>> make(const ViewOptions& options,
             return step.fail(applied.error());
         }
     }
+    for (SceneSpecies& species : loaded.scene.species) {
+        species.keeps_senses = true;
+    }
     if (known == nullptr || !keep_choice(known->scene, loaded.scene)) {
         if (!step.take(choose_instancing(loaded, project))) {
             return step.end();

@@ -11,6 +11,7 @@
 
 #include <glm/vec2.hpp>
 
+#include <algorithm>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -64,6 +65,20 @@ public:
     /// Count of trees, painted ones included.
     [[nodiscard]] std::uint64_t tree_count() const;
     [[nodiscard]] std::uint64_t painted_count() const { return painted_; }
+    /// Calls visit(tree) for all trees, painted ones included. Precondition: set_document().
+    template <typename Visit>
+    void for_each_tree(const Visit& visit) const {
+        if (!painter_) {
+            std::for_each(document_->grown.forest.trees.begin(),
+                          document_->grown.forest.trees.end(), visit);
+            return;
+        }
+        for (std::uint32_t i = 0; i < painter_->tree_count(); ++i) {
+            if (painter_->is_alive(i)) {
+                visit(painter_->tree(i));
+            }
+        }
+    }
 
     /// Circle of the brush on the ground.
     [[nodiscard]] std::vector<LineVertex>

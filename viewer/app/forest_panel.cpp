@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "viewer/app/forest_panel.h"
 
+#include "viewer/app/sense_widgets.h"
 #include "viewer/app/widgets.h"
 
 #include <fmt/format.h>
@@ -218,6 +219,35 @@ std::string draw_species(ForestView& view) {
     return wanted;
 }
 
+void draw_senses(ForestView& view) {
+    const ForestDocument* const document = view.document();
+    if (document == nullptr || !has_senses(*document) ||
+        !ImGui::CollapsingHeader("Senses", ImGuiTreeNodeFlags_DefaultOpen)) {
+        return;
+    }
+    draw_sense_look(false, view.settings.senses);
+    for (std::size_t i = 0; i < document->grown.sensed.size(); ++i) {
+        if (document->grown.sensed[i] == nullptr) {
+            continue;
+        }
+        const std::string& name = document->scene.species[i].name;
+        const auto edit = view.settings.edits.species.find(name);
+        std::vector<EnvironmentMove> moves;
+        if (edit != view.settings.edits.species.end()) {
+            moves = edit->second.moves;
+        }
+        const std::vector<EnvironmentMove> before = moves;
+        ImGui::PushID(name.c_str());
+        for (const SensedPart& part : document->grown.sensed[i]->stages[0].heroes.at(0).parts) {
+            draw_environment_move(part.name, part.kind, moves);
+        }
+        ImGui::PopID();
+        if (moves != before) {
+            view.settings.edits.species[name].moves = std::move(moves);
+        }
+    }
+}
+
 void draw_placement(ForestView& view) {
     const ForestDocument* const document = view.document();
     if (document == nullptr || !ImGui::CollapsingHeader("Placement")) {
@@ -392,6 +422,7 @@ std::string draw_forest_panel(ForestView& view) {
     draw_ground(view);
     draw_cache(view);
     draw_colours(view);
+    draw_senses(view);
     draw_look(view);
     ImGui::PopItemWidth();
     return wanted;

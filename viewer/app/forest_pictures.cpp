@@ -4,6 +4,7 @@
 #include "runtime/pipeline/forest_growth.h"
 #include "runtime/platform/memory.h"
 #include "runtime/program/host.h"
+#include "viewer/app/forest_senses.h"
 #include "viewer/app/forest_streamer.h"
 #include "viewer/app/picking.h"
 #include "viewer/app/picture_series.h"
@@ -133,6 +134,8 @@ std::string stats_text(const ViewOptions& options,
 
 /// Shows the forest at a moment of its growth.
 ExitStatus show_moment(const GrowthMoment& moment,
+                       const SenseLook& senses,
+                       const Camera& camera,
                        const Project& project,
                        const Console& console,
                        ForestGrowth& growth,
@@ -150,6 +153,7 @@ ExitStatus show_moment(const GrowthMoment& moment,
         return report_error(shown.error(), console);
     }
     static_cast<void>(renderer.bake_impostors(std::numeric_limits<double>::infinity()));
+    renderer.show_senses(forest_sense_drawing(document, senses, camera));
     return ExitStatus::Ok;
 }
 
@@ -175,12 +179,14 @@ ExitStatus take_forest_pictures(const ViewOptions& options,
             return status_of(begun.stop());
         }
         growth.emplace(std::move(begun.value()));
-        prepare = [&](const Frame& /*frame*/) {
+        prepare = [&](const Frame& shown) {
             const GrowthMoment moment =
                 moment_of_frame(frame_number++, options.frames, growth->last_year());
-            return show_moment(moment, project, console, *growth, document, renderer);
+            return show_moment(moment, options.senses, shown.camera, project, console, *growth,
+                               document, renderer);
         };
     }
+    renderer.show_senses(forest_sense_drawing(document, options.senses, camera));
     if (document.squares != nullptr) {
         streamer = std::make_unique<ForestStreamer>(document, options.stream_bytes,
                                                     streaming_threads(options.run.threads), [] {});

@@ -42,6 +42,7 @@ ForestViewSettings first_forest_settings(const ViewOptions& options) {
     settings.max_triangles = options.max_triangles;
     settings.visibility = options.visibility;
     settings.light = options.light;
+    settings.senses = options.senses;
     return settings;
 }
 
@@ -90,11 +91,13 @@ ForestView::ForestView(const ViewOptions& options,
     files_ = options_.files;
     watch_files();
     renderer_->colour_branches(shown_colours_);
+    renderer_->show_senses({}); // of another view
 }
 
 ForestView::~ForestView() {
     streamer_.reset();
     renderer_->show_lines({});
+    renderer_->show_senses({});
     renderer_->show_plant(Mesh{}); // instead of the forest, which ends with document_
 }
 
@@ -171,6 +174,7 @@ bool ForestView::update() {
         settings.camera = above_ground(settings.camera, *document_->grown.terrain);
     }
     show_outline();
+    show_senses();
     if (requested_ != settings.edits) {
         request_load();
     }
@@ -216,6 +220,7 @@ ViewOptions ForestView::picture_options(FilmKind kind) const {
     wanted.style = settings.wireframe ? PlantStyle::Wireframe : PlantStyle::Surface;
     wanted.colours = settings.colours;
     wanted.light = settings.light;
+    wanted.senses = settings.senses;
     wanted.max_triangles = settings.max_triangles;
     if (settings.visibility) {
         wanted.visibility = static_cast<float>(*settings.visibility);
@@ -533,6 +538,7 @@ void ForestView::open(const std::string& file) {
     settings.figure = false;
     settings.plays = false;
     grown_.reset();
+    grabbed_.reset();
     frame_next_ = true;
     files_ = {file};
     requested_.reset();
@@ -632,7 +638,7 @@ void ForestView::add_step(StepKind kind) {
 }
 
 void ForestView::record_edits() {
-    if (!settings.plays && history_.record(settings)) {
+    if (!settings.plays && !grabbed_ && history_.record(settings)) {
         add_step(StepKind::Settings);
     }
 }

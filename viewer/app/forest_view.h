@@ -8,11 +8,13 @@
 #include "viewer/app/forest_film.h"
 #include "viewer/app/forest_loader.h"
 #include "viewer/app/forest_painting.h"
+#include "viewer/app/forest_senses.h"
 #include "viewer/app/forest_streamer.h"
 #include "viewer/app/view.h"
 
 #include <glm/vec2.hpp>
 
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -40,6 +42,7 @@ struct ForestEdits {
     std::optional<double> visibility; // km; empty: default_visibility()
     SceneLight light;                 // values that replace the scene's
     std::uint64_t max_triangles = 1'500'000;
+    SenseLook senses;
 
     friend bool operator==(const ForestEdits&, const ForestEdits&) = default;
 };
@@ -134,6 +137,15 @@ public:
     /// a scene with errors was opened later, its file is not written.
     void save() override;
 
+    /// Grabs the obstacle of a tree at a place of the picture, in the units of hover(). Returns
+    /// false if there is none, or if a tool is chosen.
+    [[nodiscard]] bool grab_obstacle(const glm::vec2& place);
+    /// Moves the grabbed obstacle to another place of the picture, parallel to the picture: an edit
+    /// of SpeciesOverrides::moves, with which the plants of the species grow again.
+    void drag_obstacle(const glm::vec2& place);
+    void release_obstacle() { grabbed_.reset(); }
+    [[nodiscard]] bool has_grabbed() const { return grabbed_.has_value(); }
+
     /// The moment of growth shown; empty: the forest of a whole year is shown.
     [[nodiscard]] const std::optional<GrowthMoment>& grown() const { return grown_; }
     /// Last forest without errors; null: none yet.
@@ -153,6 +165,24 @@ protected:
     [[nodiscard]] PickRequest request_for(const Picked& picked) const override;
 
 private:
+    /// An obstacle that the mouse moves.
+    struct GrabbedObstacle {
+        std::string species;
+        std::string name;            // of its environment
+        Tree tree;                   // the tree whose obstacle it is
+        std::array<float, 3> move{}; // SpeciesOverrides::moves when it was grabbed, m
+        double depth = 0.0;          // distance of the grabbed point, in lengths of a direction
+        glm::dvec3 place{};          // m, the grabbed point relative to the eye
+    };
+    /// The state of the drawing of senses.
+    struct ShownSenses {
+        SenseLook look;
+        SpeciesMoves moves;
+        std::array<std::uint64_t, 4> content{}; // counts that change with the trees
+        glm::dvec3 place{};                     // target of the camera
+
+        friend bool operator==(const ShownSenses&, const ShownSenses&) = default;
+    };
     /// One step of undo() changes either settings or painted strokes.
     enum class StepKind : std::uint8_t { Settings, Painting };
 
@@ -162,6 +192,8 @@ private:
     void take_outcome(ForestOutcome outcome);
     void swap(ForestOutcome outcome);
     void show_outline();
+    void show_senses();
+    [[nodiscard]] SpeciesMoves new_moves() const;
     /// Shows and hides squares of a streamed forest for the camera of a frame.
     void stream(Frame& frame);
     /// Returns whether the forest is streamed, after a note that such a forest cannot be painted.
@@ -206,6 +238,9 @@ private:
     SteadyClock::time_point start_ = SteadyClock::now(); // time 0 of the wind
     std::optional<glm::vec2> pointed_; // last place of hover(), until update() shows it
     bool has_outline_ = false;
+    std::optional<ShownSenses> shown_senses_; // empty: none are shown
+    std::vector<Tree> sensing_trees_;         // trees of the drawing
+    std::optional<GrabbedObstacle> grabbed_;
     bool begins_stroke_ = false; // begin a stroke at the next point on the ground
     bool has_stroke_ = false;
     bool used_tool_ = false; // a tool was applied since the last picture

@@ -184,7 +184,7 @@ void add_picture(CLI::App& app, ViewOptions& options) {
         "(default none)")
         ->group("Picture");
     add_parsed(app, "--senses", options.senses, parse_senses,
-               "What a plant senses: all, none, or a list of obstacles, light, markers and "
+               "What plants sense: all, none, or a list of obstacles, light, markers and "
                "directions, separated by commas (default obstacles)")
         ->type_name("LIST")
         ->group("Picture");
@@ -368,10 +368,6 @@ ParsedOptions parse_options(std::span<const std::string> arguments) {
     if (!options.is_forest && options.colours != BranchColours::Natural) {
         return UsageError{"--colours is for the branches of a forest, and this is a plant",
                           "add `--count 1` for a forest of one plant"};
-    }
-    if (options.is_forest && options.senses != SenseLook{}) {
-        return UsageError{"--senses shows what a single plant senses, and this is a forest",
-                          "leave it out"};
     }
     if (options.pick && options.screenshot.empty()) {
         return UsageError{"--pick describes a pixel of a picture",

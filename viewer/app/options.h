@@ -61,7 +61,7 @@ struct ViewOptions {
     bool ground = true;
     PlantStyle style = PlantStyle::Surface;
     LineKind lines = LineKind::None;
-    SenseLook senses;                               // plants only
+    SenseLook senses;
     BranchColours colours = BranchColours::Natural; // forests only
     SceneLight light;                               // values that replace the scene's
     std::uint32_t samples = 4;

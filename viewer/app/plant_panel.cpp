@@ -3,6 +3,7 @@
 
 #include "runtime/pipeline/constant_text.h"
 #include "runtime/pipeline/setting_controls.h"
+#include "viewer/app/sense_widgets.h"
 #include "viewer/app/widgets.h"
 
 #include <fmt/format.h>
@@ -272,23 +273,6 @@ void draw_look(PlantViewSettings& settings) {
     draw_camera(settings.camera);
 }
 
-/// Draws the displacement of an environment that has a place.
-void draw_move(const std::string& name, PlantViewSettings& settings) {
-    std::array<float, 3> by = move_of(settings.moves, name);
-    ImGui::PushID(name.c_str());
-    const bool changed = ImGui::DragFloat3("##move", by.data(), 0.02F, 0.0F, 0.0F, "%.3g");
-    const bool is_pointed = is_pointed_at();
-    ImGui::SameLine();
-    line(name);
-    if (is_pointed || is_pointed_at()) {
-        set_tooltip("Moved by x, y, z in m, in this window only; Shift+drag moves an obstacle");
-    }
-    ImGui::PopID();
-    if (changed && std::all_of(by.begin(), by.end(), [](float x) { return std::isfinite(x); })) {
-        set_move(name, by, settings.moves);
-    }
-}
-
 void draw_senses(PlantView& view) {
     const PlantDocument* const document = view.document();
     if (document == nullptr || document->grammar.bytecode.environments.empty() ||
@@ -296,24 +280,9 @@ void draw_senses(PlantView& view) {
         !ImGui::CollapsingHeader("Senses", ImGuiTreeNodeFlags_DefaultOpen)) {
         return;
     }
-    SenseLook& look = view.settings.senses;
-    ImGui::Checkbox("Obstacles", &look.obstacles);
-    draw_tooltip("Meshes and planes of kind solid (O)");
-    ImGui::SameLine();
-    ImGui::Checkbox("Light", &look.light);
-    draw_tooltip("Kinds shadow and sky: dark blue without light, yellow in full light (Y)");
-    ImGui::Checkbox("Markers", &look.markers);
-    draw_tooltip("Kind space: markers that are left (X)");
-    ImGui::SameLine();
-    ImGui::Checkbox("Directions", &look.directions);
-    draw_tooltip(
-        "The direction in the answer to each module: kinds shadow, space, crowd, solid (D)");
+    draw_sense_look(true, view.settings.senses);
     for (const BytecodeEnvironment& environment : document->grammar.bytecode.environments) {
-        if (environment.kind == EnvironmentKind::Solid ||
-            environment.kind == EnvironmentKind::Space ||
-            environment.kind == EnvironmentKind::Map) {
-            draw_move(environment.name, view.settings);
-        }
+        draw_environment_move(environment.name, environment.kind, view.settings.moves);
     }
 }
 

@@ -406,7 +406,7 @@ private:
             ++stats.draws;
             ++stats.triangles;
         }
-        if (!is_forest_ && !senses_.empty()) {
+        if (!senses_.empty()) {
             glUseProgram(programs_.sense.name());
             senses_.draw(stats);
             glBindVertexArray(empty_.name());

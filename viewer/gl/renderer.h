@@ -193,7 +193,7 @@ public:
     virtual void show_plant(const Mesh& mesh) = 0;
     /// Replaces the lines drawn over everything.
     virtual void show_lines(std::span<const LineVertex> lines) = 0;
-    /// Replaces what the plant senses; pictures of forests do not show it.
+    /// Replaces what plants sense; in a forest, its places are relative to the forest's origin.
     virtual void show_senses(const SenseDrawing& drawing) = 0;
     /// Sets the quality of later pictures; Auto at first. Error: a shader does not compile; the old
     /// quality stays.

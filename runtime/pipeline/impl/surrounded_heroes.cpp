@@ -46,11 +46,12 @@ bool senses_shade(const Bytecode& bytecode) {
 CacheOutcome grow_surrounded_heroes(const Bytecode& bytecode,
                                     const PlantSenses& senses,
                                     CacheOptions options,
-                                    std::vector<InstanceCache>& caches) {
+                                    std::vector<InstanceCache>& caches,
+                                    std::vector<SensedStage>* kept) {
     const std::unique_ptr<EnvironmentSense> alone = senses.make(bytecode);
     RecordingSense recording(*alone, bytecode, options.seed);
     options.senses = &recording;
-    CacheOutcome outcome = make_instance_cache(bytecode, options);
+    CacheOutcome outcome = make_sensing_cache(bytecode, senses, alone.get(), options, kept);
     Neighbours neighbours;
     neighbours.words = recording.take_words();
     const double distance =
@@ -62,7 +63,7 @@ CacheOutcome grow_surrounded_heroes(const Bytecode& bytecode,
         neighbours.plants = neighbours_of(static_cast<Surroundings>(i), distance);
         const std::unique_ptr<EnvironmentSense> own = shaded.make(bytecode);
         options.senses = own.get();
-        outcome = make_instance_cache(bytecode, options);
+        outcome = make_sensing_cache(bytecode, senses, own.get(), options, kept);
     }
     if (outcome.ok()) {
         caches.push_back(std::exchange(outcome.cache, {}));

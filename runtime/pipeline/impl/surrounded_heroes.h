@@ -5,6 +5,7 @@
 
 #include "compiler/bytecode/bytecode.h"
 #include "runtime/forest/instance_cache.h"
+#include "runtime/pipeline/sensed_heroes.h"
 #include "runtime/pipeline/senses.h"
 
 #include <vector>
@@ -17,10 +18,12 @@ namespace lsys {
 /// Appends a cache for each case, in the order of Surroundings, to `caches`. The neighbours are the
 /// first hero without neighbours, kNeighbourDistance crown radii away in the middle of each taken
 /// quarter. Returns the outcome of the last cache without its value; if it is not ok(), the caches
-/// are incomplete. `options.senses` is not used. Precondition: senses_shade(bytecode).
+/// are incomplete. `options.senses` is not used. `kept`: as in make_sensing_cache(). Precondition:
+/// senses_shade(bytecode).
 [[nodiscard]] CacheOutcome grow_surrounded_heroes(const Bytecode& bytecode,
                                                   const PlantSenses& senses,
                                                   CacheOptions options,
-                                                  std::vector<InstanceCache>& caches);
+                                                  std::vector<InstanceCache>& caches,
+                                                  std::vector<SensedStage>* kept);
 
 } // namespace lsys

@@ -97,6 +97,16 @@ TEST_CASE("the sun has a place or a time, and a season is for plants and forests
     CHECK(forest.grammar.definitions.empty());
 }
 
+TEST_CASE("pictures of plants and of forests show senses") {
+    CHECK(parsed<ViewOptions>({"tree.lsys", "--senses", "light"}).senses.light);
+    const ViewOptions forest = parsed<ViewOptions>({"wood.toml", "--senses", "light,markers"});
+    CHECK(forest.senses == SenseLook{false, true, true, false});
+    CHECK(parsed<ViewOptions>({"wood.toml"}).senses.obstacles);
+    const ViewOptions sensed = parsed<ViewOptions>({"a.lsys", "--surroundings", "sensed"});
+    CHECK(sensed.is_forest);
+    CHECK(sensed.overrides.senses_surroundings == true);
+}
+
 TEST_CASE("the option --air is for forests") {
     CHECK(parsed<ViewOptions>({"wood.toml", "--air", "2.5"}).visibility == 2.5F);
     CHECK(parsed<ViewOptions>({"tree.lsys", "--count", "9", "--air", "2.5"}).visibility == 2.5F);

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: MIT
+// SensedHeroes: what the heroes of a species sensed last, for viewers of forests.
+#pragma once
+
+#include "compiler/bytecode/bytecode.h"
+#include "runtime/forest/instance_cache.h"
+#include "runtime/pipeline/sensed_plant.h"
+#include "runtime/pipeline/senses.h"
+#include "runtime/turtle/skeleton.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace lsys {
+
+/// Max heroes of a stage that are kept, to bound the memory.
+inline constexpr std::uint32_t kMaxSensedHeroes = 16;
+
+/// The heroes of a stage.
+struct SensedStage {
+    std::vector<SensedPlant> heroes; // by number; only the first one has obstacles
+    Bounds bounds;                   // of all drawn heroes, m
+};
+
+struct SensedHeroes {
+    std::vector<SensedStage> stages; // by index in ForestSpecies::stages
+};
+
+/// make_instance_cache() with `own`, the senses of the heroes, which may be null. `options.senses`:
+/// `own` or a sense that passes words on to it. If `kept` is not null and the heroes have senses,
+/// appends their stage without bounds.
+[[nodiscard]] CacheOutcome make_sensing_cache(const Bytecode& bytecode,
+                                              const PlantSenses& senses,
+                                              const EnvironmentSense* own,
+                                              CacheOptions options,
+                                              std::vector<SensedStage>* kept);
+
+/// Completes the stages of a species after its heroes have their size. `scale`: factor by which
+/// `#set height` has scaled them. `caches`: by stage.
+void finish_sensed_heroes(double scale,
+                          const std::vector<const InstanceCache*>& caches,
+                          SensedHeroes& heroes);
+
+} // namespace lsys

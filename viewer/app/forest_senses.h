@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: MIT
+// What the trees of a forest sense, for pictures: obstacles of the trees near a place, and light,
+// markers and directions of the nearest tree. Each tree is drawn with what its hero sensed.
+#pragma once
+
+#include "viewer/app/forest_document.h"
+#include "viewer/app/sense_view.h"
+
+#include <glm/vec3.hpp>
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace lsys::view {
+
+/// Max trees whose obstacles are drawn.
+inline constexpr std::size_t kMaxObstacleTrees = 64;
+
+/// Whether a species of the forest has environments to show.
+[[nodiscard]] bool has_senses(const ForestDocument& document);
+
+/// Finds the trees with senses that are nearest to a place, on the ground.
+class NearestSensing {
+public:
+    /// `document` outlives the object.
+    NearestSensing(const ForestDocument& document, const glm::dvec3& place)
+        : document_(document), place_(place) {}
+
+    void add(const Tree& tree);
+    /// Up to kMaxObstacleTrees trees, nearest first; equally near ones by their numbers.
+    [[nodiscard]] std::vector<Tree> take();
+
+private:
+    struct Found {
+        double square = 0.0; // m2, of the distance
+        Tree tree;
+    };
+    static bool is_nearer(const Found& a, const Found& b);
+
+    const ForestDocument& document_;
+    glm::dvec3 place_;
+    std::vector<Found> found_; // a heap with the farthest tree first
+};
+
+/// Displacements of environments by species.
+using SpeciesMoves = std::vector<std::vector<EnvironmentMove>>;
+
+/// Draws what `trees` sense, the result of NearestSensing. `moves`: since the forest has grown, by
+/// species; empty: none.
+[[nodiscard]] SenseDrawing make_forest_sense_drawing(const ForestDocument& document,
+                                                     const std::vector<Tree>& trees,
+                                                     const SenseLook& look,
+                                                     const SpeciesMoves& moves);
+/// make_forest_sense_drawing() without moves, of the trees nearest to the target of a camera.
+[[nodiscard]] SenseDrawing
+forest_sense_drawing(const ForestDocument& document, const SenseLook& look, const Camera& camera);
+
+/// An obstacle of a tree that a ray meets.
+struct ForestObstacleHit {
+    ObstacleHit obstacle;
+    Tree tree;
+};
+/// The first obstacle of make_forest_sense_drawing() on a ray.
+[[nodiscard]] std::optional<ForestObstacleHit> first_forest_obstacle(const ForestDocument& document,
+                                                                     const std::vector<Tree>& trees,
+                                                                     const SpeciesMoves& moves,
+                                                                     const Ray& ray);
+/// A vector of the world in the axes and metres in which a tree senses.
+[[nodiscard]] glm::dvec3
+in_sensing_metres(const ForestDocument& document, const Tree& tree, const glm::dvec3& vector);
+
+} // namespace lsys::view
