@@ -177,7 +177,7 @@ TEST_CASE("only species that sense their surroundings get any, from trees of all
 TEST_CASE("a young tree has the crown of its own stage") {
     Forest forest = two_species();
     ForestSpecies& species = forest.species[0];
-    species.stages.insert(species.stages.begin(), kSurroundings, ForestStage{1, {}, 0.5});
+    species.stages.insert(species.stages.begin(), kSurroundings, ForestStage{1, {}, 0.5, kHeight});
     species.years_of_stage = 10.0F;
     std::vector<Tree> trees{tree_at(0.0F, 0.0F, 0), tree_at(2.0F, 0.0F, 1)};
     trees[0].age = 5;
