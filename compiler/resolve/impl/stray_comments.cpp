@@ -181,8 +181,17 @@ private:
             return false;
         }
         const NameId id = resolution_.names.find(word);
-        return id == kNoName || index_of(id) >= known_.size() || !splitter_.may_split(id) ||
-               splitter_.parts(id, 0, file).empty();
+        if (id == kNoName || index_of(id) >= known_.size() || !splitter_.may_split(id)) {
+            return true;
+        }
+        // The parameters behind the word have been left out.
+        constexpr std::uint32_t kMaxParameters = 8;
+        for (std::uint32_t count = 0; count <= kMaxParameters; ++count) {
+            if (!splitter_.parts(id, count, file).empty()) {
+                return false;
+            }
+        }
+        return true;
     }
 
     Resolution& resolution_;
