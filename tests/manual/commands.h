@@ -19,8 +19,8 @@ struct SessionStep {
     std::string command;
     std::vector<std::string> output;
 };
-/// The steps of a `console` block. Lines that begin with "$ " are commands; a line that ends with \
-/// continues on the next line.
+/// The steps of a `console` block. Lines that begin with "$ " are commands; a command whose line
+/// ends with a backslash continues on the next line.
 [[nodiscard]] std::vector<SessionStep> steps_of(const std::vector<std::string>& lines);
 
 /// The shell of a document. Commands of the document run one after the other in a folder that
