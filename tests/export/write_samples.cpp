@@ -48,8 +48,9 @@ std::vector<Sample> dialect_models() {
          fs::recursive_directory_iterator(LSYS_SOURCE_DIR + std::string("/samples/dialects"))) {
         const fs::path& file = entry.path();
         const std::string folder = file.parent_path().filename().string();
-        const bool is_model = entry.is_regular_file() && file.extension() != ".md" &&
-                              file.extension() != ".v" && folder != "fractint";
+        const fs::path extension = file.extension();
+        const bool is_model = entry.is_regular_file() && extension != ".md" && extension != ".v" &&
+                              extension != ".func" && folder != "fractint";
         if (is_model) {
             models.emplace_back().file = file;
         }

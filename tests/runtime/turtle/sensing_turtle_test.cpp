@@ -111,16 +111,16 @@ Vector sum(const Vector& a, double factor, const Vector& b) {
 class SlowTurtle {
 public:
     explicit SlowTurtle(const Settings& settings) : settings_(settings) {
-        now_.step = settings.step;
-        now_.angle = settings.angle;
+        now_.step = static_cast<double>(settings.step);
+        now_.angle = static_cast<double>(settings.angle);
     }
 
     void read(const std::string& name, const std::vector<float>& arguments) {
-        const float first = arguments.empty() ? 0.0F : arguments[0];
         const bool given = !arguments.empty();
-        const double angle = static_cast<double>(given ? first : now_.angle);
+        const double first = given ? static_cast<double>(arguments[0]) : 0.0;
+        const double angle = given ? first : now_.angle;
         if (name == "F" || name == "f" || name == "h") {
-            step(name, (given ? first : now_.step) * (name == "h" ? 0.5F : 1.0F));
+            step(name, (given ? first : now_.step) * (name == "h" ? 0.5 : 1.0));
         } else if (name == "+" || name == "-") {
             turn(now_.heading, now_.right, name == "+" ? angle : -angle);
         } else if (name == "^" || name == "&") {
@@ -132,16 +132,16 @@ public:
         } else if (name == "$") {
             upright();
         } else if (name == "s") {
-            now_.step *= given ? first : settings_.step_scale;
+            now_.step *= given ? first : static_cast<double>(settings_.step_scale);
         } else if (name == "a") {
-            now_.angle *= given ? first : settings_.angle_scale;
+            now_.angle *= given ? first : static_cast<double>(settings_.angle_scale);
         } else if (name == "[") {
             saved_.push_back(now_);
         } else if (name == "]") {
             now_ = saved_.back();
             saved_.pop_back();
         } else if (name == "S" || name == "C" || name == "D") {
-            object(name, given ? first : 1.0F);
+            object(name, given ? first : 1.0);
         } else if (name == "P") {
             places.push_back({now_.position, now_.heading, now_.right, now_.up});
         }
@@ -156,8 +156,8 @@ private:
         Vector heading{0.0, 1.0, 0.0};
         Vector right{1.0, 0.0, 0.0};
         Vector up{0.0, 0.0, 1.0};
-        float step = 0.0F;
-        float angle = 0.0F;
+        double step = 0.0;
+        double angle = 0.0;
     };
 
     static void turn(Vector& from, Vector& to, double degrees) {
@@ -170,11 +170,11 @@ private:
             to[i] = c * b[i] - s * a[i];
         }
     }
-    void step(const std::string& name, float length) {
+    void step(const std::string& name, double length) {
         if (name != "f" && settings_.has_tropism) {
             bend();
         }
-        now_.position = sum(now_.position, static_cast<double>(length), now_.heading);
+        now_.position = sum(now_.position, length, now_.heading);
     }
     void upright() {
         const Vector& h = now_.heading;
@@ -207,8 +207,7 @@ private:
             }
         }
     }
-    void object(const std::string& name, float size) {
-        const double wide = static_cast<double>(size);
+    void object(const std::string& name, double wide) {
         const double length = name == "D" ? 0.0 : wide;
         const double unit = name == "C" ? 0.5 : std::numbers::pi / 4.0;
         organs.push_back({sum(now_.position, length / 2.0, now_.heading), unit * (wide * wide)});
