@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include <string>
 #include <string_view>
 
 namespace lsys {
@@ -26,6 +27,18 @@ std::vector<std::string_view> working_names(const CheckInput& input, const Modul
         names.push_back(input.name(object.name));
     }
     return names;
+}
+
+/// Formals of `#module` for a module of `count` parameters: `(a, b)`; nothing for 0.
+std::string formals_text(std::uint32_t count) {
+    std::string text;
+    for (std::uint32_t i = 0; i < count; ++i) {
+        constexpr std::uint32_t kLetters = 26;
+        const std::string name =
+            i < kLetters ? std::string(1, static_cast<char>('a' + i)) : fmt::format("x{}", i);
+        text += (i == 0 ? "(" : ", ") + name;
+    }
+    return count == 0 ? text : text + ")";
 }
 
 } // namespace
@@ -130,13 +143,14 @@ void check_idle_modules(const CheckInput& input, ModuleUse& use, Diagnostics& di
             diagnostic.fixes.push_back(std::move(fix));
         }
         const std::string_view text = input.sources.text(span);
+        const std::string formals = formals_text(input.program.symbols[s].parameter_count);
         const bool is_explained = synonym != nullptr || is_houdini_object;
         diagnostic.help.push_back(
-            is_explained
-                ? fmt::format("if it is to do nothing, declare it with `#module {};`", text)
-                : fmt::format("draw it with `#object {0} SPHERE;`, or, if it is to do "
-                              "nothing, declare it with `#module {0};`",
-                              text));
+            is_explained ? fmt::format("if it is to do nothing, declare it with `#module {}{};`",
+                                       text, formals)
+                         : fmt::format("draw it with `#object {0} SPHERE;`, or, if it is to do "
+                                       "nothing, declare it with `#module {0}{1};`",
+                                       text, formals));
         for (const SymbolId other : use.same_name(input.program, symbol)) {
             use.reported[static_cast<std::size_t>(other)] = true;
         }
