@@ -288,8 +288,9 @@ EnvironmentSense::ask(std::size_t index, Word& word, std::uint32_t age, Derivati
         options_.neighbours->append_organs(age, all_organs);
         sensed_word.organs = all_organs;
     }
-    if (auto failure = caught(
-            [&] { return environments_[index]->answer(sensed_word, sensed.answers, sensed.sizes); })) {
+    if (auto failure = caught([&] {
+            return environments_[index]->answer(sensed_word, sensed.answers, sensed.sizes);
+        })) {
         return end_failed(index, std::move(*failure), &word, age, end);
     }
     if (!all_places.empty()) {

@@ -102,10 +102,9 @@ private:
 [[nodiscard]] Result<void> commit_all(std::vector<Output>& outputs);
 
 /// Opens, writes and commits a file.
-[[nodiscard]] Result<void>
-write_file(const std::string& path,
-           std::string_view text,
-           const Console& console,
-           Storing storing = Storing::BeforeNaming);
+[[nodiscard]] Result<void> write_file(const std::string& path,
+                                      std::string_view text,
+                                      const Console& console,
+                                      Storing storing = Storing::BeforeNaming);
 
 } // namespace lsys

@@ -23,8 +23,13 @@ int run_process(int argc,
     platform::handle_end_requests(remove_temporaries);
     std::ios::sync_with_stdio(false);
     std::cin.tie(nullptr);
-    const Io io{std::cin, std::cout, std::cerr, platform::error_stream_is_terminal(),
-                &platform::end_requested(), program, revision};
+    const Io io{std::cin,
+                std::cout,
+                std::cerr,
+                platform::error_stream_is_terminal(),
+                &platform::end_requested(),
+                program,
+                revision};
     const int status =
         catch_out_of_memory([&] { return run(platform::process_arguments(argc, argv), io); },
                             [&] { return report_out_of_memory(io); });

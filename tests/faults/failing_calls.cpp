@@ -32,7 +32,20 @@ void* __libc_memalign(size_t, size_t);
 
 namespace {
 
-enum Call { Malloc, Open, Read, Write, Rename, Mmap, Fsync, Close, Fstat, Fchmod, Thread, CallCount };
+enum Call {
+    Malloc,
+    Open,
+    Read,
+    Write,
+    Rename,
+    Mmap,
+    Fsync,
+    Close,
+    Fstat,
+    Fchmod,
+    Thread,
+    CallCount
+};
 const char* const kNames[CallCount] = {"malloc", "open",  "read",  "write",  "rename", "mmap",
                                        "fsync",  "close", "fstat", "fchmod", "thread"};
 constexpr int kShort = -1; // an error number that no call returns: transfer one byte
@@ -72,8 +85,8 @@ __attribute__((constructor)) void begin() {
     }
     if (const char* const path = std::getenv("LSYS_FAULT_COUNTS")) {
         const long file = syscall(SYS_openat, AT_FDCWD, path, O_RDWR | O_CLOEXEC, 0);
-        void* const mapped = reinterpret_cast<void*>(
-            syscall(SYS_mmap, nullptr, sizeof own_counts, PROT_READ | PROT_WRITE, MAP_SHARED, file, 0));
+        void* const mapped = reinterpret_cast<void*>(syscall(
+            SYS_mmap, nullptr, sizeof own_counts, PROT_READ | PROT_WRITE, MAP_SHARED, file, 0));
         if (mapped != MAP_FAILED) {
             counts = static_cast<std::atomic<std::uint64_t>*>(mapped);
         }
@@ -101,7 +114,8 @@ bool fails(Call call) {
 }
 
 // The function of the C library that this library hides.
-template<typename F> F* next(const char* name) {
+template <typename F>
+F* next(const char* name) {
     return reinterpret_cast<F*>(dlsym(RTLD_NEXT, name));
 }
 
@@ -153,18 +167,23 @@ ssize_t write(int file, const void* bytes, size_t size) {
 }
 
 int rename(const char* from, const char* to) {
-    return fails(Rename) ? -1 : static_cast<int>(syscall(SYS_renameat2, AT_FDCWD, from, AT_FDCWD, to, 0));
+    return fails(Rename)
+               ? -1
+               : static_cast<int>(syscall(SYS_renameat2, AT_FDCWD, from, AT_FDCWD, to, 0));
 }
 
 int renameat2(int from_folder, const char* from, int to_folder, const char* to, unsigned flags) {
-    return fails(Rename) ? -1 : static_cast<int>(syscall(SYS_renameat2, from_folder, from, to_folder, to, flags));
+    return fails(Rename)
+               ? -1
+               : static_cast<int>(syscall(SYS_renameat2, from_folder, from, to_folder, to, flags));
 }
 
 void* mmap(void* address, size_t size, int protection, int flags, int file, off_t offset) {
     if (fails(Mmap)) {
         return MAP_FAILED;
     }
-    return reinterpret_cast<void*>(syscall(SYS_mmap, address, size, protection, flags, file, offset));
+    return reinterpret_cast<void*>(
+        syscall(SYS_mmap, address, size, protection, flags, file, offset));
 }
 
 int fsync(int file) {
@@ -178,14 +197,17 @@ int close(int file) {
 }
 
 int fstat(int file, struct stat* facts) {
-    return fails(Fstat) ? -1 : static_cast<int>(syscall(SYS_newfstatat, file, "", facts, AT_EMPTY_PATH));
+    return fails(Fstat) ? -1
+                        : static_cast<int>(syscall(SYS_newfstatat, file, "", facts, AT_EMPTY_PATH));
 }
 
 int fchmod(int file, mode_t mode) {
     return fails(Fchmod) ? -1 : static_cast<int>(syscall(SYS_fchmod, file, mode));
 }
 
-int pthread_create(pthread_t* thread, const pthread_attr_t* attributes, void* (*function)(void*),
+int pthread_create(pthread_t* thread,
+                   const pthread_attr_t* attributes,
+                   void* (*function)(void*),
                    void* argument) {
     static const auto create = next<decltype(pthread_create)>("pthread_create");
     const int error = error_of(Thread);

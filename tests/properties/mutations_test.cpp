@@ -211,7 +211,10 @@ Mutant character_mutant(const RightGrammar& grammar, std::uint64_t number) {
         break;
     case 2:
         mutant.kind = "character replaced";
-        mutant.text[at] = other;
+        // `;;` may be `L;` with a wrong character, or a doubled `;`, which a fix removes.
+        if (at + 1 == mutant.text.size() || mutant.text[at + 1] != other) {
+            mutant.text[at] = other;
+        }
         break;
     default:
         mutant.kind = "characters exchanged";

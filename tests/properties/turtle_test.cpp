@@ -29,8 +29,8 @@ struct Line {
 };
 
 /// Operation of each character of a profile: r R (yaw right, left), d u (pitch down, up), l L (roll
-/// left, right), | (turn around), $ (level), f (move), F (draw), ! (set width), and * " ; (scale
-/// width, step, angle).
+/// left, right), | (turn around), $ (level), f (move), F (draw), ! (set width, or scale it), n (set
+/// width, or subtract the increment, which is 0), and * " ; (scale width, step, angle).
 using Profile = std::map<char, char>;
 
 const std::map<std::string, Profile>& profiles() {
@@ -82,7 +82,7 @@ const std::map<std::string, Profile>& profiles() {
           {'/', 'l'},
           {'|', '|'},
           {'$', '$'},
-          {'!', '!'},
+          {'!', 'n'},
           {'"', '"'}}},
         {"houdini",
          {{'F', 'F'},
@@ -234,6 +234,9 @@ std::vector<Line> read_word(const std::string& word, const Profile& profile, con
         }
         case '!':
             turtle.width = given ? value : turtle.width * 0.7L;
+            break;
+        case 'n':
+            turtle.width = given ? value : turtle.width;
             break;
         case '*':
             turtle.width *= given ? value : 0.7L;

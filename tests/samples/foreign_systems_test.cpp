@@ -82,11 +82,13 @@ TEST_CASE("the .sys figure is one program in every syntax") {
                                "#r1 : F : * : F[-F][+F]F;\n",
                                {{"turtle lsys", "turtle"}}));
     CHECK(of_sys == program_of("f.hlsys", "F\nF=F[-F][+F]F\n", {{"turtle sidefx", "turtle"}}));
-    // The + of cpfg turns left, and files of cpfg give the number of generations.
+    // The + of cpfg turns left, its widths are pixels, and its files give the number of generations.
     CHECK(of_sys == program_of("f.l",
                                "Lsystem: 1\nderivation length: 3\nAxiom: F\n"
                                "F --> F[+F][-F]F\nendlsystem\n",
                                {{"turtle cpfg", "turtle"},
+                                {"width 1,", "width 0.1,"},
+                                {"  width_unit pixels\n", ""},
                                 {"generations 3\n", ""},
                                 {"p1", "r1"},
                                 {" + ", " ~ "},

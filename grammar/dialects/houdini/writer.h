@@ -103,12 +103,12 @@ private:
     std::map<std::string_view, bool> aged_; // symbols whose ageing rule is written
     /// Parameters that the variant of a rule lacks.
     std::vector<std::string_view> omitted_parameters_;
-    std::string warned_;                    // symbols that have been reported
-    std::uint32_t fresh_ = 0;               // count of generated parameter names
-    std::uint32_t generations_ = 0;         // rounded up
-    std::string fraction_;                  // part of the last generation; empty: all of it
-    bool is_last_ = false;                  // writing the last, fractional generation
-    std::size_t premise_local_count_ = 0;   // locals of the premise; first in tree_.locals()
+    std::string warned_;                  // symbols that have been reported
+    std::uint32_t fresh_ = 0;             // count of generated parameter names
+    std::uint32_t generations_ = 0;       // rounded up
+    std::string fraction_;                // part of the last generation; empty: all of it
+    bool is_last_ = false;                // writing the last, fractional generation
+    std::size_t premise_local_count_ = 0; // locals of the premise; first in tree_.locals()
 };
 
 } // namespace lsys

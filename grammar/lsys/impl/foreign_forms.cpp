@@ -454,8 +454,8 @@ private:
         if (extra.empty() || rest.begin == end || !(is_letter(extra[0]) || is_digit(extra[0]))) {
             return;
         }
-        const bool has_contour = text().substr(object, end - object) == "CONTOUR" &&
-                                 leading_word(extra).size() == extra.size();
+        const bool has_contour =
+            text().substr(object, end - object) == "CONTOUR" && is_letter(extra[0]);
         if (has_contour) {
             return;
         }

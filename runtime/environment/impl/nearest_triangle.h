@@ -72,8 +72,9 @@ private:
     std::span<const LeafTriangle> triangles_;
     Frame frame_;
     double cylinder_margin_ = 0.0; // enlargement of the cylinders, in units of the frame
-    LargeVector<Node> nodes_; // the root first
-    LargeVector<Triangle> corners_; // those of `triangles_`; neighbours in space are neighbours in memory
+    LargeVector<Node> nodes_;      // the root first
+    LargeVector<Triangle>
+        corners_; // those of `triangles_`; neighbours in space are neighbours in memory
 };
 
 } // namespace lsys

@@ -41,8 +41,7 @@ namespace lsys {
         const double s2 = sine_squared;
         return sign * 2.0 *
                (1.0 +
-                s2 * (1.0 / 6.0 +
-                     s2 * (3.0 / 40.0 + s2 * (15.0 / 336.0 + s2 * 105.0 / 3456.0)))) *
+                s2 * (1.0 / 6.0 + s2 * (3.0 / 40.0 + s2 * (15.0 / 336.0 + s2 * 105.0 / 3456.0)))) *
                v;
     }
     const double sine = std::sqrt(sine_squared);
