@@ -135,7 +135,7 @@ public:
     /// Ends a stroke and reports its changes.
     void end_stroke();
     /// Saves painted trees and the season in the file of the scene that is shown, and reports the
-    /// result in a note. Does not write the file of a scene with errors that was opened later.
+    /// result in a note. If a scene with errors was opened since, its file is not written.
     void save() override;
 
     /// Grabs the obstacle of a tree at a place of the picture, in the units of hover(). Returns

@@ -53,7 +53,7 @@ public:
     void warn_left_out(SourceSpan span, const std::string& what, const std::string& message);
 
 private:
-    using Variables = std::map<std::string, ForeignId>; // nodes without parts
+    using Variables = std::map<std::string, ForeignId>; // leaf nodes
     /// A file of numbers, opened by `fopen` in `Start:`.
     struct DataFile {
         std::string text;

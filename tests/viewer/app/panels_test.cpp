@@ -36,8 +36,8 @@ std::vector<Widget>* drawn_widgets = nullptr; // of the frame being drawn; null:
 
 } // namespace
 
-// The linker option --wrap makes ImGui's widgets call the second function instead of
-// ImGui::ItemAdd(), which the first one is.
+// The linker option --wrap redirects ImGui's calls of ImGui::ItemAdd() to `__wrap_...`; `__real_...`
+// is the original.
 extern "C" {
 // NOLINTBEGIN(bugprone-reserved-identifier,readability-identifier-naming)
 bool __real__ZN5ImGui7ItemAddERK6ImRectjPS1_i(const ImRect& place,

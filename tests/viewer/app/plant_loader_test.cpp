@@ -34,7 +34,8 @@ LoadOutcome wait_for(PlantLoader& loader) {
     return {};
 }
 
-// The word doubles in each generation, with a condition that takes time.
+// A derivation too long to finish: the word doubles in each of 40 generations, and each module
+// evaluates a condition.
 constexpr const char* kEndless = "#n = 40;\n#w : A(0);\n#p : A(x) : x >= 0 : A(x) F A(x);\n"
                                  "#q : A(x) : x < 0 : F;\n";
 

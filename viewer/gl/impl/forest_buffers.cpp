@@ -351,7 +351,8 @@ void ForestBuffers::upload_forms(const ForestModel& model, const ImpostorPlan& p
 
 void ForestBuffers::set_colours(const ForestModel& model, BranchColours by) {
     colour_digests_.assign(model.forms.size(), 0);
-    // One word per tree form. Forms of clusters have no branches, so they need no word.
+    // First one number per tree form: the index of its first colour. Forms of clusters have no
+    // branches, so they need none.
     std::vector<std::uint32_t> words(model.forms.size(), 0);
     const std::vector<LegendEntry> legend = legend_of(model, by);
     for (std::size_t f = 0; !legend.empty() && f < model.forms.size(); ++f) {
