@@ -63,19 +63,6 @@ bool blank_between(const Lexeme& before, const Lexeme& after) {
            before.kind != Unary;
 }
 
-/// Rank of a line break before an operator: the loosest one is best, and the break between local
-/// values, of rank 1, better.
-std::uint32_t operator_rank(std::string_view text) {
-    if (text == "||") {
-        return 2;
-    }
-    if (text == "&&") {
-        return 3;
-    }
-    const bool compares = text[0] == '<' || text[0] == '>' || text == "==" || text == "!=";
-    return compares ? 4 : 5;
-}
-
 } // namespace
 
 void append_comment(std::string_view comment, std::string& out) {
@@ -154,10 +141,8 @@ void PieceReader::describe(Piece& piece) {
         // Prefer breaks at outer levels, then at blanks, then before branches.
         piece.rank =
             brackets_ * 4 + (piece.has_blank_before ? 0 : 2) + (is_module(current_, '[') ? 0 : 1);
-    } else if (begins_local()) {
-        piece.rank = 1; // rather before `let` than between local values
     } else if (current_.kind == LexemeKind::Operator) {
-        piece.rank = operator_rank(current_.text);
+        piece.rank = 1; // rather between local values than within one
     }
     piece.ends_statement = false;
     piece.is_only_semicolon = current_.kind == LexemeKind::Semicolon;
@@ -208,10 +193,7 @@ BreakClass PieceReader::break_class() const {
     case Context:
     case Module:
         return BreakClass::Fine;
-    case Word: // a key, or `let`
-        if (previous_.kind == Colon && current_.text == "let") {
-            return BreakClass::Fine;
-        }
+    case Word: // a key
         return shape_ == StatementShape::Keyed && parentheses_ == 0 && index_ > 2 &&
                        previous_.text != "shape" // the value of `shape` is a word
                    ? BreakClass::Fine
