@@ -7,16 +7,24 @@
 
 namespace lsys {
 
+namespace {
+
+/// Triangles of the largest mesh whose corners are copied: 150 MB of copies.
+constexpr std::size_t kMaxCopied = 1U << 21;
+
+} // namespace
+
 void NearestTriangle::build(std::span<const LeafTriangle> triangles,
                             std::span<const SplitNode> split,
                             Workers& workers) {
     constexpr std::size_t kPieces = 1U << 10; // cylinders of one piece of work
     triangles_ = triangles;
     corners_.clear();
-    corners_.reserve(triangles.size());
-    for (const LeafTriangle& triangle : triangles) {
-        const auto& [a, b, c] = triangle.vertices;
-        corners_.push_back({vertices_[a], vertices_[b], vertices_[c]});
+    if (triangles.size() <= kMaxCopied) {
+        corners_.reserve(triangles.size());
+        for (std::size_t at = 0; at < triangles.size(); ++at) {
+            corners_.push_back(corners_of(triangles[at]));
+        }
     }
     find_frame();
     const LargeVector<WideChild> children = make_wide_nodes(split, nodes_);
@@ -159,7 +167,8 @@ void NearestTriangle::find(const Vector3& place, NearestPoint& nearest, std::uin
             is_bounded ? upper_float(distance * distance) : std::numeric_limits<float>::infinity();
     };
     const auto consider = [&](std::uint32_t at) {
-        const NearestPoint point = nearest_point(corners_[at], place);
+        const NearestPoint point =
+            nearest_point(corners_.empty() ? corners_of(triangles_[at]) : corners_[at], place);
         const std::uint32_t index = triangles_[at].index + 1;
         if (point.squared < nearest.squared ||
             (point.squared == nearest.squared && index < next_index)) {
@@ -200,7 +209,7 @@ void NearestTriangle::find(const Vector3& place, NearestPoint& nearest, std::uin
 std::uint64_t NearestTriangle::bytes(std::size_t triangles) {
     const std::uint64_t nodes = wide_node_count(triangles);
     return nodes * sizeof(Node) + (triangles + nodes) * sizeof(WideChild) +
-           triangles * sizeof(Triangle);
+           (triangles <= kMaxCopied ? triangles * sizeof(Triangle) : 0);
 }
 
 } // namespace lsys

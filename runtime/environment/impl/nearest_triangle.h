@@ -61,6 +61,10 @@ private:
     [[nodiscard]] Vector3 framed(std::uint32_t vertex) const {
         return frame_.framed(vertices_[vertex]);
     }
+    [[nodiscard]] Triangle corners_of(const LeafTriangle& triangle) const {
+        const auto& [a, b, c] = triangle.vertices;
+        return {vertices_[a], vertices_[b], vertices_[c]};
+    }
     void fill_cylinder(const WideChild& child);
     [[nodiscard]] Vector3 axis_of(const WideChild& child) const;
     [[nodiscard]] Vector3 middle_of(const WideChild& child, const Vector3& axis) const;
@@ -73,8 +77,9 @@ private:
     Frame frame_;
     double cylinder_margin_ = 0.0; // enlargement of the cylinders, in units of the frame
     LargeVector<Node> nodes_;      // the root first
-    LargeVector<Triangle>
-        corners_; // those of `triangles_`; neighbours in space are neighbours in memory
+    /// Copies of the corners of `triangles_`, so that neighbours in space are neighbours in memory;
+    /// empty for large meshes.
+    LargeVector<Triangle> corners_;
 };
 
 } // namespace lsys
