@@ -184,7 +184,7 @@ nlohmann::ordered_json json_count(const Count& count) {
 }
 
 nlohmann::ordered_json json_size(const GenerationSize& size) {
-    nlohmann::ordered_json object;
+    nlohmann::ordered_json object = nlohmann::ordered_json::object();
     object["modules"] = json_count(size.modules);
     object["parameters"] = json_count(size.parameters);
     object["segments"] = json_count(size.segments);
@@ -222,7 +222,7 @@ std::string
 make_json(const GrowthPrediction& growth, bool predicted, std::optional<double> height) {
     std::string text;
     for (std::size_t i = 0; i < growth.low.size(); ++i) {
-        nlohmann::ordered_json object;
+        nlohmann::ordered_json object = nlohmann::ordered_json::object();
         object["generation"] = i;
         object["exact"] = growth.exact;
         if (!predicted) {
@@ -267,13 +267,13 @@ std::string parameter_table(const Grammar& grammar, std::uint32_t generations) {
 std::string parameter_json(const Grammar& grammar, std::uint32_t generations) {
     // A float written as a double would show digits that the grammar does not have.
     const auto number = [](float value) { return nlohmann::ordered_json::parse(shortest(value)); };
-    nlohmann::ordered_json object;
+    nlohmann::ordered_json object = nlohmann::ordered_json::object();
     object["generations"] = generations;
     object["seed"] = grammar.bytecode.settings.seed;
     object["parameters"] = nlohmann::ordered_json::array();
     if (grammar.program) {
         for (const Constant& constant : grammar.program->constants) {
-            nlohmann::ordered_json entry;
+            nlohmann::ordered_json entry = nlohmann::ordered_json::object();
             entry["name"] = std::string(grammar.names.text(constant.name));
             entry["kind"] = constant.is_param ? "param" : "define";
             if (constant.is_random) {

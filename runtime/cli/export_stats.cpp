@@ -60,7 +60,7 @@ std::string export_stats_text(const Plant& plant, const Mesh& mesh, const Export
 std::string export_stats_json(const Plant& plant, const Mesh& mesh, const ExportTiming& timing) {
     const Skeleton& skeleton = plant.skeleton;
     const SkeletonStats stats = measure(skeleton);
-    nlohmann::ordered_json object;
+    nlohmann::ordered_json object = nlohmann::ordered_json::object();
     object["generations"] = plant.generations;
     object["seed"] = plant.seed;
     object["modules"] = plant.modules;

@@ -53,7 +53,7 @@ std::string lods_json_path(const std::string& path) {
 
 std::string
 lods_json(const ExportInfo& info, const PlantExtent& extent, const std::vector<LodFile>& files) {
-    nlohmann::ordered_json object;
+    nlohmann::ordered_json object = nlohmann::ordered_json::object();
     object["generator"] = info.generator;
     object["grammar"] = info.grammar;
     object["seed"] = info.seed;
@@ -63,7 +63,7 @@ lods_json(const ExportInfo& info, const PlantExtent& extent, const std::vector<L
     object["levels"] = nlohmann::ordered_json::array();
     for (const LodFile& file : files) {
         const bool is_first = object["levels"].empty();
-        nlohmann::ordered_json level;
+        nlohmann::ordered_json level = nlohmann::ordered_json::object();
         level["file"] = file.name;
         level["triangles"] = file.triangles;
         level["distance"] = is_first ? 0.0 : lod_distance(extent, file.pixels);

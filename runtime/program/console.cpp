@@ -73,7 +73,7 @@ bool Console::shows_progress() const {
 
 void Console::print_message(std::string_view severity, std::string_view message) const {
     if (options_.format == MessageFormat::Json) {
-        nlohmann::ordered_json object;
+        nlohmann::ordered_json object = nlohmann::ordered_json::object();
         object["severity"] = severity;
         object["message"] = message;
         io_.err << object.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace)

@@ -51,7 +51,7 @@ public:
     JsonReport(const Trace& trace, const Bytecode& bytecode) : trace_(trace), bytecode_(bytecode) {}
 
     [[nodiscard]] Json run() const {
-        Json object;
+        Json object = Json::object();
         object["generation"] = trace_.generation;
         object["generations"] = trace_.generations;
         object["seed"] = trace_.seed;
@@ -71,7 +71,7 @@ public:
 
 private:
     [[nodiscard]] Json module(const TracedModule& module) const {
-        Json object;
+        Json object = Json::object();
         object["text"] = module_text(bytecode_, module);
         object["name"] = bytecode_.symbol(module.symbol).name;
         object["values"] = numbers(module.values);
@@ -91,7 +91,7 @@ private:
     }
     [[nodiscard]] Json production(ProductionId id) const {
         const BytecodeProduction& found = bytecode_.productions[static_cast<std::size_t>(id)];
-        Json object;
+        Json object = Json::object();
         object["name"] = found.name;
         object["stage"] = name_of(kStages, found.stage);
         if (found.name_site != kNone) {
@@ -100,7 +100,7 @@ private:
         return object;
     }
     [[nodiscard]] Json origin(const TraceOrigin& origin) const {
-        Json object;
+        Json object = Json::object();
         if (origin.production != kNoProduction) {
             object["production"] = production(origin.production);
         } else {
@@ -123,7 +123,7 @@ private:
         return array;
     }
     [[nodiscard]] Json context(const ContextTrace& context) const {
-        Json object;
+        Json object = Json::object();
         object["result"] = name_of(kEnds, context.end);
         object["met"] = visited_modules(context.visited);
         object["ignored"] = context.ignored;
@@ -131,7 +131,7 @@ private:
         return object;
     }
     [[nodiscard]] static Json condition(const ExpressionTrace& condition) {
-        Json object;
+        Json object = Json::object();
         object["text"] = condition.text;
         object["value"] = number(condition.value);
         object["parts"] = Json::array();
@@ -162,7 +162,7 @@ private:
         return object;
     }
     [[nodiscard]] Json choice(const ChoiceTrace& choice) const {
-        Json object;
+        Json object = Json::object();
         object["scope"] = choice.by_generation ? "generation" : "module";
         object["draw"] = choice.number;
         if (!choice.by_glibc) {
@@ -181,12 +181,12 @@ private:
         return object;
     }
     [[nodiscard]] Json axiom(const AxiomTrace& choice) const {
-        Json object;
+        Json object = Json::object();
         object["u"] = number(choice.unit);
         object["taken"] = choice.taken;
         object["alternatives"] = Json::array();
         for (const AxiomTrace::Alternative& each : choice.alternatives) {
-            Json alternative;
+            Json alternative = Json::object();
             if (each.site != kNone) {
                 put_site(alternative, bytecode_.sites[each.site]);
             }
@@ -197,7 +197,7 @@ private:
         return object;
     }
     [[nodiscard]] Json step(const ModuleTrace& trace) const {
-        Json object;
+        Json object = Json::object();
         object["pass"] = name_of(kKinds, trace.kind);
         object["number"] = trace.pass;
         if (trace.rule != kNone) {
@@ -256,7 +256,7 @@ private:
         return array;
     }
     [[nodiscard]] Json traced(const TracedPlace& place) const {
-        Json object;
+        Json object = Json::object();
         object["position"] = place.position;
         object["module"] = module(place.module);
         object["origin"] = origin(place.origin);

@@ -101,7 +101,7 @@ std::string weight_text(const WeightReport& report) {
 }
 
 std::string weight_json(const WeightReport& report) {
-    nlohmann::ordered_json object;
+    nlohmann::ordered_json object = nlohmann::ordered_json::object();
     const Stability& stability = report.stability;
     const auto add = [&](const char* name, const std::optional<double>& value) {
         if (value && std::isfinite(*value)) {

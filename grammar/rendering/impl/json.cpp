@@ -36,10 +36,12 @@ void set_place(SourceSpan span, const SourceMap& sources, Json& object) {
     object["end_byte"] = span.end + skipped;
 }
 
+/// Objects begin with Json::object(): a value without a type that becomes an object does not
+/// survive missing memory (JSON for Modern C++ 3.11).
 Json make_labels(const Diagnostic& diagnostic, const SourceMap& sources) {
     Json labels = Json::array();
     for (const Label& label : diagnostic.labels) {
-        Json object;
+        Json object = Json::object();
         object["text"] = label.text;
         set_place(label.span, sources, object);
         labels.push_back(std::move(object));
@@ -52,12 +54,12 @@ Json make_fixes(const Diagnostic& diagnostic, const SourceMap& sources) {
     for (const Fix& fix : diagnostic.fixes) {
         Json edits = Json::array();
         for (const Edit& edit : fix.edits) {
-            Json object;
+            Json object = Json::object();
             set_place(edit.span, sources, object);
             object["replacement"] = edit.replacement;
             edits.push_back(std::move(object));
         }
-        Json object;
+        Json object = Json::object();
         object["title"] = fix.title;
         object["machine_applicable"] = fix.machine_applicable;
         object["edits"] = std::move(edits);
@@ -69,7 +71,7 @@ Json make_fixes(const Diagnostic& diagnostic, const SourceMap& sources) {
 } // namespace
 
 void append_json(const Diagnostic& diagnostic, const SourceMap& sources, std::string& out) {
-    Json object;
+    Json object = Json::object();
     object["severity"] = severity_name(diagnostic.severity);
     object["code"] = info(diagnostic.code).name;
     object["message"] = diagnostic.message;
@@ -80,7 +82,7 @@ void append_json(const Diagnostic& diagnostic, const SourceMap& sources, std::st
     object["help"] = diagnostic.help;
     object["fixes"] = make_fixes(diagnostic, sources);
     if (!diagnostic.facts.empty()) {
-        Json data;
+        Json data = Json::object();
         for (const Fact& fact : diagnostic.facts) {
             std::visit([&](const auto& value) { data[fact.name] = value; }, fact.value);
         }
@@ -93,7 +95,7 @@ void append_json_omitted(std::uint64_t errors,
                          std::uint64_t warnings,
                          std::uint64_t notes,
                          std::string& out) {
-    Json object;
+    Json object = Json::object();
     object["more"] = {{"errors", errors}, {"warnings", warnings}, {"notes", notes}};
     append(object, out);
 }

@@ -27,7 +27,7 @@ std::size_t aligned(std::size_t bytes) {
 
 /// A GLB file as its document and its buffer.
 struct GlbFile {
-    Json document;
+    Json document = Json::object();
     std::string data;
 };
 

@@ -42,7 +42,7 @@ public:
     TilesetWriter(const TilesetPlan& plan, const TileId& root) : plan_(plan), root_(root) {}
 
     std::string write() {
-        Json node;
+        Json node = Json::object();
         if (root_.level == 0) {
             node = node_of(root_);
             node["transform"] = json_of_matrix(plan_.boxes.frame_of(root_));
@@ -51,7 +51,7 @@ public:
             node["refine"] = "REPLACE";
             node["children"] = children_of(root_);
         }
-        Json tileset;
+        Json tileset = Json::object();
         tileset["asset"] = {{"version", "1.1"}, {"extras", {{"generator", plan_.generator}}}};
         // The error that a client makes by not showing the tileset. For the root tileset it is the
         // side of the ground.
@@ -101,7 +101,7 @@ private:
     }
 
     [[nodiscard]] Json bounds_of(const TileId& tile) const {
-        Json node;
+        Json node = Json::object();
         node["boundingVolume"]["box"] = json_of(plan_.boxes.box_of(tile));
         node["geometricError"] = rounded_for_tileset(plan_.levels[tile.level].error);
         return node;
