@@ -24,10 +24,7 @@ constexpr std::size_t kMaxTable = 256; // points of a `#curve`
 
 /// Removes the first line of `text`; returns it without blanks at its ends.
 std::string_view next_line(std::string_view& text) {
-    const std::size_t end = std::min(text.find('\n'), text.size());
-    const std::string_view line = text.substr(0, end);
-    text.remove_prefix(std::min(end + 1, text.size()));
-    return trimmed(line, kWhitespace);
+    return trimmed(take_line(text), kWhitespace);
 }
 
 std::optional<std::string_view> value_of(std::string_view line, std::string_view key) {
@@ -170,15 +167,6 @@ std::vector<CurvePoint> chords(const std::vector<CurvePoint>& samples) {
     return kept;
 }
 
-/// `value` with at most six digits after the point, as in curve files.
-std::string number(double value) {
-    const double rounded = std::round(value * 1e6) / 1e6;
-    std::array<char, 32> buffer{};
-    const auto [end, error] = number_to_fixed_chars(buffer.data(), buffer.data() + buffer.size(),
-                                                    rounded == 0.0 ? 0.0 : rounded);
-    return error == std::errc() ? std::string(buffer.data(), end) : "0";
-}
-
 /// The binary32 nearest to `value`, as text.
 std::string shortest(double value) {
     constexpr double kMax = 1e30;
@@ -271,25 +259,25 @@ std::string curve_statements(const CpfgCurve& curve, const CpfgCurveNames& names
 
 std::string curve_at(const CpfgCurve& curve, const std::string& x) {
     if (curve.points.back().x <= curve.points.front().x) {
-        return in_parentheses(number(curve.points.back().y));
+        return in_parentheses(decimal_text(curve.points.back().y));
     }
     const std::vector<CurvePoint> points = chords(sampled(curve.points));
-    std::string text = in_parentheses(number(points.front().y));
+    std::string text = in_parentheses(decimal_text(points.front().y));
     for (std::size_t i = 1; i < points.size(); ++i) {
         const CurvePoint& from = points[i - 1];
         const CurvePoint& to = points[i];
-        const std::string slope = number((to.y - from.y) / (to.x - from.x));
+        const std::string slope = decimal_text((to.y - from.y) / (to.x - from.x));
         if (slope == "0") {
             continue;
         }
         text += " + ";
         text += in_parentheses(slope);
         text += "*(clamp(" + x + ", ";
-        text += in_parentheses(number(from.x));
+        text += in_parentheses(decimal_text(from.x));
         text += ", ";
-        text += in_parentheses(number(to.x));
+        text += in_parentheses(decimal_text(to.x));
         text += ") - ";
-        text += in_parentheses(number(from.x));
+        text += in_parentheses(decimal_text(from.x));
         text += ")";
     }
     return text;

@@ -234,16 +234,20 @@ void CpfgWriter::read_view_file() {
     view_ = read_view(files.view, beside);
     organs_ = read_organs(files.view, beside);
     const CpfgUses uses = find_uses();
-    const unsigned first = first_cpfg_colour(files.view);
-    materials_ = material_statements(files.colours, uses, first);
+    const FileId view =
+        files.has_view ? context_.sources.add(files.view_path, files.view) : kNoFile;
+    looks_ = read_looks(view, files.view, uses);
+    materials_ =
+        material_statements(files.colours, uses, looks_.first_colour.value_or(kFirstCpfgColour));
+    if (!materials_.empty() && !looks_.first_colour) {
+        looks_.statements.push_back(
+            {"#set colour " + std::to_string(kFirstCpfgColour) + ";\n", {view, 0, 0}});
+    }
     if (!files.colours.empty() && materials_.empty()) {
         expressions_.warn_left_out(header_, "colours",
                                    "`" + shown(files.colours_path) +
                                        "` holds neither 256 colours nor materials");
     }
-    const FileId view =
-        files.has_view ? context_.sources.add(files.view_path, files.view) : kNoFile;
-    looks_ = read_looks(view, files.view, !materials_.empty(), uses);
     for (const CpfgLooks::Text& line : looks_.left_out) {
         expressions_.warn_left_out(line.span, "view " + line.text, line.text);
     }

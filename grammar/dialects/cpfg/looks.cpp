@@ -21,14 +21,8 @@ struct ViewLine {
     SourceSpan span;
 };
 
-/// Shortest text of a binary32 without an exponent; in parentheses if it is negative.
-std::string number_text(double value) {
-    std::array<char, 64> buffer{};
-    const auto rounded = static_cast<float>(value);
-    const auto [end, error] =
-        number_to_fixed_chars(buffer.data(), buffer.data() + buffer.size(), rounded);
-    const std::string text = error == std::errc() ? std::string(buffer.data(), end) : "0";
-    return text == "-0" ? "0" : text;
+std::string rounded_text(double value) {
+    return fixed_text(static_cast<float>(value));
 }
 
 /// Removes the number at the start of `text`, and blanks, commas and colons around it.
@@ -62,9 +56,8 @@ std::string without_comments(std::string_view text) {
 
 std::vector<ViewLine> lines_of(FileId file, std::string_view text) {
     std::vector<ViewLine> lines;
-    for (std::size_t at = 0; at < text.size();) {
-        const std::size_t end = std::min(text.find('\n', at), text.size());
-        const std::string_view line = trimmed(text.substr(at, end - at), kWhitespace);
+    for (std::string_view rest = text; !rest.empty();) {
+        const std::string_view line = trimmed(take_line(rest), kWhitespace);
         const std::size_t colon = line.find(':');
         if (colon != std::string_view::npos) {
             const auto begin = static_cast<std::uint32_t>(line.data() - text.data());
@@ -72,7 +65,6 @@ std::vector<ViewLine> lines_of(FileId file, std::string_view text) {
                              line.substr(colon + 1),
                              {file, begin, begin + static_cast<std::uint32_t>(line.size())}});
         }
-        at = end + 1;
     }
     return lines;
 }
@@ -139,7 +131,7 @@ ViewTropism read_tropism(std::string_view text, std::string kind) {
 
 class LookReader {
 public:
-    LookReader(bool has_colours, const CpfgUses& uses) : has_colours_(has_colours), uses_(uses) {
+    explicit LookReader(const CpfgUses& uses) : uses_(uses) {
         after_.kind = "after";
         after_.direction = {0.0, 1.0, 0.0};
     }
@@ -222,7 +214,7 @@ private:
             const std::optional<double> increment = number_of(line);
             if (increment && uses_.steps_widths) {
                 looks_.statements.push_back(
-                    {"#set width_increment " + number_text(*increment) + ";\n", line.span});
+                    {"#set width_increment " + rounded_text(*increment) + ";\n", line.span});
             }
         }
     }
@@ -233,8 +225,8 @@ private:
             if (const std::optional<double> colour = number_of(line)) {
                 const double index = std::clamp(std::trunc(*colour), 0.0, 255.0);
                 looks_.statements.push_back(
-                    {"#set colour " + number_text(index) + ";\n", line.span});
-                has_first_colour_ = true;
+                    {"#set colour " + rounded_text(index) + ";\n", line.span});
+                looks_.first_colour = static_cast<unsigned>(index);
             }
         } else if (line.key == "color increment") {
             if (uses_.steps_colours && next_number(value).value_or(1.0) != 1.0) {
@@ -258,12 +250,12 @@ private:
         const auto add = [&](const ViewTropism& row) {
             text += " " + row.kind;
             for (const double part : row.direction) {
-                text += " " + number_text(part);
+                text += " " + rounded_text(part);
             }
             const bool has_angle = row.angle != 0.0;
-            text += " " + number_text(row.strength);
-            text += row.increment != 0.0 || has_angle ? " " + number_text(row.increment) : "";
-            text += has_angle ? " " + number_text(row.angle) : "";
+            text += " " + rounded_text(row.strength);
+            text += row.increment != 0.0 || has_angle ? " " + rounded_text(row.increment) : "";
+            text += has_angle ? " " + rounded_text(row.angle) : "";
         };
         if (after_.strength != 0.0 || uses_.has_elasticity) {
             add(after_);
@@ -288,18 +280,12 @@ private:
         }
         if (width_ || is_pixel) {
             looks_.statements.push_back(
-                {"#set width " + number_text(std::max(width_.value_or(1.0), 0.0)) + ";\n", place});
-        }
-        if (has_colours_ && !has_first_colour_) {
-            looks_.statements.push_back(
-                {"#set colour " + std::to_string(kFirstCpfgColour) + ";\n", nowhere});
+                {"#set width " + rounded_text(std::max(width_.value_or(1.0), 0.0)) + ";\n", place});
         }
     }
 
     CpfgLooks looks_;
-    bool has_colours_ = false;
     const CpfgUses& uses_;
-    bool has_first_colour_ = false;
     ViewTropism after_;
     std::vector<ViewTropism> rows_;
     std::optional<SourceSpan> place_; // of the last tropism
@@ -310,26 +296,13 @@ private:
 
 } // namespace
 
-CpfgLooks read_looks(FileId view, std::string_view text, bool has_colours, const CpfgUses& uses) {
-    LookReader reader(has_colours, uses);
+CpfgLooks read_looks(FileId view, std::string_view text, const CpfgUses& uses) {
+    LookReader reader(uses);
     const std::string plain = without_comments(text);
     for (const ViewLine& line : lines_of(view, plain)) {
         reader.read(line);
     }
     return reader.finish({view, 0, 0});
-}
-
-unsigned first_cpfg_colour(std::string_view view) {
-    const std::string plain = without_comments(view);
-    unsigned first = kFirstCpfgColour;
-    for (const ViewLine& line : lines_of(kNoFile, plain)) {
-        std::string_view value = line.value;
-        if (line.key == "initial color") {
-            first = static_cast<unsigned>(
-                std::clamp(next_number(value).value_or(0.0), 0.0, static_cast<double>(255)));
-        }
-    }
-    return first;
 }
 
 } // namespace lsys

@@ -5,6 +5,7 @@
 
 #include "grammar/base/source.h"
 
+#include <optional>
 #include <set>
 #include <string>
 #include <string_view>
@@ -12,7 +13,7 @@
 
 namespace lsys {
 
-/// What a model uses of its view file.
+/// The commands of a model whose effect depends on its view file.
 struct CpfgUses {
     bool sets_widths = false;      // `#(w)` or `!(w)`
     bool steps_widths = false;     // `#` or `!`
@@ -32,16 +33,15 @@ struct CpfgLooks {
     };
     std::vector<Text> statements;
     std::vector<Text> left_out;
+    /// Colour at the start of the word; nullopt: the view file sets none.
+    std::optional<unsigned> first_colour;
 };
 
 /// Reads the lines of a view file about widths, colours and tropisms. `view`: the file with the
 /// text; kNoFile: there is no view file.
-[[nodiscard]] CpfgLooks
-read_looks(FileId view, std::string_view text, bool has_colours, const CpfgUses& uses);
+[[nodiscard]] CpfgLooks read_looks(FileId view, std::string_view text, const CpfgUses& uses);
 
 /// Colour at the start of the word unless a view file sets it, as in cpfg.
 inline constexpr unsigned kFirstCpfgColour = 128;
-/// The colour at the start of the word.
-[[nodiscard]] unsigned first_cpfg_colour(std::string_view view);
 
 } // namespace lsys

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "grammar/dialects/cpfg/materials.h"
 
-#include "grammar/base/number_chars.h"
+#include "grammar/dialects/impl/text.h"
 
 #include <algorithm>
 #include <array>
@@ -11,14 +11,6 @@
 namespace lsys {
 
 namespace {
-
-/// Shortest text of a number from 0 to 1.
-std::string number_text(double value) {
-    std::array<char, 32> buffer{};
-    const auto [end, error] = number_to_fixed_chars(buffer.data(), buffer.data() + buffer.size(),
-                                                    static_cast<float>(value));
-    return error == std::errc() ? std::string(buffer.data(), end) : "0";
-}
 
 /// A colour of a material, each part 0 to 255.
 using Rgb = std::array<unsigned, 3>;
@@ -33,7 +25,8 @@ Rgb rgb_at(std::string_view bytes, std::size_t at) {
 std::string colour_text(const Rgb& colour) {
     std::string text = " colour";
     for (const unsigned part : colour) {
-        text += " " + number_text(std::round(static_cast<double>(part) / 255.0 * 1e4) / 1e4);
+        text += " " + fixed_text(static_cast<float>(
+                          std::round(static_cast<double>(part) / 255.0 * 1e4) / 1e4));
     }
     return text;
 }
@@ -59,7 +52,7 @@ std::string material_text(std::string_view record) {
         // Exponent n of Phong as roughness: sqrt(2 / (n + 2)) (Walter et al. 2007, section 5.1).
         const auto exponent = static_cast<double>(static_cast<unsigned char>(record[kShininess]));
         const double roughness = std::sqrt(2.0 / (exponent + 2.0));
-        text += " roughness " + number_text(std::round(roughness * 1e3) / 1e3);
+        text += " roughness " + fixed_text(static_cast<float>(std::round(roughness * 1e3) / 1e3));
     }
     return text;
 }

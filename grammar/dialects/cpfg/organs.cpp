@@ -29,10 +29,7 @@ struct ContourFile {
 };
 
 std::string_view first_line(std::string_view& text) {
-    const std::size_t end = std::min(text.find('\n'), text.size());
-    const std::string_view line = text.substr(0, end);
-    text.remove_prefix(std::min(end + 1, text.size()));
-    return trimmed(line, kBlanks);
+    return trimmed(take_line(text), kBlanks);
 }
 
 std::string_view first_word(std::string_view& line) {
@@ -181,15 +178,6 @@ void turn_to_axis(std::vector<CurvePoint>& points) {
     }
 }
 
-/// A number with six digits behind the point at most.
-std::string number_text(double value) {
-    const double rounded = std::round(value * 1e6) / 1e6;
-    std::array<char, 64> buffer{};
-    const auto [end, error] = number_to_fixed_chars(buffer.data(), buffer.data() + buffer.size(),
-                                                    rounded == 0.0 ? 0.0 : rounded);
-    return error == std::errc() ? std::string(buffer.data(), end) : "0";
-}
-
 } // namespace
 
 std::vector<CurvePoint> contour_points(std::string_view text, std::uint32_t sides) {
@@ -252,13 +240,13 @@ std::string contour_statement(std::uint32_t number, const std::vector<CurvePoint
     std::string text = "#contour contour" + std::to_string(number);
     for (std::size_t i = 0; i < points.size(); ++i) {
         text += i == 0 ? " " : ", ";
-        text += number_text(points[i].x) + " " + number_text(points[i].y);
+        text += decimal_text(points[i].x) + " " + decimal_text(points[i].y);
     }
     return text + ";\n";
 }
 
 std::string object_text(const CpfgSurface& surface) {
-    return "\"" + surface.file + (surface.scale == 1.0 ? "" : "#" + number_text(surface.scale)) +
+    return "\"" + surface.file + (surface.scale == 1.0 ? "" : "#" + decimal_text(surface.scale)) +
            "\"";
 }
 

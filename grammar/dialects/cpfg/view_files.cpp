@@ -38,9 +38,7 @@ struct Named {
 Named read_specifications(std::string_view text, std::string_view model) {
     Named named;
     while (!text.empty()) {
-        const std::size_t end = std::min(text.find('\n'), text.size());
-        const std::vector<std::string_view> words = words_of(text.substr(0, end));
-        text.remove_prefix(std::min(end + 1, text.size()));
+        const std::vector<std::string_view> words = words_of(take_line(text));
         const bool draws =
             std::any_of(words.begin(), words.end(),
                         [](std::string_view word) { return word.ends_with("cpfg"); }) &&
@@ -62,8 +60,7 @@ template <typename Fits>
 std::string only_file(std::string_view names, const Fits& fits) {
     std::string found;
     while (!names.empty()) {
-        const std::string_view name = names.substr(0, names.find('\n'));
-        names.remove_prefix(std::min(name.size() + 1, names.size()));
+        const std::string_view name = take_line(names);
         if (!fits(name)) {
             continue;
         }

@@ -6,8 +6,22 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 namespace lsys {
+
+namespace {
+
+template <typename Number>
+std::string fixed_digits(Number value) {
+    std::array<char, 64> digits{};
+    const auto [end, error] =
+        number_to_fixed_chars(digits.data(), digits.data() + digits.size(),
+                              value == Number{0} ? Number{0} : value); // no -0
+    return error == std::errc() ? std::string(digits.data(), end) : "0";
+}
+
+} // namespace
 
 std::string_view trimmed(std::string_view text, std::string_view blanks) {
     text.remove_prefix(std::min(text.find_first_not_of(blanks), text.size()));
@@ -40,6 +54,20 @@ std::string text_of(float value) {
     std::array<char, 32> digits{};
     const auto [end, error] = number_to_chars(digits.data(), digits.data() + digits.size(), value);
     return {digits.data(), end};
+}
+
+std::string fixed_text(float value) {
+    return fixed_digits(value);
+}
+
+std::string decimal_text(double value) {
+    return fixed_digits(std::round(value * 1e6) / 1e6);
+}
+
+std::string_view take_line(std::string_view& text) {
+    const std::string_view line = text.substr(0, text.find('\n'));
+    text.remove_prefix(std::min(line.size() + 1, text.size()));
+    return line;
 }
 
 } // namespace lsys

@@ -18,5 +18,11 @@ namespace lsys {
 [[nodiscard]] std::string lowered(std::string_view text);
 /// The shortest text that reads back as `value`.
 [[nodiscard]] std::string text_of(float value);
+/// The same without an exponent.
+[[nodiscard]] std::string fixed_text(float value);
+/// `value` with at most six digits after the point, without an exponent.
+[[nodiscard]] std::string decimal_text(double value);
+/// Removes the first line of `text`; returns it without its line end.
+[[nodiscard]] std::string_view take_line(std::string_view& text);
 
 } // namespace lsys
