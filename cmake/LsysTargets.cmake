@@ -38,7 +38,6 @@ endif()
 # Relative relocations in a packed form (DT_RELR) make a program about 150 KB smaller. Needs the GNU C library 2.36.
 if(NOT WIN32 AND NOT EMSCRIPTEN)
   include(CheckLinkerFlag)
-  set(CMAKE_REQUIRED_QUIET ON)
   check_linker_flag(CXX "-Wl,-z,pack-relative-relocs,--fatal-warnings" LSYS_HAS_PACKED_RELOCATIONS)
   if(LSYS_HAS_PACKED_RELOCATIONS)
     target_link_options(lsys_options INTERFACE -Wl,-z,pack-relative-relocs)

@@ -71,8 +71,8 @@ struct TurtleTraits {
 /// Tropism: a direction x, y, z and the susceptibility e (docs/language.md section 7).
 using Tropism = std::array<float, 4>;
 
-/// What a tropism of the setting `tropisms` turns, and when: the heading after a step, the heading
-/// before a step, or the up axis before a step. None: an unused row.
+/// Kinds of tropism in the setting `tropisms`. After turns the heading after a step, Before turns
+/// the heading before a step, Twist turns the up axis before a step. None: an unused row.
 LSYS_COUNTED_ENUM(TropismKind, None, After, Before, Twist);
 /// A tropism whose strength the word changes (docs/language.md section 7.9).
 struct StepTropism {

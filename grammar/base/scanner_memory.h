@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What scanners made by Flex do when they get no memory, the only error that can stop them: they
-// throw std::bad_alloc instead of ending the program. To be included by .ll files only.
+// Scanners made by Flex stop only if an allocation fails. With this macro they then throw
+// std::bad_alloc instead of ending the program. For .ll files only.
 #pragma once
 
 #include <new>

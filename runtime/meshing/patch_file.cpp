@@ -239,8 +239,8 @@ private:
                     return false;
                 }
             }
-            // As cpfg does it: the coordinates of the file count along left, heading and up, and
-            // the result along left, heading and up of the turtle.
+            // As in cpfg, the coordinates in the file and those of the result are along the left,
+            // heading and up axes of the turtle.
             point = axes_ * (scale_ * (point - contact_));
             point.x = -point.x;
         }

@@ -44,7 +44,7 @@ MOST_ALLOCATIONS = 8000  # of each command, from its first one
 TIME_LIMIT = 120.0  # seconds; a run takes less than one
 FAILED = {2, 3}  # exit statuses of a command that reports a fault
 NO_MEMORY = b"cannot allocate memory"  # the text of ENOMEM, where a function of the C library needs memory
-LEFT_BY_KILL = 7  # a temporary file is the name of its file, a point and six letters or more
+TEMPORARY_LETTERS = 6  # at least; a temporary file is named after its file, with a point and letters
 
 TREE = """#n = 6;
 #param ratio 0.8 {0.5, 1};
@@ -191,7 +191,6 @@ class Bench:
         process.send_signal(signal.SIGKILL)
         out, err = process.communicate()
         outcome = Outcome(process.returncode, out, err, files_in(folder))
-        # A second run clears nothing up, but must succeed beside what the first left.
         shutil.rmtree(folder)
         return before, outcome
 
@@ -235,7 +234,7 @@ def incomplete_files(usual, before, outcome, may_remain=lambda name: False):
 
 def is_temporary(name, files):
     base, _, letters = name.rpartition(".")
-    return base in files and len(letters) >= LEFT_BY_KILL - 1 and letters.isalnum()
+    return base in files and len(letters) >= TEMPORARY_LETTERS and letters.isalnum()
 
 
 def difference(expected, found):

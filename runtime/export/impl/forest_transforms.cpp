@@ -63,7 +63,7 @@ private:
         return cell.first_group + cell.group_count;
     }
 
-    /// As many groups as fit into the window, beginning with number `first`; at least one.
+    /// The groups from number `first` on that fit into the window together; at least group `first`.
     [[nodiscard]] std::span<const ForestGroup> window_from(std::size_t first) const {
         const std::span<const ForestGroup> groups = plan_.groups().subspan(first);
         std::size_t count = 1;
