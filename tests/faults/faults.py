@@ -104,12 +104,14 @@ def commands():
         Command("forest-usd", ["forest", "tree.lsys", "--count", "20", "-o", "forest.usda"], tree),
         Command("scene", ["forest", "scene.toml", "-o", "scene.glb"], scene),
         Command("tiles", ["tiles", "scene.toml", "--count", "3", "--force", "-o", "tiles"], scene, is_set=False),
-        Command("frames", ["export", "tree.lsys", "-n", "2", "-o", "tree.ply", "--frames", "2", "--wind", "5,0,0"], tree,
+        Command("frames",
+                ["export", "tree.lsys", "-n", "2", "-o", "tree.ply", "--frames", "2", "--wind", "5,0,0"], tree,
                 is_set=False),
         Command("place", ["place", "scene.toml", "-o", "trees.placed"], scene),
     ]
     for extension in ("obj", "glb", "gltf", "ply", "stl", "svg", "usda"):
-        listed.append(Command(f"export-{extension}", ["export", "tree.lsys", "-n", "4", "-o", f"tree.{extension}"], tree))
+        arguments = ["export", "tree.lsys", "-n", "4", "-o", f"tree.{extension}"]
+        listed.append(Command(f"export-{extension}", arguments, tree))
     return listed
 
 
@@ -264,7 +266,7 @@ def main():
     parser.add_argument("--kills", type=int, default=4)
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("names", nargs="*")
-    options = parser.parse_args()
+    options = parser.parse_intermixed_args()  # COMMAND may stand behind options
     bench = Bench(os.path.abspath(options.lsc), os.path.abspath(options.library))
     generator = random.Random(options.seed)
     injected = dict.fromkeys([*CALLS, "kill"], 0)
@@ -296,7 +298,8 @@ def main():
                     for _ in range(options.kills):
                         before, outcome = bench.kill(command, old, generator.uniform(0, length))
                         injected["kill"] += 1
-                        for mistake in incomplete_files(usual, before, outcome, lambda name: is_temporary(name, usual.files)):
+                        may_remain = lambda name: is_temporary(name, usual.files)
+                        for mistake in incomplete_files(usual, before, outcome, may_remain):
                             print(f"{command.name}: killed: {mistake}")
                             failures += 1
     finally:
