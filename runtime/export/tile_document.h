@@ -116,7 +116,8 @@ public:
     /// `parts` must outlive the document.
     explicit TileDocument(const TileParts& parts) : parts_(parts) {}
 
-    /// Sets the surface, a node with the mesh of a document whose buffer is `data`.
+    /// Sets the surface of the tile, drawn by one node. Precondition: `surface` contains its
+    /// buffer, MeshDocument::data.
     void set_surface(MeshDocument surface) { surface_ = std::move(surface); }
     /// Sets the trees of the table of properties. Trees without instances get no row.
     void set_trees(std::vector<TileTree> trees) { trees_ = std::move(trees); }

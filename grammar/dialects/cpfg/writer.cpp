@@ -389,7 +389,7 @@ void CpfgWriter::write_pattern(const std::vector<CpfgModule>& list) {
     for (const CpfgModule& module : list) {
         const CpfgModule* const next = &module == &list.back() ? nullptr : &module + 1;
         if (module.name == "=" && next != nullptr && next->name == "]") {
-            continue; // the rest of the branch does not matter, as in .lsys
+            continue; // "the rest of the branch may be anything": always so in .lsys
         }
         write_name(module);
         for (std::size_t i = 0; i < module.arguments.size(); ++i) {

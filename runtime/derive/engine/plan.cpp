@@ -82,7 +82,7 @@ void Plan::make_codes() {
                          symbol.kind == SymbolKind::BranchClose;
     }
     has_parameters_ = max_stored != 0;
-    mixes_inputs_ = max_stored > 1;
+    has_several_parameters_ = max_stored > 1;
     for (const BytecodeProduction& production : bytecode_.productions) {
         if (std::uint64_t{production.successor.codes.count} * codes_.width > codes_.wide_bytes) {
             codes_.wide_bytes = 32;

@@ -206,8 +206,9 @@ public:
     [[nodiscard]] bool has_batched_draws() const { return has_batched_draws_; }
     /// Number of parameters per module for which the wide loop needs room.
     [[nodiscard]] std::uint32_t wide_parameters() const { return wide_parameters_; }
-    /// Whether terms of an entry may read different parameters.
-    [[nodiscard]] bool mixes_inputs() const { return mixes_inputs_; }
+    /// Whether some symbol has more than one parameter, so that terms of an entry may read
+    /// different ones.
+    [[nodiscard]] bool has_several_parameters() const { return has_several_parameters_; }
 
     // Properties of the active rows
     [[nodiscard]] bool all_fixed() const { return active_.dynamic_rows == 0; }
@@ -263,7 +264,8 @@ private:
     [[nodiscard]] std::uint32_t add_template(const std::vector<Code>& codes);
     [[nodiscard]] ConditionKind
     condition_for(const Family& family, const Candidate& candidate, const float* own) const;
-    [[nodiscard]] const float* own_constants(const Row& row) const;
+    /// The arguments of the folded module of a row; null: the row has no folded module.
+    [[nodiscard]] const float* folded_arguments(const Row& row) const;
     void set_kind(Code code, RowKind kind);
     void reset_row(Code code);
     [[nodiscard]] Entry identity_entry(Code code) const;
@@ -343,7 +345,7 @@ private:
     std::uint32_t wide_parameters_ = kEntryTerms;
     bool has_batched_ = false;
     bool has_batched_draws_ = false;
-    bool mixes_inputs_ = false;
+    bool has_several_parameters_ = false;
     bool has_parameters_ = false;
     bool has_structure_ = false;
     bool checks_unstored_ = false;

@@ -26,7 +26,7 @@ bool Plan::fold(Code code, Entry& entry) {
     auto known = folding_.templates.find(key);
     if (known == folding_.templates.end()) {
         const std::uint32_t first =
-            folded_template(candidates_[entry.candidate], own_constants(rows_[code]));
+            folded_template(candidates_[entry.candidate], folded_arguments(rows_[code]));
         known = folding_.templates.emplace(key, first).first;
     }
     if (known->second == kNone) {
@@ -96,7 +96,7 @@ void Plan::fold_records(const Family& family, Code code) {
     std::copy(block.begin(), block.end(), entries_.begin() + first);
     row.base = first - 1;
     row.slow =
-        own_constants(row) != nullptr &&
+        folded_arguments(row) != nullptr &&
         std::any_of(block.begin(), block.end(), [](const Entry& entry) { return entry.reads_own; });
 }
 

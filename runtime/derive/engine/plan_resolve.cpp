@@ -154,7 +154,7 @@ void Plan::activate_family(std::uint32_t family_index) {
     }
 }
 
-const float* Plan::own_constants(const Row& row) const {
+const float* Plan::folded_arguments(const Row& row) const {
     return row.constants == kNone ? nullptr : bytecode_.constants.data() + row.constants;
 }
 
@@ -191,7 +191,7 @@ void Plan::resolve(std::uint32_t family_index, Code code) {
     row.source = family_index;
     row.left_guard = family.left_guard;
     row.right_guard = family.right_guard;
-    const float* const own = own_constants(row);
+    const float* const own = folded_arguments(row);
     row.slow = own != nullptr && family.reads_own;
     if (family.replaces_several) {
         set_kind(code, RowKind::General);
@@ -274,7 +274,7 @@ bool Plan::resolve_tests(const Family& family, Code code) {
 void Plan::resolve_choice(const Family& family, std::uint32_t first_match, Code code) {
     Row& row = rows_[code];
     const Candidate& first = candidates_[family.first + first_match];
-    if (own_constants(row) != nullptr) {
+    if (folded_arguments(row) != nullptr) {
         if (folding_.budget < family.count) {
             set_kind(code, RowKind::General);
             return;
@@ -288,7 +288,7 @@ void Plan::resolve_choice(const Family& family, std::uint32_t first_match, Code 
         if (candidate.group != first.group || !candidate.stochastic) {
             continue;
         }
-        const ConditionKind condition = condition_for(family, candidate, own_constants(row));
+        const ConditionKind condition = condition_for(family, candidate, folded_arguments(row));
         if (condition == ConditionKind::Never) {
             continue;
         }
@@ -348,7 +348,8 @@ void Plan::resolve_fixed(Code code, const Entry& taken) {
     Row& row = rows_[code];
     Entry entry = taken;
     row.slow = false;
-    if (!fold(code, entry) && own_constants(row) != nullptr && (entry.reads_own || entry.general)) {
+    if (!fold(code, entry) && folded_arguments(row) != nullptr &&
+        (entry.reads_own || entry.general)) {
         row.slow = !make_constant(row, entry);
     }
     row.copies = false;
@@ -365,7 +366,7 @@ void Plan::resolve_fixed(Code code, const Entry& taken) {
 bool Plan::make_constant(const Row& row, Entry& entry) const {
     const BytecodeProduction& production =
         bytecode_.productions[candidates_[entry.candidate].production];
-    const float* const own = own_constants(row);
+    const float* const own = folded_arguments(row);
     if (entry.parameter_count > kEntryTerms) {
         return false;
     }

@@ -40,8 +40,8 @@ public:
         Term term;
         const std::uint32_t own = formal - knowledge_.own_first;
         if (formal >= knowledge_.own_first && own < knowledge_.own_count) {
-            if (knowledge_.own_constants != nullptr) {
-                return constant_term(knowledge_.own_constants[own]);
+            if (knowledge_.folded_arguments != nullptr) {
+                return constant_term(knowledge_.folded_arguments[own]);
             }
             term.kind = ShapeKind::Affine;
             term.affine.input = own;

@@ -46,9 +46,9 @@ struct Comparison {
 
 /// Inputs of an expression that are known while its shapes are found.
 struct ShapeKnowledge {
-    std::uint32_t own_first = 0;          // the first formal of the module's own parameters
-    std::uint32_t own_count = 0;          // number of own parameters; other formals are unknown
-    const float* own_constants = nullptr; // arguments of a folded module; null: stored, unknown
+    std::uint32_t own_first = 0;             // the first formal of the module's own parameters
+    std::uint32_t own_count = 0;             // number of own parameters; other formals are unknown
+    const float* folded_arguments = nullptr; // null: a stored module, values unknown
     const float* globals = nullptr;
     std::optional<float> step;
     float steps = 0.0F;

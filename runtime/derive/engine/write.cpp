@@ -149,7 +149,7 @@ public:
         } else if (!plan_.has_parameters() ||
                    !(request_.writes_parameters || plan_.checks_unstored())) {
             ok = run_with<TermInputs::None>();
-        } else if (!plan_.mixes_inputs()) {
+        } else if (!plan_.has_several_parameters()) {
             ok = run_with<TermInputs::First>();
         } else {
             ok = run_with<TermInputs::Any>();

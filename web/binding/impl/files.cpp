@@ -109,7 +109,7 @@ ExitStatus write_placed(const Json& request, const Session& session, const Outpu
     }
     overrides.value().grammar = grammar_options_of(request);
     if (options.instance_kind != ForestInstances::Branches) {
-        overrides.value().rho = 0.0F; // trees are whole heroes
+        overrides.value().rho = 0.0F; // no branch is replaced by a recorded one
     }
     if (std::string conflict = find_conflict(options, target.value(), overrides.value().rho);
         !conflict.empty()) {
