@@ -19,6 +19,9 @@ namespace lsys::lsc {
 
 namespace fs = std::filesystem;
 
+// Number of files that are stored at once: many, so that storing takes less time than making them.
+constexpr std::size_t kFilesStoredAtOnce = 128;
+
 NextFile files_of_part(const TilePart& part, std::uint64_t end) {
     const auto taken = std::make_shared<std::atomic<std::uint64_t>>(0);
     return [taken, part, end]() -> std::optional<std::uint64_t> {
@@ -96,10 +99,16 @@ void TilesetFolder::make() {
 }
 
 void TilesetFolder::write(std::uint64_t number) {
-    if (number == root() && !is_stopped()) {
-        // The root shows that the tileset is complete, also after a power failure.
-        platform::store_file_system(command_.output);
+    if (number == root()) {
+        name_files(); // the root shows that the tileset is complete
+        write_numbered(number);
+        name_files();
+    } else {
+        write_numbered(number);
     }
+}
+
+void TilesetFolder::write_numbered(std::uint64_t number) {
     const auto section = std::find_if(sections_.begin(), sections_.end(),
                                       [number](const Section& each) { return number < each.end; });
     const std::uint64_t index =
@@ -130,10 +139,11 @@ void TilesetFolder::write_from(const NextFile& next) {
     while (!is_stopped()) {
         const std::optional<std::uint64_t> number = next();
         if (!number) {
-            return;
+            break;
         }
         write(*number);
     }
+    name_files();
 }
 
 template <typename Make>
@@ -148,13 +158,40 @@ void TilesetFolder::write_file_at(const std::string& path, const Make& make) {
     if (is_stopped_) {
         return;
     }
-    if (const Result<void> written = lsys::write_file(whole, bytes, console_, Storing::BySystem);
-        !written) {
+    Result<Output> output = Output::open(whole, console_);
+    Result<void> written = output ? output.value().write(bytes) : Result<void>(output.error());
+    if (written) {
+        written = output.value().finish(Storing::BySystem);
+    }
+    if (!written) {
         stop(written.error());
         return;
     }
     bytes_ += bytes.size();
     ++files_;
+    const std::unique_lock<std::mutex> lock(outputs_mutex_);
+    outputs_.push_back(std::move(output.value()));
+    if (outputs_.size() >= kFilesStoredAtOnce) {
+        name_files(lock);
+    }
+}
+
+void TilesetFolder::name_files() {
+    name_files(std::unique_lock<std::mutex>(outputs_mutex_));
+}
+
+void TilesetFolder::name_files(const std::unique_lock<std::mutex>& /*lock*/) {
+    if (outputs_.empty()) {
+        return;
+    }
+    // After a power failure a name must not stand for a file whose bytes were never stored.
+    platform::store_file_system(command_.output);
+    for (Output& output : outputs_) {
+        if (const Result<void> named = output.commit(Storing::BySystem); !named) {
+            stop(named.error());
+        }
+    }
+    outputs_.clear();
 }
 
 /// Makes a folder below the folder of the tileset.

@@ -7,6 +7,7 @@
 #include "grammar/base/result.h"
 #include "runtime/cli/options.h"
 #include "runtime/program/console.h"
+#include "runtime/program/files.h"
 #include "runtime/tiles/tiles.h"
 
 #include <atomic>
@@ -83,9 +84,13 @@ private:
     };
 
     void add_section(Kind kind, std::uint32_t level);
+    void write_numbered(std::uint64_t number);
     template <typename Make>
     void write_file_at(const std::string& path, const Make& make);
     void make_folder(std::string_view path);
+    /// Stores the files of `outputs_` on the disk, then gives them their names.
+    void name_files();
+    void name_files(const std::unique_lock<std::mutex>& lock); // locks outputs_mutex_
 
     const TilesCommand& command_;
     const TileForest& forest_;
@@ -98,6 +103,8 @@ private:
     mutable std::mutex mutex_; // guards folders_ and result_
     std::set<std::string> folders_;
     Result<void> result_;
+    std::mutex outputs_mutex_;    // guards outputs_
+    std::vector<Output> outputs_; // complete files under temporary names
 };
 
 } // namespace lsys::lsc

@@ -1,14 +1,17 @@
 // SPDX-License-Identifier: MIT
 // A library that is loaded before others (LD_PRELOAD). It counts calls of the C library by the program and lets one of
-// them fail once. Two variables of the environment say what it does:
+// them fail once. Variables of the environment say what it does:
 //   LSYS_FAULT         CALL:NUMBER:ERROR, e.g. `write:3:28`: the third write() fails with error number 28 (ENOSPC).
 //                      ERROR `short`, for read and write only: the call transfers one byte.
 //   LSYS_FAULT_COUNTS  a file of at least 8 bytes for each CALL, to which the numbers of calls are written in the order
 //                      of the enumeration below, each as 64 bits.
+//   LSYS_FAULT_ORDER   a file to which lines are appended: `write`, `fsync`, `syncfs` or `rename` and the
+//                      paths of the files.
 // Programs that the program starts do not load the library. Linux with the GNU C library only, whose allocating
 // functions can be called by a second name.
 #include <atomic>
 #include <cerrno>
+#include <climits>
 #include <cstdarg>
 #include <cstdint>
 #include <cstdio>
@@ -60,6 +63,7 @@ Fault fault;
 std::atomic<std::uint64_t> own_counts[CallCount];
 std::atomic<std::uint64_t>* counts = own_counts;
 std::atomic<bool> is_ready = false;
+int order_file = -1; // descriptor for the order of calls; -1: not recorded
 
 Fault parse(const char* text) {
     const char* const number = std::strchr(text, ':');
@@ -92,6 +96,10 @@ __attribute__((constructor)) void begin() {
         }
         syscall(SYS_close, file);
     }
+    if (const char* const path = std::getenv("LSYS_FAULT_ORDER")) {
+        order_file = static_cast<int>(
+            syscall(SYS_openat, AT_FDCWD, path, O_WRONLY | O_APPEND | O_CLOEXEC, 0));
+    }
     unsetenv("LD_PRELOAD");
     is_ready = true;
 }
@@ -111,6 +119,36 @@ bool fails(Call call) {
         errno = error;
     }
     return error != 0;
+}
+
+// Records a call with the paths of its files; the second one may be empty.
+void record(const char* call, const char* path, const char* second = "") {
+    char line[2 * PATH_MAX + 16];
+    const int size = std::snprintf(line, sizeof line, "%s\t%s\t%s\n", call, path, second);
+    syscall(SYS_write, order_file, line, static_cast<std::size_t>(size));
+}
+
+void record(const char* call, int file) {
+    if (order_file < 0) {
+        return;
+    }
+    char link[32];
+    std::snprintf(link, sizeof link, "/proc/self/fd/%d", file);
+    char path[PATH_MAX] = "";
+    if (syscall(SYS_readlinkat, AT_FDCWD, link, path, sizeof path - 1) > 0) {
+        record(call, path);
+    }
+}
+
+// Records a rename, with the paths as given.
+int renamed(int from_folder, const char* from, int to_folder, const char* to, unsigned flags) {
+    if (fails(Rename)) {
+        return -1;
+    }
+    if (order_file >= 0) {
+        record("rename", from, to);
+    }
+    return static_cast<int>(syscall(SYS_renameat2, from_folder, from, to_folder, to, flags));
 }
 
 // The function of the C library that this library hides.
@@ -163,19 +201,16 @@ ssize_t write(int file, const void* bytes, size_t size) {
         errno = error;
         return -1;
     }
+    record("write", file);
     return syscall(SYS_write, file, bytes, error == kShort && size > 1 ? 1 : size);
 }
 
 int rename(const char* from, const char* to) {
-    return fails(Rename)
-               ? -1
-               : static_cast<int>(syscall(SYS_renameat2, AT_FDCWD, from, AT_FDCWD, to, 0));
+    return renamed(AT_FDCWD, from, AT_FDCWD, to, 0);
 }
 
 int renameat2(int from_folder, const char* from, int to_folder, const char* to, unsigned flags) {
-    return fails(Rename)
-               ? -1
-               : static_cast<int>(syscall(SYS_renameat2, from_folder, from, to_folder, to, flags));
+    return renamed(from_folder, from, to_folder, to, flags);
 }
 
 void* mmap(void* address, size_t size, int protection, int flags, int file, off_t offset) {
@@ -187,7 +222,16 @@ void* mmap(void* address, size_t size, int protection, int flags, int file, off_
 }
 
 int fsync(int file) {
-    return fails(Fsync) ? -1 : static_cast<int>(syscall(SYS_fsync, file));
+    if (fails(Fsync)) {
+        return -1;
+    }
+    record("fsync", file);
+    return static_cast<int>(syscall(SYS_fsync, file));
+}
+
+int syncfs(int file) {
+    record("syncfs", file);
+    return static_cast<int>(syscall(SYS_syncfs, file));
 }
 
 // A failed close() has closed the file, as on Linux.

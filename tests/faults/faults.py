@@ -7,6 +7,9 @@ pthread_create() fails once (failing_calls.cpp). After each run:
 - the program ended by itself, with its usual exit status or, with a message, with 2 or 3 (3 where memory ran out);
 - with the usual status all output has the usual bytes, else all files are as before, or all are complete;
 - no temporary file remains.
+Another run records in which order files are written, stored (fsync, syncfs) and renamed. If the power fails, a file may have
+its new name and lack what was not stored before, so each file must be stored between its last write and its rename,
+and no file may be written under its own name.
 Usage: faults.py LSC LIBRARY [--every N] [--seed S] [--kills K] [COMMAND...]
   --every N   inject every Nth fault of each command, beginning with a random one (default 40); 1 is all of them
   --kills K   also end each command that writes by SIGKILL at K random moments (default 4)
@@ -151,19 +154,21 @@ class Bench:
                 file.write(text)
         return folder
 
-    def start(self, command, folder, fault, counts):
+    def start(self, command, folder, fault, counts, order=""):
         environment = {"PATH": os.environ["PATH"], "LD_PRELOAD": self.library}
         if fault:
             environment["LSYS_FAULT"] = fault
         if counts:
             environment["LSYS_FAULT_COUNTS"] = counts
+        if order:
+            environment["LSYS_FAULT_ORDER"] = order
         return subprocess.Popen([self.lsc, *command.arguments], cwd=folder, env=environment, stdin=subprocess.DEVNULL,
                                 stdout=subprocess.PIPE, stderr=subprocess.PIPE)
 
-    def run(self, command, old=(), fault="", counts=""):
+    def run(self, command, old=(), fault="", counts="", order=""):
         folder = self.prepare(command, old)
         before = files_in(folder)
-        process = self.start(command, folder, fault, counts)
+        process = self.start(command, folder, fault, counts, order)
         try:
             out, err = process.communicate(timeout=TIME_LIMIT)
             status = process.returncode
@@ -184,6 +189,14 @@ class Bench:
             with open(file.name, "rb") as read:
                 numbers = struct.unpack(f"{len(CALLS)}Q", read.read(8 * len(CALLS)))
         return dict(zip(CALLS, numbers)), outcome
+
+    def order(self, command, old):
+        """The calls that write, store and rename files: name of the call, and base names of the files."""
+        with tempfile.NamedTemporaryFile(dir=self.root) as file:
+            self.run(command, old, order=file.name)
+            with open(file.name, encoding="utf-8") as read:
+                fields = [line.rstrip("\n").split("\t") for line in read]
+        return [(call, os.path.basename(path), os.path.basename(second)) for call, path, second in fields]
 
     def kill(self, command, old, seconds):
         folder = self.prepare(command, old)
@@ -232,6 +245,26 @@ def incomplete_files(usual, before, outcome, may_remain=lambda name: False):
         elif not may_remain(name):
             wrong.append(f"`{name}` remains")
     return wrong
+
+
+def mistakes_of_order(calls, files):
+    """What may be lost where the power fails: a list of sentences. `files`: names of the files that the command writes."""
+    wrong = []
+    written, stored = set(), set()
+    for call, name, new_name in calls:
+        if call == "write":
+            written.add(name)
+            stored.discard(name)
+            if name in files:
+                wrong.append(f"`{name}` is written under its own name")
+        elif call == "fsync":
+            stored.add(name)
+        elif call == "syncfs":
+            stored |= written
+        elif call == "rename" and (name not in written or name not in stored):
+            wrong.append(f"`{name}` becomes `{new_name}`, but its last writes are not stored")
+    missing = files - {new_name for call, _, new_name in calls if call == "rename"}
+    return wrong + [f"`{name}` is not renamed from a temporary file" for name in sorted(missing)]
 
 
 def is_temporary(name, files):
@@ -292,6 +325,11 @@ def main():
                         print(f"{command.name}: LSYS_FAULT={fault}: {mistake}")
                         failures += 1
                 if writes:
+                    new = {name for name, content in usual.files.items()
+                           if name in old or command.files[name].encode() != content}
+                    for mistake in mistakes_of_order(bench.order(command, old), {os.path.basename(name) for name in new}):
+                        print(f"{command.name}: {mistake}")
+                        failures += 1
                     begin = time.monotonic()
                     bench.run(command, old)
                     length = time.monotonic() - begin
