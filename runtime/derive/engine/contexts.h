@@ -110,7 +110,8 @@ private:
     Arena offsets_;
     std::uint64_t count_ = 0;
     bool plain_ = true;
-    bool has_structure_ = false;
+    bool has_structure_ = false; // Plan::has_structure(): the word may have brackets
+    // Tables that the active productions need:
     bool needs_left_ = false;
     bool needs_right_ = false;
     bool needs_jump_ = false;

@@ -56,6 +56,7 @@ private:
     std::uint32_t generation_;
 };
 
+/// The enumerators of RuntimeErrorKind that an evaluation can cause.
 enum class Fault : std::uint8_t {
     None,
     NotFinite,

@@ -81,8 +81,8 @@ private:
     const ContextTables* contexts_;
     std::vector<std::uint64_t> left_; // module matched by each pattern item
     std::vector<std::uint64_t> right_;
-    std::vector<std::uint64_t> predecessor_;
-    std::vector<std::uint64_t> branches_; // gaps after the branches that the search has entered
+    std::vector<std::uint64_t> predecessor_; // as left_; modules of the predecessor
+    std::vector<std::uint64_t> branches_;    // gaps after the branches that the search has entered
     std::vector<float> formals_;
 };
 
