@@ -63,7 +63,7 @@ private:
     EnvironmentSense& senses_;
     const Bytecode& bytecode_;
     std::uint64_t seed_;
-    bool records_ = false;
+    bool records_ = false; // the derivation in progress has the seed `seed_`
     std::vector<ShadingWord> words_;
 };
 

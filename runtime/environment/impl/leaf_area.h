@@ -20,7 +20,8 @@ using CellIndex = std::array<std::int64_t, 3>;
 
 inline constexpr double kMaxCellIndex = 2147483648.0; // 2^31
 
-/// The cell of a point, nothing if an index is beyond 2^31 or not a number.
+/// The cell of a point, nothing if an index is beyond 2^31 or not a number. `cell`: edge of a cell,
+/// m.
 [[nodiscard]] std::optional<CellIndex> cell_of(const Vector3& point, double cell);
 
 /// Cells from `low` to `high`, both included.

@@ -61,6 +61,7 @@ public:
     }
 
 private:
+    /// Numbers of places with smaller x, for the ranges of z of the three squares of squares().
     [[nodiscard]] Lanes line(std::int64_t x, std::int64_t z, std::int64_t layer) const {
         const std::uint32_t* const at = sums_.data() + static_cast<std::size_t>(x) * stride_ +
                                         static_cast<std::size_t>(z - layer - 1);
