@@ -19,6 +19,7 @@ namespace lsys {
 namespace {
 
 constexpr std::uint64_t kSeed = 0x7468696E; // fixed: the order depends on no seed of the user
+// Argument `block` of draw_block() for paths and for foliage.
 constexpr std::uint32_t kPathBlock = 0;
 constexpr std::uint32_t kFoliageBlock = 1;
 constexpr int kWideningSteps = 40; // halvings of the interval of the radius
