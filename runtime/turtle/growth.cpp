@@ -47,7 +47,7 @@ struct MovingSegment {
 struct MovingObject {
     Motion motion;
     BeforeAndAfter<float> size{};
-    std::uint32_t old = kNone; // of an organ with as many points, or fewer: index in `before`
+    std::uint32_t old = kNone; // index in `before` of an organ with at most as many points
 };
 
 struct MovingPolygon {
@@ -115,6 +115,7 @@ struct SkeletonGrowth::State {
         return old == kNoSegment ? kNoSegment : new_segments[old];
     }
 
+    /// Sets the pose in the drawing `end`, an index of BeforeAndAfter.
     void set_end(Motion& motion,
                  std::size_t end,
                  const glm::dvec3& place,

@@ -35,7 +35,7 @@ public:
     }
 
 private:
-    std::vector<std::uint32_t> first_;
+    std::vector<std::uint32_t> first_; // by module: index in items_; last: its size
     std::vector<std::uint32_t> items_;
 };
 

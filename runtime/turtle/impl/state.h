@@ -130,6 +130,7 @@ struct Turtle::State {
     bool add_origin(const Origin& origin);
     /// Executes one action. Returns false if the drawing has ended; `end.stop` is the reason.
     bool execute(const Action& action, const float* arguments);
+    // `part`: factor of the length.
     bool forward(const Action& action, const float* arguments, float part);
     bool forward_with_tropisms(const Action& action, const float* arguments, float part);
     bool move(double length, bool adds_corners);
@@ -226,7 +227,7 @@ struct Turtle::State {
     Origin polygon_origin;      // origin of the `{` of the polygon closed last
     std::uint64_t cut = 0;      // in a skipped part: 1 + its number of open brackets; else 0
     bool has_origins = false;   // the words fed last have origins
-    bool interprets = false;
+    bool interprets = false;    // the program has productions of #interpret
     std::unique_ptr<Interpretation> interpretation; // made with the first piece
     std::vector<Code> piece;                        // codes that are interpreted, widened to Code
     PendingCommand pending;
@@ -236,8 +237,8 @@ struct Turtle::State {
     bool has_second_heading = false; // a module of the bytecode uses the second heading
     // Mass and spring of the last segment, cached for segments of equal shape.
     double cached_length = -1.0;
-    float cached_base = -1.0F;
-    float cached_tip = -1.0F;
+    float cached_base = -1.0F; // width at the base, m
+    float cached_tip = -1.0F;  // width at the tip, m
     float cached_mass = 0.0F;
     float cached_spring = 0.0F;
 };
