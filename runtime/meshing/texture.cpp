@@ -124,10 +124,10 @@ public:
     }
 
 private:
-    Lines deep_{7, 3, 1};
-    Lines thin_{11, 4, 3};
-    Lines across_{9, 7, 5};
-    Noise cracks_{9, 6, 7};
+    Lines deep_{7, 3, 1};   // deep fissures
+    Lines thin_{11, 4, 3};  // shallow fissures
+    Lines across_{9, 7, 5}; // cracks across the fissures
+    Noise cracks_{9, 6, 7}; // places that have cracks
     Noise grain_{64, 16, 8};
     Noise fine_grain_{128, 64, 9};
 };

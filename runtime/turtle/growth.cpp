@@ -30,7 +30,7 @@ struct Joint {
 
 /// The motion of an item, relative to its parent.
 struct Motion {
-    BeforeAndAfter<glm::quat> turn;
+    BeforeAndAfter<glm::quat> turn;    // rotation from the parent's frame
     BeforeAndAfter<glm::vec3> offset;  // vector from the parent's tip, in the parent's frame
     std::uint32_t parent = kNoSegment; // index in State::segments
     bool eases = false;                // grows from size 0 or shrinks to size 0
@@ -51,8 +51,8 @@ struct MovingObject {
 };
 
 struct MovingPolygon {
-    Motion motion; // motion of the polygon's frame
-    std::uint32_t first_corner = 0;
+    Motion motion;                  // motion of the polygon's frame
+    std::uint32_t first_corner = 0; // index in State::corners
 };
 
 double interpolated(float before, float after, double part) {

@@ -35,6 +35,7 @@ class ActiveMask {
 public:
     /// Max modules per call of fill().
     static constexpr std::size_t kModules = 4096;
+    /// Modules per ActiveBits.
     static constexpr std::size_t kBlock = 64;
 
     /// Builds the tables for the current rows of the plan. `contexts` has the modules that a

@@ -50,7 +50,7 @@ struct BatchInputs {
     std::uint64_t first_draw = 0;
 };
 
-/// The modules of a batch.
+/// The modules of a batch, by lane.
 struct BatchModules {
     std::array<const float*, kLanes> formals;
     std::array<std::uint64_t, kLanes> positions;

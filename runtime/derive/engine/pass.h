@@ -96,11 +96,11 @@ private:
     std::uint64_t previous_modules_ = 0; // length of the word that the last pass read; 0: none
     Arena records_;                     // records of a chunk begin at the index of its first module
     std::vector<std::uint64_t> census_; // number of modules of each code in the word
-    bool census_known_ = false;
-    bool by_census_ = false;        // this pass takes sizes from the census and writes in order
-    std::uint64_t modules_ = 0;     // modules of the word to write
-    std::uint64_t parameters_ = 0;  // parameters of the word to write
-    std::uint64_t other_bytes_ = 0; // argument of run()
+    bool census_known_ = false;         // the census is that of the word that run() gets next
+    bool by_census_ = false;            // this pass takes sizes from the census and writes in order
+    std::uint64_t modules_ = 0;         // modules of the word to write
+    std::uint64_t parameters_ = 0;      // parameters of the word to write
+    std::uint64_t other_bytes_ = 0;     // argument of run()
     std::atomic<std::uint64_t> written_{0}; // modules written so far, for progress
     std::mutex progress_mutex_;
     RuntimeError error_;

@@ -107,7 +107,7 @@ struct Candidate {
     std::uint32_t comparison_room = 0;   // comparisons for which there is room from that index
     std::uint32_t first_term = 0;        // index in terms, if more than kEntryTerms parameters
     std::uint32_t batch_program = kNone; // index in batch_programs(); set when first needed
-    float weight = 0.0F;
+    float weight = 0.0F;                 // unless computes_weight
     ConditionKind condition = ConditionKind::Always;
     bool stochastic = false;      // has a weight: chosen by chance among its group
     bool computes_weight = false; // code computes the weight for each module
@@ -292,8 +292,8 @@ private:
         std::vector<std::byte> pool;      // templates, each code once, folded templates, slack
         std::uint32_t first_identity = 0; // index in the pool where the list of all codes begins
         std::vector<std::uint32_t> first_of_symbol; // index in by_symbol; last: its size
-        std::vector<Code> by_symbol;
-        std::uint32_t width = 1; // bytes per code
+        std::vector<Code> by_symbol;                // codes grouped by symbol
+        std::uint32_t width = 1;                    // bytes per code
         std::uint32_t wide_bytes = 16;
     };
     /// Alternatives of Choice rows.
@@ -330,8 +330,8 @@ private:
     PlanInputs inputs_;
     bool each_generation_;
     TableRange productions_;
-    bool families_by_symbol_; // a family holds all productions of its symbol
-    std::uint32_t generation_ = 0;
+    bool families_by_symbol_;                   // a family holds all productions of its symbol
+    std::uint32_t generation_ = 0;              // argument of the last prepare()
     std::optional<GlibcRuleDraws> glibc_draws_; // set with `random glibc`
 
     std::vector<Row> rows_; // by code

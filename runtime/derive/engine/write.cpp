@@ -501,11 +501,11 @@ private:
     const Row* rows_;
     const Entry* entries_;
     const C* pool_;
-    const R* records_;
+    const R* records_; // the next record
     Batches& batches_;
-    ModulePlace place_;
-    C* codes_;
-    float* parameters_;
+    ModulePlace place_; // the next module
+    C* codes_;          // where the next code is written
+    float* parameters_; // where the next parameter is written
 };
 
 } // namespace

@@ -79,7 +79,7 @@ public:
 
 private:
     CellIndex low_;
-    std::array<std::size_t, 3> extents_;
+    std::array<std::size_t, 3> extents_; // cells along each axis
     LargeVector<double> opacities_;
 };
 
@@ -152,7 +152,7 @@ private:
     [[nodiscard]] const Entry& find(const Key& key) const { return entries_[index_of(key)]; }
 
     CellIndex low_;
-    std::uint32_t levels_;
+    std::uint32_t levels_;    // count of the sizes of blocks; level 0: single cells
     std::uint32_t shift_ = 0; // a hash >> shift_ is an index in entries_
     std::vector<Entry> entries_;
 };

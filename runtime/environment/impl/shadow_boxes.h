@@ -73,7 +73,7 @@ private:
         return lanes;
     }
 
-    std::size_t stride_ = 0;
+    std::size_t stride_ = 0; // elements per line, all elements with one x
     std::vector<std::uint32_t> sums_;
     std::vector<std::uint8_t> used_; // lines with sources
 };

@@ -80,11 +80,11 @@ private:
     std::vector<Neighbour> neighbours_;
     /// Tiles from which find_neighbours() searches the tiles at x - 1, x and x + 1.
     std::array<std::size_t, 3> tile_cursors_{};
-    bool has_cursors_ = false; // find_neighbours() has set tile_cursors_
-    std::array<SummedAreaTable, 3> tables_;
-    SummedAreaTable empty_table_;
-    std::vector<LayerCounts> pair_counts_; // counts by layer
-    std::vector<ShadowSum> sums_;
+    bool has_cursors_ = false;              // find_neighbours() has set tile_cursors_
+    std::array<SummedAreaTable, 3> tables_; // of three rows, by number of the row modulo 3
+    SummedAreaTable empty_table_;           // for rows without sources
+    std::vector<LayerCounts> pair_counts_;  // counts by layer
+    std::vector<ShadowSum> sums_;           // by target
 };
 
 } // namespace lsys

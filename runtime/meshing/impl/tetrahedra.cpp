@@ -54,8 +54,8 @@ constexpr double kExact = 1e-6;
 struct Tetrahedron {
     std::array<Node, 4> nodes{};
     std::array<double, 4> distances{}; // of the nodes from the surface
-    int tag = 3; // the next bisection cuts the edge from nodes[0] to nodes[tag]
-    int generation = 0;
+    int tag = 3;        // the next bisection cuts the edge from nodes[0] to nodes[tag]
+    int generation = 0; // number of bisections that made it
 };
 
 struct Grid {
@@ -483,7 +483,7 @@ private:
     const std::vector<Ball>& balls_; // a ball around each shape
     const Grid& grid_;
     std::atomic<std::uint64_t>& bytes_left_;
-    bool overflow_ = false;
+    bool overflow_ = false; // more bytes were needed than are left
     std::vector<std::uint32_t>
         near_; // numbers of shapes, stacked: of an ancestor, then of its descendants
     std::vector<Size> probes_;           // values at one point for some shapes, see measure_all()

@@ -47,10 +47,10 @@ void order_paths(const Skeleton& skeleton, ThinningOrder& order) {
         }
     }
     struct Path {
-        double area = 0.0;
-        std::uint32_t order = 0;
-        std::uint32_t random = 0;
-        std::uint32_t number = 0;
+        double area = 0.0;        // outline area of the path and its branches
+        std::uint32_t order = 0;  // number of ancestors
+        std::uint32_t random = 0; // decides between equal paths
+        std::uint32_t number = 0; // number of the path before sorting
     };
     std::vector<Path> paths;
     order.path_ranks.resize(count);

@@ -43,7 +43,7 @@ struct Action {
 
 struct ActionTable {
     std::vector<Action> by_code;
-    std::vector<std::string> mesh_files;
+    std::vector<std::string> mesh_files;                          // Skeleton::mesh_files
     std::shared_ptr<const std::vector<BytecodeContour>> contours; // null: none
     bool reads_text = false; // parentheses may hold a parameter as text
     bool draws_organs = false;

@@ -233,7 +233,7 @@ struct Turtle::State {
     PendingCommand pending;
     bool keeps_origins = false; // set only for words of L3D
     TurtleTraits traits;
-    bool has_tropism = false;
+    bool has_tropism = false;        // Settings::has_tropism
     bool has_second_heading = false; // a module of the bytecode uses the second heading
     // Mass and spring of the last segment, cached for segments of equal shape.
     double cached_length = -1.0;

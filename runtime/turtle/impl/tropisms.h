@@ -62,7 +62,7 @@ private:
     StepTropisms rows_; // the rows of the setting
     State now_;
     std::vector<State> stack_;
-    bool any_ = false;
+    bool any_ = false; // any()
 };
 
 } // namespace lsys
