@@ -92,8 +92,8 @@ constexpr double kRounding = 1e-5;
 } // namespace
 
 struct SkeletonGrowth::State {
-    Skeleton before;
-    Skeleton after;
+    Skeleton before; // of the earlier word
+    Skeleton after;  // of the later word
     GrowthCounts counts;
     LargeVector<MovingSegment> segments; // segments of `after`, then segments that shrink
     LargeVector<MovingObject> objects;

@@ -52,7 +52,7 @@ private:
     DrawSource source_;
     std::uint64_t seed_;
     std::uint64_t position_;
-    std::uint64_t first_;
+    std::uint64_t first_; // number of the draw of range 0
     std::uint32_t generation_;
 };
 

@@ -85,7 +85,7 @@ private:
     const MeshOptions& options_;
     const Flare& flare_;
     bool seam_; // rings have a seam: one vertex more than sides
-    Place at_;
+    Place at_;  // up to where the run is written
     // State of the run being written:
     double v_scale_ = 0.0;             // texture coordinate v per arc length
     const BarkNoise* noise_ = nullptr; // null: none

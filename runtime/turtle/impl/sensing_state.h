@@ -105,8 +105,8 @@ struct SensingTurtle::State {
     ActionTable table;
     std::vector<SensingAction> actions; // by code
     std::vector<double> areas;          // by code, of an object of size 1
-    SensingBrush now;
-    std::vector<SensingBrush> stack;
+    SensingBrush now;                   // state at the module being executed
+    std::vector<SensingBrush> stack;    // states saved by the open `[`, the innermost last
     SensingPolygons polygons;
     Tropisms tropisms;
     std::vector<SenseModule> waiting; // sense modules of the piece being interpreted
@@ -119,7 +119,7 @@ struct SensingTurtle::State {
     Code code = 0;                       // of the current module
     std::uint64_t walked_parameters = 0; // parameters of the modules before the current piece
     std::uint64_t first_of_piece = 0;    // index in the word of the piece that is interpreted
-    std::optional<Stop> stopped;
+    std::optional<Stop> stopped;         // why a module ended the walk, if one did
     RuntimeError error;
     bool interprets = false; // the program has productions of #interpret
     bool has_second_heading = false;

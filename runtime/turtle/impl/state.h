@@ -214,8 +214,8 @@ struct Turtle::State {
     TurtleOptions options;
     ActionTable table;
     Skeleton skeleton;
-    TurtleState now;
-    std::vector<TurtleState> stack;
+    TurtleState now;                  // state at the module being executed
+    std::vector<TurtleState> stack;   // states saved by the open `[`, the innermost last
     std::vector<std::size_t> watched; // stack size within each open branch that has a watcher
     OpenPolygons polygons{bytecode.settings.traits.corners_are_ends};
     OpenOrgans organs;
