@@ -82,14 +82,14 @@ struct LatestJob::State {
         }
     }
 
-    std::mutex mutex; // guards the members below
-    std::condition_variable changed;
-    std::deque<Entry> entries; // references to entries stay valid
+    std::mutex mutex;                // guards the members below
+    std::condition_variable changed; // signalled when a member below changes
+    std::deque<Entry> entries;       // references to entries stay valid
     /// Time at which the running job will be cancelled; unset if the job has been cancelled.
     std::optional<JobClock::time_point> deadline;
-    bool stops = false;
-    std::thread worker;
-    std::thread timer;
+    bool stops = false; // both threads end
+    std::thread worker; // runs jobs
+    std::thread timer;  // cancels jobs
 };
 
 LatestJob::LatestJob() : state_(std::make_unique<State>()) {}

@@ -86,10 +86,10 @@ private:
 
     mutable std::mutex mutex_;
     std::condition_variable changed_; // numbers have been added, or the queue is closed
-    std::condition_variable is_low_;
-    std::deque<Range> ranges_; // no range is empty
-    std::uint64_t left_ = 0;
-    std::uint64_t wanted_below_ = 0; // `count` of wait_below(); 0: no thread waits
+    std::condition_variable is_low_;  // fewer than wanted_below_ numbers are left
+    std::deque<Range> ranges_;        // no range is empty
+    std::uint64_t left_ = 0;          // count of the numbers in ranges_
+    std::uint64_t wanted_below_ = 0;  // `count` of wait_below(); 0: no thread waits
     bool is_closed_ = false;
 };
 

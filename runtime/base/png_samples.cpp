@@ -19,7 +19,7 @@ namespace {
 
 /// The input of libpng, and the reason of its failure.
 struct PngInput {
-    std::string_view unread;
+    std::string_view unread; // bytes that libpng has not read yet
     std::array<char, 128> reason{};
 };
 
@@ -46,7 +46,7 @@ struct PngSize {
     std::uint32_t columns = 0;
     std::uint32_t rows = 0;
     std::uint32_t channels = 0;
-    std::uint32_t passes = 0;
+    std::uint32_t passes = 0; // passes over the rows: more than one if interlaced
 };
 
 /// Prepares libpng to give samples as `form`. Returns false on failure, see PngInput::reason.

@@ -15,18 +15,19 @@ struct SineCosine {
     double cosine = 1.0;
 };
 
-/// Sine and cosine of an angle, from those of the angle less `quarters` quarter turns.
+/// Sine and cosine of an angle. `reduced`: sine and cosine of the angle less `quarters` quarter
+/// turns.
 template <typename Pair>
-[[nodiscard]] Pair after_quarter_turns(const Pair& of, std::uint32_t quarters) {
+[[nodiscard]] Pair after_quarter_turns(const Pair& reduced, std::uint32_t quarters) {
     switch (quarters & 3U) {
     case 0:
-        return of;
+        return reduced;
     case 1:
-        return {of.cosine, -of.sine};
+        return {reduced.cosine, -reduced.sine};
     case 2:
-        return {-of.sine, -of.cosine};
+        return {-reduced.sine, -reduced.cosine};
     default:
-        return {-of.cosine, of.sine};
+        return {-reduced.cosine, reduced.sine};
     }
 }
 

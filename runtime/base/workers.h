@@ -39,7 +39,7 @@ public:
 private:
     struct Team;
 
-    std::uint32_t count_;
+    std::uint32_t count_;        // workers, the calling thread included
     std::unique_ptr<Team> team_; // null until started
 };
 

@@ -65,15 +65,15 @@ private:
     struct Change {
         std::int8_t branches = 0; // added to the number of open branches
         std::int8_t polygons = 0; // added to the number of open polygons
-        bool cuts = false;
+        bool cuts = false;        // a `%`: removes the rest of its branch
     };
     std::vector<Change> changes_;             // by code
     std::vector<std::int8_t> branch_changes_; // by code, Change::branches
-    std::int64_t branches_ = 0;
-    std::int64_t polygons_ = 0;
+    std::int64_t branches_ = 0;               // number of open branches
+    std::int64_t polygons_ = 0;               // number of open polygons
     std::int64_t cut_ = 0; // number of open brackets from the cut branch inwards; 0: nothing is cut
-    bool has_branch_close_ = false;
-    bool has_polygon_close_ = false;
+    bool has_branch_close_ = false;  // the program has modules `]`
+    bool has_polygon_close_ = false; // the program has modules `}`
 };
 
 /// The production that must have written an unmatched module of the kind `close`, BranchClose or

@@ -109,7 +109,7 @@ struct DeriveOptions {
     /// Whether to keep the origin of each module: 8 bytes per module, and slower passes.
     bool origins = false;
     Limits limits;
-    const std::atomic<bool>* cancelled = nullptr;
+    const std::atomic<bool>* cancelled = nullptr; // becomes true to cancel; null: never
     /// Answers the sense modules; not null if the bytecode has any. Outlives the derivation.
     WordSense* senses = nullptr;
     /// Max modules per chunk of a thread. Words do not depend on it; tests make it small.

@@ -195,14 +195,14 @@ private:
     std::vector<float> globals_;
     std::uint32_t generations_;
     FoldedIndex index_;
-    std::vector<bool> seen_; // by code
-    std::vector<Code> next_; // modules that occur first at the next age
-    Table by_symbol_;
-    Table decompositions_; // productions of #decompose
-    std::uint32_t max_codes_ = 0;
-    std::uint64_t trials_ = 0;
+    std::vector<bool> seen_;       // by code
+    std::vector<Code> next_;       // modules that occur first at the next age
+    Table by_symbol_;              // productions of rewriting
+    Table decompositions_;         // productions of #decompose
+    std::uint32_t max_codes_ = 0;  // max codes of the folded program
+    std::uint64_t trials_ = 0;     // applications of productions so far
     bool axiom_is_folded_ = false; // the axiom stored parameters before it was folded
-    bool ok_ = true;
+    bool ok_ = true;               // no limit was exceeded
 };
 
 } // namespace

@@ -112,7 +112,7 @@ private:
     Sink sink_;
     bool origins_;
     Levels<C, R> levels_;
-    std::vector<Code> emitted_;
+    std::vector<Code> emitted_; // codes of the block given to the sink, widened to Code
     RuntimeError error_;
 };
 

@@ -87,6 +87,7 @@ bool fits(const Bytecode& bytecode, const Word& word) {
                        [](float value) { return std::isfinite(value); });
 }
 
+/// `what`: the noun for the version; `own`: the version of this program.
 Error other_version(std::string_view what, std::uint32_t version, std::uint32_t own) {
     const bool newer = version > own;
     return {fmt::format(

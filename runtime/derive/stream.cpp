@@ -115,7 +115,7 @@ private:
     const Bytecode& bytecode_;
     const BytecodeAxiom& axiom_;
     Levels<C, R> levels_;
-    std::vector<Code> emitted_;
+    std::vector<Code> emitted_; // codes of the block given to the consumer, widened to Code
     StreamOutcome outcome_;
 };
 

@@ -97,7 +97,7 @@ struct StepTracer::State {
     /// By place: the index of its trace in the current pass; kNoTrace: the module was copied and
     /// has no trace.
     std::vector<std::size_t> trace_of_place;
-    bool ok = true;
+    bool ok = true; // every successor compared so far equals that of the engine
 
     /// Whether the predecessor of a production of the pass begins with `symbol`.
     [[nodiscard]] bool may_rewrite(SymbolId symbol) const {

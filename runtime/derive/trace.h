@@ -132,9 +132,9 @@ struct ChoiceTrace {
     bool by_glibc = false;                 // `random glibc`
     std::uint64_t number = 0;              // number of the draw
     std::uint64_t position = 0;            // position that keys the draw
-    std::uint32_t rule = 0;
-    float unit = 0.0F;
-    std::size_t taken = 0; // index in alternatives
+    std::uint32_t rule = 0;                // rule of the alternatives
+    float unit = 0.0F;                     // u of docs/language.md section 6
+    std::size_t taken = 0;                 // index in alternatives
 };
 
 /// The choice among several axioms (docs/language.md section 5.9).
@@ -145,8 +145,8 @@ struct AxiomTrace {
         float cumulative = 0.0F; // sum of the normalised weights up to this alternative
     };
     std::vector<Alternative> alternatives; // in file order
-    float unit = 0.0F;
-    std::size_t taken = 0; // index in alternatives
+    float unit = 0.0F;                     // u of docs/language.md section 6
+    std::size_t taken = 0;                 // index in alternatives
 };
 /// Explains the choice of the axiom; nothing if there is only one.
 [[nodiscard]] std::optional<AxiomTrace> trace_axiom(const Bytecode& bytecode, std::uint64_t seed);
@@ -245,7 +245,7 @@ public:
     /// A module of the last word of the step.
     struct Place {
         std::uint64_t position = 0;
-        std::size_t root = 0;
+        std::size_t root = 0;          // index of the start module in begin()
         std::size_t parent = kNoTrace; // the trace that wrote it
         std::uint64_t offset = 0;      // index in ModuleTrace::written of the parent
     };

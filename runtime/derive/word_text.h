@@ -38,12 +38,12 @@ public:
     [[nodiscard]] bool print(const Word& word, const std::function<bool(std::string_view)>& flush);
 
 private:
-    static constexpr std::size_t kShort = 16;
+    static constexpr std::size_t kShort = 16; // bytes of Spelling::head
 
     struct Spelling {
         std::array<char, kShort> head{}; // the text if it fits
-        std::uint32_t length = 0;
-        std::uint32_t long_text = 0; // index of a longer text in long_texts_
+        std::uint32_t length = 0;        // bytes of the text
+        std::uint32_t long_text = 0;     // index of a longer text in long_texts_
         std::uint32_t parameter_count = 0;
         bool starts_identifier = false;
         bool ends_identifier =
@@ -68,9 +68,9 @@ private:
     std::vector<std::string> long_texts_;
     std::vector<char> letters_; // by code, if every module is one character
     std::vector<Pair> pairs_;   // by after_identifier_, first and second code; empty: none made yet
-    std::vector<char> buffer_;
-    bool after_identifier_ = false;
-    bool one_text_ = false;
+    std::vector<char> buffer_;  // text that is not flushed yet
+    bool after_identifier_ = false; // the module printed last ends with an identifier
+    bool one_text_ = false;         // words are printed as one text in back quotes, see quote()
 };
 
 } // namespace lsys

@@ -163,9 +163,9 @@ private:
         return triangle;
     }
 
-    std::vector<std::uint32_t> parent_;
-    std::vector<std::uint8_t> turned_; // 1: faces the side opposite to its parent's; 0 for roots
-    std::vector<std::uint32_t> path_;
+    std::vector<std::uint32_t> parent_; // by triangle; a root is its own parent
+    std::vector<std::uint8_t> turned_;  // 1: faces the side opposite to its parent's; 0 for roots
+    std::vector<std::uint32_t> path_;   // triangles that find() has passed
 };
 
 } // namespace

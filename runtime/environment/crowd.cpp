@@ -40,6 +40,7 @@ public:
     }
 
     [[nodiscard]] std::size_t size() const { return tree_.points.size(); }
+    /// The index in the word of place `at`, in the order of the tree.
     [[nodiscard]] std::uint32_t position(std::size_t at) const { return tree_.positions[at]; }
 
     /// The answer for place `at`, in the order of the tree.

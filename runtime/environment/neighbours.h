@@ -63,8 +63,8 @@ private:
     EnvironmentSense& senses_;
     const Bytecode& bytecode_;
     std::uint64_t seed_;
-    bool records_ = false;
-    std::vector<ShadingWord> words_;
+    bool records_ = false;           // the derivation in progress has the seed `seed_`
+    std::vector<ShadingWord> words_; // by age
 };
 
 } // namespace lsys

@@ -140,6 +140,8 @@ private:
         return std::nullopt;
     }
 
+    /// The part of the light of the sky that reaches `place`, which is in the cell `own`. `field`:
+    /// a LeafAreaGrid or LeafAreaTable.
     template <typename Field>
     [[nodiscard]] double light(const Vector3& place,
                                const CellIndex& own,

@@ -76,13 +76,14 @@ private:
     void write_answers(std::span<const SensePlace> places,
                        const LargeVector<std::uint32_t>& owners,
                        std::vector<float>& answers) const;
+    /// Writes the answer of a place to which `markers`, indexes in markers_, belong.
     void
     write_one(const SensePlace& place, std::span<const std::uint32_t> markers, float* answer) const;
     [[nodiscard]] std::uint64_t digest() const;
 
     const BytecodeEnvironment& declared_;
     const EnvironmentFiles& files_;
-    std::uint32_t number_;
+    std::uint32_t number_; // index in Bytecode::environments
     EnvironmentContext context_;
     EnvironmentMesh crown_; // mesh of SpaceShape::Mesh, moved to its place
     std::unique_ptr<TriangleTree> crown_tree_;

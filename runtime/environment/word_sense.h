@@ -65,6 +65,7 @@ public:
     /// Places and answers of the last word that sensed, by index in Bytecode::environments. Empty
     /// before the first such word.
     [[nodiscard]] const std::vector<SensedEnvironment>& sensed() const { return sensed_; }
+    /// Organs of that word.
     [[nodiscard]] const std::vector<SensedOrgan>& organs() const { return organs_; }
     /// The environment number `index`, after begin().
     [[nodiscard]] const Environment& environment(std::size_t index) const {
@@ -75,10 +76,12 @@ public:
 private:
     class Sink;
 
+    /// Asks environment `index` for its answers, and stores them in sensed_.
     [[nodiscard]] std::optional<Stop>
     ask(std::size_t index, Word& word, std::uint32_t age, DerivationEnd& end);
     [[nodiscard]] std::optional<Stop>
     write(std::size_t index, Word& word, std::uint32_t age, DerivationEnd& end) const;
+    /// Sets `end` to a failure of environment `index`. `word`: null before the first word.
     [[nodiscard]] std::optional<Stop> end_failed(std::size_t index,
                                                  EnvironmentFailure failure,
                                                  const Word* word,
@@ -89,7 +92,7 @@ private:
     SenseOptions options_;
     Workers workers_;
     EnvironmentContext context_;
-    std::vector<EnvironmentFiles> no_files_;
+    std::vector<EnvironmentFiles> no_files_; // used if SenseOptions::files is null
     std::vector<std::unique_ptr<Environment>> environments_;
     std::unique_ptr<SensingTurtle> turtle_;
     std::vector<SensedEnvironment> sensed_;

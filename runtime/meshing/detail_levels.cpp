@@ -33,20 +33,20 @@ constexpr double kMaxFactorOfBoxes = 4.5;
 constexpr std::uint32_t kMaxSideLevel = 8; // max increase of MeshOptions::level
 constexpr int kMaxTries = 24;              // max steps of the search for a number of paths
 constexpr double kEnoughTriangles = 0.96;  // fraction of the wanted triangles that suffices
-constexpr int kFittingSteps = 12;
-constexpr double kCloseAreas = 0.004; // value of Planner::difference() that ends the fitting
-constexpr double kAreaWeight = 0.1;   // weight of the covered area in Planner::difference()
-constexpr double kMinScale = 0.2;     // min DetailLevel::wood_scale and foliage_scale
+constexpr int kFittingSteps = 12;          // max tries of fit_areas() and fit_impostor()
+constexpr double kCloseAreas = 0.004;      // value of Planner::difference() that ends the fitting
+constexpr double kAreaWeight = 0.1;        // weight of the covered area in Planner::difference()
+constexpr double kMinScale = 0.2;          // min DetailLevel::wood_scale and foliage_scale
 constexpr double kMaxScale = 6.0;
 constexpr double kMaxStep = 1.8;   // max factor by which a scale changes from one try to the next
 constexpr double kMaxExcess = 3.0; // max excess of an area relative to the wanted one
-constexpr double kMinTint = 0.25;
+constexpr double kMinTint = 0.25;  // min component of DetailLevel::tint
 constexpr double kMaxTint = 4.0;
 constexpr float kMaxModerateTint = 1.6F; // beyond this tint all materials get one colour
 constexpr double kCloseTint = 0.002;     // a tint nearer to 1 than this counts as 1
 constexpr double kMinCover = 0.25;       // min DetailLevel::cover
 constexpr double kMaxCover = 1.75;
-constexpr double kFirstCover = 0.6;
+constexpr double kFirstCover = 0.6;     // first try of DetailLevel::cover
 constexpr double kCloseCover = 0.005;   // relative error of the area that ends the fitting of cover
 constexpr double kLastTriangles = 45.0; // wanted triangles of the last level without impostors
 constexpr double kLastCardTriangles = 24.0; // wanted triangles of the last level with impostors
@@ -66,12 +66,12 @@ constexpr double kNearMax = 1.35;
 constexpr int kMaxEqualSteps = 3; // max number of steps to the last level that get equal ratios
 // Factors of the wanted number of triangles, tried one after the other.
 constexpr std::array<double, 6> kTriangleFactors{1.0, 0.9, 1.1, 0.82, 1.18, 0.72};
-constexpr int kRootSteps = 40; // bisections in Planner::factor_from()
-constexpr int kSeekSteps = 8;  // max bisections in Planner::seek()
-constexpr int kMaxAxisErrorTries = 6;
-constexpr int kMaxAxisErrorRaises = 48;
-constexpr float kAxisErrorRaise = 1.15F; // factor of MeshOptions::axis_error per raise
-constexpr int kMaxRestoringTries = 14;
+constexpr int kRootSteps = 40;              // bisections in Planner::factor_from()
+constexpr int kSeekSteps = 8;               // max bisections in Planner::seek()
+constexpr int kMaxAxisErrorTries = 6;       // max tries of raise_axis_error_for_paths()
+constexpr int kMaxAxisErrorRaises = 48;     // max steps of raise_axis_error()
+constexpr float kAxisErrorRaise = 1.15F;    // factor of MeshOptions::axis_error per raise
+constexpr int kMaxRestoringTries = 14;      // max tries of seek_joints()
 constexpr std::uint64_t kMaxAddedPaths = 8; // by restore_triangle_count()
 // Max triangles of levels to which restore_triangle_count() adds paths.
 constexpr double kMaxTrianglesForPaths = 4000.0;
@@ -160,9 +160,9 @@ public:
         DetailLevel level{
             .options = options_, .paths = order_.path_count(), .foliage = order_.foliage.size()};
         measure_finest();
-        level.triangles = finest_;
+        level.triangles = finest_triangles_;
         result.levels.push_back(level);
-        last_ = chain.pictures ? kLastCardTriangles : kLastTriangles;
+        last_triangles_ = chain.pictures ? kLastCardTriangles : kLastTriangles;
         while (result.levels.size() <= chain.last && !stop_) {
             const std::uint64_t end = !chain.pictures     ? kMinDetailTriangles
                                       : level.is_impostor ? kMaxLastCardTriangles
@@ -196,7 +196,7 @@ public:
     /// Sets the scales, tints and colours of the levels marked in `which`.
     std::optional<Stop>
     fit(const DetailChain& chain, const std::vector<bool>& which, DetailLevels& levels) {
-        if (finest_ == 0) {
+        if (finest_triangles_ == 0) {
             measure_finest();
         }
         draw(wood_, options_, mesh_);
@@ -233,7 +233,7 @@ public:
 private:
     void measure_finest() {
         count(skeleton_, options_);
-        finest_ = triangles_of(mesh_);
+        finest_triangles_ = triangles_of(mesh_);
         for (const glm::vec3& position : mesh_.positions) {
             frame_.add(position);
         }
@@ -570,8 +570,8 @@ private:
 
     /// Sets the size on screen and the errors of a level that has about `triangles` triangles.
     void set_error(double triangles, DetailLevel& level) const {
-        const auto part =
-            static_cast<float>(std::sqrt(std::max(triangles, 1.0) / static_cast<double>(finest_)));
+        const auto part = static_cast<float>(
+            std::sqrt(std::max(triangles, 1.0) / static_cast<double>(finest_triangles_)));
         level.pixels = kFinestPixels * part;
         level.error = 0.5F * extent_ / level.pixels;
         level.options.axis_error = level.error;
@@ -588,7 +588,7 @@ private:
     DetailLevel cards_after(const DetailLevel& before) const {
         const auto all = static_cast<double>(before.triangles);
         const double factor = before.triangles <= kMaxTrianglesBeforeCards
-                                  ? std::clamp(all / last_, kLowFactor, kMaxFactor)
+                                  ? std::clamp(all / last_triangles_, kLowFactor, kMaxFactor)
                                   : factor_from(all);
         const double wanted = std::min(all / factor, kMaxCardTriangles);
         DetailLevel level{.options = options_, .is_impostor = true};
@@ -617,7 +617,7 @@ private:
     /// The ratio of triangles of consecutive levels with which equal steps lead from `triangles` to
     /// the last level.
     double factor_from(double triangles) const {
-        const double all = triangles / last_;
+        const double all = triangles / last_triangles_;
         int steps = 1;
         double max_ratio = kMaxFactor; // max ratio that `steps` steps can reach
         double usual =
@@ -643,6 +643,7 @@ private:
         return std::clamp(high, kLowFactor, kMaxFactor);
     }
 
+    /// The level that follows `before`: a mesh, not an impostor.
     DetailLevel coarser(const DetailLevel& before) {
         const auto all = static_cast<double>(before.triangles);
         const bool is_boxes = before.options.method == MeshMethod::Boxes;
@@ -805,9 +806,9 @@ private:
     /// Leaves out more joints, so that more paths can stay, as long as this lowers the mean
     /// distance of the drawn wood from the plant's wood.
     void raise_axis_error_for_paths(DetailLevel& level, double wanted) {
-        const auto cost = [this](const DetailLevel& of) {
-            return mean_distances_[of.paths] +
-                   kMeanErrorPart * static_cast<double>(of.options.axis_error);
+        const auto cost = [this](const DetailLevel& candidate) {
+            return mean_distances_[candidate.paths] +
+                   kMeanErrorPart * static_cast<double>(candidate.options.axis_error);
         };
         DetailLevel tried = level;
         for (int i = 0; i < kMaxAxisErrorTries && !stop_ &&
@@ -879,22 +880,22 @@ private:
     const std::vector<UserMesh>& user_meshes_;
     const ThinningOrder& order_;
     MeshOptions options_;
-    Skeleton wood_;
-    Skeleton foliage_;
-    Mesh foliage_mesh_;
-    std::vector<FoliageShape> fine_;
-    Mesh mesh_;
-    LargeVector<std::uint32_t> numbers_;
+    Skeleton wood_;                      // the skeleton with segments only
+    Skeleton foliage_;                   // the skeleton without segments
+    Mesh foliage_mesh_;                  // foliage drawn last; memory to reuse
+    std::vector<FoliageShape> fine_;     // shapes of foliage at the finest level
+    Mesh mesh_;                          // mesh that count() or draw() made last
+    LargeVector<std::uint32_t> numbers_; // argument `segments` of thin_skeleton(), not used
     std::vector<double> mean_distances_; // m, by number of paths, see measure_paths()
     std::uint64_t most_paths_ = 0;       // number of paths of the level before thinner() changes it
     std::optional<AreaMeter> meter_;
-    VisibleAreas areas_;             // areas of the finest level
-    VisibleAreas third_;             // AreaMeter::measure_third() of the finest level
-    Bounds frame_;                   // bounds of the finest level
-    std::uint64_t finest_ = 0;       // triangles of the finest level
-    double last_ = 1.0;              // wanted triangles of the last level of the chain
+    VisibleAreas areas_;                 // areas of the finest level
+    VisibleAreas third_;                 // AreaMeter::measure_third() of the finest level
+    Bounds frame_;                       // bounds of the finest level
+    std::uint64_t finest_triangles_ = 0; // triangles of the finest level
+    double last_triangles_ = 1.0;        // wanted triangles of the last level of the chain
     double triangles_per_ear_ = 1.0; // mean over polygons; a polygon of n corners has n - 2 ears
-    float extent_ = 0.0F;
+    float extent_ = 0.0F;            // m, longest edge of frame_
     std::optional<Stop> stop_;
 };
 

@@ -86,7 +86,7 @@ enum class MeshMethod : std::uint8_t {
     Solid,     // one closed surface around the union of all parts, for printing
 };
 
-// Defaults of MeshOptions::subdivisions, and with grooves of the sides and subdivisions.
+// Default of MeshOptions::subdivisions; with grooves, defaults of `sides` and `subdivisions`.
 inline constexpr std::uint32_t kSubdivisions = 2;
 inline constexpr std::uint32_t kGrooveSides = 32;
 inline constexpr std::uint32_t kGrooveSubdivisions = 3;

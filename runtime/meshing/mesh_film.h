@@ -21,8 +21,8 @@ struct MeshFilm {
         std::uint32_t first_frame = 0;
         std::vector<Frame> earlier; // all frames except the last one, which is in MeshFilm::mesh
         std::uint64_t first_vertex = 0; // index in MeshFilm::mesh
-        std::uint32_t first_part = 0;
-        std::uint32_t part_count = 0; // 0: nothing is drawn
+        std::uint32_t first_part = 0;   // index in Mesh::parts of MeshFilm::mesh
+        std::uint32_t part_count = 0;   // 0: nothing is drawn
 
         [[nodiscard]] std::uint32_t frame_count() const {
             return static_cast<std::uint32_t>(earlier.size()) + 1;
@@ -57,9 +57,9 @@ private:
     void close_shape();
 
     MeshFilm film_;
-    Mesh last_; // the last frame of the open shape
-    std::vector<MeshFilm::Frame> earlier_;
-    std::uint32_t frames_ = 0;
+    Mesh last_;                            // the last frame of the open shape
+    std::vector<MeshFilm::Frame> earlier_; // frames of the open shape before last_
+    std::uint32_t frames_ = 0;             // number of frames added so far
 };
 
 } // namespace lsys

@@ -249,6 +249,7 @@ private:
         }
     }
 
+    /// A corner of one of the two rings that write_step() joins.
     struct StepCorner {
         glm::dvec3 position{};
         glm::dvec2 texture{};

@@ -334,15 +334,15 @@ private:
     std::string_view text_;
     std::uint64_t max_bytes_;
     std::uint64_t used_ = 0; // estimated bytes of the mesh
-    std::size_t at_ = 0;
-    std::string_view line_; // the rest of the current line
+    std::size_t at_ = 0;     // offset of the next line in text_
+    std::string_view line_;  // the rest of the current line
     std::uint64_t line_number_ = 0;
     std::optional<Error> error_;
-    std::uint32_t rows_ = 0; // steps along the columns of control points
-    std::uint32_t columns_ = 0;
-    glm::dvec3 contact_{};
-    glm::dmat3 axes_{1.0};
-    double scale_ = 1.0;
+    std::uint32_t rows_ = 0;    // steps along the columns of control points
+    std::uint32_t columns_ = 0; // steps along the rows of control points
+    glm::dvec3 contact_{};      // contact point, in coordinates of the file
+    glm::dmat3 axes_{1.0};      // columns: left, heading and up
+    double scale_ = 1.0;        // 1 / SIZE
     UserMesh mesh_;
 };
 

@@ -14,7 +14,7 @@ namespace lsys {
 
 namespace {
 
-constexpr std::uint32_t kSize = 256;
+constexpr std::uint32_t kSize = 256; // texels of a side of a computed texture
 
 /// Pseudo-random number in [0, 1) of a lattice point.
 float lattice(std::uint32_t x, std::uint32_t y, std::uint32_t layer) {
@@ -22,6 +22,7 @@ float lattice(std::uint32_t x, std::uint32_t y, std::uint32_t layer) {
     return unit_float(lowbias32(x + kRow * (y + kRow * layer)));
 }
 
+/// 0 up to `low`, 1 from `high` on, a smooth step between them.
 float smooth(float low, float high, float x) {
     const float t = std::clamp((x - low) / (high - low), 0.0F, 1.0F);
     return t * t * (3.0F - 2.0F * t);
@@ -123,10 +124,10 @@ public:
     }
 
 private:
-    Lines deep_{7, 3, 1};
-    Lines thin_{11, 4, 3};
-    Lines across_{9, 7, 5};
-    Noise cracks_{9, 6, 7};
+    Lines deep_{7, 3, 1};   // deep fissures
+    Lines thin_{11, 4, 3};  // shallow fissures
+    Lines across_{9, 7, 5}; // cracks across the fissures
+    Noise cracks_{9, 6, 7}; // places that have cracks
     Noise grain_{64, 16, 8};
     Noise fine_grain_{128, 64, 9};
 };

@@ -81,10 +81,10 @@ private:
 
     /// Patches, or plain indices.
     struct Block {
-        std::uint64_t begin = 0; // number of the block's first index
-        std::uint32_t first_vertex = 0;
+        std::uint64_t begin = 0;        // number of the block's first index
+        std::uint32_t first_vertex = 0; // added to all vertices of the block
         std::vector<Patch> patches;
-        LargeVector<std::uint32_t> listed;
+        LargeVector<std::uint32_t> listed; // plain indices; empty if there are patches
 
         [[nodiscard]] std::uint64_t size() const {
             return patches.empty() ? listed.size() : patches.back().end;
@@ -134,8 +134,8 @@ private:
     void fill(std::uint64_t first);
 
     const TriangleList& list_;
-    std::uint64_t first_ = 0;
-    std::uint64_t count_ = 0;
+    std::uint64_t first_ = 0; // number of the index in buffer_[0]
+    std::uint64_t count_ = 0; // number of indices in buffer_
     std::array<std::uint32_t, 3072> buffer_;
 };
 

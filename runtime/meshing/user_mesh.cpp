@@ -86,7 +86,7 @@ private:
     }
 
     std::vector<Corner> corners_;
-    std::vector<std::uint32_t> slots_;
+    std::vector<std::uint32_t> slots_; // hash table: indexes in corners_; kNotGiven: empty
 };
 
 bool is_blank(char c) {
@@ -457,7 +457,7 @@ private:
     std::uint64_t max_bytes_;
     std::uint64_t name_bytes_ = 0; // bytes of the names of materials and their files
     std::size_t at_ = 0;
-    std::uint64_t line_ = 1;
+    std::uint64_t line_ = 1; // number of the line at at_
     std::optional<Error> error_;
     std::vector<glm::vec3> positions_;
     std::vector<glm::vec3> normals_;
@@ -465,8 +465,8 @@ private:
     std::vector<glm::dvec3>
         area_sums_; // by vertex: sum of the normals of its faces, each of length 2 * area
     CornerNumbers numbers_;
-    ObjName material_; // material of the faces that follow
-    std::string last_material_;
+    ObjName material_;          // material of the faces that follow
+    std::string last_material_; // name of the material of the triangle added last
     std::unordered_set<std::string> known_libraries_;
     std::unordered_set<std::string> known_materials_;
     UserMesh mesh_;

@@ -430,13 +430,13 @@ private:
     const ParsedGrammar& parsed_;
     const Ast& ast_;
     const Names& names_;
-    std::vector<std::string> paths_; // by FileId
-    std::set<std::string_view> known_;
-    std::set<std::string_view> constants_;
-    std::set<NameId> locals_; // formals and local values of the current statement
-    TextPlace scope_;
+    std::vector<std::string> paths_;       // by FileId
+    std::set<std::string_view> known_;     // names of modules, see find_known()
+    std::set<std::string_view> constants_; // names of constants
+    std::set<NameId> locals_;              // formals and local values of the current statement
+    TextPlace scope_;                      // place of the current statement
     StatementOutline outline_;
-    bool is_part_ = false;
+    bool is_part_ = false; // NameUse::is_part of the names that are added
     NameIndex index_;
 };
 

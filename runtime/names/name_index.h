@@ -67,7 +67,7 @@ struct ParsedGrammar {
     Names names;
     Diagnostics diagnostics;
     Ast ast;
-    std::vector<SourceSpan> statements;
+    std::vector<SourceSpan> statements; // also of statements with syntax errors
     bool is_translated = false; // from another dialect: the text may lack some names of the tree
 };
 

@@ -59,9 +59,9 @@ public:
 
 private:
     PlantPhysics& physics_;
-    PhysicsOptions before_;
-    float count_ = 1.0F;
-    bool changed_ = false;
+    PhysicsOptions before_; // options to restore
+    float count_ = 1.0F;    // steps per frame
+    bool changed_ = false;  // the options of physics_ were changed
 };
 
 PlantAnimation

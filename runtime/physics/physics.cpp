@@ -167,7 +167,7 @@ private:
     double slide_ = 0.0;       // J, decaying sum of Energies::slide
     Last energy_losses_{};     // J, of the last rounds that moved the plant
     Last slides_{};            // J, Energies::slide of these rounds
-    std::size_t count_ = 0;
+    std::size_t count_ = 0;    // rounds that moved the plant
 };
 
 float finite_or(float value, float other) {
@@ -301,7 +301,7 @@ struct PlantPhysics::State {
     Forces forces;
     Workers workers;
     PlantBodies plant;
-    double time = 0.0;
+    double time = 0.0; // s
     double energy =
         0.0; // J, the allowed energy: the energy of the plant or, by rounding, a little less
 

@@ -28,7 +28,8 @@ constexpr int kHalvings = 60;
 constexpr double kMaxFactor = 1e9;
 constexpr std::uint32_t kRounds = 400; // max rounds of settle() per trial
 
-/// Whether the plant, in its pose at rest, does not buckle under `gravity`.
+/// Whether the plant, in its pose at rest, does not buckle under `gravity`. `added`: memory to
+/// reuse; by body, the sum of R of its children.
 bool is_stable(const Bodies& plant, double gravity, bool own_load, std::vector<Symmetric>& added) {
     const std::size_t count = plant.bodies.size();
     added.assign(count, Symmetric{});

@@ -30,7 +30,7 @@ struct Joint {
 
 /// The motion of an item, relative to its parent.
 struct Motion {
-    BeforeAndAfter<glm::quat> turn;
+    BeforeAndAfter<glm::quat> turn;    // rotation from the parent's frame
     BeforeAndAfter<glm::vec3> offset;  // vector from the parent's tip, in the parent's frame
     std::uint32_t parent = kNoSegment; // index in State::segments
     bool eases = false;                // grows from size 0 or shrinks to size 0
@@ -47,12 +47,12 @@ struct MovingSegment {
 struct MovingObject {
     Motion motion;
     BeforeAndAfter<float> size{};
-    std::uint32_t old = kNone; // of an organ with as many points, or fewer: index in `before`
+    std::uint32_t old = kNone; // index in `before` of an organ with at most as many points
 };
 
 struct MovingPolygon {
-    Motion motion; // motion of the polygon's frame
-    std::uint32_t first_corner = 0;
+    Motion motion;                  // motion of the polygon's frame
+    std::uint32_t first_corner = 0; // index in State::corners
 };
 
 double interpolated(float before, float after, double part) {
@@ -92,8 +92,8 @@ constexpr double kRounding = 1e-5;
 } // namespace
 
 struct SkeletonGrowth::State {
-    Skeleton before;
-    Skeleton after;
+    Skeleton before; // of the earlier word
+    Skeleton after;  // of the later word
     GrowthCounts counts;
     LargeVector<MovingSegment> segments; // segments of `after`, then segments that shrink
     LargeVector<MovingObject> objects;
@@ -115,6 +115,7 @@ struct SkeletonGrowth::State {
         return old == kNoSegment ? kNoSegment : new_segments[old];
     }
 
+    /// Sets the pose in the drawing `end`, an index of BeforeAndAfter.
     void set_end(Motion& motion,
                  std::size_t end,
                  const glm::dvec3& place,

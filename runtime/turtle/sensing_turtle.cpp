@@ -96,11 +96,11 @@ SensingTurtle::State::State(const Bytecode& program, SensingOptions wanted)
         SensingAction& known = actions.emplace_back();
         known.step = !senses ? step_of(action, bytecode)
                              : (interprets ? SensingStep::NoEffect : SensingStep::Sense);
-        known.given = action.given;
+        known.argument_count = action.argument_count;
         known.stored = action.stored;
         known.constants = action.arguments.data();
         if (turns(action.operation)) {
-            const bool is_given = action.stored == 0 && action.given != 0;
+            const bool is_given = action.stored == 0 && action.argument_count != 0;
             known.turn = exact_sine_cosine_of_degrees(
                 static_cast<double>(is_given ? action.arguments[0] : bytecode.settings.angle));
             known.turn = turns_back(action.operation) ? inverse(known.turn) : known.turn;
@@ -167,7 +167,8 @@ bool SensingTurtle::State::run(std::span<const C> codes,
             if (polygons.any()) {
                 break;
             }
-            advance(now.pose, action.given > 0 ? static_cast<double>(arguments[0]) : now.step);
+            advance(now.pose,
+                    action.argument_count > 0 ? static_cast<double>(arguments[0]) : now.step);
             continue;
         case SensingStep::Save:
             if (stack.size() < stack.capacity()) {
@@ -196,7 +197,7 @@ bool SensingTurtle::State::run(std::span<const C> codes,
         position = origins != nullptr ? first_of_piece + origins[at - begin].place
                                       : first + static_cast<std::uint64_t>(at - begin);
         code = *at;
-        if (!execute(table.by_code[code], action.given, arguments)) {
+        if (!execute(table.by_code[code], action.argument_count, arguments)) {
             return false;
         }
     }
@@ -208,7 +209,7 @@ bool SensingTurtle::State::run(std::span<const C> codes,
 bool SensingTurtle::State::execute_pending() {
     pending.is_set = false;
     code = pending.code;
-    return execute(table.by_code[code], pending.given, pending.arguments.data());
+    return execute(table.by_code[code], pending.argument_count, pending.arguments.data());
 }
 
 /// Reads the next module of a word of L3D, whose parameters are characters in parentheses.
@@ -220,7 +221,7 @@ bool SensingTurtle::State::take_character(Code character, const float* arguments
     case TextStep::Parameter:
         if (const auto value = pending.parameter(table.by_code[pending.code].operation,
                                                  bytecode.settings.traits.l3d_compatible_surface)) {
-            pending.given = 1;
+            pending.argument_count = 1;
             pending.arguments[0] = *value;
         }
         return execute_pending();
@@ -232,8 +233,8 @@ bool SensingTurtle::State::take_character(Code character, const float* arguments
     }
     pending.is_set = true;
     pending.code = character;
-    pending.given = action.given;
-    std::copy_n(arguments, action.given, pending.arguments.begin());
+    pending.argument_count = action.argument_count;
+    std::copy_n(arguments, action.argument_count, pending.arguments.begin());
     return true;
 }
 

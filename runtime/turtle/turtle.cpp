@@ -10,7 +10,7 @@ namespace lsys {
 /// faults and limits.
 [[gnu::always_inline]] inline bool
 Turtle::State::quick_forward(const Action& action, const float* arguments, Pose& pose) {
-    const float length = action.given > 0 ? arguments[0] : now.step;
+    const float length = action.argument_count > 0 ? arguments[0] : now.step;
     Pose tip = pose;
     advance(tip, static_cast<double>(length));
     // `fits` is also false if a value is NaN.
@@ -20,11 +20,12 @@ Turtle::State::quick_forward(const Action& action, const float* arguments, Pose&
         return false;
     }
     const float tip_width = now.width * now.taper;
-    put_segment(pose, length, now.width, tip_width,
-                action.given > 1 ? arguments[1]
-                                 : spring_of(static_cast<double>(length), now.width, tip_width),
-                action.given > 2 ? arguments[2]
-                                 : mass_of(static_cast<double>(length), now.width, tip_width));
+    put_segment(
+        pose, length, now.width, tip_width,
+        action.argument_count > 1 ? arguments[1]
+                                  : spring_of(static_cast<double>(length), now.width, tip_width),
+        action.argument_count > 2 ? arguments[2]
+                                  : mass_of(static_cast<double>(length), now.width, tip_width));
     pose = tip;
     return true;
 }

@@ -92,7 +92,7 @@ struct DrawnCounts {
 /// 9).
 struct BranchStart {
     bool has_instance = false; // whether an instance replaces the branch
-    std::uint32_t age = 0;
+    std::uint32_t age = 0;     // age and id as in docs/language.md section 9.1
     std::uint32_t id = 0;
     std::span<const float> formals; // values of the formals that the branch uses
     TurtlePlace place;

@@ -29,10 +29,10 @@ struct Module {
         lsys_progress(progress.generation, progress.generations,
                       static_cast<double>(progress.modules));
     }};
-    std::vector<char> input;
+    std::vector<char> input; // the request, then its files
     Answer answer;
-    std::string head;
-    std::vector<std::uint32_t> pairs;
+    std::string head;                 // the JSON text of Answer::head
+    std::vector<std::uint32_t> pairs; // address and size of `head`, then of each block
 };
 
 Module& module() {

@@ -35,13 +35,15 @@ class ActiveMask {
 public:
     /// Max modules per call of fill().
     static constexpr std::size_t kModules = 4096;
+    /// Modules per ActiveBits.
     static constexpr std::size_t kBlock = 64;
 
     /// Builds the tables for the current rows of the plan. `contexts` has the modules that a
     /// context search skips; it may be null if no active production has a context.
     void prepare(const Plan& plan, const ContextTables* contexts);
 
-    /// Whether the mask can be used: the program has few enough codes, and a match is one module.
+    /// Whether the mask can be used: the program has few enough codes, and every match replaces one
+    /// module.
     [[nodiscard]] bool usable() const { return usable_; }
     /// Whether some code has a Choice row.
     [[nodiscard]] bool has_choices() const { return has_choices_; }
@@ -72,6 +74,7 @@ public:
         return sum;
     }
 
+    /// Bit of Tables::centre for codes of modules that store a parameter.
     static constexpr std::uint8_t kStores = 0x80;
     /// The group of rows that accept any neighbours.
     static constexpr std::uint8_t kAnyNeighbours = 0x01;
@@ -83,8 +86,8 @@ public:
         std::uint8_t at_begin = kAnyNeighbours; // groups that need no left neighbour
         std::uint8_t at_end = kAnyNeighbours;   // groups that need no right neighbour
         std::size_t banks = 0;                  // number of runs of 16 codes
-        bool looks_left = false;
-        bool looks_right = false;
+        bool looks_left = false;                // some group needs a left neighbour
+        bool looks_right = false;               // some group needs a right neighbour
     };
 
 private:

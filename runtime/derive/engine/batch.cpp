@@ -270,7 +270,7 @@ private:
     const BatchRun& batch_;
     std::size_t taken_ = 0; // parameters written
     Mask mask_;
-    Mask faults_{};
+    Mask faults_{}; // all bits set for a module with an invalid random range or distribution
     std::vector<Mask> outer_; // mask_ before each choice that is being computed, outermost first
     std::uint64_t block_ = ~std::uint64_t{0};
     std::array<Lanes, kDrawsPerBlock> units_; // the draws of block_

@@ -30,9 +30,9 @@ struct BatchProgram {
     std::uint32_t production = 0;
     std::vector<std::uint32_t> formals; // formals that are read, ascending
     // Rows, in this order:
-    std::uint32_t formal_rows = 0; // one more than the highest formal that is read
-    std::uint32_t stack_rows = 0;
-    std::uint32_t slot_rows = 0;
+    std::uint32_t formal_rows = 0;  // one more than the highest formal that is read
+    std::uint32_t stack_rows = 0;   // max depth of the stack
+    std::uint32_t slot_rows = 0;    // slots of local values
     std::uint32_t choice_draws = 0; // 1 if draw 0 of the module chooses the production
     bool gathers = false;           // formals come from several modules and must be copied
 };
@@ -44,13 +44,13 @@ batch_program(const Bytecode& bytecode, std::uint32_t production, bool gathers);
 /// Inputs that all modules of a pass share.
 struct BatchInputs {
     const float* globals = nullptr;
-    float steps = 0.0F;
+    float steps = 0.0F; // value of steps()
     std::uint64_t seed = 0;
     std::uint32_t generation = 0;
     std::uint64_t first_draw = 0;
 };
 
-/// The modules of a batch.
+/// The modules of a batch, by lane.
 struct BatchModules {
     std::array<const float*, kLanes> formals;
     std::array<std::uint64_t, kLanes> positions;
@@ -101,7 +101,7 @@ private:
     BatchInputs inputs_;
     std::vector<Queue> queues_; // by program
     std::vector<Lanes> rows_;   // rows of the program that runs
-    bool faulty_ = false;
+    bool faulty_ = false;       // some random range or distribution was invalid
 };
 
 } // namespace lsys

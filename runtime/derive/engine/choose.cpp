@@ -5,6 +5,8 @@
 
 namespace lsys {
 
+/// Evaluates the condition of a candidate. `own`: the parameters of the module. Returns false on a
+/// fault.
 template <typename C>
 bool Chooser<C>::condition(const Candidate& candidate,
                            const ModulePlace& place,

@@ -60,7 +60,7 @@ public:
         }
         return plan_.records(choice)[taken];
     }
-    /// choose() for a Tests row, given the module's parameters; cannot fail.
+    /// choose() for a Tests row; cannot fail. `own`: the parameters of the module.
     [[nodiscard]] std::uint32_t choose_by_test(const float* own, const Row& row) const {
         for (const Test& test : plan_.tests(row.source)) {
             if (holds(test.comparison, own)) {

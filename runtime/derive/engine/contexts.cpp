@@ -121,8 +121,8 @@ void ContextTables::build_left(const C* codes) {
 template <typename C>
 void ContextTables::build_right(const C* codes) {
     struct Closed {
-        std::uint64_t next;
-        std::uint64_t gap; // the gap after the `]`
+        std::uint64_t next; // the next module on the axis behind the branch
+        std::uint64_t gap;  // the gap after the `]`
     };
     std::vector<Closed> closed;
     std::uint64_t next = kNowhere;

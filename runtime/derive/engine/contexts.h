@@ -53,7 +53,7 @@ public:
 
 private:
     Arena arena_;
-    bool wide_ = false;
+    bool wide_ = false; // indices have 8 bytes
 };
 
 class ContextTables {
@@ -107,10 +107,11 @@ private:
     IndexTable left_;                // by module
     IndexTable next_;                // by gap
     IndexTable jump_;                // by module
-    Arena offsets_;
-    std::uint64_t count_ = 0;
+    Arena offsets_;                  // by kOffsetStride modules, see offset_before()
+    std::uint64_t count_ = 0;        // modules of the word
     bool plain_ = true;
-    bool has_structure_ = false;
+    bool has_structure_ = false; // Plan::has_structure(): the word may have brackets
+    // Tables that the active productions need:
     bool needs_left_ = false;
     bool needs_right_ = false;
     bool needs_jump_ = false;

@@ -24,8 +24,8 @@ struct CountResult {
     /// The module at which counting stopped: CountRequest::end; a later one after a match of
     /// several modules; an earlier one if the room was used up or at a fault.
     ModulePlace end;
-    std::uint64_t modules = 0;
-    std::uint64_t parameters = 0;
+    std::uint64_t modules = 0;    // modules that rewriting will write
+    std::uint64_t parameters = 0; // parameters that rewriting will write
     /// A condition or weight of a production for the module at `end` has no valid value (a run-time
     /// error).
     bool fault = false;

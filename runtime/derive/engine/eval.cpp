@@ -46,7 +46,7 @@ struct Numbers : UnknownDomain<float> {
     const EvalFrame& frame;
     RangeDraws* draws;
     float* out;
-    const std::uint32_t* begin;
+    const std::uint32_t* begin; // the first of Bytecode::instructions
     EvalFault& fault;
 
     static float literal(float value) { return value; }

@@ -52,10 +52,11 @@ private:
     DrawSource source_;
     std::uint64_t seed_;
     std::uint64_t position_;
-    std::uint64_t first_;
+    std::uint64_t first_; // number of the draw of range 0
     std::uint32_t generation_;
 };
 
+/// The enumerators of RuntimeErrorKind that an evaluation can cause.
 enum class Fault : std::uint8_t {
     None,
     NotFinite,
@@ -69,9 +70,9 @@ enum class Fault : std::uint8_t {
 /// The fault that stopped an evaluation, and its instruction.
 struct EvalFault {
     Fault kind = Fault::None;
-    std::uint32_t instruction = 0;
-    float value = 0.0F;          // for NotFinite and faults of weights
-    float first_argument = 0.0F; // of the range or distribution
+    std::uint32_t instruction = 0; // index in Bytecode::instructions
+    float value = 0.0F;            // for NotFinite and faults of weights
+    float first_argument = 0.0F;   // of the range or distribution
     float second_argument = 0.0F;
 };
 

@@ -25,7 +25,7 @@ private:
     [[nodiscard]] const float* constants_of(Code code) const;
 
     const Bytecode& bytecode_;
-    std::unordered_multimap<std::uint64_t, Code> codes_;
+    std::unordered_multimap<std::uint64_t, Code> codes_; // by hash()
 };
 
 } // namespace lsys

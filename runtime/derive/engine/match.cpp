@@ -81,6 +81,7 @@ bool Matcher<C>::matches_contexts(const BytecodeProduction& production, std::uin
            (!production.has_right || matches_right(production, index));
 }
 
+/// The number of parameters stored before module `index`.
 template <typename C>
 std::uint64_t Matcher<C>::parameters_before(std::uint64_t index, ModulePlace near) const {
     const std::vector<Row>& rows = plan_.rows();
@@ -106,6 +107,8 @@ std::uint64_t Matcher<C>::parameters_before(std::uint64_t index, ModulePlace nea
     return before;
 }
 
+/// Copies the parameters of matched modules to formals_. `places`: the module matched by each item
+/// of `pattern`; `near`: a place from which parameters are counted.
 template <typename C>
 void Matcher<C>::gather(TableRange pattern,
                         const std::vector<std::uint64_t>& places,

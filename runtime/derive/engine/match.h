@@ -79,11 +79,11 @@ private:
     const Plan& plan_;
     const WordView<C>& word_;
     const ContextTables* contexts_;
-    std::vector<std::uint64_t> left_; // module matched by each pattern item
-    std::vector<std::uint64_t> right_;
-    std::vector<std::uint64_t> predecessor_;
-    std::vector<std::uint64_t> branches_; // gaps after the branches that the search has entered
-    std::vector<float> formals_;
+    std::vector<std::uint64_t> left_;        // module matched by each pattern item
+    std::vector<std::uint64_t> right_;       // as left_
+    std::vector<std::uint64_t> predecessor_; // as left_; modules of the predecessor
+    std::vector<std::uint64_t> branches_;    // gaps after the branches that the search has entered
+    std::vector<float> formals_;             // result of formals(), if they are gathered
 };
 
 } // namespace lsys

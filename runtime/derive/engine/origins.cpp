@@ -93,9 +93,9 @@ private:
     const OriginRequest& request_;
     const Row* rows_;
     const Entry* entries_;
-    const R* records_;
-    Origin* out_;
-    std::uint64_t index_;
+    const R* records_;    // the next record
+    Origin* out_;         // where the next origin is written
+    std::uint64_t index_; // the next module
 };
 
 } // namespace

@@ -45,9 +45,9 @@ private:
         std::uint64_t parameters = 0; // number of parameters written
         std::uint64_t out_module = 0; // index of the first module written
         std::uint64_t out_parameter = 0;
-        bool masked = false; // counted and written by its mask
-        bool fault = false;
-        std::uint64_t fault_index = 0;
+        bool masked = false;           // counted and written by its mask
+        bool fault = false;            // a module has no valid condition, weight or parameter
+        std::uint64_t fault_index = 0; // index of that module, set by count()
     };
 
     template <typename C, typename R>
@@ -96,12 +96,12 @@ private:
     std::uint64_t previous_modules_ = 0; // length of the word that the last pass read; 0: none
     Arena records_;                     // records of a chunk begin at the index of its first module
     std::vector<std::uint64_t> census_; // number of modules of each code in the word
-    bool census_known_ = false;
-    bool by_census_ = false;    // this pass takes sizes from the census and writes in order
-    std::uint64_t modules_ = 0; // modules of the word to write
-    std::uint64_t parameters_ = 0;
-    std::uint64_t other_bytes_ = 0;
-    std::atomic<std::uint64_t> written_{0};
+    bool census_known_ = false;         // the census is that of the word that run() gets next
+    bool by_census_ = false;            // this pass takes sizes from the census and writes in order
+    std::uint64_t modules_ = 0;         // modules of the word to write
+    std::uint64_t parameters_ = 0;      // parameters of the word to write
+    std::uint64_t other_bytes_ = 0;     // argument of run()
+    std::atomic<std::uint64_t> written_{0}; // modules written so far, for progress
     std::mutex progress_mutex_;
     RuntimeError error_;
     LimitReport limit_;

@@ -35,6 +35,9 @@ inline constexpr std::size_t kEntryTerms = 4;
 /// Max parameters of a batched entry.
 inline constexpr std::uint32_t kMaxBatchedParameters = 16;
 
+/// A successor. Unless `general`, parameter i is own[input[i]] * scale[i] + offset[i], where `own`
+/// are the parameters of the rewritten module; with more than kEntryTerms parameters, see
+/// terms_or_program.
 struct alignas(64) Entry {
     std::array<float, kEntryTerms> scale{};
     std::array<float, kEntryTerms> offset{};
@@ -96,7 +99,7 @@ enum class ConditionKind : std::uint8_t { Always, Never, Comparisons, Expression
 
 struct Candidate {
     std::uint32_t production = 0;
-    std::uint32_t group = 0;
+    std::uint32_t group = 0;            // BytecodeProduction::group
     std::uint32_t modules = 1;          // modules that a match replaces
     std::uint32_t own_first = 0;        // index of the formal of the module's first parameter
     std::uint32_t first_comparison = 0; // index in Plan::comparisons_
@@ -104,9 +107,9 @@ struct Candidate {
     std::uint32_t comparison_room = 0;   // comparisons for which there is room from that index
     std::uint32_t first_term = 0;        // index in terms, if more than kEntryTerms parameters
     std::uint32_t batch_program = kNone; // index in batch_programs(); set when first needed
-    float weight = 0.0F;
+    float weight = 0.0F;                 // unless computes_weight
     ConditionKind condition = ConditionKind::Always;
-    bool stochastic = false;
+    bool stochastic = false;      // has a weight: chosen by chance among its group
     bool computes_weight = false; // code computes the weight for each module
     bool has_context = false;
     bool gathers = false;       // formals must be collected: some are not the module's own
@@ -118,7 +121,7 @@ struct Candidate {
 struct Choice {
     std::uint32_t first = 0; // index in thresholds and records
     std::uint32_t count = 0;
-    std::uint32_t room = 0;
+    std::uint32_t room = 0; // alternatives for which there is room from `first` on
 };
 
 /// One of the tests of a row, in file order. The first that holds decides.
@@ -129,7 +132,7 @@ struct Test {
 struct TestList {
     std::uint32_t first = 0; // index in tests
     std::uint32_t count = 0;
-    std::uint32_t room = 0;
+    std::uint32_t room = 0; // tests for which there is room from `first` on
 };
 
 /// Calls visit(R{}) with the unsigned integer type R of a record of `width` bytes, 1 or 4.
@@ -142,7 +145,7 @@ decltype(auto) visit_record_type(std::uint32_t width, Visit&& visit) {
 struct PlanInputs {
     const float* globals = nullptr;
     std::uint64_t seed = 0;
-    float steps = 0.0F;
+    float steps = 0.0F; // value of steps()
 };
 
 class Plan {
@@ -212,6 +215,7 @@ public:
 
     // Properties of the active rows
     [[nodiscard]] bool all_fixed() const { return active_.dynamic_rows == 0; }
+    /// Whether an active production has a context, and whether one uses a formal of its context.
     [[nodiscard]] bool needs_contexts() const { return active_.needs_contexts; }
     [[nodiscard]] bool reads_contexts() const { return active_.reads_contexts; }
     /// The max number of modules that a match replaces. This number may exceed 1 in leftmost
@@ -234,6 +238,7 @@ public:
     [[nodiscard]] bool has_parameters() const { return has_parameters_; }
     /// Whether some successor without parameters has local values whose computation can fail.
     [[nodiscard]] bool checks_unstored() const { return checks_unstored_; }
+    /// Bytes per record: 1 or 4.
     [[nodiscard]] std::uint32_t record_width() const { return record_width_; }
     [[nodiscard]] std::uint32_t code_width() const { return codes_.width; }
     /// Whether brackets or ignored modules can occur at all.
@@ -247,12 +252,14 @@ private:
     void make_families();
     void make_guards();
     void make_entries();
+    /// Finds the shapes of the conditions and arguments of all candidates.
     void shape(Family& family);
     void shape_condition(Candidate& candidate);
     void shape_entry(const Candidate& candidate, Entry& entry);
     void make_batch_program(Candidate& candidate);
     [[nodiscard]] ShapeKnowledge knowledge(const Candidate& candidate) const;
     void activate_family(std::uint32_t family_index);
+    /// Sets the row of `code`, a code of the symbol that the family rewrites.
     void resolve(std::uint32_t family_index, Code code);
     void resolve_choice(const Family& family, std::uint32_t first_match, Code code);
     void resolve_fixed(Code code, const Entry& entry);
@@ -262,13 +269,17 @@ private:
     void fold_records(const Family& family, Code code);
     [[nodiscard]] std::uint32_t folded_template(const Candidate& candidate, const float* own);
     [[nodiscard]] std::uint32_t add_template(const std::vector<Code>& codes);
+    /// The condition of a candidate for a module with the arguments `own`, if known; null: unknown.
     [[nodiscard]] ConditionKind
     condition_for(const Family& family, const Candidate& candidate, const float* own) const;
     /// The arguments of the folded module of a row; null: the row has no folded module.
     [[nodiscard]] const float* folded_arguments(const Row& row) const;
     void set_kind(Code code, RowKind kind);
+    /// Makes the row copy its modules.
     void reset_row(Code code);
+    /// The entry that copies a module.
     [[nodiscard]] Entry identity_entry(Code code) const;
+    /// Sets Entry::special and Entry::batched.
     void set_special(Entry& entry) const;
     /// Whether the plan has every value on which the family depends: either the family does not
     /// depend on the generation, or prepare() is called for each generation.
@@ -281,8 +292,8 @@ private:
         std::vector<std::byte> pool;      // templates, each code once, folded templates, slack
         std::uint32_t first_identity = 0; // index in the pool where the list of all codes begins
         std::vector<std::uint32_t> first_of_symbol; // index in by_symbol; last: its size
-        std::vector<Code> by_symbol;
-        std::uint32_t width = 1; // bytes per code
+        std::vector<Code> by_symbol;                // codes grouped by symbol
+        std::uint32_t width = 1;                    // bytes per code
         std::uint32_t wide_bytes = 16;
     };
     /// Alternatives of Choice rows.
@@ -319,8 +330,8 @@ private:
     PlanInputs inputs_;
     bool each_generation_;
     TableRange productions_;
-    bool families_by_symbol_; // a family holds all productions of its symbol
-    std::uint32_t generation_ = 0;
+    bool families_by_symbol_;                   // a family holds all productions of its symbol
+    std::uint32_t generation_ = 0;              // argument of the last prepare()
     std::optional<GlibcRuleDraws> glibc_draws_; // set with `random glibc`
 
     std::vector<Row> rows_; // by code

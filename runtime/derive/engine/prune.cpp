@@ -16,7 +16,7 @@ Pruner::Pruner(const Bytecode& bytecode) {
                     : symbol.kind == SymbolKind::BranchClose ? Role::Close
                                                              : Role::Other;
         kind.stored = bytecode.stored_parameters(code);
-        any_ = any_ || kind.role == Role::Cut;
+        can_cut_ = can_cut_ || kind.role == Role::Cut;
     }
 }
 

@@ -17,7 +17,7 @@ public:
     explicit Pruner(const Bytecode& bytecode);
 
     /// Whether the program has a module that cuts.
-    [[nodiscard]] bool can_cut() const { return any_; }
+    [[nodiscard]] bool can_cut() const { return can_cut_; }
 
     /// Calls keep(index, parameter) for each module that stays, in order, with the number of
     /// parameters stored before it in this piece.
@@ -54,6 +54,7 @@ public:
         }
         return false;
     }
+    /// The number of parameters that a module of this code stores.
     [[nodiscard]] std::uint32_t stored(Code code) const { return kinds_[code].stored; }
     /// Starts a new word.
     void restart() { depth_ = 0; }
@@ -62,11 +63,11 @@ private:
     enum class Role : std::uint8_t { Other, Cut, Open, Close };
     struct Kind {
         Role role = Role::Other;
-        std::uint32_t stored = 0;
+        std::uint32_t stored = 0; // parameters in the word
     };
     std::vector<Kind> kinds_; // by code
     std::uint64_t depth_ = 0; // open brackets since the cut, the cut branch included; 0: no cut
-    bool any_ = false;
+    bool can_cut_ = false;
 };
 
 /// Modules and parameters of a word after its cuts.

@@ -21,6 +21,7 @@ struct AffineTerm {
     float offset = -0.0F;
 };
 
+/// `own`: the parameters of the module, also in holds().
 [[nodiscard]] inline float value_of(const AffineTerm& term, const float* own) {
     return own[term.input] * term.scale + term.offset;
 }
@@ -32,8 +33,8 @@ struct Comparison {
     static constexpr std::uint32_t kGreater = 4;
 
     AffineTerm affine;
-    float bound = 0.0F; // the constant; never NaN
-    std::uint32_t accepted = 0;
+    float bound = 0.0F;         // the constant; never NaN
+    std::uint32_t accepted = 0; // bits kLess, kEqual, kGreater of the results that hold
 };
 
 [[nodiscard]] inline bool holds(const Comparison& comparison, const float* own) {
@@ -50,8 +51,8 @@ struct ShapeKnowledge {
     std::uint32_t own_count = 0;             // number of own parameters; other formals are unknown
     const float* folded_arguments = nullptr; // null: a stored module, values unknown
     const float* globals = nullptr;
-    std::optional<float> step;
-    float steps = 0.0F;
+    std::optional<float> step; // value of step(); none: unknown
+    float steps = 0.0F;        // value of steps()
 };
 
 enum class ShapeKind : std::uint8_t { Constant, Affine, Comparisons, Other };

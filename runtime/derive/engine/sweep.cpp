@@ -288,10 +288,10 @@ private:
     std::vector<float> values_; // values computed by visit_general()
     SweepBases bases_{};
     std::array<float, kMaxSweepSlots> slots_{};
-    SweepNeighbour axis_;
+    SweepNeighbour axis_;            // the neighbour on the axis
     Stack<SweepNeighbour> branches_; // of this level: from first_branch_ on, the last first
-    std::size_t first_branch_ = 0;
-    Stack<Level> levels_; // one per open branch
+    std::size_t first_branch_ = 0;   // index in branches_
+    Stack<Level> levels_;            // one per open branch
 };
 
 template <typename C>

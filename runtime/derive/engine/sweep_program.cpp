@@ -112,9 +112,9 @@ public:
 
 private:
     struct Source {
-        std::uint32_t first = 0; // formal
-        std::uint32_t count = 0;
-        std::uint32_t base = 0;
+        std::uint32_t first = 0; // index of the first formal
+        std::uint32_t count = 0; // number of formals
+        std::uint32_t base = 0;  // index in SweepBases
     };
 
     static Chain constant(std::uint32_t index) { return {{Opcode::Formal, kConstantBase, index}}; }
@@ -122,7 +122,7 @@ private:
     const Bytecode& bytecode_;
     std::vector<float>& constants_;
     std::vector<Source> sources_;
-    std::vector<Chain> taken_;
+    std::vector<Chain> taken_; // chains of the values taken so far
 };
 
 SweepProgram::SweepProgram(const Bytecode& bytecode, const PlanInputs& inputs, Stage stage)

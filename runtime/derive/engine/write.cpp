@@ -36,7 +36,8 @@ bool all_finite(const float* values, std::size_t count) {
     return found == 0;
 }
 
-/// Stores the first four parameters of an entry at once.
+/// Stores the first four parameters of an entry at once. `own`: the parameters of the rewritten
+/// module.
 template <TermInputs kInputs>
 [[gnu::always_inline]] inline void store_terms(const Entry& entry, const float* own, float* out) {
     Float4 scale;
@@ -64,10 +65,10 @@ struct MixedRun {
     const C* in;            // the next module
     const C* end;
     std::uint64_t position; // position of `in` in the word
-    const float* own;
-    const R* records;
-    C* codes;
-    float* parameters;
+    const float* own;       // parameters of `in`
+    const R* records;       // the next record
+    C* codes;               // where the next code is written
+    float* parameters;      // where the next parameter is written
 };
 
 /// Writes the modules of `run` up to the first one with a special entry that is not batched. A free
@@ -500,11 +501,11 @@ private:
     const Row* rows_;
     const Entry* entries_;
     const C* pool_;
-    const R* records_;
+    const R* records_; // the next record
     Batches& batches_;
-    ModulePlace place_;
-    C* codes_;
-    float* parameters_;
+    ModulePlace place_; // the next module
+    C* codes_;          // where the next code is written
+    float* parameters_; // where the next parameter is written
 };
 
 } // namespace

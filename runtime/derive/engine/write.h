@@ -17,9 +17,9 @@ template <typename C>
 struct WriteRequest {
     ModulePlace begin;
     std::uint64_t end = 0;
-    C* codes = nullptr;
+    C* codes = nullptr; // where the next code is written
     C* codes_limit = nullptr;
-    float* parameters = nullptr;
+    float* parameters = nullptr; // where the next parameter is written
     float* parameters_limit = nullptr;
     Origin* origins = nullptr;        // one per code; null: none are kept
     const ActiveMask* mask = nullptr; // if set, runs of inactive modules are moved as blocks

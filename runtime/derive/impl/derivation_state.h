@@ -38,12 +38,12 @@ struct Derivation::State {
     std::optional<Sweep> down; // if the program has productions of #down
     std::optional<Sweep> up;
     std::vector<bool> is_sense; // by code; empty if the program has no sense module
-    Word word;
-    Word next;  // written by the current pass
-    Word spare; // the third word, for generations of several passes
+    Word word;                  // the last complete word, of age `age`
+    Word next;                  // written by the current pass
+    Word spare;                 // the third word, for generations of several passes
     Pruner pruner;
-    StageDepth depth; // passes of decomposition
-    std::uint32_t rules = 0;
+    StageDepth depth;        // passes of decomposition
+    std::uint32_t rules = 0; // number of rules of rewriting
     std::uint32_t age = 0;
     DerivationEnd end;
 
@@ -89,6 +89,7 @@ struct Derivation::State {
     }
     /// Calls DeriveOptions::on_pass, if set, before a pass over `current`.
     void announce(DerivationPass& facts, const Word* current);
+    /// Calls DeriveOptions::on_pass, if set, after a pass that wrote `written`.
     void report(DerivationPass& facts, const Word* written) const;
     /// Runs one pass over `current`.
     [[nodiscard]] std::optional<Stop>

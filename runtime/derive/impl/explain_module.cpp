@@ -265,14 +265,16 @@ private:
     }
 
     void write(const Attempt& taken) {
-        const BytecodeProduction& by = production_of(taken);
+        const BytecodeProduction& applied = production_of(taken);
         trace_.production = taken.production;
-        trace_.replaced = by.predecessor.count;
-        const bool draws_choice = by.stochastic && bytecode_.settings.choice == ChoiceScope::Module;
+        trace_.replaced = applied.predecessor.count;
+        const bool draws_choice =
+            applied.stochastic && bytecode_.settings.choice == ChoiceScope::Module;
         const std::uint64_t first = pass_.facts.first_draw + (draws_choice ? 1 : 0);
         const RangeDraws draws =
             RangeDraws::of_module(pass_.inputs.seed, pass_.facts.generation, position_, first);
-        SuccessorTrace successor = trace_successor(frame_of(taken), by.successor, draws, first);
+        SuccessorTrace successor =
+            trace_successor(frame_of(taken), applied.successor, draws, first);
         trace_.locals = std::move(successor.locals);
         trace_.ranges = std::move(successor.ranges);
         trace_.fault = std::move(successor.fault);
@@ -281,8 +283,8 @@ private:
             return;
         }
         const float* next = successor.arguments.data();
-        for (std::uint32_t i = 0; i < by.successor.codes.count; ++i) {
-            const Code code = bytecode_.template_codes[by.successor.codes.first + i];
+        for (std::uint32_t i = 0; i < applied.successor.codes.count; ++i) {
+            const Code code = bytecode_.template_codes[applied.successor.codes.first + i];
             TracedModule& module = trace_.written.emplace_back();
             module.symbol = bytecode_.symbol_of(code);
             const std::uint32_t count = bytecode_.symbol(module.symbol).parameter_count;

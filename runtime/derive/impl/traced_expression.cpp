@@ -122,7 +122,7 @@ struct PrintedNumbers : UnknownDomain<PrintedValue> {
         : frame(given), draws(from), first_draw(first), slots(given.bytecode.local_count) {}
 
     const TracedFrame& frame;
-    RangeDraws* draws;
+    RangeDraws* draws; // null: no random range is evaluated
     std::uint64_t first_draw;
     bool is_successor = false; // only successors have local values
     std::vector<PrintedValue> slots;
@@ -130,7 +130,7 @@ struct PrintedNumbers : UnknownDomain<PrintedValue> {
     std::vector<TracedRange> ranges;
     std::map<std::size_t, TracedLocal> locals; // by slot
     std::vector<std::string> choices;          // conditions of `if` in the next local value
-    std::vector<PrintedValue> taken;
+    std::vector<PrintedValue> taken;           // values of Emit and Test instructions
     std::string fault;
 
     /// Names the slots of local values that the last instruction has set. Other slots hold

@@ -19,12 +19,14 @@ namespace lsys {
     failure.stop = stop;
     return failure;
 }
+/// Stop::Limit: the answers would take `bytes`.
 [[nodiscard]] inline EnvironmentFailure beyond_memory(std::uint64_t bytes) {
     EnvironmentFailure failure;
     failure.stop = Stop::Limit;
     failure.bytes = bytes;
     return failure;
 }
+/// Stop::Diagnosed, with the reason `text` and the advice `help`.
 [[nodiscard]] inline EnvironmentFailure refused(std::string text, std::string help) {
     EnvironmentFailure failure;
     failure.text = std::move(text);

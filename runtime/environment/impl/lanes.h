@@ -41,7 +41,7 @@ using LaneMask = std::int32_t __attribute__((vector_size(4 * kLanes))); // -1 or
     return a > b ? a : b;
 }
 
-/// Bit i is set where lane i is.
+/// Bit i is set if lane i is -1.
 [[nodiscard]] inline std::uint32_t lane_bits(LaneMask mask) {
 #if defined(__SSE2__)
     return static_cast<std::uint32_t>(_mm_movemask_ps(std::bit_cast<__m128>(mask)));

@@ -20,7 +20,8 @@ using CellIndex = std::array<std::int64_t, 3>;
 
 inline constexpr double kMaxCellIndex = 2147483648.0; // 2^31
 
-/// The cell of a point, nothing if an index is beyond 2^31 or not a number.
+/// The cell of a point, nothing if an index is beyond 2^31 or not a number. `cell`: edge of a cell,
+/// m.
 [[nodiscard]] std::optional<CellIndex> cell_of(const Vector3& point, double cell);
 
 /// Cells from `low` to `high`, both included.
@@ -78,7 +79,7 @@ public:
 
 private:
     CellIndex low_;
-    std::array<std::size_t, 3> extents_;
+    std::array<std::size_t, 3> extents_; // cells along each axis
     LargeVector<double> opacities_;
 };
 
@@ -151,7 +152,7 @@ private:
     [[nodiscard]] const Entry& find(const Key& key) const { return entries_[index_of(key)]; }
 
     CellIndex low_;
-    std::uint32_t levels_;
+    std::uint32_t levels_;    // count of the sizes of blocks; level 0: single cells
     std::uint32_t shift_ = 0; // a hash >> shift_ is an index in entries_
     std::vector<Entry> entries_;
 };

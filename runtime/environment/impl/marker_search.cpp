@@ -183,11 +183,12 @@ private:
     const MarkerSearch& search_;
     const Vector3& marker_;
     FramedPlace framed_;
-    double nearest_; // squared, m^2
-    std::uint32_t found_ = kNoPlace;
-    float limit_;      // squared distance in the frame above which a place cannot be nearest
-    float kill_limit_; // squared distance in the frame above which a place cannot kill
-    float cosine_ = -1.0F;
+    double nearest_;                 // squared, m^2
+    std::uint32_t found_ = kNoPlace; // the nearest place so far that sees the marker
+    float limit_;          // squared distance in the frame above which a place cannot be nearest
+    float kill_limit_;     // squared distance in the frame above which a place cannot kill
+    float cosine_ = -1.0F; // MarkerReach::cosine, if the angle is tested in binary32
+    // Negative: max error of that test. Minus infinity: the angle is not tested in binary32.
     float angle_margin_ = -std::numeric_limits<float>::infinity();
 };
 

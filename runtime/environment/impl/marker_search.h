@@ -20,10 +20,10 @@ inline constexpr std::uint32_t kKilled = kNoPlace - 1;
 
 /// The distances and the angle that decide which markers a place sees and kills.
 struct MarkerReach {
-    double radius_squared = 0.0; // m^2
+    double radius_squared = 0.0; // m^2; markers up to this distance may be seen
     double cosine = -1.0;        // cosine of half the opening of the cone of view
-    bool sees_all = false;
-    double kill_squared = 0.0; // m^2
+    bool sees_all = false;       // places see in all directions: the angle is not compared
+    double kill_squared = 0.0;   // m^2; a marker nearer than this is killed
 };
 [[nodiscard]] MarkerReach marker_reach(const BytecodeEnvironment& declared);
 
@@ -56,6 +56,8 @@ private:
 
     void fill_node(Node& node, std::span<const SplitItem> items) const;
     void fill_boxes(std::span<const WideChild> children, std::span<const SplitItem> items);
+    /// Whether a place sees a marker at the vector `way` from it. `squared`: length of `way`,
+    /// squared.
     [[nodiscard]] bool sees(std::uint32_t position, const Vector3& way, double squared) const;
 
     std::span<const SensePlace> places_;

@@ -11,7 +11,8 @@ std::int64_t signed_of(std::uint32_t difference) {
     return static_cast<std::int32_t>(difference);
 }
 
-/// Lanes 0, 1 and 2 have the counts at z - 1, z and z + 1; middle() returns the count at z.
+/// Lanes 0, 1 and 2 have the counts at z - 1, z and z + 1. middle(): the count at z; sides(): the
+/// sum of the other two; along_z(): the count at z + 1 minus that at z - 1.
 std::int64_t middle(Lanes lanes) {
     return signed_of(lanes[1]);
 }

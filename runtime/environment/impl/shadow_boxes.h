@@ -61,6 +61,7 @@ public:
     }
 
 private:
+    /// Numbers of places with smaller x, for the ranges of z of the three squares of squares().
     [[nodiscard]] Lanes line(std::int64_t x, std::int64_t z, std::int64_t layer) const {
         const std::uint32_t* const at = sums_.data() + static_cast<std::size_t>(x) * stride_ +
                                         static_cast<std::size_t>(z - layer - 1);
@@ -72,7 +73,7 @@ private:
         return lanes;
     }
 
-    std::size_t stride_ = 0;
+    std::size_t stride_ = 0; // elements per line, all elements with one x
     std::vector<std::uint32_t> sums_;
     std::vector<std::uint8_t> used_; // lines with sources
 };

@@ -19,7 +19,7 @@ namespace lsys {
 /// Number of places whose pyramid covers a voxel with a given layer, and differences of this number
 /// between the voxel's 26 neighbours.
 struct LayerCounts {
-    std::int64_t own = 0;
+    std::int64_t own = 0; // count of the voxel itself
     /// [axis][squared distance - 1]: sum of the counts of the neighbours at +1 along the axis minus
     /// sum of those at -1.
     std::array<std::array<std::int64_t, 3>, 3> differences{};

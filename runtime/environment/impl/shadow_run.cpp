@@ -173,7 +173,7 @@ void ShadowRun::read_sources() {
                 const TileVoxel voxel = tiles_.voxel(neighbour.next);
                 const std::int32_t x = voxel.x + neighbour.x;
                 const std::int32_t z = voxel.z + neighbour.z;
-                // One condition, because most of it is unpredictable.
+                // `&`, not `&&`: one branch instead of two that are hard to predict.
                 if ((static_cast<std::uint32_t>(x) < width) &
                     (static_cast<std::uint32_t>(z) < depth)) {
                     const auto count =

@@ -64,26 +64,27 @@ private:
 
     const VoxelTiles& tiles_;
     const ShadowLayers& layers_;
-    std::int32_t edge_;
+    std::int32_t edge_; // width of a tile, in voxels
     /// Voxels along an axis from a target to the farthest source of it or a neighbour.
     std::int32_t reach_;
 
     std::vector<TileVoxel> targets_; // sorted by y; x and z count from the corner of the tables
     std::int32_t corner_x_ = 0;      // corner of the tables in coordinates of the tile
     std::int32_t corner_z_ = 0;
-    std::int32_t width_ = 0; // extent of the tables along x, in voxels
-    std::int32_t depth_ = 0; // extent of the tables along z, in voxels
-    std::int64_t place_count_ = 0;
+    std::int32_t width_ = 0;            // extent of the tables along x, in voxels
+    std::int32_t depth_ = 0;            // extent of the tables along z, in voxels
+    std::int64_t place_count_ = 0;      // number of places in sources_
     std::vector<ShadowSource> sources_; // in rows of ascending y
     /// Rows of sources_, and one row more, whose `first` is sources_.size().
     std::vector<Row> rows_;
     std::vector<Neighbour> neighbours_;
-    std::array<std::size_t, 3> tile_cursors_{}; // tiles at x - 1, x, x + 1
-    bool has_cursors_ = false;
-    std::array<SummedAreaTable, 3> tables_;
-    SummedAreaTable empty_table_;
-    std::vector<LayerCounts> pair_counts_; // counts by layer
-    std::vector<ShadowSum> sums_;
+    /// Tiles from which find_neighbours() searches the tiles at x - 1, x and x + 1.
+    std::array<std::size_t, 3> tile_cursors_{};
+    bool has_cursors_ = false;              // find_neighbours() has set tile_cursors_
+    std::array<SummedAreaTable, 3> tables_; // of three rows, by number of the row modulo 3
+    SummedAreaTable empty_table_;           // for rows without sources
+    std::vector<LayerCounts> pair_counts_;  // counts by layer
+    std::vector<ShadowSum> sums_;           // by target
 };
 
 } // namespace lsys

@@ -170,9 +170,9 @@ private:
 
     Vector3 place_;
     Vector3 direction_;
-    double size_; // edge of a cell, m
-    CellIndex at_;
-    double passed_ = 0.0; // m
+    double size_;         // edge of a cell, m
+    CellIndex at_;        // the cell that the ray is in
+    double passed_ = 0.0; // m, distance from the place to the point that the ray has reached
 };
 
 } // namespace lsys

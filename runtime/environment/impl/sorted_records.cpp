@@ -21,9 +21,9 @@ using Counters = std::array<std::size_t, std::size_t{1} << kMaxDigitBits>;
 
 /// A digit of the key.
 struct Digit {
-    bool is_high = false; // whether the digit belongs to SortRecord::high
-    std::uint32_t shift = 0;
-    std::uint32_t bits = 0;
+    bool is_high = false;    // whether the digit belongs to SortRecord::high
+    std::uint32_t shift = 0; // lowest bit of the digit in its half
+    std::uint32_t bits = 0;  // number of bits
 
     [[nodiscard]] std::size_t of(const SortRecord& record) const {
         const std::uint64_t half = is_high ? record.high : record.low;
@@ -105,9 +105,9 @@ private:
     }
 
     Workers& workers_;
-    std::size_t count_;
-    std::size_t chunks_;
-    std::vector<Counters> counters_;
+    std::size_t count_;              // records
+    std::size_t chunks_;             // number of chunks
+    std::vector<Counters> counters_; // by chunk
 };
 
 } // namespace

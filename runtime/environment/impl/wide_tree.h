@@ -24,9 +24,9 @@ struct WideNode {
 
 /// A child, and the items below it.
 struct WideChild {
-    std::uint32_t node = 0; // index of the parent node
-    std::uint32_t lane = 0; // index of the child in its parent
-    std::uint32_t begin = 0;
+    std::uint32_t node = 0;  // index of the parent node
+    std::uint32_t lane = 0;  // index of the child in its parent
+    std::uint32_t begin = 0; // items of the child are [begin, end)
     std::uint32_t end = 0;
 };
 

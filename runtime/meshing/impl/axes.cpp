@@ -15,6 +15,7 @@ namespace {
 
 constexpr std::size_t kSegmentsPerRange = std::size_t{1} << 16;
 
+/// Cosine of the bend between two segments.
 float straightness(const Segment& a, const Segment& b) {
     return glm::dot(direction(a.frame), direction(b.frame));
 }
@@ -58,6 +59,7 @@ public:
         }
     }
 
+    /// Joined segments whose parents are in earlier ranges.
     [[nodiscard]] const std::vector<std::uint32_t>& late() const { return late_; }
     /// Colours of the segments of the range.
     [[nodiscard]] const std::set<ItemColour>& colours() const { return colours_; }

@@ -23,9 +23,9 @@ constexpr float kNoRadius = 1e-8F;
 constexpr float kRadiusPerSide = 4e-7F;
 // Min radius of a ring relative to the edges beside it, so that its triangles have an area.
 constexpr float kThinnest = 1e-9F;
-constexpr float kMinRadius = 1e-36F;
-constexpr float kMaxRadius = 1e36F;
-constexpr std::uint32_t kMaxLevels = 8;
+constexpr float kMinRadius = 1e-36F;    // m; a thinner ring counts as a point
+constexpr float kMaxRadius = 1e36F;     // m
+constexpr std::uint32_t kMaxLevels = 8; // a higher MeshOptions::level counts as this
 // Max radius of the hidden ring of a branch, as a fraction of the inner radius of its parent.
 constexpr float kHidden = 0.9F;
 constexpr float kThickestBranch = 1.5F; // in radii of the parent; thicker ones have closed bases
@@ -403,6 +403,7 @@ bool AxisReader::set_wide_collar(const Segment& child, float parent_radius) {
 }
 
 /// Applies base_widening_: adds joints within its length and widens all joints within its length.
+/// `open`: the run begins inside of its parent.
 void AxisReader::widen_base(bool open) {
     const BaseWidening& wide = base_widening_;
     const float step = (wide.end - wide.begin) / static_cast<float>(wide.parts);

@@ -107,14 +107,14 @@ private:
     std::array<float, 256> widening_{};     // factor of the radius, by Segment::sides
     // If a deviation is set, sides_ and the joints have the sides of level 0 until fit_sides() is
     // called.
-    std::optional<SideCounts> counts_;
+    std::optional<SideCounts> counts_;                    // set if MeshOptions::deviation is set
     std::array<std::uint8_t, kMaxSides + 1> max_sides_{}; // at options_.level, by sides of level 0
     BaseWidening base_widening_;                          // widening of the current run
     float max_base_radius_ = 0.0F; // max radius of the corners of an open base
-    std::array<float, 2> flare_{}; // radii at the ends of the longest collar; 0: none
+    std::array<float, 2> flare_{}; // radii at both ends of the longest possible collar; 0: none
     LargeVector<float> radii_;
     LargeVector<Joint> joints_;
-    LargeVector<Joint> spare_;
+    LargeVector<Joint> spare_;           // memory to reuse
     std::uint32_t segment_ = kNoSegment; // the next segment to read
     bool attached_ = false;              // no segment of the axis has been left out so far
     bool rings_final_ = true; // the rings of all joints are final: set_rings() is not needed

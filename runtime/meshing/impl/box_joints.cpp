@@ -177,6 +177,8 @@ private:
                half > kMinRim * std::max({std::abs(end.x), std::abs(end.y), std::abs(end.z)});
     }
 
+    /// Makes the rest of a segment. `half`: half side of its box at the tip; `reach`: length from
+    /// its base that already has a surface.
     void finish(std::uint32_t segment, float half, float reach) {
         const Segment& own = skeleton_.segments[segment];
         const glm::vec3 along = heading(own.frame);
@@ -215,7 +217,8 @@ private:
         branch(segment, half, reach);
     }
 
-    /// Makes a joint. Children that fit grow from its sides.
+    /// Makes the rest of a segment, as finish(), with a joint. Children that fit grow from the
+    /// sides of the joint.
     void branch(std::uint32_t segment, float half, float reach) {
         const Segment& own = skeleton_.segments[segment];
         const glm::vec3 along = heading(own.frame);
@@ -365,11 +368,11 @@ private:
 
     const Skeleton& skeleton_;
     const BoxShape& shape_;
-    std::vector<bool> drawn_;
+    std::vector<bool> drawn_;  // by segment
     std::vector<bool> closed_; // children for which no side of the parent's joint has room
-    std::vector<std::uint32_t> first_child_;
-    std::vector<std::uint32_t> children_;
-    std::vector<std::uint32_t> socket_of_; // by segment: index in sockets_
+    std::vector<std::uint32_t> first_child_; // by segment: index in children_; last: its size
+    std::vector<std::uint32_t> children_;    // segments
+    std::vector<std::uint32_t> socket_of_;   // by segment: index in sockets_
     std::vector<BoxSocket> sockets_;
     BoxWriter writer_;
 };

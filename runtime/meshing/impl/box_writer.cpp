@@ -223,6 +223,7 @@ void BoxWriter::close(float rim) {
     add_face(end_.corners);
 }
 
+/// Adds `tile` to tiles_, halved until each part contains one of the places.
 void BoxWriter::cut_tiles(const Tile& tile, std::span<const glm::vec2> places) {
     if (tile.count <= 1) {
         tiles_.push_back(tile);

@@ -80,6 +80,7 @@ public:
     [[nodiscard]] PolygonMesh take();
 
 private:
+    /// A part of the side that divide() divides; (right, up) from -1 to 1.
     struct Tile {
         glm::vec2 low;
         glm::vec2 high;
@@ -104,8 +105,8 @@ private:
 
     std::vector<std::size_t> tile_order_; // indices of places, by tile
     std::vector<Tile> tiles_;
-    std::vector<glm::vec2> tile_corners_;
-    std::vector<std::uint32_t> tile_vertices_;
+    std::vector<glm::vec2> tile_corners_;      // corners of the tiles of a side, each once
+    std::vector<std::uint32_t> tile_vertices_; // vertex of each of these corners
     std::vector<BoxSocket> sockets_;
 };
 

@@ -33,9 +33,9 @@ constexpr std::uint64_t kVerticesPerPiece = 1U << 14;
 
 /// Triangles of the faces, by part.
 struct Parts {
-    std::vector<MeshBuilder::PartSize> sizes;   // by ascending material
-    std::vector<std::span<std::uint32_t>> room; // for the indices of each part
-    std::map<ItemColour, std::size_t> of_colour;
+    std::vector<MeshBuilder::PartSize> sizes;    // by ascending material
+    std::vector<std::span<std::uint32_t>> room;  // for the indices of each part
+    std::map<ItemColour, std::size_t> of_colour; // index in `sizes` and `room`
 };
 
 /// The parts after `steps` subdivision steps; each step makes a quad for each corner of a face.
@@ -56,6 +56,7 @@ Parts find_parts(const PolygonMesh& mesh, std::uint32_t steps) {
     return parts;
 }
 
+/// A normal of the face with the corners [begin, end), as long as twice the area of the face.
 glm::vec3 face_area(const PolygonMesh& mesh, std::uint32_t begin, std::uint32_t end) {
     const glm::vec3& first = mesh.positions[mesh.corners[begin]];
     if (end - begin == 4) {

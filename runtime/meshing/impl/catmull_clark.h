@@ -89,8 +89,8 @@ private:
     bool closed_ = false;
     bool quads_ = false;                     // all faces have four corners and are stored in order
     LargeVector<std::uint32_t> faces_;       // by half-edge; empty if all faces are quads
-    LargeVector<std::uint32_t> twins_;       // by half-edge
-    LargeVector<std::uint32_t> edges_;       // by half-edge
+    LargeVector<std::uint32_t> twins_;       // by half-edge: the opposite half-edge of its edge
+    LargeVector<std::uint32_t> edges_;       // by half-edge: its edge
     LargeVector<std::uint32_t> edge_half_;   // a half-edge of each edge
     LargeVector<std::uint32_t> vertex_half_; // a half-edge that begins at each vertex
 };

@@ -20,8 +20,8 @@ namespace lsys {
 namespace {
 
 constexpr std::uint64_t kSegmentsPerPiece = 4096;
-constexpr std::uint32_t kMaxLevels = 8;
-constexpr float kMaxRadius = 1e18F;
+constexpr std::uint32_t kMaxLevels = 8; // a higher MeshOptions::level counts as this
+constexpr float kMaxRadius = 1e18F;     // m
 
 /// The cone of a segment: rings of `sides` corners, or points.
 struct Cone {
@@ -108,7 +108,7 @@ private:
         glm::vec3 centre;
         float radius;
         glm::vec2 normal; // components away from the axis and along the axis
-        float v;
+        float v;          // texture coordinate
     };
 
     void put_ring(const Segment& segment, std::uint32_t sides, const Ring& ring) {
@@ -164,19 +164,20 @@ private:
 
     const MeshBlock& block_;
     std::span<std::uint32_t> indices_; // room for the indices of the current part
-    std::uint64_t vertex_;
-    std::uint64_t index_;
+    std::uint64_t vertex_;             // the next vertex to write
+    std::uint64_t index_;              // the next item of indices_ to write
     glm::mat3 axes_{1.0F};
     const Direction* ring_directions_ = nullptr;
     std::uint32_t number_ = kNoSegment; // number of the current segment
 };
 
+/// Segments of one colour that one thread writes.
 struct Piece {
-    std::uint64_t first = 0; // index in Groups::items
+    std::uint64_t first = 0; // items [first, end) of Groups::items
     std::uint64_t end = 0;
-    std::size_t part = 0;
-    std::uint64_t vertices = 0;
-    std::uint64_t indices = 0;
+    std::size_t part = 0;       // number of the group
+    std::uint64_t vertices = 0; // count of vertices, later the number of the first
+    std::uint64_t indices = 0;  // count of indices, later the place of the first in the part
 };
 
 } // namespace

@@ -58,6 +58,7 @@ constexpr Direction direction_of(std::uint32_t corner, std::uint32_t sides) {
     return direction_in_octant(corner, sides);
 }
 
+/// Index in kDirections of the first corner of the polygon with `sides` sides.
 constexpr std::size_t first_direction(std::uint32_t sides) {
     return sides * (sides + std::size_t{1}) / 2 - kMinSides * (kMinSides + std::size_t{1}) / 2;
 }

@@ -50,9 +50,9 @@ private:
         glm::vec3 right{};
         glm::vec3 up{};
         glm::vec3 towards_eye{};
-        glm::vec3 low{};  // bounds along right, up and towards_eye; z: back of the slab
-        glm::vec3 high{}; // z: front of the slab
-        std::vector<float> coverage;
+        glm::vec3 low{};             // bounds along right, up and towards_eye; z: back of the slab
+        glm::vec3 high{};            // z: front of the slab
+        std::vector<float> coverage; // fraction of the texel that the plant covers, 0 to 1
         std::vector<glm::vec3> colours; // linear
         std::vector<glm::vec3> normals; // components along right, up and towards_eye
         std::vector<float> depths;      // 0 to 1

@@ -23,8 +23,8 @@ constexpr std::size_t kSamples = 32; // samples of an edge, to find where it tur
 struct Cubic {
     glm::dvec3 begin{};
     glm::dvec3 end{};
-    glm::dvec3 leaving{};
-    glm::dvec3 arriving{};
+    glm::dvec3 leaving{};  // derivative at 0
+    glm::dvec3 arriving{}; // derivative at 1
 
     [[nodiscard]] glm::dvec3 at(double t) const {
         const double rest = 1.0 - t;

@@ -63,8 +63,8 @@ private:
     }
 
     const MeshBlock& block_;
-    std::uint64_t vertex_ = 0;
-    std::uint64_t index_ = 0;
+    std::uint64_t vertex_ = 0; // the next vertex to write
+    std::uint64_t index_ = 0;  // the next index to write
 };
 
 void ShapeWriter::cylinder(const Segment& segment, std::uint32_t number) {

@@ -33,7 +33,7 @@ public:
     [[nodiscard]] const LinearTexture& texture_of(const Material& material);
 
 private:
-    std::map<std::shared_ptr<const Texture>, LinearTexture> files_;
+    std::map<std::shared_ptr<const Texture>, LinearTexture> files_; // by Material::picture
 };
 
 } // namespace lsys

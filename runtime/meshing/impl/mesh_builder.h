@@ -80,7 +80,7 @@ public:
     struct WholePart {
         MaterialKey material;
         TriangleList triangles;
-        std::string word = {};
+        std::string word = {}; // as PartSize::word
     };
 
     /// Writes into `mesh` and reuses the memory of its vertices. Both arguments must outlive the

@@ -51,6 +51,7 @@ struct Instances {
     float droop;
     MeshBlock block;
 
+    /// Writes the objects items[first] to items[end - 1].
     void write(std::uint64_t first, std::uint64_t end) const;
 
 private:

@@ -21,8 +21,8 @@ constexpr std::uint32_t kMaxSteps = 24;
 struct HermiteCurve {
     glm::dvec3 from{};
     glm::dvec3 chord{};
-    glm::dvec3 slope_from{};
-    glm::dvec3 slope_to{};
+    glm::dvec3 slope_from{}; // derivative at t = 0
+    glm::dvec3 slope_to{};   // derivative at t = 1
 
     [[nodiscard]] glm::dvec3 point(double t) const {
         const glm::dvec3 square = 3.0 * chord - 2.0 * slope_from - slope_to;
@@ -63,6 +63,7 @@ AxisStation station_of(const OrganPoint& point, double part) {
     return station;
 }
 
+/// Number of steps for a bend by `turn` and a roll by `roll`, in radians.
 std::uint32_t step_count(double turn, double roll, std::uint32_t level, std::uint32_t min_steps) {
     // Angles of rounding errors need no step.
     const double steps = std::ceil((turn + std::abs(roll)) / kTurnPerStep - 1e-6);

@@ -52,7 +52,7 @@ void place_columns(const AxisStation& station, OrganRing& ring) {
     }
 }
 
-/// Length of the axis from the ring before to `position`, in circumferences between the two.
+/// Length of `step`, the way from ring a to ring b, in units of the mean of their circumferences.
 double length_in_circumferences(const glm::dvec3& step, const OrganRing& a, const OrganRing& b) {
     const double mean = 0.5 * (a.circumference + b.circumference);
     return mean > 0.0 ? glm::length(step) / mean : 0.0;

@@ -106,18 +106,19 @@ void project(std::span<const glm::vec3> corners,
 
 /// Polygons of one group that one thread handles at a time.
 struct Piece {
-    std::uint64_t first_item = 0;
+    std::uint64_t first_item = 0; // index in Job::items
     std::uint64_t item_count = 0;
     std::vector<std::uint32_t> triangles;    // three corners per triangle, by number in the polygon
     std::vector<std::uint32_t> index_counts; // one per polygon; 0 if it has no area
     std::uint64_t vertex_count = 0;
     std::uint64_t first_vertex = 0; // in the block of the group
-    std::uint64_t first_index = 0;
+    std::uint64_t first_index = 0;  // place of the first of its indices in the block of the group
 };
 
+/// The polygons to write.
 struct Job {
     const Skeleton& skeleton;
-    const LargeVector<std::uint32_t>& items;
+    const LargeVector<std::uint32_t>& items; // indexes of polygons, sorted by group
 };
 
 void triangulate(const Job& job, Piece& piece) {

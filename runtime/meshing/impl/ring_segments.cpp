@@ -36,7 +36,7 @@ double squared_distance(const glm::vec3& point, const Segment& segment) {
     return glm::dot(rest, rest);
 }
 
-/// A run together with its joints.
+/// A run with copies of its joints.
 struct OwnRun {
     Run run;
     std::vector<Joint> joints;
@@ -81,6 +81,7 @@ public:
     }
 
 private:
+    /// Sets chain_ to the segments from `first` on along the axis, up to `end`.
     void read_chain(std::uint32_t first, std::uint32_t end) {
         chain_.clear();
         for (std::uint32_t at = first; at < kForked && at != end; at = axes_.next[at]) {
@@ -202,7 +203,7 @@ private:
     std::vector<std::uint32_t> chain_;        // segments of the run, and undrawn ones after it
     std::vector<std::uint32_t> places_;       // by joint: index in chain_
     std::vector<VertexSegments> segments_of_; // by joint: segments of the edges beside it
-    std::uint64_t vertex_ = 0;
+    std::uint64_t vertex_ = 0;                // the next vertex whose segments are written
 };
 
 } // namespace

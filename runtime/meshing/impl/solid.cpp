@@ -110,6 +110,7 @@ public:
         return arc;
     }
 
+    /// The cones of a segment, valid until the next call. `arc`: arc_of() the segment.
     std::span<const ConePart> parts_of(const Segment& segment, float arc) {
         parts_.clear();
         const glm::vec3 end = tip(segment);
@@ -225,8 +226,8 @@ private:
         parent_[std::max(a, b)] = std::min(a, b);
     }
 
-    std::vector<std::uint32_t> parent_;
-    std::vector<double> volume_; // six times the volume, at the first vertex of each piece
+    std::vector<std::uint32_t> parent_; // by vertex; the first vertex of a piece is its own parent
+    std::vector<double> volume_;        // six times the volume, at the first vertex of each piece
 };
 
 /// Normal of each vertex: the mean of the normals of the triangles around it, weighted by area.
@@ -243,6 +244,7 @@ std::vector<glm::dvec3> normals_of(const SolidSurface& surface) {
     return normals;
 }
 
+/// A vertex whose normal has the direction `along`.
 MeshVertex
 make_vertex(const glm::dvec3& position, const glm::dvec3& along, const SolidShape& shape) {
     const double length = glm::length(along);

@@ -19,6 +19,7 @@ constexpr float kGroundTolerance = 1e-3F; // max abs(y) of a stem's base, per he
 constexpr float kRidgeDepthPerFlare = 0.75F;
 constexpr float kMaxRidgeDepth = 0.6F;
 constexpr float kMeanRidge = 13.0F / 35.0F; // mean of ridge()
+// Factors of ridge() for the ridges of a flare, by number of the ridge.
 constexpr std::array<float, kMaxRoots> kHeights{1.0F,  0.8F, 1.15F, 0.9F, 1.2F,
                                                 0.75F, 1.1F, 0.85F, 1.05F};
 

@@ -22,11 +22,12 @@ inline constexpr std::uint32_t kCollarParts = 2;
 /// r + (factor * r + radius) * (1 - t)^2, where t rises from 0 at `begin` to 1 at `end`.
 struct BaseWidening {
     float begin = 0.0F;
-    float end = 0.0F; // 0: no widening
-    float factor = 0.0F;
-    float radius = 0.0F;
+    float end = 0.0F;        // 0: no widening
+    float factor = 0.0F;     // of the radius r
+    float radius = 0.0F;     // m
     std::uint32_t parts = 0; // number of edges of equal length between begin and end
 
+    /// The widened radius at arc length `arc`. `own`: the radius r there.
     [[nodiscard]] float widened(float own, float arc) const {
         const float t = (arc - begin) / (end - begin);
         const float rest = 1.0F - (t < 0.0F ? 0.0F : t > 1.0F ? 1.0F : t);

@@ -54,8 +54,8 @@ constexpr double kExact = 1e-6;
 struct Tetrahedron {
     std::array<Node, 4> nodes{};
     std::array<double, 4> distances{}; // of the nodes from the surface
-    int tag = 3; // the next bisection cuts the edge from nodes[0] to nodes[tag]
-    int generation = 0;
+    int tag = 3;        // the next bisection cuts the edge from nodes[0] to nodes[tag]
+    int generation = 0; // number of bisections that made it
 };
 
 struct Grid {
@@ -133,10 +133,11 @@ std::vector<Ball> make_balls(const Solid& solid) {
     return balls;
 }
 
+/// Distance of a point from the surface of the solid.
 struct Probe {
-    double distance = std::numeric_limits<double>::max();
-    std::uint32_t shape = 0;
-    bool on_ground = false;
+    double distance = std::numeric_limits<double>::max(); // m, negative within the solid
+    std::uint32_t shape = 0;                              // number of the nearest shape
+    bool on_ground = false;                               // the flat base is nearer than all shapes
 };
 
 std::uint64_t key_of(const Node& a, const Node& b) {
@@ -185,6 +186,7 @@ public:
                      });
     }
 
+    /// The distance of a point from the union of the shapes `near`, cut off below the ground.
     [[nodiscard]] Probe probe(const glm::dvec3& point, std::span<const std::uint32_t> near) const {
         Probe best;
         for (const std::uint32_t number : near) {
@@ -205,8 +207,8 @@ public:
 
 private:
     struct Size {
-        double distance = 0.0;
-        double size = 0.0; // size of cells
+        double distance = 0.0; // m, from the surface of a shape; negative within it
+        double size = 0.0;     // m, size of cells
     };
 
     [[nodiscard]] Size measure(const SolidShape& shape, const glm::dvec3& point) const {
@@ -464,6 +466,7 @@ private:
         add_triangle(corners[first], corners[first + 2], corners[(first + 3) % 4], turned);
     }
 
+    /// Takes `bytes` from bytes_left_; sets overflow_ if they are not left.
     void take(std::uint64_t bytes) {
         std::uint64_t left = bytes_left_.load();
         while (left >= bytes && !bytes_left_.compare_exchange_weak(left, left - bytes)) {
@@ -480,14 +483,14 @@ private:
     const std::vector<Ball>& balls_; // a ball around each shape
     const Grid& grid_;
     std::atomic<std::uint64_t>& bytes_left_;
-    bool overflow_ = false;
+    bool overflow_ = false; // more bytes were needed than are left
     std::vector<std::uint32_t>
         near_; // numbers of shapes, stacked: of an ancestor, then of its descendants
-    std::vector<Size> probes_;
+    std::vector<Size> probes_;           // values at one point for some shapes, see measure_all()
     std::vector<std::uint32_t> nearest_; // numbers of shapes that may be nearest on an edge
     static constexpr std::size_t kMaxMiddles = 1 << 20;
-    std::unordered_map<std::uint64_t, Size> middles_; // by key of the edge
-    std::unordered_map<std::uint64_t, std::uint32_t> vertex_of_;
+    std::unordered_map<std::uint64_t, Size> middles_;            // by key of the edge
+    std::unordered_map<std::uint64_t, std::uint32_t> vertex_of_; // by key of the edge
     std::vector<std::uint64_t> keys_; // by vertex: key of the edge on which it lies
     SolidSurface surface_;
 };

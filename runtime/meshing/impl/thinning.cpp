@@ -19,6 +19,7 @@ namespace lsys {
 namespace {
 
 constexpr std::uint64_t kSeed = 0x7468696E; // fixed: the order depends on no seed of the user
+// Argument `block` of draw_block() for paths and for foliage.
 constexpr std::uint32_t kPathBlock = 0;
 constexpr std::uint32_t kFoliageBlock = 1;
 constexpr int kWideningSteps = 40; // halvings of the interval of the radius
@@ -46,10 +47,10 @@ void order_paths(const Skeleton& skeleton, ThinningOrder& order) {
         }
     }
     struct Path {
-        double area = 0.0;
-        std::uint32_t order = 0;
-        std::uint32_t random = 0;
-        std::uint32_t number = 0;
+        double area = 0.0;        // outline area of the path and its branches
+        std::uint32_t order = 0;  // number of ancestors
+        std::uint32_t random = 0; // decides between equal paths
+        std::uint32_t number = 0; // number of the path before sorting
     };
     std::vector<Path> paths;
     order.path_ranks.resize(count);

@@ -42,10 +42,12 @@ std::uint32_t order_of(const glm::dvec2& point) {
     return bits(point.x) | (bits(point.y) << 1);
 }
 
+/// Whether `direction` lies in the angle, below 180 degrees, from `from` counter-clockwise to `to`.
 bool inside(const glm::dvec2& direction, const glm::dvec2& from, const glm::dvec2& to) {
     return cross(from, direction) > 0.0 && cross(direction, to) > 0.0;
 }
 
+/// Whether the lines a b and c d cross.
 bool cross_each_other(const glm::dvec2& a,
                       const glm::dvec2& b,
                       const glm::dvec2& c,
@@ -93,6 +95,7 @@ void Triangulator::load(std::span<const glm::dvec2> corners) {
     remaining_ = count;
 }
 
+/// Twice the area of the triangle at a corner; positive if the corner is convex.
 double Triangulator::turn(std::uint32_t node) const {
     const Node& own = nodes_[node];
     return area(nodes_[own.previous].at, own.at, nodes_[own.next].at);
@@ -267,6 +270,7 @@ std::uint32_t Triangulator::cut_convex_corner(std::uint32_t start,
     return next;
 }
 
+/// Cuts off corners, ears if there are any, until two are left.
 void Triangulator::clip(std::vector<std::uint32_t>& triangles) {
     indexed_ = remaining_ >= kIndexedFrom;
     if (indexed_) {

@@ -50,9 +50,9 @@ private:
     void clip(std::vector<std::uint32_t>& triangles);
 
     std::vector<Node> nodes_;
-    std::vector<std::uint32_t> sorted_;
-    bool indexed_ = false;
-    std::uint32_t remaining_ = 0; // nodes in the ring
+    std::vector<std::uint32_t> sorted_; // nodes by ascending Node::order
+    bool indexed_ = false;              // nodes are in the list sorted by `order`
+    std::uint32_t remaining_ = 0;       // nodes in the ring
 };
 
 } // namespace lsys

@@ -50,7 +50,7 @@ private:
 
     const ColourSlots& slots_;
     std::span<TriangleList> lists_;
-    bool seam_;
+    bool seam_; // rings have a seam: one vertex more than sides
     std::uint64_t vertices_ = 0;
     RingCorners last_; // the ring added last
 };

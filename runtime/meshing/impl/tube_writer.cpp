@@ -16,7 +16,7 @@ namespace lsys {
 
 namespace {
 
-constexpr float kMaxSlope = 8.0F;
+constexpr float kMaxSlope = 8.0F; // max result of slope_of()
 constexpr std::uint32_t kEdgesPerOrthogonalization =
     16;                               // edges after which the frame is made orthogonal again
 constexpr float kSpread = 0.2F;       // distance of the rings of a bend from its joint, in radii
@@ -75,6 +75,7 @@ glm::vec3 bend_axis(const glm::vec3& in, const glm::vec3& out, const glm::vec3& 
     return sine > 1e-3F ? turn * (1.0F / sine) : across(glm::cross(in, normal), in);
 }
 
+/// Change of the radius per length at joint `i`.
 float slope_of(const Run& run, std::size_t i) {
     const std::size_t low = i == 0 ? 0 : i - 1;
     const std::size_t high = std::min(i + 1, run.joints.size() - 1);

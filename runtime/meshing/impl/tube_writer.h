@@ -84,13 +84,13 @@ private:
     MeshBlock block_;
     const MeshOptions& options_;
     const Flare& flare_;
-    bool seam_;
-    Place at_;
+    bool seam_; // rings have a seam: one vertex more than sides
+    Place at_;  // up to where the run is written
     // State of the run being written:
-    double v_scale_ = 0.0;
-    const BarkNoise* noise_ = nullptr;
-    const Grooves* grooves_ = nullptr;
-    const Roots* roots_ = nullptr;
+    double v_scale_ = 0.0;             // texture coordinate v per arc length
+    const BarkNoise* noise_ = nullptr; // null: none
+    const Grooves* grooves_ = nullptr; // null: none
+    const Roots* roots_ = nullptr;     // null: none
 };
 
 } // namespace lsys

@@ -19,7 +19,7 @@ namespace lsys {
 
 namespace {
 
-constexpr std::uint64_t kPieces = 64;
+constexpr std::uint64_t kPieces = 64;             // wanted number of pieces
 constexpr std::uint64_t kMinPieceSegments = 4096; // segments per piece
 constexpr std::uint64_t kMaxPieceSegments = std::uint64_t{1} << 17;
 constexpr std::uint64_t kMaxLists = std::uint64_t{1} << 20; // max pieces times colours
@@ -137,13 +137,13 @@ private:
 /// Some runs of a piece, or a part of a long run.
 struct Task {
     Piece* piece = nullptr;
-    std::size_t first_run = 0;
+    std::size_t first_run = 0; // runs [first_run, end_run) of Piece::runs
     std::size_t end_run = 0;
-    std::size_t first_joint = 0;
-    std::uint64_t first_vertex = 0;
+    std::size_t first_joint = 0;    // index in Piece::joints
+    std::uint64_t first_vertex = 0; // vertices [first_vertex, end_vertex) of the block
     std::uint64_t end_vertex = 0;
     LongRun* shared = nullptr; // the long run; null: whole runs
-    std::size_t part = 0;
+    std::size_t part = 0;      // number of the part of the long run
 };
 
 /// Tasks in the order of their vertices.

@@ -18,7 +18,7 @@ namespace {
 
 /// Pixels per side of the trial views, from which the size of all other views is computed.
 constexpr int kTrialSize = 96;
-constexpr int kMinSize = 80;
+constexpr int kMinSize = 80; // min and max pixels per side of the other views
 constexpr int kMaxSize = 256;
 constexpr double kTargetPixels =
     2500.0; // wanted mean number of pixels that the plant covers per view
@@ -178,14 +178,14 @@ private:
         });
     }
 
-    glm::vec3 middle_;
-    float cosine_;
+    glm::vec3 middle_; // middle of the frame, m
+    float cosine_;     // of the turn about +Y
     float sine_;
-    float tilt_cosine_;
+    float tilt_cosine_; // of the elevation of the eye
     float tilt_sine_;
-    float reach_ = 1.0F;
-    float scale_ = 1.0F;
-    glm::vec3 offset_{};
+    float reach_ = 1.0F; // half the side of the view, m
+    float scale_ = 1.0F; // pixels per m
+    glm::vec3 offset_{}; // pixels
     DepthBuffer depth_;
     std::vector<Pixel> pixels_;
     std::vector<glm::vec3> places_;    // pixels, place of each vertex of a mesh

@@ -8,7 +8,6 @@
 // bends too little. So they count as thin sheets of `surface_mass`: an object of size s has s^2
 // square metres, at half its length; a polygon has its area, at the mean of its corners. Half of
 // the area of a sheet faces the wind, which is the mean over all directions.
-// faces the wind: the mean over all directions.
 #include "runtime/physics/impl/bodies.h"
 
 #include "runtime/turtle/organs.h"
@@ -64,8 +63,8 @@ glm::dvec3 heading_of(const glm::quat& frame) {
 /// Sums over the segment, the objects and the polygons of a body: mass times position, and area of
 /// sheets.
 struct BodySums {
-    glm::dvec3 first_moment{0.0};
-    double sail = 0.0;
+    glm::dvec3 first_moment{0.0}; // kg m
+    double sail = 0.0;            // m^2, Body::sail
 };
 
 void order_by_depth(const Skeleton& rest, Bodies& out) {

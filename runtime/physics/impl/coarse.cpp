@@ -307,8 +307,8 @@ private:
 private:
     const Bodies* plant_;
     const Twigs* twigs_;
-    std::uint32_t min_size_;
-    std::uint32_t longest_;
+    std::uint32_t min_size_; // min bodies in the subtree of a body that is kept
+    std::uint32_t longest_;  // max bodies of a run
 };
 
 glm::dquat mixed(const glm::dquat& from, glm::dquat to, double share) {

@@ -73,7 +73,8 @@ void add_stiffness(const glm::dvec3& arm,
 }
 
 /// Adds the contact of a tip that is in the ground, or reaches it within the step: a spring along Y
-/// with the force that it has at the end of the step, and friction along the ground.
+/// with the force that it has at the end of the step, and friction along the ground. `own`: the
+/// forms of the body.
 void add_contact(const Contact& contact,
                  const BodyMotion& motion,
                  const BodyPose& pose,
@@ -138,6 +139,7 @@ BodyForms own_load_forms(const Body& body,
     return own;
 }
 
+/// The quadratic and linear forms of a body alone, without its children.
 BodyForms own_forms(const Body& body,
                     const BodyMotion& motion,
                     const glm::dquat& turn,
@@ -178,7 +180,7 @@ BodyForms own_forms(const Body& body,
 }
 
 /// Adds the forms of a child to the forms of its parent. `offset`: from the base of the parent to
-/// the base of the child, in m.
+/// the base of the child, in m. `own`: the forms of the parent.
 void add_child(const Reduced& child,
                const glm::dvec3& offset,
                const Forces& forces,
@@ -214,7 +216,7 @@ void add_child(const Reduced& child,
     }
 }
 
-/// Eliminates the spin of a body from its forms.
+/// Eliminates the spin of a body from its forms `own`, which include its descendants.
 void eliminate_spin(const BodyForms& own,
                     const Body& body,
                     const BodyMotion& motion,

@@ -70,8 +70,9 @@ struct Reduced {
 struct PlantBodies {
     Bodies rest;
     Schedule schedule;
+    // By body:
     std::vector<BodyPose> poses;
-    std::vector<BodyPose> next_poses;
+    std::vector<BodyPose> next_poses; // poses after the step that is tried
     std::vector<BodyMotion> motion;
     std::vector<JointSolution> solution;
     std::vector<Reduced> reduced; // ring buffer: body b is at index b & reduced_mask

@@ -26,7 +26,8 @@ static_assert(std::ranges::all_of(enumerators_of<TurtleOperation>(), is_consiste
 
 /// The quick action of the operation; None for a turn whose angle is not constant.
 QuickAction quick_action(const Action& action, bool angle_is_constant) {
-    const bool turn_is_constant = action.stored == 0 && (action.given != 0 || angle_is_constant);
+    const bool turn_is_constant =
+        action.stored == 0 && (action.argument_count != 0 || angle_is_constant);
     return turns(action.operation) && !turn_is_constant ? QuickAction::None
                                                         : info(action.operation).quick;
 }
@@ -35,7 +36,8 @@ Action action_of(const BytecodeSymbol& symbol, const Settings& settings) {
     const TurtleTraits& traits = settings.traits;
     Action action;
     action.operation = symbol.turtle;
-    action.given = static_cast<std::uint8_t>(std::min(symbol.parameter_count, kTurtleArguments));
+    action.argument_count =
+        static_cast<std::uint8_t>(std::min(symbol.parameter_count, kTurtleArguments));
     action.advances =
         symbol.turtle == TurtleOperation::Leaf ? traits.leaf_moves : traits.object_moves;
     action.default_size = traits.object_has_step_scale ? settings.step_scale : 1.0F;
@@ -134,20 +136,20 @@ ActionTable make_actions(const Bytecode& bytecode, const TurtleOptions& options)
     for (Code code = 0; code < bytecode.code_count(); ++code) {
         Action action = symbol_actions[static_cast<std::size_t>(bytecode.symbol_of(code))];
         action.stored = bytecode.stored_parameters(code);
-        if (code >= symbol_count && action.given != 0) {
+        if (code >= symbol_count && action.argument_count != 0) {
             const std::uint32_t first = bytecode.folded[code - symbol_count].first_constant;
-            for (std::uint32_t i = 0; i < action.given; ++i) {
+            for (std::uint32_t i = 0; i < action.argument_count; ++i) {
                 action.arguments[i] = bytecode.constants[first + i];
             }
         }
-        const bool has_argument = code >= symbol_count && action.given != 0;
+        const bool has_argument = code >= symbol_count && action.argument_count != 0;
         action.turn = half_angle(
             static_cast<double>(has_argument ? action.arguments[0] : bytecode.settings.angle));
         if (info(action.operation).has(TurtleInfo::Inverse)) {
             action.turn.sine = -action.turn.sine;
         }
         action.quick = quick_action(action, angle_is_constant);
-        if (action.quick == QuickAction::Forward && action.given > 1 &&
+        if (action.quick == QuickAction::Forward && action.argument_count > 1 &&
             bytecode.settings.traits.forward_has_width) {
             action.quick = QuickAction::None; // forward_with_width() reads the width
         }

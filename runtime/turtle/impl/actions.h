@@ -28,9 +28,9 @@ struct HalfAngle {
 struct Action {
     QuickAction quick = QuickAction::None;
     TurtleOperation operation = TurtleOperation::Nothing;
-    std::uint8_t given = 0;   // number of arguments, at most kTurtleArguments
-    bool advances = false;    // an object that moves the turtle by its length
-    std::uint32_t stored = 0; // number of parameters in the word
+    std::uint8_t argument_count = 0; // at most kTurtleArguments
+    bool advances = false;           // an object that moves the turtle by its length
+    std::uint32_t stored = 0;        // number of parameters in the word
     std::array<float, kTurtleArguments> arguments{}; // constants, if the word stores none
     HalfAngle turn;                                  // half of a constant angle; signed
     float unit_length = 1.0F;                        // length of an object of size 1
@@ -43,7 +43,7 @@ struct Action {
 
 struct ActionTable {
     std::vector<Action> by_code;
-    std::vector<std::string> mesh_files;
+    std::vector<std::string> mesh_files;                          // Skeleton::mesh_files
     std::shared_ptr<const std::vector<BytecodeContour>> contours; // null: none
     bool reads_text = false; // parentheses may hold a parameter as text
     bool draws_organs = false;

@@ -59,7 +59,7 @@ bool Turtle::State::forward(const Action& action, const float* arguments, float 
     if (traits.forward_has_width) {
         return forward_with_width(action, arguments, part);
     }
-    const float length = (action.given > 0 ? arguments[0] : now.step) * part;
+    const float length = (action.argument_count > 0 ? arguments[0] : now.step) * part;
     const float width = traits.width_is_relative ? 2.0F * std::abs(length) * now.width : now.width;
     now.sides = traits.l3d_compatible_surface ? l3d_sides(now.width) : now.sides;
     const bool adds_corners = action.operation != TurtleOperation::ForwardWithoutVertex;
@@ -67,8 +67,8 @@ bool Turtle::State::forward(const Action& action, const float* arguments, float 
         polygons.begin_step(now.pose);
     }
     if (!draw(static_cast<double>(length), width, width * now.taper,
-              action.given > 1 ? arguments + 1 : nullptr,
-              action.given > 2 ? arguments + 2 : nullptr)) {
+              action.argument_count > 1 ? arguments + 1 : nullptr,
+              action.argument_count > 2 ? arguments + 2 : nullptr)) {
         return false;
     }
     if (adds_corners) {
@@ -110,9 +110,9 @@ bool Turtle::State::move(double length, bool adds_corners) {
 
 /// Draws a tapered segment. Arguments: length, base width, tip width.
 bool Turtle::State::draw_tapered(const Action& action, const float* arguments) {
-    const float length = action.given > 0 ? arguments[0] : now.step;
-    const float base = action.given > 1 ? arguments[1] : now.width;
-    const float tip_width = action.given > 2 ? arguments[2] : base;
+    const float length = action.argument_count > 0 ? arguments[0] : now.step;
+    const float base = action.argument_count > 1 ? arguments[1] : now.width;
+    const float tip_width = action.argument_count > 2 ? arguments[2] : base;
     if (base < 0.0F || tip_width < 0.0F) {
         note(TurtleFaultKind::NegativeWidth);
     }
@@ -147,7 +147,7 @@ bool Turtle::State::put_object(TurtleOperation kind,
 }
 
 bool Turtle::State::place(const Action& action, const float* arguments) {
-    const float size = action.given > 0 ? arguments[0] : action.default_size;
+    const float size = action.argument_count > 0 ? arguments[0] : action.default_size;
     if (!put_object(action.operation, action.mesh_file, now.pose, size)) {
         return false;
     }
@@ -341,10 +341,11 @@ bool Turtle::State::execute(const Action& action, const float* arguments) {
     const Settings& settings = bytecode.settings;
     // The angle of a turn that is not constant: from the word, or the current angle.
     const auto turn = [&]() -> HalfAngle {
-        return action.given == 0 ? now.turn : half_angle(static_cast<double>(arguments[0]));
+        return action.argument_count == 0 ? now.turn
+                                          : half_angle(static_cast<double>(arguments[0]));
     };
     const auto argument = [&](float otherwise) {
-        return action.given != 0 ? arguments[0] : otherwise;
+        return action.argument_count != 0 ? arguments[0] : otherwise;
     };
     switch (action.operation) {
     case TurtleOperation::Nothing:
@@ -373,7 +374,7 @@ bool Turtle::State::execute(const Action& action, const float* arguments) {
         turn_by(action, arguments);
         return true;
     case TurtleOperation::PointAt:
-        if (action.given == 3) {
+        if (action.argument_count == 3) {
             aim(now.pose, {arguments[0], arguments[1], arguments[2]});
         }
         return true;
@@ -431,8 +432,8 @@ bool Turtle::State::execute(const Action& action, const float* arguments) {
         roll_upright(now.pose);
         return true;
     case TurtleOperation::SetWidth:
-        set_width(action.given != 0 ? arguments[0] : now.width * settings.width_scale);
-        if (action.given > 1) {
+        set_width(action.argument_count != 0 ? arguments[0] : now.width * settings.width_scale);
+        if (action.argument_count > 1) {
             set_sides(arguments[1]);
         }
         return true;
@@ -473,12 +474,13 @@ bool Turtle::State::execute(const Action& action, const float* arguments) {
         scale_angle(1.0F / argument(settings.angle_scale));
         return true;
     case TurtleOperation::SetColour:
-        set_colour(action.given != 0 ? static_cast<double>(arguments[0]) : now.colour_index + 1.0);
+        set_colour(action.argument_count != 0 ? static_cast<double>(arguments[0])
+                                              : now.colour_index + 1.0);
         return true;
     case TurtleOperation::PreviousColour:
-        set_colour(action.given != 0       ? static_cast<double>(arguments[0])
-                   : now.colour_index == 0 ? kColours - 1.0
-                                           : now.colour_index - 1.0);
+        set_colour(action.argument_count != 0 ? static_cast<double>(arguments[0])
+                   : now.colour_index == 0    ? kColours - 1.0
+                                              : now.colour_index - 1.0);
         return true;
     case TurtleOperation::SetRgb:
         set_rgb(arguments);
@@ -515,7 +517,7 @@ bool Turtle::State::execute(const Action& action, const float* arguments) {
         set_tangents(action, arguments);
         return true;
     case TurtleOperation::SetContour:
-        now.contour = action.given > 0 && action.contour == kNoContour
+        now.contour = action.argument_count > 0 && action.contour == kNoContour
                           ? table.numbered_contour(arguments[0])
                           : action.contour;
         return true;
@@ -538,7 +540,7 @@ bool Turtle::State::execute(const Action& action, const float* arguments) {
     case TurtleOperation::SubtractTropism:
     case TurtleOperation::Untwist:
     case TurtleOperation::KeepTwist:
-        tropisms.execute(action.operation, action.given, arguments, now.pose);
+        tropisms.execute(action.operation, action.argument_count, arguments, now.pose);
         return true;
     case TurtleOperation::CentredSphere:
     case TurtleOperation::LevelDisk:

@@ -35,8 +35,8 @@ public:
     }
 
 private:
-    std::vector<std::uint32_t> first_;
-    std::vector<std::uint32_t> items_;
+    std::vector<std::uint32_t> first_; // by module: index in items_; last: its size
+    std::vector<std::uint32_t> items_; // module by module
 };
 
 /// Both drawings, and for each module of the later word its ancestor in the earlier word.

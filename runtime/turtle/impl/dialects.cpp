@@ -7,13 +7,13 @@ namespace lsys {
 /// Forward with the parameters of Houdini: length, width, sections (ignored), sides.
 bool Turtle::State::forward_with_width(const Action& action, const float* arguments, float part) {
     constexpr std::uint8_t kSides = 3; // index of the argument
-    const float length = (action.given > 0 ? arguments[0] : now.step) * part;
-    const float width = action.given > 1 ? arguments[1] : now.width;
+    const float length = (action.argument_count > 0 ? arguments[0] : now.step) * part;
+    const float width = action.argument_count > 1 ? arguments[1] : now.width;
     const std::uint8_t sides = now.sides;
     if (width < 0.0F) {
         note(TurtleFaultKind::NegativeWidth);
     }
-    if (action.given > kSides) {
+    if (action.argument_count > kSides) {
         set_sides(arguments[kSides]);
     }
     const float drawn_width = std::max(width, 0.0F);
@@ -27,7 +27,8 @@ bool Turtle::State::forward_with_width(const Action& action, const float* argume
 /// Pitches, rolls and yaws by the arguments, in degrees; missing arguments are 0.
 void Turtle::State::turn_by(const Action& action, const float* arguments) {
     const auto angle = [&](std::uint8_t index) {
-        return half_angle(action.given > index ? static_cast<double>(arguments[index]) : 0.0);
+        return half_angle(action.argument_count > index ? static_cast<double>(arguments[index])
+                                                        : 0.0);
     };
     pitch(now.pose, angle(0));
     roll(now.pose, angle(1));

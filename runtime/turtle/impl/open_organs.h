@@ -28,7 +28,7 @@ struct OpenOrgan {
 };
 
 struct OpenOrgans {
-    std::vector<OpenOrgan> open;
+    std::vector<OpenOrgan> open;        // the innermost last
     std::vector<OpenOrganPoint> points; // of all open organs, the innermost last
 
     /// Whether the organ begun last belongs to the branch with `depth` open brackets.

@@ -126,8 +126,8 @@ bool Turtle::State::close_all_organs() {
 }
 
 void Turtle::State::set_tangents(const Action& action, const float* arguments) {
-    now.tangent_before = action.given > 0 ? arguments[0] : 1.0F;
-    now.tangent_after = action.given > 1 ? arguments[1] : now.tangent_before;
+    now.tangent_before = action.argument_count > 0 ? arguments[0] : 1.0F;
+    now.tangent_after = action.argument_count > 1 ? arguments[1] : now.tangent_before;
     if (!std::isfinite(now.tangent_before) || !std::isfinite(now.tangent_after)) {
         now.tangent_before = 1.0F;
         now.tangent_after = 1.0F;

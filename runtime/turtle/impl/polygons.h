@@ -76,9 +76,9 @@ private:
     }
 
     bool corners_are_ends_ = false;
-    std::vector<OpenPolygon> open_;
-    std::vector<glm::vec3> vertices_;
-    std::vector<glm::vec3> path_; // ends of steps, without repetitions
+    std::vector<OpenPolygon> open_;   // the innermost last
+    std::vector<glm::vec3> vertices_; // of the open polygons, in the order of `open_`
+    std::vector<glm::vec3> path_;     // ends of steps, without repetitions
 };
 
 inline std::span<const glm::vec3> OpenPolygons::corners() {

@@ -69,12 +69,12 @@ void SensingTurtle::State::forward(double length, bool adds_corners) {
 
 /// Moves along the second heading; the frame stays unchanged.
 void SensingTurtle::State::secondary(const Action& action,
-                                     std::uint8_t given,
+                                     std::uint8_t argument_count,
                                      const float* arguments) {
     const SensingPose before = now.pose;
     yaw_right(now.pose, inverse(turn_of(now.second_heading)));
     if (action.operation == TurtleOperation::SecondaryForward) {
-        forward(given > 0 ? static_cast<double>(arguments[0]) : now.step, true);
+        forward(argument_count > 0 ? static_cast<double>(arguments[0]) : now.step, true);
     } else {
         move(now.step, true);
     }
@@ -84,9 +84,9 @@ void SensingTurtle::State::secondary(const Action& action,
 }
 
 /// Pitches, rolls and yaws by the arguments, in degrees; missing arguments are 0.
-void SensingTurtle::State::turn_by(std::uint8_t given, const float* arguments) {
+void SensingTurtle::State::turn_by(std::uint8_t argument_count, const float* arguments) {
     const auto angle = [&](std::uint8_t index) {
-        return turn_of(given > index ? static_cast<double>(arguments[index]) : 0.0);
+        return turn_of(argument_count > index ? static_cast<double>(arguments[index]) : 0.0);
     };
     pitch_up(now.pose, angle(0));
     roll_left(now.pose, inverse(angle(1)));
@@ -109,8 +109,10 @@ void SensingTurtle::State::set_angle(double angle) {
     now.turn = turn_of(angle);
 }
 
-void SensingTurtle::State::place(const Action& action, std::uint8_t given, const float* arguments) {
-    const float size = given > 0 ? arguments[0] : action.default_size;
+void SensingTurtle::State::place(const Action& action,
+                                 std::uint8_t argument_count,
+                                 const float* arguments) {
+    const float size = argument_count > 0 ? arguments[0] : action.default_size;
     const double wide = static_cast<double>(size);
     const double length = wide * static_cast<double>(action.unit_length);
     if (options.organs) {
@@ -167,14 +169,14 @@ bool SensingTurtle::State::close_polygon() {
 }
 
 bool SensingTurtle::State::execute(const Action& action,
-                                   std::uint8_t given,
+                                   std::uint8_t argument_count,
                                    const float* arguments) {
     const Settings& settings = bytecode.settings;
     const auto turn = [&] {
-        return given == 0 ? now.turn : turn_of(static_cast<double>(arguments[0]));
+        return argument_count == 0 ? now.turn : turn_of(static_cast<double>(arguments[0]));
     };
     const auto argument = [&](double otherwise) {
-        return given != 0 ? static_cast<double>(arguments[0]) : otherwise;
+        return argument_count != 0 ? static_cast<double>(arguments[0]) : otherwise;
     };
     const auto set_width = [&](double width) { now.width = width < 0.0 ? 0.0 : width; };
     const auto width_scale = static_cast<double>(settings.width_scale);
@@ -206,10 +208,10 @@ bool SensingTurtle::State::execute(const Action& action,
         bend(now.pose, {0.0, -1.0, 0.0}, argument(0.0));
         return true;
     case TurtleOperation::TurnBy:
-        turn_by(given, arguments);
+        turn_by(argument_count, arguments);
         return true;
     case TurtleOperation::PointAt:
-        if (given == 3) {
+        if (argument_count == 3) {
             aim(now.pose, {static_cast<double>(arguments[0]), static_cast<double>(arguments[1]),
                            static_cast<double>(arguments[2])});
         }
@@ -252,7 +254,7 @@ bool SensingTurtle::State::execute(const Action& action,
         return true;
     case TurtleOperation::SecondaryForward:
     case TurtleOperation::SecondaryMove:
-        secondary(action, given, arguments);
+        secondary(action, argument_count, arguments);
         return true;
     case TurtleOperation::SecondaryLeft:
         now.second_heading += argument(0.0);
@@ -325,7 +327,7 @@ bool SensingTurtle::State::execute(const Action& action,
     case TurtleOperation::Cube:
     case TurtleOperation::Disk:
     case TurtleOperation::MeshFile:
-        place(action, given, arguments);
+        place(action, argument_count, arguments);
         return true;
     case TurtleOperation::SetSusceptibility:
     case TurtleOperation::SetTropism:
@@ -333,7 +335,7 @@ bool SensingTurtle::State::execute(const Action& action,
     case TurtleOperation::SubtractTropism:
     case TurtleOperation::Untwist:
     case TurtleOperation::KeepTwist:
-        tropisms.execute(action.operation, given, arguments, now.pose);
+        tropisms.execute(action.operation, argument_count, arguments, now.pose);
         return true;
     case TurtleOperation::CentredSphere:
     case TurtleOperation::LevelDisk:
@@ -357,7 +359,7 @@ bool SensingTurtle::State::execute(const Action& action,
     case TurtleOperation::SurfaceEnd:
     case TurtleOperation::SurfaceTangents:
     case TurtleOperation::SetContour:
-    case TurtleOperation::Cut: // what it will cut off is walked too
+    case TurtleOperation::Cut: // the modules that it will cut off are walked, too
         return true;
     }
     LSYS_CHECK(false, static_cast<int>(action.operation));

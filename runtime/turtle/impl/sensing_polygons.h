@@ -50,8 +50,8 @@ public:
 
 private:
     struct Open {
-        std::size_t first_vertex = 0;
-        std::size_t first_on_path = 0;
+        std::size_t first_vertex = 0;  // index in `vertices_`
+        std::size_t first_on_path = 0; // index in `path_`
     };
 
     void add_to_path(const SensingVector& place) {
@@ -61,9 +61,9 @@ private:
     }
 
     bool corners_are_ends_ = false;
-    std::vector<Open> open_;
-    std::vector<SensingVector> vertices_;
-    std::vector<SensingVector> path_; // ends of steps, without repetitions
+    std::vector<Open> open_;              // the innermost last
+    std::vector<SensingVector> vertices_; // of the open polygons, in the order of `open_`
+    std::vector<SensingVector> path_;     // ends of steps, without repetitions
 };
 
 inline std::span<const SensingVector> SensingPolygons::corners() const {

@@ -35,7 +35,7 @@ enum class SensingStep : std::uint8_t {
 /// A code of a word with its constants.
 struct SensingAction {
     SensingStep step = SensingStep::Other;
-    std::uint8_t given = 0;           // number of arguments
+    std::uint8_t argument_count = 0;  // number of arguments
     std::uint32_t stored = 0;         // number of parameters in the word
     const float* constants = nullptr; // arguments, if the word stores none
     ExactSineCosine turn;             // the constant angle of a turn; signed
@@ -54,7 +54,7 @@ struct SensingBrush {
 /// The last command read from a word of L3D, executed when the text of its parameter is complete.
 struct PendingSensing : TextCommand {
     Code code = 0;
-    std::uint8_t given = 0;
+    std::uint8_t argument_count = 0;
     std::array<float, kTurtleArguments> arguments{};
 };
 
@@ -77,7 +77,7 @@ struct SensingTurtle::State {
     bool run_text(std::span<const C> codes, const float* parameters, const Origin* origins);
     /// Executes an action for which run() has no case of its own (SensingStep::Other). Returns
     /// false after a Stop.
-    bool execute(const Action& action, std::uint8_t given, const float* arguments);
+    bool execute(const Action& action, std::uint8_t argument_count, const float* arguments);
     bool take_character(Code code, const float* arguments);
     bool execute_pending();
 
@@ -85,12 +85,12 @@ struct SensingTurtle::State {
     void report_up_to(std::uint64_t index);
     void forward(double length, bool adds_corners);
     void move(double length, bool adds_corners);
-    void secondary(const Action& action, std::uint8_t given, const float* arguments);
-    void turn_by(std::uint8_t given, const float* arguments);
+    void secondary(const Action& action, std::uint8_t argument_count, const float* arguments);
+    void turn_by(std::uint8_t argument_count, const float* arguments);
     void turn_left(double degrees);
     void half_turn_snapped();
     void set_angle(double angle);
-    void place(const Action& action, std::uint8_t given, const float* arguments);
+    void place(const Action& action, std::uint8_t argument_count, const float* arguments);
     bool save();
     bool restore();
     bool close_polygon();
@@ -105,22 +105,23 @@ struct SensingTurtle::State {
     ActionTable table;
     std::vector<SensingAction> actions; // by code
     std::vector<double> areas;          // by code, of an object of size 1
-    SensingBrush now;
-    std::vector<SensingBrush> stack;
+    SensingBrush now;                   // state at the module being executed
+    std::vector<SensingBrush> stack;    // states saved by the open `[`, the innermost last
     SensingPolygons polygons;
     Tropisms tropisms;
     std::vector<SenseModule> waiting; // sense modules of the piece being interpreted
-    std::size_t reported = 0;         // number of `waiting` that have been reported
+    std::size_t reported = 0;         // number of modules in `waiting` that have been reported
     PendingSensing pending;
     SenseSink* sink = nullptr;
     std::uint32_t age = 0;
-    std::uint64_t position = 0; // index of the current module; after an error that in the word
-    Code code = 0;              // of the current module
+    /// Index of the next module; after an error, index of the faulty module in the word.
+    std::uint64_t position = 0;
+    Code code = 0;                       // of the current module
     std::uint64_t walked_parameters = 0; // parameters of the modules before the current piece
     std::uint64_t first_of_piece = 0;    // index in the word of the piece that is interpreted
-    std::optional<Stop> stopped;
+    std::optional<Stop> stopped;         // why a module ended the walk, if one did
     RuntimeError error;
-    bool interprets = false;
+    bool interprets = false; // the program has productions of #interpret
     bool has_second_heading = false;
 };
 

@@ -130,6 +130,7 @@ struct Turtle::State {
     bool add_origin(const Origin& origin);
     /// Executes one action. Returns false if the drawing has ended; `end.stop` is the reason.
     bool execute(const Action& action, const float* arguments);
+    // `part`: factor of the length.
     bool forward(const Action& action, const float* arguments, float part);
     bool forward_with_tropisms(const Action& action, const float* arguments, float part);
     bool move(double length, bool adds_corners);
@@ -213,8 +214,8 @@ struct Turtle::State {
     TurtleOptions options;
     ActionTable table;
     Skeleton skeleton;
-    TurtleState now;
-    std::vector<TurtleState> stack;
+    TurtleState now;                  // state at the module being executed
+    std::vector<TurtleState> stack;   // states saved by the open `[`, the innermost last
     std::vector<std::size_t> watched; // stack size within each open branch that has a watcher
     OpenPolygons polygons{bytecode.settings.traits.corners_are_ends};
     OpenOrgans organs;
@@ -226,18 +227,18 @@ struct Turtle::State {
     Origin polygon_origin;      // origin of the `{` of the polygon closed last
     std::uint64_t cut = 0;      // in a skipped part: 1 + its number of open brackets; else 0
     bool has_origins = false;   // the words fed last have origins
-    bool interprets = false;
+    bool interprets = false;    // the program has productions of #interpret
     std::unique_ptr<Interpretation> interpretation; // made with the first piece
     std::vector<Code> piece;                        // codes that are interpreted, widened to Code
     PendingCommand pending;
     bool keeps_origins = false; // set only for words of L3D
     TurtleTraits traits;
-    bool has_tropism = false;
+    bool has_tropism = false;        // Settings::has_tropism
     bool has_second_heading = false; // a module of the bytecode uses the second heading
     // Mass and spring of the last segment, cached for segments of equal shape.
     double cached_length = -1.0;
-    float cached_base = -1.0F;
-    float cached_tip = -1.0F;
+    float cached_base = -1.0F; // width at the base, m
+    float cached_tip = -1.0F;  // width at the tip, m
     float cached_mass = 0.0F;
     float cached_spring = 0.0F;
 };

@@ -69,7 +69,7 @@ bool Turtle::State::take_character(const Action& action, Code character, const f
     case TextStep::Parameter:
         if (const auto value =
                 pending.parameter(pending.action.operation, traits.l3d_compatible_surface)) {
-            pending.action.given = 1;
+            pending.action.argument_count = 1;
             pending.action.arguments[0] = *value;
         }
         return execute_pending();
@@ -87,7 +87,7 @@ bool Turtle::State::take_character(const Action& action, Code character, const f
         return cut != 0 ? skip(action) : execute(action, arguments);
     }
     pending.action = action;
-    for (std::uint32_t i = 0; i < action.given; ++i) {
+    for (std::uint32_t i = 0; i < action.argument_count; ++i) {
         pending.action.arguments[i] = arguments[i];
     }
     pending.position = position;

@@ -12,19 +12,19 @@
 
 namespace lsys {
 
-/// Meaning of a module of such a word.
+/// Meaning of a module of a word of L3D.
 enum class TextStep : std::uint8_t {
     Text,      // belongs to the parameter of the pending command
     Parameter, // ends the parameter, which parameter() returns: the pending command is complete
     Command,   // a command, before which a pending one is executed
 };
 
-/// The last command read, of which the turtles keep more.
+/// The last command read. Both turtles derive a struct from it, with more members.
 struct TextCommand {
     static constexpr std::size_t kMaxLength = 1023; // characters of `text`
-    bool is_set = false;
-    bool in_parameter = false;
-    std::string text; // of the parameter
+    bool is_set = false;                            // a command is pending
+    bool in_parameter = false;                      // its `(` has been read, the `)` has not
+    std::string text;                               // of the parameter
 
     /// Reads the next module.
     [[nodiscard]] TextStep take(const Action& action);

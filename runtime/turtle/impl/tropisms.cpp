@@ -95,9 +95,9 @@ void Tropisms::before_step(SensingPose& pose) {
     twist(pose);
 }
 
-/// Turns the heading by |H x V| radians, at most 1, towards V, the sum of all Before: e T for an
-/// angle of 0, else e (cos(a) T + sin(a) T x (H x T) / |H x T|). The other axes follow as from the
-/// end of the last segment, without twist.
+/// Turns the heading by |H x V| radians, at most 1, towards V. V is the sum over the tropisms of
+/// the kind Before: e T for an angle a of 0, else e (cos(a) T + sin(a) T x (H x T) / |H x T|).
+/// untwist() sets the other axes.
 void Tropisms::turn_heading(SensingPose& pose) {
     SensingVector wanted{};
     for (std::size_t i = 0; i < rows_.size(); ++i) {
@@ -131,7 +131,8 @@ void Tropisms::turn_heading(SensingPose& pose) {
     untwist(pose);
 }
 
-/// Makes up and right those of the last segment, turned with its heading to the heading of now.
+/// Sets up and right to those of the last segment, turned by the shortest rotation from its heading
+/// to the current heading.
 void Tropisms::untwist(SensingPose& pose) const {
     SensingVector axis = cross(now_.heading, pose.heading);
     const double sine = length_of(axis);
@@ -145,8 +146,8 @@ void Tropisms::untwist(SensingPose& pose) const {
     pose.right = cross(pose.heading, pose.up);
 }
 
-/// Turns the up axis about the heading by |U x P| radians, at most 1, towards P: the sum of all
-/// Twist, projected to the plane of up and right.
+/// Turns the up axis about the heading by |U x P| radians, at most 1, towards P: the sum of e T
+/// over the tropisms of the kind Twist, projected to the plane of up and right.
 void Tropisms::twist(SensingPose& pose) {
     SensingVector wanted{};
     for (std::size_t i = 0; i < rows_.size(); ++i) {
@@ -207,11 +208,11 @@ std::size_t Tropisms::row_of(float number) const {
 }
 
 void Tropisms::execute(TurtleOperation operation,
-                       std::uint32_t given,
+                       std::uint32_t argument_count,
                        const float* arguments,
                        SensingPose& pose) {
     const auto number = [&](std::uint32_t index, double otherwise) {
-        return given > index ? static_cast<double>(arguments[index]) : otherwise;
+        return argument_count > index ? static_cast<double>(arguments[index]) : otherwise;
     };
     if (operation == TurtleOperation::Untwist) {
         untwist(pose);
@@ -230,7 +231,7 @@ void Tropisms::execute(TurtleOperation operation,
         }
         return;
     }
-    const std::size_t row = given > 0 ? row_of(arguments[0]) : rows_.size();
+    const std::size_t row = argument_count > 0 ? row_of(arguments[0]) : rows_.size();
     if (row == rows_.size()) {
         return;
     }
@@ -256,11 +257,11 @@ void Tropisms::after_step(Pose& pose, bool draws) {
 }
 
 void Tropisms::execute(TurtleOperation operation,
-                       std::uint32_t given,
+                       std::uint32_t argument_count,
                        const float* arguments,
                        Pose& pose) {
     SensingPose axes = sensing_pose_of(pose);
-    execute(operation, given, arguments, axes);
+    execute(operation, argument_count, arguments, axes);
     if (operation == TurtleOperation::Untwist) {
         set_axes(pose, axes);
     }

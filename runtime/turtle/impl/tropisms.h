@@ -19,7 +19,7 @@ class Tropisms {
 public:
     explicit Tropisms(const StepTropisms& settings);
 
-    /// Whether the grammar has any.
+    /// Whether the grammar sets `tropisms`.
     [[nodiscard]] bool any() const { return any_; }
     /// Returns to the strengths of the settings.
     void begin();
@@ -31,19 +31,21 @@ public:
     void after_step(Pose& pose, bool draws);
     /// Executes an operation from SetSusceptibility to KeepTwist.
     void execute(TurtleOperation operation,
-                 std::uint32_t given,
+                 std::uint32_t argument_count,
                  const float* arguments,
                  SensingPose& pose);
-    void
-    execute(TurtleOperation operation, std::uint32_t given, const float* arguments, Pose& pose);
+    void execute(TurtleOperation operation,
+                 std::uint32_t argument_count,
+                 const float* arguments,
+                 Pose& pose);
     /// `[` and `]`; may throw std::bad_alloc.
     void save() { stack_.push_back(now_); }
     void restore();
 
 private:
-    /// What `[` saves.
+    /// The state that `[` saves.
     struct State {
-        std::array<double, std::tuple_size_v<StepTropisms>> strengths{};
+        std::array<double, std::tuple_size_v<StepTropisms>> strengths{}; // by row
         SensingVector heading{0.0, 1.0, 0.0}; // at the end of the last segment
         SensingVector up{0.0, 0.0, 1.0};
     };
@@ -51,15 +53,16 @@ private:
     void turn_heading(SensingPose& pose);
     void twist(SensingPose& pose);
     void untwist(SensingPose& pose) const;
+    /// Stores heading and up axis as those at the end of the last segment.
     void keep(const SensingPose& pose);
     /// Index of the row with the number `number` from 1 on among Before and Twist; the count of
     /// rows if there is none.
     [[nodiscard]] std::size_t row_of(float number) const;
 
-    StepTropisms rows_;
+    StepTropisms rows_; // the rows of the setting
     State now_;
     std::vector<State> stack_;
-    bool any_ = false;
+    bool any_ = false; // any()
 };
 
 } // namespace lsys

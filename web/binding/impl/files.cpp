@@ -51,6 +51,7 @@ Outcome<void> collect(const Session& session,
     return {std::move(messages)};
 }
 
+/// Writes the plant of a request.
 ExitStatus write_grown(const Json& request, const Session& session, const OutputContext& context) {
     const Console& console = context.console;
     const auto path = request.at("path").get<std::string>();
@@ -90,6 +91,7 @@ ExitStatus write_grown(const Json& request, const Session& session, const Output
                : status;
 }
 
+/// Writes the forest of a request.
 ExitStatus write_placed(const Json& request, const Session& session, const OutputContext& context) {
     const Console& console = context.console;
     const Project& project = session.project();

@@ -48,8 +48,8 @@ private:
 
     Answer& answer_;
     Json list_ = Json::array();
-    std::map<const Texture*, std::size_t> files_;
-    std::map<std::string, std::size_t> computed_;
+    std::map<const Texture*, std::size_t> files_; // indexes in list_
+    std::map<std::string, std::size_t> computed_; // indexes in list_, by `id`
 };
 
 /// Computed once, since each takes milliseconds.

@@ -37,12 +37,13 @@ export class LsysError extends Error {
   }
 }
 
-const kName = 'plant.lsys';
+const kName = 'plant.lsys'; // default of GrammarOptions.name
 
 function bytesOf(content: string | Uint8Array): Uint8Array {
   return typeof content === 'string' ? new TextEncoder().encode(content) : content;
 }
 
+/** Options as pairs of name and value; the value of a flag is empty. */
 function pairsOf(options: FileOptions | undefined): [string, string][] {
   return Object.entries(options ?? {}).map(([name, value]) => [
     name,
@@ -72,6 +73,7 @@ function meshOf({ head, blocks }: RawAnswer): Mesh {
   };
 }
 
+/** An instance of the library; all calls are synchronous. */
 export class Lsys {
   private instance: Instance | null = null;
 
@@ -351,7 +353,7 @@ export async function load({ wasm, onProgress }: LoadOptions = {}): Promise<Lsys
   return new Lsys(module, onProgress);
 }
 
-let shared: Promise<Lsys> | null = null;
+let shared: Promise<Lsys> | null = null; // instance of the functions below; null: not loaded
 const instance = () => (shared ??= load());
 
 type Call<Name extends keyof Lsys> = Lsys[Name] extends (...values: infer Values) => infer Result

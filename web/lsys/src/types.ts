@@ -46,6 +46,7 @@ export interface GrammarOptions {
   /** File name of the grammar; its extension selects the dialect. Default: `plant.lsys`. */
   name?: string;
   files?: Files;
+  /** Name of the dialect, as for `lsc --dialect`; default: by the extension of `name`. */
   dialect?: string;
   /** The system in a file with several systems. */
   system?: string;
@@ -71,13 +72,17 @@ export interface MeshOptions extends PlantOptions {
     method?: 'default' | 'tubes' | 'cylinders' | 'boxes' | 'solid';
     /** Max distance in metres of a ring of a tube from its circle; 0: the sides of the grammar. */
     deviation?: number;
+    /** Sides of every cross-section; 0, the default: the sides of the grammar. */
     sides?: number;
+    /** Whether stems bend along smooth curves through their joints. */
     smoothJoints?: boolean;
   };
 }
 
+/** The constant of a `#define` or `#param`. */
 export interface Constant {
   name: string;
+  /** Of a `#param`, with a range from `min` to `max`. */
   isParameter: boolean;
   /** Drawn for each seed, so it has no value. */
   isRandom: boolean;
@@ -88,12 +93,15 @@ export interface Constant {
   text: string;
 }
 
+/** A `#set key value;` that has a control. */
 export interface Setting {
   key: string;
   kind: 'number' | 'count' | 'vector' | 'word';
+  /** The value: four numbers of a vector, else one. */
   numbers: number[];
   /** "an angle in degrees" */
   accepts: string;
+  /** The value of the kind `word`, and all values that it may have. */
   word: string;
   words: string[];
   /** Range of a slider; none unless `max` is above `min`. */
@@ -102,6 +110,7 @@ export interface Setting {
 }
 
 export interface Grammar {
+  /** `#n` of the grammar; null: not stated. */
   generations: number | null;
   seed: number;
   constants: Constant[];
@@ -115,6 +124,7 @@ export interface Word {
   text: string;
   /** False if `maxBytes` has cut the text. */
   isWhole: boolean;
+  /** Number of modules of the whole word. */
   modules: number;
   generations: number;
   seed: number;
@@ -122,6 +132,7 @@ export interface Word {
 }
 
 export interface PlantFacts {
+  /** Number of modules of the word. */
   modules: number;
   generations: number;
   seed: number;
@@ -141,7 +152,7 @@ export interface Skeleton {
     count: number;
     start: Float32Array;
     end: Float32Array;
-    /** At the base and at the tip. */
+    /** Metres, at the base and at the tip of each segment. */
     radii: Float32Array;
     /** The segment before it on its path; 0xFFFFFFFF: none. */
     parent: Uint32Array;
@@ -155,6 +166,7 @@ export interface Skeleton {
     position: Float32Array;
     /** Quaternions x, y, z, w; the object points along +Y. */
     frame: Float32Array;
+    /** Scale factors. */
     size: Float32Array;
     /** Index in `kinds`. */
     kind: Uint32Array;
@@ -163,6 +175,7 @@ export interface Skeleton {
   };
   polygons: {
     count: number;
+    /** Number of corners of each polygon. */
     cornerCounts: Uint32Array;
     /** Corners of all polygons, x, y, z each. */
     corners: Float32Array;
@@ -190,7 +203,7 @@ export interface Material {
   twoSided: boolean;
   /** Texels below half opacity are discarded. */
   cutOut: boolean;
-  /** Indexes of `Mesh.pictures`. */
+  /** Index in `Mesh.pictures` of the picture, and of the normal map; null: none. */
   picture: number | null;
   normals: number | null;
 }
@@ -202,7 +215,7 @@ export interface Mesh {
   /** v goes down, as in glTF. */
   textureCoordinates: Float32Array;
   indices: Uint32Array;
-  /** Indices `first` to `first + count` have this material. */
+  /** Triangles of one material: `count` items of `indices` from `first` on. */
   parts: { material: number; first: number; count: number }[];
   materials: Material[];
   pictures: Picture[];
@@ -231,7 +244,10 @@ export interface ForestOptions extends GrammarOptions {
 }
 
 export interface Progress {
+  /** The generation that is being derived. */
   generation: number;
+  /** Number of generations of the derivation. */
   generations: number;
+  /** Number of modules written so far. */
   modules: number;
 }

@@ -33,6 +33,7 @@ export class Instance {
     let memory: WebAssembly.Memory | undefined;
     let upperHalf = 0; // of a result of 64 bits
     const view = () => new DataView(memory!.buffer);
+    // Imports by name; the module calls them.
     const known: Record<string, (...values: any[]) => any> = {
       progress: (generation: number, generations: number, modules: number) =>
         onProgress?.({ generation, generations, modules }),

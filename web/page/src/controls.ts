@@ -6,6 +6,7 @@ import type { Grammar, PlantOptions } from 'lsys';
 /** A value to write into the text. */
 export type Change = Pick<PlantOptions, 'definitions' | 'settings'>;
 
+/** A slider. */
 interface Row {
   key: string;
   label: string;
@@ -64,7 +65,7 @@ function rowsOf(grammar: Grammar, source: string): Row[] {
 }
 
 export class Controls {
-  private shape = '';
+  private shape = ''; // names and ranges of the sliders that are built, as JSON
   private inputs = new Map<string, HTMLInputElement>();
   private outputs = new Map<string, HTMLOutputElement>();
   private seed: HTMLInputElement | null = null;

@@ -55,7 +55,9 @@ function offsetIn(text: Text, line: number, column: number): number {
 }
 
 export interface EditorEvents {
+  /** The author has changed the text. */
   changed(): void;
+  /** The author asks to draw or to lay out the grammar. */
   draw(): void;
   format(): void;
 }
@@ -74,7 +76,7 @@ export class Editor {
     const place = document.createElement('div');
     place.style.height = '100%';
     root.append(place);
-    const own = keymap.of([
+    const pageKeys = keymap.of([
       { key: 'Mod-Enter', run: () => (events.draw(), true) },
       { key: 'Mod-Shift-f', run: () => (events.format(), true) },
     ]);
@@ -101,7 +103,7 @@ export class Editor {
             spellcheck: 'false',
             tabindex: '0',
           }),
-          own,
+          pageKeys,
           keymap.of([
             ...completionKeymap,
             ...lintKeymap,

@@ -38,8 +38,8 @@ export class Engine {
   private worker: Worker | null = null;
   private running: Job | null = null;
   private waiting: Job[] = [];
-  private started = 0;
-  private count = 0;
+  private started = 0; // performance.now() when the running call began
+  private count = 0; // number of calls so far; the id of the last one
 
   /** Starts a worker at once, so that it is ready for the first call. */
   constructor(private readonly module: Promise<WebAssembly.Module>) {

@@ -5,8 +5,9 @@ import { HighlightStyle, StreamLanguage, type StreamParser } from '@codemirror/l
 import { tags } from '@lezer/highlight';
 
 interface State {
+  /** Whether the text is in a comment that began with `/*`. */
   comment: boolean;
-  /** Whether the statement is one whose first words are keys: `#set angle`. */
+  /** Keyword of the statement without `#`, or "production"; empty between statements. */
   statement: string;
 }
 

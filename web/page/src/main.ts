@@ -26,7 +26,7 @@ const find = <Element extends HTMLElement>(id: string) =>
   document.getElementById(id) as unknown as Element;
 
 const kName = 'plant.lsys';
-const kDraft = 'lsc-playground-draft';
+const kDraft = 'lsc-playground-draft'; // key of the draft in localStorage
 const kTypingPause = 250; // ms
 const kPatience = 2000; // ms after which a newer text ends the call that runs
 
@@ -60,16 +60,16 @@ try {
 
 const titleInput = find<HTMLInputElement>('title');
 let title = '';
-let sample = '';
+let sample = ''; // id of the sample whose files the grammar uses; empty: none
 let files: Files = {};
 let grammar: Grammar | null = null;
 let mode: 'plant' | 'forest' = 'plant';
 let isNew = true; // the next plant is fitted into the view
-let isStopped = false;
+let isStopped = false; // the author has pressed Stop; until the next change
 let wanted = 0; // number of the text to show
 let shown = 0; // number of the text that has been shown
-let running = false;
-let playing = false;
+let running = false; // run() is in progress
+let playing = false; // a growth is played
 
 function options(): PlantOptions {
   return { name: kName, files };
@@ -87,7 +87,7 @@ function keep(): void {
   }
 }
 
-let typing = 0;
+let typing = 0; // timer of the pause after typing
 function onTyped(): void {
   endGrowth();
   keep();
@@ -192,6 +192,7 @@ function failure(message: string): Diagnostic {
   return { severity: 'error', message, ...none };
 }
 
+/** Shows messages below and in the editor. */
 function say(diagnostics: Diagnostic[]): void {
   const apply = (fix: Fix) => {
     editor.setText(applyFix(editor.text, fix, kName));
@@ -223,8 +224,8 @@ async function attempt(action: () => Promise<void>): Promise<void> {
 
 // --- values: sliders, generation and seed write into the text
 
-let change: PlantOptions = {};
-let changing = false;
+let change: PlantOptions = {}; // values that are not yet in the text
+let changing = false; // a call that writes values into the text is running
 async function changeValues(next: Change & { generations?: number }): Promise<void> {
   endGrowth();
   change = {
@@ -446,7 +447,7 @@ document.addEventListener('pointerdown', (event) => {
     toggleDownloads(false);
 });
 
-let toasting = 0;
+let toasting = 0; // timer that hides the toast
 function toast(text: string): void {
   find('toast').textContent = text;
   clearTimeout(toasting);

@@ -10,7 +10,7 @@ export interface Project {
   sample: string;
 }
 
-const kMaxLink = 2_000_000;
+const kMaxLink = 2_000_000; // characters
 
 function toBase64(bytes: Uint8Array): string {
   let binary = '';

@@ -44,13 +44,13 @@ export class Stage {
   private readonly sun = new DirectionalLight(0xfff2dd, 3.4);
   private readonly ground: ThreeMesh<CircleGeometry, ShadowMaterial>;
   private readonly textures = new Map<string, DataTexture>(); // of pictures with an id
-  private shown: Object3D | null = null;
-  private bounds = new Sphere();
-  private box = new Box3();
-  private isForest = false;
+  private shown: Object3D | null = null; // the plant or forest
+  private bounds = new Sphere(); // of `shown`
+  private box = new Box3(); // of `shown`
+  private isForest = false; // `shown` is a forest
   private framed = 0; // radius that the camera was last fitted to; 0: never
   private readonly framedCenter = new Vector3();
-  private pending = false;
+  private pending = false; // a frame is requested
 
   constructor(private readonly canvas: HTMLCanvasElement) {
     this.renderer = new WebGLRenderer({
