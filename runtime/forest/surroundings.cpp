@@ -142,7 +142,7 @@ private:
     std::size_t columns_ = 1;
     std::size_t rows_ = 1;
     LargeVector<std::uint32_t> first_; // by cell, row by row: index of its first tree in items_
-    LargeVector<std::uint32_t> items_;
+    LargeVector<std::uint32_t> items_; // indices of trees, cell by cell
 };
 
 double crown_radius(const Forest& forest, const Tree& tree) {
