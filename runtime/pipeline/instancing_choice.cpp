@@ -217,7 +217,7 @@ double part_of(std::uint64_t part, std::uint64_t all) {
 }
 
 /// The placed trees, by species. Grows only one hero per species, since places do not depend on
-/// heroes.
+/// heroes. Sets `is_noted` to AxiomPlace::is_noted, by species.
 Outcome<std::vector<std::vector<Tree>>>
 place_trees_of(const LoadedScene& loaded, const Project& project, std::vector<bool>& is_noted) {
     Step step(project);

@@ -53,9 +53,9 @@ std::unique_ptr<EnvironmentSense> PlantSenses::make(const Bytecode& bytecode) co
     if (!bytecode.has_senses()) {
         return nullptr;
     }
-    SenseOptions own = options;
-    own.files = &files;
-    return std::make_unique<EnvironmentSense>(bytecode, std::move(own));
+    SenseOptions with_files = options;
+    with_files.files = &files;
+    return std::make_unique<EnvironmentSense>(bytecode, std::move(with_files));
 }
 
 Outcome<PlantSenses>
