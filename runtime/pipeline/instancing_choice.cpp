@@ -350,10 +350,11 @@ Outcome<void> choose_instancing(LoadedScene& loaded, const Project& project) {
         bytes += chosen.is_set() ? chosen.bytes : 0;
     }
     if (!is_met || (goal.max_bytes != 0 && bytes > goal.max_bytes)) {
-        const bool both = goal.variety > 0.0 && goal.max_bytes != 0;
-        Step::Ended ended = step.fail(fmt::format(
-            "{}{}: no choice of heroes, rho and cache cap gives that", wanted,
-            both ? fmt::format(" --memory {}", size_text(goal.max_bytes)) : std::string()));
+        const bool has_both_goals = goal.variety > 0.0 && goal.max_bytes != 0;
+        Step::Ended ended = step.fail(
+            fmt::format("{}{}: no choice of heroes, rho and cache cap gives that", wanted,
+                        has_both_goals ? fmt::format(" --memory {}", size_text(goal.max_bytes))
+                                       : std::string()));
         ended.messages.add_help(nearest_goals(searches, goal));
         return ended;
     }

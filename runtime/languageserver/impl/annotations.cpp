@@ -282,16 +282,16 @@ Json code_lenses(Workspace& workspace, const Json& params) {
         if (use.kind == NameKind::Formal || use.kind == NameKind::Production) {
             continue;
         }
-        Counted& one = counted[{use.kind, use.name}];
+        Counted& entry = counted[{use.kind, use.name}];
         if (!use.is_definition) {
-            ++one.uses;
-        } else if (one.definition == nullptr && use.place.path == document.path) {
-            one.definition = &use;
+            ++entry.uses;
+        } else if (entry.definition == nullptr && use.place.path == document.path) {
+            entry.definition = &use;
         }
     }
-    for (const auto& [name, one] : counted) {
-        if (one.definition != nullptr) {
-            add(one.definition->place, use_count_text(one.uses));
+    for (const auto& [name, entry] : counted) {
+        if (entry.definition != nullptr) {
+            add(entry.definition->place, use_count_text(entry.uses));
         }
     }
     return lenses;
