@@ -43,14 +43,14 @@ enum class DumpStage : std::uint8_t {
     Tokens,
     Ast,
     Program,
-    Instanced,
+    Instanced, // the instanced system, in which branches are recorded or replaced
     Bytecode,
     Word,
     Skeleton,
     Mesh,
-    Heroes,
-    Cache,
-    Environment
+    Heroes,     // words of the heroes of a forest
+    Cache,      // branches recorded from the heroes
+    Environment // what the plant sensed last
 };
 
 /// Format of `dump --stage environment`.

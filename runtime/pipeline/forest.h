@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Makes the forest of a scene: reads the files of the scene, makes the ground, derives and draws
-// the heroes of each species, and places the trees.
+// the heroes of each species, and places the trees. Heroes, instances and stages:
+// runtime/forest/README.md.
 #pragma once
 
 #include "grammar/base/outcome.h"

@@ -25,7 +25,7 @@ namespace lsys {
 
 /// The default of `rho`, the probability that a branch is replaced by a recorded one (Carey 2019).
 inline constexpr float kSceneRho = 0.6F;
-inline constexpr std::uint32_t kMaxHeroes = 100'000;
+inline constexpr std::uint32_t kMaxHeroes = 100'000;      // max number of heroes per species
 inline constexpr std::uint32_t kMaxSceneSpecies = 65'536; // range of Tree::species
 
 /// A file named by the scene: an absolute path, or one relative to the scene's folder.

@@ -226,6 +226,7 @@ private:
     /// Numbers of parameters, by module.
     std::map<std::string_view, std::set<std::uint32_t>> counts_;
     std::map<std::string_view, std::vector<std::string>> functions_; // formals by function
+    /// Hints by offset and label.
     std::vector<std::pair<std::pair<std::uint32_t, std::string>, Json>> hints_;
 };
 
