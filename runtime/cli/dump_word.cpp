@@ -35,10 +35,10 @@ constexpr std::size_t kWriteBufferBytes = std::size_t{1} << 18;
 /// generation.
 struct Plan {
     DeriveOptions derive;
-    std::uint32_t first_age = 0;
-    std::uint32_t last_age = 0;
-    std::string saved_bytes; // contents of the file of --from; empty: start at the axiom
-    PlantSenses senses;      // makes the EnvironmentSense of each derivation
+    std::uint32_t first_age = 0; // of the axiom or the saved word
+    std::uint32_t last_age = 0;  // of the word at which the derivation ends
+    std::string saved_bytes;     // contents of the file of --from; empty: start at the axiom
+    PlantSenses senses;          // makes the EnvironmentSense of each derivation
 };
 
 Result<SavedState> read_saved(const Plan& plan, const std::string& path, const Bytecode& bytecode) {

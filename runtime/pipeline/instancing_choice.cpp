@@ -38,10 +38,10 @@ constexpr std::array<std::uint32_t, 12> kCaps{1, 2, 3, 4, 6, 8, 12, 16, 24, 32, 
 constexpr int kIdleSteps = 4;
 
 struct Choice {
-    std::uint32_t heroes = 0;
+    std::uint32_t heroes = 0; // CacheOptions::heroes
     float rho = 0.0F;
-    std::uint32_t cap = 0;
-    std::uint64_t bytes = kNoBytes;
+    std::uint32_t cap = 0;          // CacheOptions::cap
+    std::uint64_t bytes = kNoBytes; // needed memory
     std::uint64_t different = 0;    // number of different trees
     std::uint32_t max_variants = 0; // max number of recorded branches per key
 

@@ -20,7 +20,7 @@ namespace lsys {
 
 namespace {
 
-constexpr int kDirections = 128;
+constexpr int kDirections = 128; // in which the farthest point is kept
 
 /// Point `i` of a spiral that covers the sphere evenly (Swinbank and Purser, "Fibonacci grids",
 /// 2006).

@@ -30,7 +30,7 @@ enum class GltfList : std::uint8_t {
     Required,   // extensions
     Extensions, // an object: members instead of items
 };
-inline constexpr std::size_t kGltfLists = 11;
+inline constexpr std::size_t kGltfLists = 11; // number of values of GltfList
 
 struct TileItem {
     GltfList list = GltfList::Views;

@@ -14,7 +14,7 @@ namespace lsys {
 
 namespace {
 
-constexpr std::uint64_t kPiece = 2048;
+constexpr std::uint64_t kPiece = 2048; // plants
 
 /// A range of squares, both ends included: columns `left` to `right`, rows `top` to `bottom`.
 struct SquareRange {

@@ -21,8 +21,8 @@ namespace lsys {
 
 namespace {
 
-constexpr double kThresholdSpan = 0.5;
-constexpr std::uint64_t kPiece = 1024;
+constexpr double kThresholdSpan = 0.5; // thresholds are random from 0.25 to 0.75
+constexpr std::uint64_t kPiece = 1024; // squares that get a tree
 
 /// The squares into which the region is divided.
 struct Squares {

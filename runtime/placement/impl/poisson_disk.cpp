@@ -26,7 +26,7 @@ namespace {
 constexpr std::uint32_t kBlocks = 26;
 constexpr std::int64_t kReach = 2; // distance in cells within which points may be too close
 constexpr std::uint32_t kNoPoint = 0xFFFFFFFFu;
-constexpr std::uint64_t kPiece = 1024;
+constexpr std::uint64_t kPiece = 1024; // points
 
 struct Offset {
     std::int64_t cells = 0;   // difference of cell indexes
