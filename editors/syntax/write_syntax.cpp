@@ -26,6 +26,7 @@ namespace {
 namespace fs = std::filesystem;
 using Words = std::vector<std::string>;
 
+/// Templates and the files made from them, in the folder editors/.
 constexpr std::array<std::pair<const char*, const char*>, 4> kFiles{{
     {"syntax/lsys.tmLanguage.json.in", "vscode/syntaxes/lsys.tmLanguage.json"},
     {"syntax/lsys.vim.in", "vim/syntax/lsys.vim"},
@@ -33,6 +34,7 @@ constexpr std::array<std::pair<const char*, const char*>, 4> kFiles{{
     {"syntax/lsys.xml.in", "kate/lsys.xml"},
 }};
 
+/// The texts before and after each word of a list, and between two words.
 struct Form {
     std::string_view before;
     std::string_view after;
@@ -100,7 +102,7 @@ std::optional<std::string> read(const fs::path& path) {
 
 std::map<std::string, Words> word_lists() {
     lsys::LanguageWords words = lsys::language_words();
-    // Statements that editors colour by rules of their own.
+    // All statements but those that editors colour by rules of their own.
     Words values = words.statements;
     std::erase_if(values, [](const std::string& word) {
         return word == "w" || word == "ignore" || word == "consider" || word == "decompose" ||
@@ -123,8 +125,8 @@ int run(const fs::path& editors, bool checks) {
             std::cerr << fmt::format("write_syntax: cannot read {}\n", (editors / source).string());
             return 2;
         }
-        const std::string made = fill(*text, lists);
-        if (checks && read(editors / target) != made) {
+        const std::string contents = fill(*text, lists);
+        if (checks && read(editors / target) != contents) {
             std::cerr << fmt::format(
                 "write_syntax: editors/{} is not what editors/{} and the tables "
                 "of the compiler give: run write_syntax editors\n",
@@ -132,7 +134,7 @@ int run(const fs::path& editors, bool checks) {
             status = 1;
         } else if (!checks) {
             std::ofstream out(editors / target, std::ios::binary);
-            if (!(out << made << std::flush)) {
+            if (!(out << contents << std::flush)) {
                 std::cerr << fmt::format("write_syntax: cannot write {}\n",
                                          (editors / target).string());
                 return 2;

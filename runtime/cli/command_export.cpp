@@ -63,8 +63,8 @@ std::string find_variant_conflict(const ExportCommand& command, ExportFormat for
         return "--variants reads the grammar for each value, so it needs a file and not standard "
                "input";
     }
-    const auto& given = command.grammar.definitions;
-    if (std::any_of(given.begin(), given.end(),
+    const auto& definitions = command.grammar.definitions;
+    if (std::any_of(definitions.begin(), definitions.end(),
                     [&](const Definition& each) { return each.name == command.variants->name; })) {
         return fmt::format("`{}` has one value by -D and several by --variants; leave out one of "
                            "them",

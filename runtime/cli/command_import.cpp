@@ -94,15 +94,17 @@ ExitStatus import_text(const std::string& path,
     if (!compiled) {
         return fail(compiled.error(), console, imported);
     }
-    CompiledText& made = compiled.value();
-    if (made.definition_error) {
-        return fail(*made.definition_error, console, imported);
+    CompiledText& compiled_text = compiled.value();
+    if (compiled_text.definition_error) {
+        return fail(*compiled_text.definition_error, console, imported);
     }
-    const ExitStatus status = console.show(made.diagnostics, *made.grammar.sources);
-    imported.warnings = made.diagnostics.count(Severity::Warning);
-    imported.reason = first_error(made.diagnostics);
+    const ExitStatus status =
+        console.show(compiled_text.diagnostics, *compiled_text.grammar.sources);
+    imported.warnings = compiled_text.diagnostics.count(Severity::Warning);
+    imported.reason = first_error(compiled_text.diagnostics);
     if (status == ExitStatus::Ok) {
-        const Result<std::string> changed = with_options(made.grammar.translation, options);
+        const Result<std::string> changed =
+            with_options(compiled_text.grammar.translation, options);
         if (!changed) {
             return fail(changed.error(), console, imported);
         }

@@ -539,6 +539,7 @@ void add_program_options(CLI::App& app, ProgramOptions& options) {
     app.footer("`lsc help COMMAND` and `lsc COMMAND --help` list the options of a command.");
 }
 
+/// The commands that add_commands() gives options.
 enum class Commands { All, OnlyChosen };
 
 /// Adds commands. Only the command `chosen` gets options, because `parsed` has room for the options

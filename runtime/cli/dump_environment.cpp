@@ -94,6 +94,7 @@ std::string json_of(const SensedPlant& plant) {
     return text;
 }
 
+/// Kinds of points in a PLY file.
 enum class PointKind : int { Place, Voxel, Marker };
 
 /// A PLY file of points (Turk 1994) as text.

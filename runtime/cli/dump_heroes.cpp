@@ -97,12 +97,12 @@ private:
     void print_module(Code code, std::span<const float> parameters, std::string& text) {
         const BytecodeSymbol& symbol = bytecode_.symbol(bytecode_.symbol_of(code));
         if (symbol.turtle == TurtleOperation::SaveBranch) {
-            const bool takes = parameters[0] != 0.0F;
-            fmt::format_to(std::back_inserter(text), "{}({},{})", takes ? '<' : '@', parameters[2],
-                           parameters[1]);
+            const bool uses_recorded_branch = parameters[0] != 0.0F;
+            fmt::format_to(std::back_inserter(text), "{}({},{})", uses_recorded_branch ? '<' : '@',
+                           parameters[2], parameters[1]);
             text += spelled_name(symbol.name, bytecode_.settings.print_letters);
             printer_.begin();
-            open_.push_back(takes ? '>' : '$');
+            open_.push_back(uses_recorded_branch ? '>' : '$');
             return;
         }
         if (symbol.name == "$") { // quoted, since a `$` alone is an operation of instancing

@@ -35,10 +35,10 @@ constexpr std::size_t kWriteBufferBytes = std::size_t{1} << 18;
 /// generation.
 struct Plan {
     DeriveOptions derive;
-    std::uint32_t first_age = 0;
-    std::uint32_t last_age = 0;
-    std::string saved_bytes; // contents of the file of --from; empty: start at the axiom
-    PlantSenses senses;      // makes the EnvironmentSense of each derivation
+    std::uint32_t first_age = 0; // of the axiom or the saved word
+    std::uint32_t last_age = 0;  // of the word at which the derivation ends
+    std::string saved_bytes;     // contents of the file of --from; empty: start at the axiom
+    PlantSenses senses;          // makes the EnvironmentSense of each derivation
 };
 
 Result<SavedState> read_saved(const Plan& plan, const std::string& path, const Bytecode& bytecode) {
@@ -235,9 +235,9 @@ ExitStatus dump_stored(const DumpCommand& command,
     options.senses = senses.get();
     Derivation derivation(bytecode, options);
     std::string counts;
-    const auto print = [&](const Derivation& now) {
+    const auto print = [&](const Derivation& current) {
         if (command.count) {
-            counts += fmt::format("{}\n", now.word().module_count());
+            counts += fmt::format("{}\n", current.word().module_count());
             return true;
         }
         const auto put = [&](std::string_view text) {
@@ -245,10 +245,10 @@ ExitStatus dump_stored(const DumpCommand& command,
         };
         if (command.origins) {
             const std::string head =
-                command.all ? fmt::format("generation {}:\n", now.age()) : std::string();
-            return put(head) && ModuleLines(bytecode).print(now.word(), put);
+                command.all ? fmt::format("generation {}:\n", current.age()) : std::string();
+            return put(head) && ModuleLines(bytecode).print(current.word(), put);
         }
-        return WordPrinter(bytecode).print(now.word(), put) && writer.write("\n");
+        return WordPrinter(bytecode).print(current.word(), put) && writer.write("\n");
     };
     const ExitStatus status = derive(derivation, command, plan, grammar, console, print);
     if (writer.failure()) {

@@ -11,6 +11,7 @@ namespace lsys::lsc {
 
 class ImportTable {
 public:
+    /// NotRead: the file is no grammar to import.
     enum class Kind : std::uint8_t { Imported, Failed, NotRead };
 
     /// `language`: empty if it is not known. `result`: the written file, or the reason.

@@ -43,14 +43,14 @@ enum class DumpStage : std::uint8_t {
     Tokens,
     Ast,
     Program,
-    Instanced,
+    Instanced, // the instanced system, in which branches are recorded or replaced
     Bytecode,
     Word,
     Skeleton,
     Mesh,
-    Heroes,
-    Cache,
-    Environment
+    Heroes,     // words of the heroes of a forest
+    Cache,      // branches recorded from the heroes
+    Environment // what the plant sensed last
 };
 
 /// Format of `dump --stage environment`.
@@ -73,10 +73,11 @@ struct DumpCommand {
     std::optional<float> rho;           // --rho, for --stage instanced, heroes and cache
     std::optional<std::uint64_t> first; // for --stage instanced: first form listed
     std::optional<std::uint64_t> rows;  // for --stage instanced: number of forms per production
+    // For --stage heroes and cache.
     std::optional<std::uint32_t> heroes;
-    std::optional<std::uint32_t> cache_cap;
-    std::optional<float> tolerance; // CacheOptions::tolerance
-    bool origins = false;           // --origins: the place in the grammar that wrote each module
+    std::optional<std::uint32_t> cache_cap; // CacheOptions::cap
+    std::optional<float> tolerance;         // CacheOptions::tolerance
+    bool origins = false; // --origins: the place in the grammar that wrote each module
     std::optional<std::uint32_t> steps; // number of generations to derive in this run
     std::string save_state;             // file of the saved derivation; empty: none
     std::string from; // --from: file of a saved derivation to continue; empty: none
@@ -89,7 +90,7 @@ struct ExportCommand : PlantFileOptions {
     std::optional<std::uint64_t> seed;
     std::string file;
     std::optional<VariantValues> variants;
-    bool stats = false;
+    bool stats = false; // print counts, sizes and times
 };
 
 struct ForestCommand : ForestFileOptions {
@@ -97,8 +98,8 @@ struct ForestCommand : ForestFileOptions {
     std::vector<std::string> files; // one scene, or one or more grammars
     SceneOverrides overrides;
     RunOptions run;
-    bool check = false;
-    bool stats = false;
+    bool check = false; // check the scene and its grammars, write no file
+    bool stats = false; // print counts of trees, branches and cached instances
 };
 
 /// The share of one process, if several processes write one tileset (`--part I/N`).
@@ -120,8 +121,8 @@ struct SceneCommand {
 };
 
 struct PlaceCommand : SceneCommand {
-    std::string output;
-    bool stats = false;
+    std::string output; // a tree file
+    bool stats = false; // print numbers of trees
 };
 
 /// Options that `lsc tiles` and `lsc serve` share.
@@ -135,12 +136,12 @@ struct TilesCommand : TileScene {
     bool force = false;  // write into a folder that has files
     bool resume = false; // keep existing files and write the missing ones
     TilePart part;
-    bool stats = false;
+    bool stats = false; // print the levels of the tileset and their errors
 };
 
 struct ServeCommand : TileScene {
     ServerOptions server;
-    std::uint64_t cache_bytes = std::uint64_t{256} << 20U;
+    std::uint64_t cache_bytes = std::uint64_t{256} << 20U; // max memory of cached tiles
 };
 
 struct StatsCommand {
@@ -162,10 +163,11 @@ struct TraceCommand {
     std::optional<std::uint64_t> seed;
     std::string file;
     std::string output = "-";
+    // As in TraceOptions: exactly one of the three is set.
     std::optional<std::uint64_t> position;
     std::string module;
-    std::string name; // module name of --all
-    std::uint64_t rows = 10;
+    std::string name;                  // module name of --all
+    std::uint64_t rows = 10;           // max number of modules of `name`
     bool written = false;              // --written: trace the step that wrote the module
     bool back = false;                 // --back: follow a module back to the axiom
     std::optional<TraceFormat> format; // default: text; JSON with --message-format json
@@ -185,7 +187,7 @@ struct FormatCommand {
     MessageOptions messages;
     std::string dialect;
     std::vector<std::string> files;
-    bool check = false;
+    bool check = false; // list the files that are not formatted, write no file
 };
 
 struct LspCommand {

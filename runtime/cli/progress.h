@@ -50,7 +50,7 @@ private:
     std::uint32_t generation_ = 0;      // generation of the last update
     std::uint64_t modules_ = 0;         // modules at the last update
     std::uint64_t earlier_modules_ = 0; // modules of all generations before generation_
-    bool drawn_ = false;
+    bool drawn_ = false;                // whether the bar is on the terminal
 };
 
 /// A progress bar for the derivations of pipeline calls.

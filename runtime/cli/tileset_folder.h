@@ -96,12 +96,13 @@ private:
     const TileForest& forest_;
     const Console& console_;
     std::vector<Section> sections_; // by number of their files
+    // The totals so far.
     std::atomic<std::uint64_t> files_{0};
     std::atomic<std::uint64_t> bytes_{0};
     std::atomic<std::uint64_t> trees_{0};
     std::atomic<bool> is_stopped_{false};
-    mutable std::mutex mutex_; // guards folders_ and result_
-    std::set<std::string> folders_;
+    mutable std::mutex mutex_;      // guards folders_ and result_
+    std::set<std::string> folders_; // folders that exist
     Result<void> result_;
     std::mutex outputs_mutex_;    // guards outputs_
     std::vector<Output> outputs_; // complete files under temporary names

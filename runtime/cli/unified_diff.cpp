@@ -12,7 +12,7 @@ namespace lsys::lsc {
 
 namespace {
 
-constexpr std::size_t kContext = 3;
+constexpr std::size_t kContext = 3; // equal lines shown before and after a difference
 /// Max size of the table of common lines, in entries. Larger differences are shown as one
 /// replacement.
 constexpr std::size_t kMaxTable = std::size_t{1} << 24;

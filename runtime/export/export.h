@@ -80,6 +80,7 @@ struct FormatTraits {
     /// Writes a forest, by default as instances; null: the format has no instances.
     Outcome<void> (*write_forest)(const ForestExportJob& job, PieceWriter& out) = nullptr;
     bool expands_forest = false; // write_forest can write ForestForm::Expanded
+    /// Writes a plant.
     Outcome<void> (*write)(const ExportJob& job, PieceWriter& out) = nullptr;
 };
 [[nodiscard]] const FormatTraits& traits_of(ExportFormat format);

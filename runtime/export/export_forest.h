@@ -76,7 +76,7 @@ Outcome<Mesh> bake_forest(const ForestScene& scene, std::uint64_t max_bytes, std
 
 struct ForestStatsOptions {
     bool different_trees = false; // count distinct shapes, which takes about 100 bytes per tree
-    std::uint32_t threads = 0;
+    std::uint32_t threads = 0;    // 0: as many as the machine has
 };
 /// One JSON object in a line: counts of the forest, its species, their stages and instance caches,
 /// with hits, misses and recordings for each branch id and age.

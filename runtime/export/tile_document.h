@@ -3,7 +3,8 @@
 // into the GLB, and one per hero, whose buffer and pictures are parts of other files. Adds trees
 // and branches as instances (EXT_mesh_gpu_instancing) with a table of the properties of their trees
 // (EXT_instance_features, EXT_structural_metadata). TileParts has the documents of the heroes as
-// text, formatted once for all tiles.
+// text, formatted once for all tiles. A fallback is a buffer that stands for the decoded items of
+// EXT_meshopt_compression and is not stored.
 #pragma once
 
 #include "runtime/base/large_vector.h"
@@ -37,8 +38,8 @@ namespace lsys {
 struct FilePart {
     std::string uri;              // percent-encoded, relative to the tile
     std::uint64_t file_bytes = 0; // size of the file
-    std::uint64_t offset = 0;
-    std::uint64_t bytes = 0;
+    std::uint64_t offset = 0;     // of the part in the file
+    std::uint64_t bytes = 0;      // size of the part
 };
 
 /// A glTF document of one mesh without its member `buffers`, and the place of its buffer.

@@ -21,8 +21,8 @@ namespace {
 struct Moments {
     std::uint64_t items = 0; // segments, objects and corners
     double total_weight = 0.0;
-    glm::dvec3 first{0.0};
-    std::array<double, 6> second{}; // xx, yy, zz, xy, yz, zx
+    glm::dvec3 first{0.0};          // sum over the points of weight times point
+    std::array<double, 6> second{}; // as `first`, of the products xx, yy, zz, xy, yz, zx
     double thickness = 0.0;         // sum over the segments of length times radius
 
     void add(const glm::dvec3& at, double weight) {

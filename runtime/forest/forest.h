@@ -18,7 +18,7 @@ namespace lsys {
 /// Plants of one species with the same number of generations and, if the species senses its
 /// surroundings, with the same surroundings.
 struct ForestStage {
-    std::uint32_t generations = 0;
+    std::uint32_t generations = 0; // generations of each plant
     InstanceCache cache;
     /// Radius in m of the crowns of plants of scale 1 without neighbours; 0 unless the species
     /// senses its surroundings.
@@ -51,7 +51,7 @@ struct ForestSpecies {
 [[nodiscard]] std::string stage_name(const ForestSpecies& species, std::size_t stage);
 
 struct Forest {
-    std::uint64_t key = 0;
+    std::uint64_t key = 0;              // seed of all choices of the trees
     std::vector<ForestSpecies> species; // by Tree::species
     LargeVector<Tree> trees;
 

@@ -257,9 +257,9 @@ private:
     // By branch id and index of a value in the key: absolute value in the first recorded branch, of
     // which CacheOptions::tolerance is a fraction.
     std::map<std::pair<std::uint32_t, std::uint32_t>, double> scales_;
-    std::string key_;
-    std::uint32_t part_ = 0;
-    std::uint32_t hero_ = 0;
+    std::string key_;        // bytes of the key that slot_of() is making
+    std::uint32_t part_ = 0; // index of the next real value in this key
+    std::uint32_t hero_ = 0; // number of the hero that is being drawn
 };
 
 CacheOutcome record_heroes(const Bytecode& bytecode, const CacheOptions& options) {

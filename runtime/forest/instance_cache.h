@@ -41,8 +41,8 @@ struct DrawnRange {
 /// A segment of the heroes at whose tip a branch is not drawn, because a recorded instance replaces
 /// the branch.
 struct InstanceFork {
-    std::uint32_t segment = 0;
-    std::uint32_t slot = 0; // slot of the branch
+    std::uint32_t segment = 0; // index in Skeleton::segments
+    std::uint32_t slot = 0;    // index in InstanceCache::slots: the slot of the branch
 };
 
 struct Instance {
@@ -73,11 +73,12 @@ struct InstanceSlot {
 
 /// The values of a key besides id and age, as recorded for the first branch with this key.
 struct InstanceKey {
-    std::vector<float> formals; // formals that the branch uses, by position in the predecessor
-    TurtlePlace place;          // position, frame and order are not part of the key
-    bool has_vertical = false;  // whether elevation and roll are part of the key
-    float elevation = 0.0F;     // degrees, elevation of the heading
-    float roll = 0.0F;          // degrees, roll about the heading
+    /// Values of the formals that the branch uses, in the order of the predecessor.
+    std::vector<float> formals;
+    TurtlePlace place;         // position, frame and order are not part of the key
+    bool has_vertical = false; // whether elevation and roll are part of the key
+    float elevation = 0.0F;    // degrees, elevation of the heading
+    float roll = 0.0F;         // degrees, roll about the heading
 };
 
 struct InstanceCache {
@@ -89,7 +90,7 @@ struct InstanceCache {
     std::vector<DrawnRange> ranges;
     std::vector<InstanceFork> forks; // segments at whose tip the skeleton lacks a branch
     std::vector<InstanceKey> keys;   // by slot; empty unless CacheOptions::keep_keys
-    std::uint32_t heroes = 0;
+    std::uint32_t heroes = 0;        // number of heroes
     /// Origin of the `[` of each instance, kNone for whole plants; empty unless
     /// CacheOptions::origins.
     std::vector<Origin> origins;
@@ -113,14 +114,15 @@ struct CacheOptions {
     /// By branch id: whether the drawing of the branch depends on the up direction. If so, the key
     /// contains elevation and roll of the heading.
     std::vector<bool> depends_on_vertical;
-    bool keep_keys = false; // fills InstanceCache::keys
-    std::uint32_t threads = 0;
+    bool keep_keys = false;                      // fills InstanceCache::keys
+    std::uint32_t threads = 0;                   // 0: as many as the machine has
     Limits limits;                               // limits of each word
     std::uint64_t max_bytes = ~std::uint64_t{0}; // limit of the bytes of the skeleton
     std::vector<float> mesh_lengths;             // as in TurtleOptions
     WordSense* senses = nullptr;                 // as in DeriveOptions
     std::shared_ptr<const Looks> looks;          // as in TurtleOptions
     bool origins = false;                        // record the origins of instances and drawn items
+    /// A flag that another thread sets to true to stop; may be null.
     const std::atomic<bool>* cancelled = nullptr;
 };
 
@@ -128,7 +130,7 @@ struct CacheOutcome {
     InstanceCache cache; // empty unless ok()
     DerivationEnd derivation_end;
     DrawingEnd drawing_end; // end of the drawing, with the faults of all heroes
-    std::uint32_t hero = 0; // the last hero that was begun
+    std::uint32_t hero = 0; // number of the last hero that was begun
 
     [[nodiscard]] bool ok() const { return !derivation_end.stop && !drawing_end.stop; }
 };
@@ -139,13 +141,13 @@ struct CacheOutcome {
 [[nodiscard]] CacheOutcome make_instance_cache(const Bytecode& bytecode,
                                                const CacheOptions& options);
 
-/// An instance placed in a plant.
+/// An instance placed in a tree. Rotation, position and scale are those of its entry in the world.
 struct BranchInstance {
     glm::quat rotation{1.0F, 0.0F, 0.0F, 0.0F};
     glm::vec3 position{}; // m
     float scale = 1.0F;
-    std::uint32_t instance = 0;
-    std::uint32_t order = 0; // number of brackets around the branch, its own included
+    std::uint32_t instance = 0; // index in InstanceCache::instances
+    std::uint32_t order = 0;    // number of brackets around the branch, its own included
 };
 
 /// Expands trees into instances. Use one for each thread.

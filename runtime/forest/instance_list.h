@@ -29,8 +29,8 @@ static_assert(sizeof(ForestInstance) == 40);
 
 /// All branches that are copies of one instance of a cache: a range of InstanceList::instances.
 struct InstanceGroup {
-    std::uint32_t species = 0;
-    std::uint32_t stage = 0;
+    std::uint32_t species = 0;  // index in Forest::species
+    std::uint32_t stage = 0;    // index in ForestSpecies::stages
     std::uint32_t instance = 0; // index in InstanceCache::instances
     std::uint64_t first = 0;    // index in InstanceList::instances
     std::uint64_t count = 0;    // above 0

@@ -102,9 +102,10 @@ class ListWriter {
 public:
     ListWriter(const InstanceCache& cache, const Mesh& mesh)
         : cache_(cache), mesh_(mesh), indices_(mesh.indices.expanded()),
-          segments_(cache.skeleton.segments.size()), polygons_(cache.skeleton.polygons.size()),
+          segment_count_(cache.skeleton.segments.size()),
+          polygon_count_(cache.skeleton.polygons.size()),
           item_triangles_(find_item_triangles(
-              mesh, indices_, segments_ + polygons_ + cache.skeleton.objects.size())) {}
+              mesh, indices_, segment_count_ + polygon_count_ + cache.skeleton.objects.size())) {}
 
     /// Adds the number of indices that the instance has in each part of the mesh to `counts`.
     void count(const Instance& instance, std::span<std::uint64_t> counts) const {
@@ -128,9 +129,10 @@ private:
         for (std::uint32_t r = 0; r < instance.range_count; ++r) {
             const DrawnRange& range = cache_.ranges[instance.first_range + r];
             visit_run(range.begin.segments, range.end.segments, visit);
-            visit_run(segments_ + range.begin.polygons, segments_ + range.end.polygons, visit);
-            visit_run(segments_ + polygons_ + range.begin.objects,
-                      segments_ + polygons_ + range.end.objects, visit);
+            visit_run(segment_count_ + range.begin.polygons, segment_count_ + range.end.polygons,
+                      visit);
+            visit_run(segment_count_ + polygon_count_ + range.begin.objects,
+                      segment_count_ + polygon_count_ + range.end.objects, visit);
         }
     }
     template <typename Visit>
@@ -152,8 +154,8 @@ private:
     const InstanceCache& cache_;
     const Mesh& mesh_;
     LargeVector<std::uint32_t> indices_; // plain indices of the mesh
-    std::uint64_t segments_;
-    std::uint64_t polygons_;
+    std::uint64_t segment_count_;        // of the heroes
+    std::uint64_t polygon_count_;
     ItemTriangles item_triangles_;
 };
 

@@ -20,7 +20,8 @@ namespace lsys {
 namespace {
 
 constexpr std::uint32_t kQuarters = 4;
-constexpr std::uint32_t kAllQuarters = 15;
+constexpr std::uint32_t kAllQuarters = 15; // bit q: quarter q has a neighbour
+/// Quarters with neighbours, by Surroundings.
 constexpr std::array<std::uint32_t, kSurroundings> kTaken{0b0000, 0b0001, 0b0011,
                                                           0b0101, 0b0111, 0b1111};
 /// Generation number of the yaws of trees without neighbours; differs from the reserved numbers of
@@ -142,7 +143,7 @@ private:
     std::size_t columns_ = 1;
     std::size_t rows_ = 1;
     LargeVector<std::uint32_t> first_; // by cell, row by row: index of its first tree in items_
-    LargeVector<std::uint32_t> items_;
+    LargeVector<std::uint32_t> items_; // indices of trees, cell by cell
 };
 
 double crown_radius(const Forest& forest, const Tree& tree) {

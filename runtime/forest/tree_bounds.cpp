@@ -15,10 +15,11 @@ namespace {
 /// exits of its instances.
 template <typename Visit>
 void visit_slots(const InstanceCache& cache, const Visit& visit) {
+    /// A slot whose exits are being followed.
     struct Open {
         std::uint32_t slot = 0;
-        std::uint32_t variant = 0;
-        std::uint32_t exit = 0; // number of the exit to visit next
+        std::uint32_t variant = 0; // number of the instance in the slot
+        std::uint32_t exit = 0;    // number of the exit of this instance to visit next
     };
     std::vector<bool> seen(cache.slots.size());
     std::vector<Open> path;

@@ -42,6 +42,7 @@ void for_each_point(const InstanceCache& cache, const Instance& instance, const 
     }
 }
 
+/// Heights in m of the lowest and of the highest point.
 struct Extent {
     double low = std::numeric_limits<double>::infinity();
     double high = -std::numeric_limits<double>::infinity();

@@ -173,9 +173,10 @@ struct LanguageServer::State {
 
     Workspace workspace;
     Phase phase = Phase::Created;
-    bool was_shut_down = false;
-    std::vector<std::string> output;
-    std::mutex late_mutex; // guards the two members below
+    bool was_shut_down = false;      // `shutdown` was received
+    std::vector<std::string> output; // messages that receive() will return
+    std::mutex late_mutex;           // guards the two members below
+    /// The function of deliver_late(); empty: none.
     std::function<void(const std::string&)> deliver;
     std::vector<std::string> late_output; // texts not delivered yet
     PlantPreview preview;                 // last member: its thread uses all members above

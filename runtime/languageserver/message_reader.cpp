@@ -97,9 +97,9 @@ std::optional<ReadMessage> MessageReader::read_header() {
     }
     begin_ += end + kHeaderEnd.size();
     if (*length > kMaxMessageBytes) {
-        const std::size_t here = std::min(*length, buffer_.size() - begin_);
-        begin_ += here;
-        skipped_ = *length - here;
+        const std::size_t received = std::min(*length, buffer_.size() - begin_);
+        begin_ += received;
+        skipped_ = *length - received;
         return ReadMessage{{}, "a message is longer than 64 MiB"};
     }
     expected_ = length;

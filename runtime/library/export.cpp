@@ -91,17 +91,17 @@ Outcome<std::vector<std::string>> write_plant_to(const Plant& plant,
         if (!parsed) {
             return report_error(parsed.error(), context.console);
         }
-        const PlantFileOptions& given = parsed.value();
+        const PlantFileOptions& file_options = parsed.value();
         const std::optional<ExportFormat> format =
-            given.format ? given.format : ::lsys::format_of_path(path);
+            file_options.format ? file_options.format : ::lsys::format_of_path(path);
         if (!format) {
             return report_error(
                 Error{fmt::format("`{}` has no extension of a known format: {}", path,
                                   format_names("or", [](const FormatTraits&) { return true; }))},
                 context.console);
         }
-        const std::string conflict = find_conflict(given, *format, context);
-        return conflict.empty() ? write_grown(given, *format, plant.data(), context)
+        const std::string conflict = find_conflict(file_options, *format, context);
+        return conflict.empty() ? write_grown(file_options, *format, plant.data(), context)
                                 : report_error(Error{conflict}, context.console);
     };
     return call.run<std::vector<std::string>>([&] { return write_files(call, receive, write); },

@@ -362,19 +362,21 @@ make_instances(const Forest& forest, const MeshOptions& mesh, const Project& pro
             return *stop == Stop::Cancelled ? step.end(*stop)
                                             : step.end_too_large(*stop, "the list of instances");
         }
-        auto made = std::make_shared<std::vector<std::vector<InstanceMeshes>>>();
-        if (!step.take(mesh_forest(grown, inner_mesh_options(mesh), call.project()), *made)) {
+        auto instance_meshes = std::make_shared<std::vector<std::vector<InstanceMeshes>>>();
+        if (!step.take(mesh_forest(grown, inner_mesh_options(mesh), call.project()),
+                       *instance_meshes)) {
             return step.end();
         }
         std::vector<std::uint32_t> first_mesh; // by species
-        for (const std::vector<InstanceMeshes>& stages : *made) {
+        for (const std::vector<InstanceMeshes>& stages : *instance_meshes) {
             first_mesh.push_back(static_cast<std::uint32_t>(data->meshes.size()));
             for (const InstanceMeshes& stage : stages) {
-                data->meshes.push_back(public_mesh({made, &stage.mesh}, project.threads));
+                data->meshes.push_back(
+                    public_mesh({instance_meshes, &stage.mesh}, project.threads));
             }
         }
         for (const ::lsys::InstanceGroup& group : data->list.groups) {
-            const InstanceMeshes& meshes = (*made)[group.species][group.stage];
+            const InstanceMeshes& meshes = (*instance_meshes)[group.species][group.stage];
             const std::uint32_t first = meshes.first_part[group.instance];
             data->groups.push_back({first_mesh[group.species] + group.stage, first,
                                     meshes.first_part[group.instance + 1] - first, group.first,

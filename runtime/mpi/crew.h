@@ -53,8 +53,8 @@ private:
     NumberQueue queue_;
     /// Number of threads; with fewer files left, wants_files() is true.
     std::uint64_t min_queued_files_;
-    std::atomic<std::uint32_t> writing_{0};
-    bool has_helpers_ = false;
+    std::atomic<std::uint32_t> writing_{0}; // number of threads that have not ended yet
+    bool has_helpers_ = false;              // whether the system could start other threads
     bool is_closed_ = false;
 };
 

@@ -103,7 +103,7 @@ private:
         ranks_.send(0, MessageKind::Done,
                     {totals.files, totals.bytes, totals.trees, command_.run.threads},
                     Ranks::machine());
-        NumberQueue nothing;
+        NumberQueue nothing; // empty, only to wait
         for (;;) {
             const std::optional<Message> message = ranks_.receive();
             if (message && message->kind == MessageKind::End) {
@@ -118,10 +118,10 @@ private:
     const lsc::TilesCommand& command_;
     Ranks& ranks_;
     const Console& console_;
-    std::uint64_t plan_ = 0;
-    bool has_asked_ = false;
-    bool has_failed_ = false;
-    bool is_told_to_stop_ = false;
+    std::uint64_t plan_ = 0;       // hash of the plan
+    bool has_asked_ = false;       // a Request has no answer yet
+    bool has_failed_ = false;      // Failed was sent
+    bool is_told_to_stop_ = false; // Stop was received
 };
 
 } // namespace

@@ -51,7 +51,7 @@ public:
             write(*forest);
         } else {
             stop_all(planned);
-            NumberQueue nothing;
+            NumberQueue nothing; // empty, only to wait
             while (!are_others_done()) {
                 receive_messages(nullptr);
                 nothing.wait_below(0, kIdleTime);
@@ -264,9 +264,9 @@ private:
     Ranks& ranks_;
     const Console& console_;
     std::vector<RankState> states_; // by rank
-    std::uint64_t plan_ = 0;
-    std::uint64_t next_ = 0; // the next file to hand out
-    std::uint64_t end_ = 0;  // one more than the last file to hand out
+    std::uint64_t plan_ = 0;        // hash of the plan
+    std::uint64_t next_ = 0;        // the next file to hand out
+    std::uint64_t end_ = 0;         // one more than the last file to hand out
     bool is_stopping_ = false;
     ExitStatus status_ = ExitStatus::Ok;
     Clock::time_point begin_ = Clock::now();

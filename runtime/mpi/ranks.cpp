@@ -85,16 +85,18 @@ std::uint32_t Ranks::processors_per_rank() {
     MPI_Comm_split_type(MPI_COMM_WORLD, MPI_COMM_TYPE_SHARED, 0, MPI_INFO_NULL, &machine);
     int ranks = 1;
     MPI_Comm_size(machine, &ranks);
-    std::vector<std::uint64_t> own = platform::allowed_processors();
-    std::uint64_t words = own.size();
+    std::vector<std::uint64_t> allowed = platform::allowed_processors();
+    std::uint64_t words = allowed.size();
     MPI_Allreduce(MPI_IN_PLACE, &words, 1, MPI_UINT64_T, MPI_MAX, machine);
-    own.resize(words);
-    std::vector<std::uint64_t> all(words);
-    MPI_Allreduce(own.data(), all.data(), static_cast<int>(words), MPI_UINT64_T, MPI_BOR, machine);
+    allowed.resize(words);
+    std::vector<std::uint64_t> allowed_on_machine(words);
+    MPI_Allreduce(allowed.data(), allowed_on_machine.data(), static_cast<int>(words), MPI_UINT64_T,
+                  MPI_BOR, machine);
     MPI_Comm_free(&machine);
-    const std::uint32_t here = words == 0 ? Workers(0).count() : count_bits(all);
-    const std::uint32_t usable = words == 0 ? here : count_bits(own);
-    return std::max(1U, std::min(usable, here / static_cast<std::uint32_t>(ranks)));
+    const std::uint32_t machine_processors =
+        words == 0 ? Workers(0).count() : count_bits(allowed_on_machine);
+    const std::uint32_t usable = words == 0 ? machine_processors : count_bits(allowed);
+    return std::max(1U, std::min(usable, machine_processors / static_cast<std::uint32_t>(ranks)));
 }
 
 void Ranks::abort(int status) {

@@ -26,7 +26,7 @@ enum class BufferPlace : std::uint8_t {
 /// Options for files of meshes that only some formats accept.
 struct SurfaceOptions {
     UpAxis up = UpAxis::Y;
-    bool both_sides = false;
+    bool both_sides = false; // ExportInfo::both_sides
 };
 
 /// Values of one constant of the grammar, for a file with one plant per value.

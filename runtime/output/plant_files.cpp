@@ -107,24 +107,24 @@ ExitStatus mesh_wanted_level(PlantRun& run, const Skeleton& skeleton, const Mesh
 }
 
 ExportInfo export_info(const PlantRun& run) {
-    const PlantFileOptions& given = run.options;
+    const PlantFileOptions& file_options = run.options;
     ExportInfo info;
     info.grammar = path_text(path_of(run.file).filename());
     // Nodes are named after the output, else after the grammar; exporters have a default name.
-    const std::string& named = given.output == "-" ? run.file : given.output;
+    const std::string& named = file_options.output == "-" ? run.file : file_options.output;
     info.name = named == "-" ? "" : path_text(path_of(named).stem());
     info.seed = run.plant.seed;
     info.generations = run.plant.generations;
     info.generator = run.context.generator;
     info.user_meshes = &run.plant.user_meshes;
     info.threads = run.context.project.threads;
-    info.wind_data = given.wind_data;
-    info.compression = given.compression.value_or(ExportCompression::None);
-    info.up = given.surface.up;
-    info.both_sides = given.surface.both_sides;
-    info.unit = given.unit;
-    info.collision = given.collision;
-    info.collision_names = given.collision_names;
+    info.wind_data = file_options.wind_data;
+    info.compression = file_options.compression.value_or(ExportCompression::None);
+    info.up = file_options.surface.up;
+    info.both_sides = file_options.surface.both_sides;
+    info.unit = file_options.unit;
+    info.collision = file_options.collision;
+    info.collision_names = file_options.collision_names;
     return info;
 }
 
@@ -159,14 +159,14 @@ ExitStatus write_mesh(PlantRun& run,
                       const Skeleton& skeleton,
                       const std::string& path,
                       const Movement& movement) {
-    const PlantFileOptions& given = run.options;
+    const PlantFileOptions& file_options = run.options;
     const SteadyClock::time_point start = SteadyClock::now();
     ExportInfo info = export_info(run);
     info.animation = movement.animation;
     info.film = movement.film;
     info.variants = run.variants;
     constexpr std::uint32_t kDefaultJoints = 128;
-    info.max_joints = given.bones.value_or(kDefaultJoints);
+    info.max_joints = file_options.bones.value_or(kDefaultJoints);
     const PlantPlacement placement = placement_of(run, skeleton);
     const bool is_identity = placement == PlantPlacement{};
     Skeleton placed;
@@ -218,20 +218,20 @@ namespace {
 
 /// Writes the levels of detail of `skeleton`: all into one file, or one file per level and a list.
 ExitStatus write_lods(PlantRun& run, const Skeleton& skeleton) {
-    const PlantFileOptions& given = run.options;
-    const bool one_file = traits_of(run.format).lods && !given.lod_files;
+    const PlantFileOptions& file_options = run.options;
+    const bool one_file = traits_of(run.format).lods && !file_options.lod_files;
     SteadyClock::time_point start = SteadyClock::now();
-    ExitStatus status = plan_levels(run, skeleton, {.count = given.lods});
+    ExitStatus status = plan_levels(run, skeleton, {.count = file_options.lods});
     if (status != ExitStatus::Ok) {
         return status;
     }
     const std::size_t count = run.levels.levels.size();
-    if (count < given.lods) {
+    if (count < file_options.lods) {
         run.context.console.info(
             fmt::format("the plant has {} {} of detail", count, count == 1 ? "level" : "levels"));
     }
-    MeshOptions options = given.mesh;
-    options.segments = given.wind_data;
+    MeshOptions options = file_options.mesh;
+    options.segments = file_options.wind_data;
     std::vector<CoarserMesh> meshes(count);
     for (std::size_t i = 0; i < count && status == ExitStatus::Ok; ++i) {
         status = run.context.console.take(
@@ -262,13 +262,13 @@ ExitStatus write_lods(PlantRun& run, const Skeleton& skeleton) {
         meshes.erase(meshes.begin());
         ExportInfo info = origin;
         info.coarser = &meshes;
-        if (run.context.can_write_beside(given.output)) {
-            status = add_side_files(run, placed, path_of(given.output), info, files);
+        if (run.context.can_write_beside(file_options.output)) {
+            status = add_side_files(run, placed, path_of(file_options.output), info, files);
         }
         if (status != ExitStatus::Ok) {
             return status;
         }
-        status = files.add(given.output, [&](const ByteSink& sink) {
+        status = files.add(file_options.output, [&](const ByteSink& sink) {
             return export_mesh(run.mesh, placed, run.format, info, sink);
         });
     } else {
@@ -281,7 +281,7 @@ ExitStatus write_lods(PlantRun& run, const Skeleton& skeleton) {
             if (i > 0) {
                 run.mesh = std::move(meshes[i].mesh);
             }
-            const std::string path = lod_path(given.output, i);
+            const std::string path = lod_path(file_options.output, i);
             ExportInfo info = origin;
             info.collision = i == 0 ? origin.collision : CollisionKind::None;
             status = add_side_files(run, placed, path_of(path), info, files);
@@ -299,7 +299,8 @@ ExitStatus write_lods(PlantRun& run, const Skeleton& skeleton) {
             run.mesh = std::move(finest);
         }
         if (status == ExitStatus::Ok) {
-            status = files.add_text(lods_json_path(given.output), lods_json(origin, extent, list));
+            status = files.add_text(lods_json_path(file_options.output),
+                                    lods_json(origin, extent, list));
         }
     }
     if (status == ExitStatus::Ok) {

@@ -37,13 +37,14 @@ namespace {
 
 /// Writes the motion as a loop, to one file or to numbered files.
 ExitStatus write_loop(PlantRun& run, PlantPhysics& physics) {
-    const PlantFileOptions& given = run.options;
+    const PlantFileOptions& file_options = run.options;
     const std::uint64_t segments = run.plant.skeleton.segments.size();
-    if (const ExitStatus fits = check_animation(run, loop_bytes(segments, given.frames));
+    if (const ExitStatus fits = check_animation(run, loop_bytes(segments, file_options.frames));
         fits != ExitStatus::Ok) {
         return fits;
     }
-    const PlantLoop loop = record_loop(physics, given.frames, given.frames_per_second);
+    const PlantLoop loop =
+        record_loop(physics, file_options.frames, file_options.frames_per_second);
     run.context.console.detail(
         fmt::format("the last frame of the loop differs from the first by {:.3g} % of the plant's "
                     "size before blending, after a run-in of {}",
@@ -51,14 +52,15 @@ ExitStatus write_loop(PlantRun& run, PlantPhysics& physics) {
     Skeleton pose;
     pose_at(physics.rest(), loop.animation.frame(0), pose);
     if (traits_of(run.format).motion) {
-        return write_plant(run, pose, given.output, &loop.animation);
+        return write_plant(run, pose, file_options.output, &loop.animation);
     }
-    for (std::uint32_t frame = 1; frame <= given.frames; ++frame) {
+    for (std::uint32_t frame = 1; frame <= file_options.frames; ++frame) {
         pose_at(physics.rest(), loop.animation.frame(frame - 1), pose);
         const ExitStatus status =
-            write_plant(run, pose, numbered_path(given.output, frame), nullptr);
+            write_plant(run, pose, numbered_path(file_options.output, frame), nullptr);
         if (status != ExitStatus::Ok) {
-            report_complete_frames(given.output, frame - 1, given.frames, run.context.console);
+            report_complete_frames(file_options.output, frame - 1, file_options.frames,
+                                   run.context.console);
             return status;
         }
     }
@@ -67,16 +69,18 @@ ExitStatus write_loop(PlantRun& run, PlantPhysics& physics) {
 
 /// Writes all frames of the motion to one file.
 ExitStatus write_animation(PlantRun& run, PlantPhysics& physics) {
-    const PlantFileOptions& given = run.options;
+    const PlantFileOptions& file_options = run.options;
     const std::uint64_t segments = run.plant.skeleton.segments.size();
-    if (const ExitStatus fits = check_animation(run, animation_bytes(segments, given.frames));
+    if (const ExitStatus fits =
+            check_animation(run, animation_bytes(segments, file_options.frames));
         fits != ExitStatus::Ok) {
         return fits;
     }
     Skeleton first;
     physics.pose(first);
-    const PlantAnimation animation = record(physics, given.frames, given.frames_per_second);
-    return write_plant(run, first, given.output, &animation);
+    const PlantAnimation animation =
+        record(physics, file_options.frames, file_options.frames_per_second);
+    return write_plant(run, first, file_options.output, &animation);
 }
 
 /// Warns if the plant falls under its own weight, without wind. Large plants are not checked,
@@ -91,48 +95,49 @@ ExitStatus check_weight(const PlantRun& run, const PhysicsOptions& options) {
 } // namespace
 
 ExitStatus write_bent(PlantRun& run) {
-    const PlantFileOptions& given = run.options;
+    const PlantFileOptions& file_options = run.options;
     constexpr double kRestAngle = 1e-6; // radians
     constexpr float kStepsPerSecond = 60.0F;
     PhysicsOptions options;
-    options.gravity = given.gravity.value_or(0.0F);
-    options.wind = given.wind.value_or(Wind{});
+    options.gravity = file_options.gravity.value_or(0.0F);
+    options.wind = file_options.wind.value_or(Wind{});
     options.damping = run.grammar.bytecode.settings.damping;
     options.load = run.grammar.bytecode.settings.load;
     options.threads = run.context.project.threads;
     // Use a whole number of simulation steps per frame.
     const auto steps = static_cast<std::uint32_t>(
-        std::max(1.0F, std::ceil(kStepsPerSecond / given.frames_per_second)));
-    options.time_step = 1.0F / (given.frames_per_second * static_cast<float>(steps));
+        std::max(1.0F, std::ceil(kStepsPerSecond / file_options.frames_per_second)));
+    options.time_step = 1.0F / (file_options.frames_per_second * static_cast<float>(steps));
     if (const ExitStatus weight = check_weight(run, options); weight != ExitStatus::Ok) {
         return weight;
     }
     PlantPhysics physics(run.plant.skeleton, options);
-    if (given.loop) {
+    if (file_options.loop) {
         return write_loop(run, physics);
     }
     const std::size_t segments = run.plant.skeleton.segments.size();
     const std::uint32_t rounds = settle_rounds(segments);
-    if ((given.settle || given.frames == 0) && !physics.settle(kRestAngle, rounds)) {
+    if ((file_options.settle || file_options.frames == 0) && !physics.settle(kRestAngle, rounds)) {
         run.context.console.info(
             fmt::format("the plant has not quite come to rest in {} rounds, the limit "
                         "for {} segments",
                         rounds, segments));
     }
     Skeleton bent;
-    if (given.frames == 0) {
+    if (file_options.frames == 0) {
         physics.pose(bent);
         return write_still(run, bent);
     }
     if (traits_of(run.format).motion) {
         return write_animation(run, physics);
     }
-    for (std::uint32_t frame = 1; frame <= given.frames; ++frame) {
+    for (std::uint32_t frame = 1; frame <= file_options.frames; ++frame) {
         physics.pose(bent);
         const ExitStatus status =
-            write_plant(run, bent, numbered_path(given.output, frame), nullptr);
+            write_plant(run, bent, numbered_path(file_options.output, frame), nullptr);
         if (status != ExitStatus::Ok) {
-            report_complete_frames(given.output, frame - 1, given.frames, run.context.console);
+            report_complete_frames(file_options.output, frame - 1, file_options.frames,
+                                   run.context.console);
             return status;
         }
         for (std::uint32_t step = 0; step < steps; ++step) {
@@ -193,7 +198,7 @@ ExitStatus find_growth_pivot(PlantRun& run, PlantGrowth& growth) {
 /// first generations have no files if they draw nothing. `grown` becomes the skeleton of the last
 /// frame.
 ExitStatus write_growth(PlantRun& run, PlantGrowth& growth, Skeleton& grown) {
-    const PlantFileOptions& given = run.options;
+    const PlantFileOptions& file_options = run.options;
     std::uint32_t first = 0;
     if (const ExitStatus status = find_first_drawn(run, growth, first); status != ExitStatus::Ok) {
         return status;
@@ -210,16 +215,18 @@ ExitStatus write_growth(PlantRun& run, PlantGrowth& growth, Skeleton& grown) {
     if (const ExitStatus status = find_growth_pivot(run, growth); status != ExitStatus::Ok) {
         return status;
     }
-    for (std::uint32_t frame = 0; frame < given.frames; ++frame) {
-        GrowthMoment moment = moment_of_frame(frame + skipped, given.frames + skipped,
+    for (std::uint32_t frame = 0; frame < file_options.frames; ++frame) {
+        GrowthMoment moment = moment_of_frame(frame + skipped, file_options.frames + skipped,
                                               growth.last_generation() - start);
         moment.generation += start;
         ExitStatus status = pose_growth(run, growth, moment, grown);
         if (status == ExitStatus::Ok) {
-            status = write_plant(run, grown, numbered_path(given.output, frame + 1), nullptr);
+            status =
+                write_plant(run, grown, numbered_path(file_options.output, frame + 1), nullptr);
         }
         if (status != ExitStatus::Ok) {
-            report_complete_frames(given.output, frame, given.frames, run.context.console);
+            report_complete_frames(file_options.output, frame, file_options.frames,
+                                   run.context.console);
             return status;
         }
     }
@@ -229,11 +236,12 @@ ExitStatus write_growth(PlantRun& run, PlantGrowth& growth, Skeleton& grown) {
 /// Writes the growth of the plant from its axiom to its last generation to one file. `grown`
 /// becomes the skeleton of the last frame.
 ExitStatus write_film(PlantRun& run, PlantGrowth& growth, Skeleton& grown) {
-    const PlantFileOptions& given = run.options;
-    MeshFilmBuilder builder(given.frames_per_second);
-    for (std::uint32_t frame = 0; frame < given.frames; ++frame) {
+    const PlantFileOptions& file_options = run.options;
+    MeshFilmBuilder builder(file_options.frames_per_second);
+    for (std::uint32_t frame = 0; frame < file_options.frames; ++frame) {
         ExitStatus status = pose_growth(
-            run, growth, moment_of_frame(frame, given.frames, growth.last_generation()), grown);
+            run, growth, moment_of_frame(frame, file_options.frames, growth.last_generation()),
+            grown);
         if (status == ExitStatus::Ok) {
             status = mesh_frame(run, grown, false);
         }
@@ -249,7 +257,7 @@ ExitStatus write_film(PlantRun& run, PlantGrowth& growth, Skeleton& grown) {
     place(placement_of(run, grown), film);
     run.is_placed = true;
     run.mesh = std::move(film.mesh);
-    return write_mesh(run, grown, given.output, {nullptr, &film});
+    return write_mesh(run, grown, file_options.output, {nullptr, &film});
 }
 
 } // namespace

@@ -222,12 +222,12 @@ std::vector<BranchOrigin> branch_origins(const InstanceCache& cache, const Bytec
     std::vector<BranchOrigin> origins;
     OriginPrinter printer(bytecode);
     for (const Origin& origin : cache.origins) {
-        BranchOrigin& one = origins.emplace_back();
+        BranchOrigin& branch_origin = origins.emplace_back();
         if (origin.place == kNone) {
-            one.text = "from the axiom";
+            branch_origin.text = "from the axiom";
         } else {
-            printer.append(origin, one.text);
-            one.place = position_of(origin, bytecode);
+            printer.append(origin, branch_origin.text);
+            branch_origin.place = position_of(origin, bytecode);
         }
     }
     return origins;
@@ -318,11 +318,11 @@ Outcome<GrownStage> grow_stage(const SceneSpecies& species,
     cache.cancelled = project.host.cancelled;
     cache.origins = origins_of.has_value();
     std::vector<InstanceCache> caches;
-    std::vector<SensedStage>* const kept = species.keeps_senses ? &grown.sensed : nullptr;
+    std::vector<SensedStage>* const sensed_stages = species.keeps_senses ? &grown.sensed : nullptr;
     CacheOutcome outcome =
         species.senses_surroundings
-            ? grow_surrounded_heroes(grammar.bytecode, senses, cache, caches, kept)
-            : make_sensing_cache(grammar.bytecode, senses, own_senses.get(), cache, kept);
+            ? grow_surrounded_heroes(grammar.bytecode, senses, cache, caches, sensed_stages)
+            : make_sensing_cache(grammar.bytecode, senses, own_senses.get(), cache, sensed_stages);
     if (const std::optional<Stop> stop =
             report_drawing(outcome.derivation_end, outcome.drawing_end, grammar, step)) {
         return step.end(*stop);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Makes the forest of a scene: reads the files of the scene, makes the ground, derives and draws
-// the heroes of each species, and places the trees.
+// the heroes of each species, and places the trees. Heroes, instances and stages:
+// runtime/forest/README.md.
 #pragma once
 
 #include "grammar/base/outcome.h"
@@ -37,8 +38,8 @@ struct LoadedScene {
 struct AxiomPlace {
     SourceSpan span;
     std::shared_ptr<const SourceMap> sources; // file of `span`
-    /// Whether the plants are known to be equal or copies of the heroes, or no branch was replaced;
-    /// note_variety() then adds no note.
+    /// Whether it is already known that few plants differ: the grammar has a NoVariety note, or no
+    /// branch of a hero was replaced. note_variety() then adds no note.
     bool is_noted = false;
 };
 
@@ -49,8 +50,8 @@ struct GrownForest {
     std::vector<std::vector<UserMesh>> user_meshes; // by species
     std::optional<Terrain> terrain;
     std::optional<GreyMap> density_map;
-    GroundPictures ground; // colours and normals of the ground
-    PlacementReport placed;
+    GroundPictures ground;  // colours and normals of the ground
+    PlacementReport placed; // report of the placement of the trees
     /// By species: index of the species of the previous forest whose heroes are reused; unset if
     /// the heroes are new.
     std::vector<std::optional<std::size_t>> reused_species;
@@ -58,7 +59,7 @@ struct GrownForest {
     /// By species; null: it senses nothing, or SceneSpecies::keeps_senses is not set.
     std::vector<std::shared_ptr<const SensedHeroes>> sensed;
     double cache_seconds = 0.0; // time to derive and draw the heroes
-    double place_seconds = 0.0;
+    double place_seconds = 0.0; // time to place the trees
 };
 
 /// A forest from which grow_species() reuses heroes of species with equal values, and pictures of
@@ -92,8 +93,8 @@ placement_options(const Scene& scene, const Project& project, const GrownForest&
 [[nodiscard]] double
 max_scale(const PlacementOptions& options, const TreeSizer& sizer, std::uint16_t species);
 /// Width in m of a border around a part of a forest, such that all neighbours of trees of the part
-/// are in the part or the border. 0 if no species of `kinds` senses its surroundings. Not for
-/// Domination.
+/// are in the part or the border. 0 if no species of `kinds` senses its surroundings. `kinds`: its
+/// species are those of the trees; its trees are not used. Not for Domination.
 [[nodiscard]] double
 halo_of(const PlacementOptions& options, const Forest& kinds, const TreeSizer& sizer);
 

@@ -156,9 +156,9 @@ Outcome<ForestLods> make_forest_lods(const GrownForest& grown,
         number = static_cast<std::uint16_t>(result.forest.species.size());
         const ForestSpecies& from = forest.species[s];
         ForestSpecies& to = result.forest.species.emplace_back();
-        const std::string own = stage_name(from, stage);
-        to.name = own.empty() ? fmt::format("{} LOD{}", from.name, level)
-                              : fmt::format("{} {} LOD{}", from.name, own, level);
+        const std::string stage_text = stage_name(from, stage);
+        to.name = stage_text.empty() ? fmt::format("{} LOD{}", from.name, level)
+                                     : fmt::format("{} {} LOD{}", from.name, stage_text, level);
         to.height = from.height;
         // Copy what TreeExpander needs to choose the instances of trees, without their geometry.
         const InstanceCache& cache = from.stages[stage].cache;

@@ -33,8 +33,8 @@ struct EnvironmentMove {
 
 /// Options of reading and compiling a grammar.
 struct GrammarOptions {
-    std::string dialect; // name; empty: detected from the contents, else from the extension
-    bool bug_compatible = false;
+    std::string dialect;         // name; empty: detected from the contents, else from the extension
+    bool bug_compatible = false; // reproduce bugs of the original program of the dialect
     std::string view{}; // path of the view file of a cpfg model; empty: found beside the model
     std::string system; // name in a file of several systems; empty: the only one
     std::vector<Definition> definitions;

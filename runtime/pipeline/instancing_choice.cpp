@@ -38,10 +38,10 @@ constexpr std::array<std::uint32_t, 12> kCaps{1, 2, 3, 4, 6, 8, 12, 16, 24, 32, 
 constexpr int kIdleSteps = 4;
 
 struct Choice {
-    std::uint32_t heroes = 0;
+    std::uint32_t heroes = 0; // CacheOptions::heroes
     float rho = 0.0F;
-    std::uint32_t cap = 0;
-    std::uint64_t bytes = kNoBytes;
+    std::uint32_t cap = 0;          // CacheOptions::cap
+    std::uint64_t bytes = kNoBytes; // needed memory
     std::uint64_t different = 0;    // number of different trees
     std::uint32_t max_variants = 0; // max number of recorded branches per key
 
@@ -217,7 +217,7 @@ double part_of(std::uint64_t part, std::uint64_t all) {
 }
 
 /// The placed trees, by species. Grows only one hero per species, since places do not depend on
-/// heroes.
+/// heroes. Sets `is_noted` to AxiomPlace::is_noted, by species.
 Outcome<std::vector<std::vector<Tree>>>
 place_trees_of(const LoadedScene& loaded, const Project& project, std::vector<bool>& is_noted) {
     Step step(project);
@@ -350,10 +350,11 @@ Outcome<void> choose_instancing(LoadedScene& loaded, const Project& project) {
         bytes += chosen.is_set() ? chosen.bytes : 0;
     }
     if (!is_met || (goal.max_bytes != 0 && bytes > goal.max_bytes)) {
-        const bool both = goal.variety > 0.0 && goal.max_bytes != 0;
-        Step::Ended ended = step.fail(fmt::format(
-            "{}{}: no choice of heroes, rho and cache cap gives that", wanted,
-            both ? fmt::format(" --memory {}", size_text(goal.max_bytes)) : std::string()));
+        const bool has_both_goals = goal.variety > 0.0 && goal.max_bytes != 0;
+        Step::Ended ended = step.fail(
+            fmt::format("{}{}: no choice of heroes, rho and cache cap gives that", wanted,
+                        has_both_goals ? fmt::format(" --memory {}", size_text(goal.max_bytes))
+                                       : std::string()));
         ended.messages.add_help(nearest_goals(searches, goal));
         return ended;
     }

@@ -69,8 +69,8 @@ Outcome<ItemOrigin> find(const PlantOptions& options,
     if (derivation.start() || derivation.run_to(generation)) {
         return step.end(*report_drawing(derivation.end(), {}, grammar, step));
     }
-    const auto kept = derivation.word().origins();
-    const std::vector<Origin> origins(kept.begin(), kept.end());
+    const auto word_origins = derivation.word().origins();
+    const std::vector<Origin> origins(word_origins.begin(), word_origins.end());
     if (!derivation.follow()) {
         return step.fail("the word has more than 4,294,967,295 modules");
     }

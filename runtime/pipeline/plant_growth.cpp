@@ -34,7 +34,7 @@ struct PlantGrowth::State {
 
     Grammar& grammar;
     PlantSenses senses;
-    std::unique_ptr<EnvironmentSense> own_senses;
+    std::unique_ptr<EnvironmentSense> own_senses; // made by `senses` for `derivation`; may be null
     DeriveOptions derive;
     TurtleOptions turtle;
     Plant plant;

@@ -198,27 +198,27 @@ Result<void> apply(const SceneOverrides& overrides, Scene& scene) {
 }
 
 void choose_method(SceneOverrides& overrides, PlacementMethod method, const Scene& scene) {
-    const PlacementOptions& now = scene.placement;
+    const PlacementOptions& current = scene.placement;
     overrides.method = method;
-    const double area = std::max(now.region.area(), 1.0);
+    const double area = std::max(current.region.area(), 1.0);
     double trees = 1000.0;
-    if (reads_count(now.method) && now.count != 0) {
-        trees = static_cast<double>(now.count);
-    } else if (reads_spacing(now.method) && now.spacing > 0.0) {
-        trees = kDiskTrees * area / (now.spacing * now.spacing);
-    } else if (reads_density(now.method) && now.density > 0.0) {
-        trees = area * now.density;
+    if (reads_count(current.method) && current.count != 0) {
+        trees = static_cast<double>(current.count);
+    } else if (reads_spacing(current.method) && current.spacing > 0.0) {
+        trees = kDiskTrees * area / (current.spacing * current.spacing);
+    } else if (reads_density(current.method) && current.density > 0.0) {
+        trees = area * current.density;
     }
-    if (reads_count(method) && !reads_count(now.method)) {
+    if (reads_count(method) && !reads_count(current.method)) {
         overrides.count = static_cast<std::uint64_t>(std::max(trees, 1.0));
     }
-    if (reads_spacing(method) && !reads_spacing(now.method)) {
+    if (reads_spacing(method) && !reads_spacing(current.method)) {
         overrides.spacing = std::sqrt(kDiskTrees * area / trees);
     }
-    if (reads_density(method) && !reads_density(now.method)) {
+    if (reads_density(method) && !reads_density(current.method)) {
         overrides.density = trees / area;
     }
-    if (method == PlacementMethod::Domination && now.years == 0) {
+    if (method == PlacementMethod::Domination && current.years == 0) {
         overrides.years = 50;
     }
 }

@@ -14,10 +14,10 @@ namespace {
 class HeroRecorder final : public WordSense {
 public:
     HeroRecorder(WordSense& next,
-                 const EnvironmentSense& own,
+                 const EnvironmentSense& hero_sense,
                  const Bytecode& bytecode,
                  const std::vector<EnvironmentFiles>& files)
-        : next_(next), own_(own), bytecode_(bytecode), files_(files) {}
+        : next_(next), hero_sense_(hero_sense), bytecode_(bytecode), files_(files) {}
 
     [[nodiscard]] std::optional<Stop> begin(std::uint64_t seed,
                                             std::uint32_t generations,
@@ -44,7 +44,7 @@ private:
         if (!std::exchange(has_begun_, false) || heroes_.size() == kMaxSensedHeroes) {
             return;
         }
-        SensedPlant& hero = heroes_.emplace_back(sensed_plant_of(bytecode_, files_, own_));
+        SensedPlant& hero = heroes_.emplace_back(sensed_plant_of(bytecode_, files_, hero_sense_));
         for (SensedPart& part : hero.parts) {
             if (heroes_.size() > 1) {
                 part.meshes.clear();
@@ -54,7 +54,7 @@ private:
     }
 
     WordSense& next_;
-    const EnvironmentSense& own_;
+    const EnvironmentSense& hero_sense_;
     const Bytecode& bytecode_;
     const std::vector<EnvironmentFiles>& files_;
     bool has_begun_ = false; // a hero that is not kept yet
@@ -65,13 +65,13 @@ private:
 
 CacheOutcome make_sensing_cache(const Bytecode& bytecode,
                                 const PlantSenses& senses,
-                                const EnvironmentSense* own,
+                                const EnvironmentSense* hero_sense,
                                 CacheOptions options,
                                 std::vector<SensedStage>* kept) {
-    if (kept == nullptr || own == nullptr || bytecode.environments.empty()) {
+    if (kept == nullptr || hero_sense == nullptr || bytecode.environments.empty()) {
         return make_instance_cache(bytecode, options);
     }
-    HeroRecorder recorder(*options.senses, *own, bytecode, senses.files);
+    HeroRecorder recorder(*options.senses, *hero_sense, bytecode, senses.files);
     options.senses = &recorder;
     CacheOutcome outcome = make_instance_cache(bytecode, options);
     if (outcome.ok()) {

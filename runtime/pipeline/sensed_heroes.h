@@ -26,12 +26,12 @@ struct SensedHeroes {
     std::vector<SensedStage> stages; // by index in ForestSpecies::stages
 };
 
-/// make_instance_cache() with `own`, the senses of the heroes, which may be null. `options.senses`:
-/// `own` or a sense that passes words on to it. If `kept` is not null and the heroes have senses,
-/// appends their stage without bounds.
+/// make_instance_cache() for heroes that sense through `hero_sense`, which may be null.
+/// `options.senses`: `hero_sense` or a sense that passes words on to it. If neither `kept` nor
+/// `hero_sense` is null, appends the stage of the heroes to `kept`, without bounds.
 [[nodiscard]] CacheOutcome make_sensing_cache(const Bytecode& bytecode,
                                               const PlantSenses& senses,
-                                              const EnvironmentSense* own,
+                                              const EnvironmentSense* hero_sense,
                                               CacheOptions options,
                                               std::vector<SensedStage>* kept);
 

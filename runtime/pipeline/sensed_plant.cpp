@@ -113,9 +113,9 @@ sense_plant(const PlantOptions& options, const Grammar& grammar, const Project& 
     if (!step.take(read_senses(options.file, grammar, project), senses)) {
         return step.end();
     }
-    const std::unique_ptr<EnvironmentSense> own = senses.make(bytecode);
+    const std::unique_ptr<EnvironmentSense> sense = senses.make(bytecode);
     DeriveOptions derive = derive_options(options, bytecode, project);
-    derive.senses = own.get();
+    derive.senses = sense.get();
     project.begin(LongStep::Derive);
     Derivation derivation(bytecode, derive);
     if (const std::optional<Stop> stop = derivation.derive()) {
@@ -125,9 +125,9 @@ sense_plant(const PlantOptions& options, const Grammar& grammar, const Project& 
         }
         return step.end(*stop);
     }
-    return step.done(own == nullptr || own->sensed().empty()
+    return step.done(sense == nullptr || sense->sensed().empty()
                          ? SensedPlant{}
-                         : sensed_plant_of(bytecode, senses.files, *own));
+                         : sensed_plant_of(bytecode, senses.files, *sense));
 }
 
 } // namespace lsys

@@ -31,13 +31,14 @@ struct SensedModule {
     std::span<const float> answer; // a part of SensedPart::answers
 };
 
+/// An environment, and what the modules of the word sensed of it.
 struct SensedPart {
-    std::string name;
+    std::string name; // name of the environment, without the `?`
     EnvironmentKind kind = EnvironmentKind::Shadow;
     double cell = 0.0; // edge of a voxel, m; 0: no voxels
     std::vector<SensedModule> modules;
     std::vector<float> answers;
-    std::vector<SensedVoxel> voxels; // voxels with a place or a leaf area; sorted by x, y, z
+    std::vector<SensedVoxel> voxels; // voxels with a sense module or leaf area; sorted by x, y, z
     std::vector<Vector3> markers;    // markers that are left; kind Space
     // Obstacles of an environment of kind Solid.
     std::vector<EnvironmentMesh> meshes;

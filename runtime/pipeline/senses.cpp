@@ -20,12 +20,12 @@ namespace {
 
 /// The function or command that answers an environment of kind Program, or none.
 ProgramCommand command_of(const BytecodeEnvironment& environment, const Project& project) {
-    const auto given =
+    const auto command =
         std::find_if(project.environments.begin(), project.environments.end(),
                      [&](const EnvironmentCommand& each) { return each.name == environment.name; });
     const auto function = project.host.environments.find(environment.name);
     return {project.host.start_program,
-            given == project.environments.end() ? std::string() : given->command,
+            command == project.environments.end() ? std::string() : command->command,
             project.answer_seconds,
             function == project.host.environments.end() ? AnswerPlaces() : function->second};
 }
@@ -53,9 +53,9 @@ std::unique_ptr<EnvironmentSense> PlantSenses::make(const Bytecode& bytecode) co
     if (!bytecode.has_senses()) {
         return nullptr;
     }
-    SenseOptions own = options;
-    own.files = &files;
-    return std::make_unique<EnvironmentSense>(bytecode, std::move(own));
+    SenseOptions with_files = options;
+    with_files.files = &files;
+    return std::make_unique<EnvironmentSense>(bytecode, std::move(with_files));
 }
 
 Outcome<PlantSenses>

@@ -320,12 +320,12 @@ private:
     /// ModuleTrace::parent becomes an index among the traces of that place.
     template <typename Take>
     void distribute(const StepTracer& tracer, const Take& take) {
-        std::vector<std::size_t> own(tracer.traces().size(), kNoTrace); // index within its place
+        std::vector<std::size_t> index_in_place(tracer.traces().size(), kNoTrace);
         std::vector<std::size_t> counts(trace_.places.size(), 0);
         for (std::size_t i = 0; i < tracer.traces().size(); ++i) {
             ModuleTrace trace = tracer.traces()[i];
-            trace.parent = trace.parent == kNoTrace ? kNoTrace : own[trace.parent];
-            own[i] = counts[trace.root]++;
+            trace.parent = trace.parent == kNoTrace ? kNoTrace : index_in_place[trace.parent];
+            index_in_place[i] = counts[trace.root]++;
             TracedPlace& place = trace_.places[trace.root];
             take(place, std::move(trace));
         }
@@ -524,7 +524,7 @@ private:
     std::string sense_state_;              // state of the environments at the traced generation
     std::vector<TracedModule> next_;       // modules at StepTracer::places()
     std::vector<StoredWord> stored_words_; // by ascending age
-    std::uint32_t stride_ = 1;
+    std::uint32_t stride_ = 1;             // ages of stored words are multiples of this number
 };
 
 } // namespace

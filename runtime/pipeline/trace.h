@@ -35,7 +35,7 @@ struct TraceOptions {
     std::optional<std::uint64_t> position; // index of the module in the word, from 0
     std::string module;                    // `A(3)`: the first such module
     std::string name;                      // all modules of this name
-    std::uint64_t rows = 10;               // max modules of `name`
+    std::uint64_t rows = 10;               // max number of modules of `name` to trace
     TraceScope scope = TraceScope::Next;
     bool is_drawn = false; // whether the word is drawn; the last word always is
 };
@@ -62,8 +62,9 @@ struct AncestorStep {
     bool agrees = true; // like Trace::agrees, for this step
 };
 
+/// A traced module, and the steps after or before it, as TraceScope selects.
 struct TracedPlace {
-    std::uint64_t position = 0;
+    std::uint64_t position = 0; // index of the module in the word
     TracedModule module;
     TraceOrigin origin;
     /// Scope Next: traces of the next step: how it rewrites `module`, and how its later passes

@@ -124,24 +124,24 @@ private:
 
     void write_setting(const SettingText& setting) {
         const std::set<std::string, std::less<>> used = words_of(setting);
-        const Statement* own = nullptr;
+        const Statement* set_statement = nullptr;
         for (const Statement& statement : ast_.statements) {
             if (statement.kind == StatementKind::Set) {
                 const SetNode& node = ast_.sets[statement.index];
                 const bool is_in_scope = setting.key != "names" || node.key_span.file == root_;
                 if (names_.text(node.key) == setting.key && is_in_scope) {
-                    own = &statement;
+                    set_statement = &statement;
                 }
-            } else if (own != nullptr && defines_one_of(statement, used)) {
+            } else if (set_statement != nullptr && defines_one_of(statement, used)) {
                 fail(
                     fmt::format("`#set {}` uses a constant that is defined after it", setting.key));
             }
         }
-        if (own == nullptr) {
+        if (set_statement == nullptr) {
             add_line(fmt::format("#set {} {};", setting.key, setting.values), used);
             return;
         }
-        const SetNode& node = ast_.sets[own->index];
+        const SetNode& node = ast_.sets[set_statement->index];
         if (node.values.count == 0) {
             fail(fmt::format("`#set {}` has no value", setting.key));
             return;

@@ -21,7 +21,7 @@ namespace lsys {
 
 namespace {
 
-constexpr std::uint64_t kPiece = 2048;
+constexpr std::uint64_t kPiece = 2048;     // plants
 constexpr std::uint64_t kPiecesAtOnce = 8; // for each worker
 /// Time in the shade after which a plant with tolerance 0 dies, as a fraction of the time that its
 /// radius took to grow. Larger plants therefore live longer in the shade.

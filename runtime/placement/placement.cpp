@@ -15,6 +15,7 @@ namespace lsys {
 
 namespace {
 
+/// Room is reserved for this many standard deviations above the expected number of trees.
 constexpr double kDeviations = 6.0;
 
 Result<Placement> grow_forest(const PlacementOptions& options, const Terrain& terrain) {

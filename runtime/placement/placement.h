@@ -23,7 +23,8 @@ inline constexpr std::uint64_t kMaxTrees = 10'000'000; // max trees of a placeme
 /// Raised whenever place_trees() returns other trees for the same options; tree files contain it.
 inline constexpr std::uint32_t kTreePlacementVersion = 1;
 inline constexpr std::uint32_t kMaxYears = 10'000;
-/// Years from one stage to the next, for methods other than Domination. Stage s has age 2 s + 1,
+/// Years from one stage (plants with the same number of generations) to the next, for methods other
+/// than Domination. Stage s has age 2 s + 1,
 /// because age 0 means the last stage.
 inline constexpr float kYearsPerStage = 2.0F;
 /// Max years from the first to the last stage of a species, so that ages fit into 16 bits.
@@ -93,7 +94,7 @@ struct PlacementOptions {
     const GreyMap* density_map = nullptr;
     std::optional<Region> map_region; // extent of the map, black outside; unset: `region`
     std::uint32_t years = 0;          // Domination
-    std::uint32_t stages_passed = 0;  // other methods: number of stages passed since the start
+    std::uint32_t stages_passed = 0;  // unless Domination: number of stages passed since the start
     std::uint32_t threads = 0;        // 0: as many as the machine has
 };
 

@@ -12,9 +12,9 @@ namespace lsys {
 /// Exit statuses in ascending order of severity.
 enum class ExitStatus : std::uint8_t {
     Ok = 0,
-    AuthorErrors = 1,
-    Failure = 2, // a wrong command line, or an error of the environment
-    Limit = 3,
+    AuthorErrors = 1, // mistakes in a grammar or scene
+    Failure = 2,      // a wrong command line, or an error of the environment
+    Limit = 3,        // a limit of the run is exceeded, or memory has run out
     Interrupted = 130
 };
 

@@ -76,7 +76,13 @@ public:
 
 private:
     friend Result<void> commit_all(std::vector<Output>& outputs);
-    enum class State : std::uint8_t { Unpublished, New, Exchanged, Replaced };
+    /// What publish() has done.
+    enum class State : std::uint8_t {
+        Unpublished, // nothing, or the output has no temporary file
+        New,         // the file has its name, which no file had before
+        Exchanged,   // the file has its name; the earlier file has the temporary name
+        Replaced     // the file has its name; the earlier file is lost
+    };
 
     Output(const Console& console, std::string path) : console_(&console), path_(std::move(path)) {}
     [[nodiscard]] Error failure(int reason) const;
@@ -90,10 +96,10 @@ private:
     std::string target_; // path_ with symbolic links resolved
     /// Temporary path in the folder of target_; empty for devices and pipes.
     std::string temporary_;
-    TemporaryName* slot_ = nullptr; // registration of temporary_
-    platform::File file_;           // not open if it is standard output or finished
-    bool is_finished_ = false;
-    bool must_be_new_ = false;
+    TemporaryName* slot_ = nullptr;    // registration of temporary_
+    platform::File file_;              // not open if it is standard output or finished
+    bool is_finished_ = false;         // finish() has been called
+    bool must_be_new_ = false;         // made by create()
     State state_ = State::Unpublished; // set by commit_all()
 };
 

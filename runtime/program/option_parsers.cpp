@@ -147,17 +147,17 @@ void add_environments(CLI::App& app, RunOptions& run) {
            "--environment",
            [&run](const std::vector<std::string>& texts) {
                for (const std::string& text : texts) {
-                   Result<EnvironmentCommand> given = parse_environment(text);
-                   if (!given) {
-                       throw CLI::ValidationError("--environment", given.error().message);
+                   Result<EnvironmentCommand> environment = parse_environment(text);
+                   if (!environment) {
+                       throw CLI::ValidationError("--environment", environment.error().message);
                    }
                    for (const EnvironmentCommand& known : run.environments) {
-                       if (known.name == given.value().name) {
+                       if (known.name == environment.value().name) {
                            throw CLI::ValidationError(
                                "--environment", fmt::format("`{}` is given twice", known.name));
                        }
                    }
-                   run.environments.push_back(std::move(given.value()));
+                   run.environments.push_back(std::move(environment.value()));
                }
            },
            "Program that answers `?NAME` of a `#sense NAME program`: a command line of the shell; "

@@ -224,8 +224,9 @@ private:
 
     /// Prints the notes on a production that was tried, beginning with the reason why it does not
     /// apply. `written`: an additional label, of a module of the successor.
-    void
-    explain(const Attempt& attempt, const TracedModule& own, const std::optional<Label>& written) {
+    void explain(const Attempt& attempt,
+                 const TracedModule& traced,
+                 const std::optional<Label>& written) {
         const Production* const source = source_of(attempt.production);
         const BytecodeProduction& tried = production(attempt.production);
         const auto span = [&](SourceSpan Production::*member) {
@@ -242,7 +243,7 @@ private:
         }
         if (attempt.verdict == Verdict::Predecessor) {
             add(notes, "predecessor", source == nullptr ? SourceSpan{} : source->predecessor.span,
-                followed_text(attempt, own));
+                followed_text(attempt, traced));
         }
         if (attempt.right.end != ContextEnd::NotSearched) {
             add(notes, "right context", source == nullptr ? SourceSpan{} : source->right.span,
@@ -272,13 +273,14 @@ private:
         }
     }
 
-    [[nodiscard]] std::string followed_text(const Attempt& attempt, const TracedModule& own) const {
+    [[nodiscard]] std::string followed_text(const Attempt& attempt,
+                                            const TracedModule& traced) const {
         std::string text;
         for (const VisitedModule& visited : attempt.predecessor) {
             text += fmt::format("{}{} at {}", text.empty() ? "" : ", then ", module(visited.module),
                                 visited.position);
         }
-        return fmt::format("{} is followed by {}", module(own),
+        return fmt::format("{} is followed by {}", module(traced),
                            text.empty() ? "the end of the word" : text);
     }
 
@@ -292,11 +294,12 @@ private:
     }
 
     /// The reason why a production does not apply, as the end of a line; may be empty.
-    [[nodiscard]] std::string reason_text(const Attempt& attempt, const TracedModule& own) const {
+    [[nodiscard]] std::string reason_text(const Attempt& attempt,
+                                          const TracedModule& traced) const {
         const BytecodeProduction& tried = production(attempt.production);
         switch (attempt.verdict) {
         case Verdict::Predecessor:
-            return ": " + followed_text(attempt, own);
+            return ": " + followed_text(attempt, traced);
         case Verdict::LeftContext:
             return ": " + context_text(attempt.left, tried.left, true);
         case Verdict::RightContext:

@@ -12,7 +12,7 @@ namespace lsys {
 
 namespace {
 
-constexpr std::uint32_t kMaxSettleRounds = 2000;
+constexpr std::uint32_t kMaxSettleRounds = 2000; // max rounds of bent_height()
 
 /// `value` rounded up to two significant digits.
 double rounded_up(double value) {

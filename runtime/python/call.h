@@ -32,9 +32,9 @@ using namespace pybind11::literals;
 
 /// Options of every call.
 struct CallOptions {
-    std::uint32_t threads = 0;
+    std::uint32_t threads = 0; // 0: as many as the machine has
     std::uint64_t max_modules = lsys::Limits{}.max_modules;
-    std::uint64_t max_bytes = 0;
+    std::uint64_t max_bytes = 0;       // 0: half of the memory of the machine
     py::object progress = py::none();  // callable(generation, generations, modules)
     py::object read_file = py::none(); // callable(path) -> bytes, str or None
     py::dict environment; // name to callable(generation, positions, headings, ups, parameters)
@@ -143,8 +143,8 @@ private:
     std::mutex mutex_;
     std::condition_variable changed_;
     std::function<void()> work_; // empty: none
-    bool ends_ = false;
-    long process_; // number of the process that made the thread
+    bool ends_ = false;          // the thread has to end after the current work
+    long process_;               // number of the process that made the thread
     std::thread thread_;
 };
 

@@ -44,8 +44,8 @@ public:
 
 private:
     struct RoundEdit {
-        TextPlace before;
-        TextPlace after;
+        TextPlace before; // in the text before the round
+        TextPlace after;  // in the text after the round
     };
 
     std::string original_;

@@ -20,9 +20,9 @@ public:
     [[nodiscard]] bool contains(const std::string& path) const;
 
 private:
-    std::string root_; // path of the grammar, as shown_path()
-    std::filesystem::path folder_;
-    std::set<std::filesystem::path> named_;
+    std::string root_;                      // path of the grammar, as shown_path()
+    std::filesystem::path folder_;          // the folder of the grammar, without links
+    std::set<std::filesystem::path> named_; // the named files, without links
 };
 
 } // namespace lsys::repair

@@ -20,13 +20,13 @@ namespace lsys {
 /// The lowest Tree::number of painted trees. The number is a hash of species and position, so that
 /// the appearance of a tree does not depend on other painted trees.
 inline constexpr std::uint32_t kFirstPainted = 0x8000'0000U;
-inline constexpr std::size_t kMaxPainted = 10'000'000;
+inline constexpr std::size_t kMaxPainted = 10'000'000; // max items of each list of a Painting
 
 struct PaintedTree {
-    std::uint16_t species = 0;
-    float x = 0.0F; // m
-    float z = 0.0F;
-    float yaw = 0.0F; // radians about +Y
+    std::uint16_t species = 0; // index in Scene::species
+    float x = 0.0F;            // m
+    float z = 0.0F;            // m
+    float yaw = 0.0F;          // radians about +Y
     float scale = 1.0F;
 
     friend bool operator==(const PaintedTree&, const PaintedTree&) = default;

@@ -23,8 +23,9 @@
 
 namespace lsys {
 
-inline constexpr float kSceneRho = 0.6F; // the default of `rho`, from Carey 2019
-inline constexpr std::uint32_t kMaxHeroes = 100'000;
+/// The default of `rho`, the probability that a branch is replaced by a recorded one (Carey 2019).
+inline constexpr float kSceneRho = 0.6F;
+inline constexpr std::uint32_t kMaxHeroes = 100'000;      // max number of heroes per species
 inline constexpr std::uint32_t kMaxSceneSpecies = 65'536; // range of Tree::species
 
 /// A file named by the scene: an absolute path, or one relative to the scene's folder.
@@ -46,7 +47,7 @@ struct SceneTerrain {
     Region region{0.0, 0.0, 100.0, 100.0};
     double base = 0.0; // m, altitude of Flat; equal to noise.base for Noise
     NoiseOptions noise;
-    SceneFile map;                 // HeightMap
+    SceneFile map;                 // the map of HeightMap
     std::uint32_t map_columns = 0; // size of a map of raw samples; 0: the map is a PNG
     std::uint32_t map_rows = 0;
     HeightMapOptions height_map;
@@ -102,6 +103,7 @@ struct SceneSpecies {
     SceneFile grammar;
     SceneName dialect; // dialect of the grammar; empty: detected
     SceneName system;  // name of the system in a file of several; empty: the only one
+    /// Reproduce bugs of the original program of the dialect.
     bool bug_compatible = false;
     std::vector<SceneDefinition> definitions;
     /// Value of the constant `season` of the grammar, if it has one and `definitions` does not set
@@ -115,6 +117,7 @@ struct SceneSpecies {
     /// not set it.
     float years_of_stage = 0.0F;
     std::optional<StageStart> start; // none: First if domination places the trees, else Random
+    /// Probability that a branch is replaced by a recorded one.
     float rho = kSceneRho;
     CacheOptions cache; // only heroes, seed, cap and tolerance are set
     /// Whether there are heroes for each case of surroundings (runtime/forest/surroundings.h).

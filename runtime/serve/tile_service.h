@@ -69,7 +69,7 @@ public:
 private:
     /// A cached file, made by the first thread that requests it.
     struct Entry {
-        std::mutex making;
+        std::mutex making;                         // held while the file is made or compressed
         std::shared_ptr<const std::string> body;   // null: not made yet
         std::shared_ptr<const std::string> packed; // by gzip; null: not asked for yet
         std::string tag;                           // entity tag of `body`

@@ -66,7 +66,7 @@ struct TileForest::State {
     /// By species: kSampleTrees trees; only of a placement on an unbounded grid.
     std::vector<std::vector<Tree>> samples;
     double density = 0.0;        // mean number of trees per m2
-    double places = 0.0;         // expected number; only for an unbounded grid
+    double places = 0.0;         // expected number of places; only for an unbounded grid
     double largest_extent = 0.0; // m, largest extent of a tree, at least its height
 
     std::unique_ptr<DensityField> field;     // only for a placement on an unbounded grid

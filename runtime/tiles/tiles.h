@@ -33,6 +33,7 @@ struct GeoPlace {
 };
 
 inline constexpr std::uint32_t kMaxTileLevel = 24;
+/// Defaults of TileOptions.
 inline constexpr std::uint64_t kTileTriangles = 500'000;
 inline constexpr float kTileError = 0.05F; // m
 /// Max number of trees of a tile that shows single trees.

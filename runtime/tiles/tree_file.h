@@ -22,7 +22,7 @@ inline constexpr std::uint32_t kTreeFileVersion = 1;
 
 /// The scene that the trees in a file must belong to.
 struct TreeFileScene {
-    std::uint64_t placement_digest = 0;
+    std::uint64_t placement_digest = 0; // see runtime/pipeline/forest.h
     Region region;
     std::size_t species = 0; // number of species
 };

@@ -4,6 +4,7 @@
 import { accessSync, constants, statSync } from 'node:fs';
 import * as path from 'node:path';
 
+/** The values of the environment that the search uses. */
 export interface Surroundings {
   home: string;
   /** The first folder of the workspace. */

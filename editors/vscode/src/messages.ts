@@ -34,10 +34,12 @@ export type ToPage =
       title: string;
     }
   | { type: 'busy' }
+  /** Numbers of sources whose parts of the plant are highlighted. */
   | { type: 'highlight'; sources: number[] };
 
 export type FromPage =
   | { type: 'ready' }
   | { type: 'options'; options: PreviewOptions }
+  /** A click on the part of a source; exact: on the module only, else on its statement. */
   | { type: 'pick'; source: number; exact: boolean }
   | { type: 'failure'; message: string };

@@ -14,6 +14,7 @@ import {
 } from './protocol';
 import { sourcesAt } from './sources';
 
+/** The settings `lsys.preview`: limits, and whether textures are drawn. */
 export interface PreviewLimits {
   maxModules?: number;
   maxTriangles?: number;
@@ -21,9 +22,11 @@ export interface PreviewLimits {
   textures?: boolean;
 }
 
+/** The functions of the editor that a session calls. */
 export interface SessionHost {
   /** Sends `lsys/plant`. */
   request(params: PlantParams): Promise<PlantResult>;
+  /** Sends a message to the page. */
   post(message: ToPage): void;
   /** Selects a range in a text of the editor. */
   select(uri: string, range: Range): void;
@@ -32,8 +35,11 @@ export interface SessionHost {
 
 export class PlantSession {
   private options: PreviewOptions = { definitions: {} };
+  /** The sources of the shown plant, by number. */
   private sources: Source[] = [];
+  /** The number of the last request. */
   private lastRequest = 0;
+  /** The last plant or problem that was sent to the page. */
   private shown: ToPage | undefined;
   private cursor: { uri: string; position: Position } | undefined;
 

@@ -24,6 +24,7 @@ export interface Source {
 /** A constant of the grammar. */
 export interface Parameter {
   name: string;
+  /** The comment after its statement; may be empty. */
   comment: string;
   /** null: a random value. */
   value: number | null;
@@ -40,6 +41,7 @@ export interface Plant {
   level: number;
   generations: number;
   seed: number;
+  /** Time in which the server made the plant. */
   seconds: number;
   sources: Source[];
 }

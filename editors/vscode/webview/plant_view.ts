@@ -98,8 +98,11 @@ export class PlantView {
   });
   private plant: Group | undefined;
   private bounds = new Box3();
+  /** Numbers of the highlighted sources. */
   private highlighted: number[] = [];
+  /** Whether the user has moved the camera since fit(). */
   private cameraIsOfUser = false;
+  /** The number of calls of show(). */
   private loads = 0;
   private isDrawRequested = false;
 

@@ -15,10 +15,10 @@ function element<K extends keyof HTMLElementTagNameMap>(
   parent: HTMLElement,
   properties: Partial<HTMLElementTagNameMap[K]> = {},
 ): HTMLElementTagNameMap[K] {
-  const made = document.createElement(name);
-  Object.assign(made, properties);
-  parent.append(made);
-  return made;
+  const child = document.createElement(name);
+  Object.assign(child, properties);
+  parent.append(child);
+  return child;
 }
 
 // The policy is applied when an element is added, so the nonce is set before.
@@ -64,6 +64,7 @@ class NumberRow {
     }
   }
 
+  /** limitsNumber: whether `max` limits the number, too, and not only the slider. */
   show(
     value: number | null,
     min: number | undefined,
@@ -137,6 +138,7 @@ const seed = new NumberRow(
     send();
   },
 );
+/** The rows of the parameters, by name. */
 const rows = new Map<string, NumberRow>();
 
 function stepOf(parameter: Parameter): number | 'any' {
@@ -220,6 +222,7 @@ function describe(info: PlantInfo): string {
   return parts.join(', ');
 }
 
+// Whether the page has received no plant or problem yet.
 let isFirst = true;
 async function receive(message: ToPage): Promise<void> {
   if (message.type === 'busy') {

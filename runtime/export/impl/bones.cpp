@@ -25,7 +25,7 @@ constexpr double kKeyTolerance = 2e-3;
 constexpr double kMaxKeyAngle = 0.01;     // rad, max error of a rotation due to an omitted key
 constexpr std::uint32_t kMaxSamples = 16; // frames in which errors are measured
 constexpr std::uint32_t kNoBone = ~std::uint32_t{0};
-constexpr int kFitRounds = 4;
+constexpr int kFitRounds = 4; // Gauss-Newton steps that fit a rotation
 
 /// A rotation and a place: maps x to place + turn * x.
 struct Rigid {
@@ -47,12 +47,12 @@ Rigid motion(const Rigid& from, const Rigid& to) {
     return {turn, to.place - turn * from.place};
 }
 
-/// The tree of segments.
+/// The tree of segments. Each vector is by segment; kNoSegment: there is none.
 struct Tree {
-    std::vector<std::uint32_t> parents; // kNoSegment: a root
+    std::vector<std::uint32_t> parents;
     std::vector<std::uint32_t> first_child;
     std::vector<std::uint32_t> next_sibling;
-    std::vector<std::uint32_t> thickest; // child that continues the segment's axis, else kNoSegment
+    std::vector<std::uint32_t> thickest; // child that continues the segment's axis
     std::vector<std::uint32_t> sizes;    // segments in the subtree of each, itself included
 };
 
@@ -239,11 +239,11 @@ private:
 
     const Skeleton& plant_;
     const Tree& tree_;
-    std::span<const SegmentPlace> start_;
-    std::vector<std::span<const SegmentPlace>> samples_;
+    std::span<const SegmentPlace> start_;                // the first frame
+    std::vector<std::span<const SegmentPlace>> samples_; // frames in which errors are measured
     std::vector<Piece> pieces_;
     std::vector<std::uint32_t> owners_; // piece of each segment
-    std::vector<std::uint32_t> open_;
+    std::vector<std::uint32_t> open_;   // segments that measure() has still to visit
 };
 
 /// A point of a piece, for fitting the rotation of the joint of the piece.
@@ -437,6 +437,7 @@ private:
         return glm::dot(sum, sum) > 0.0 ? glm::normalize(sum) : glm::dquat(1.0, 0.0, 0.0, 0.0);
     }
 
+    /// Joints and their weights.
     using Terms = std::vector<std::pair<std::uint32_t, double>>;
 
     static void add(Terms& terms, std::uint32_t joint, double weight) {
@@ -559,9 +560,9 @@ private:
     const PlantAnimation& animation_;
     double max_displacement_ = 0.0; // m, max displacement of a tip in the clip
     Bones bones_;
-    std::vector<std::uint32_t> owners_; // joint of each segment
-    std::vector<std::vector<FitPoint>> points_;
-    std::vector<Rigid> moves_; // by joint, then by frame
+    std::vector<std::uint32_t> owners_;         // joint of each segment
+    std::vector<std::vector<FitPoint>> points_; // by joint: points of its piece and child joints
+    std::vector<Rigid> moves_;                  // by joint, then by frame
 };
 
 double size_of(const Skeleton& plant) {

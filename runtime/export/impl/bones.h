@@ -28,11 +28,11 @@ struct BoneWeights {
 
 /// A joint. Joint 0 stands still at the origin, in the axes of the world.
 struct Bone {
-    std::uint32_t segment = kNoSegment; // the joint is at its base; kNoSegment: joint 0
-    std::uint32_t parent = 0;           // an earlier joint
-    glm::dvec3 place{0.0};              // in world coordinates, in the first frame
-    glm::dquat frame{1.0, 0.0, 0.0, 0.0};
-    glm::vec3 translation{0.0F}; // relative to the parent
+    std::uint32_t segment = kNoSegment;   // the joint is at its base; kNoSegment: joint 0
+    std::uint32_t parent = 0;             // an earlier joint
+    glm::dvec3 place{0.0};                // in world coordinates, in the first frame
+    glm::dquat frame{1.0, 0.0, 0.0, 0.0}; // rotation in the world, in the first frame
+    glm::vec3 translation{0.0F};          // m, relative to the parent
     /// Relative to the parent, in all frames; consecutive rotations have a positive dot product.
     std::vector<glm::quat> rotations;
     /// Frames with a key, ascending; rotations between two keys are interpolated. Empty: the

@@ -65,6 +65,7 @@ std::vector<std::uint32_t> find_next(const Skeleton& skeleton) {
     return next;
 }
 
+/// Divides the trunk and the boughs of a plant into pieces.
 class Boughs {
 public:
     explicit Boughs(const Skeleton& skeleton) : segments_(skeleton.segments) {

@@ -18,8 +18,8 @@ namespace lsys {
 
 namespace {
 
-using Point = std::array<std::int64_t, 3>;
-using Corners = std::array<std::uint32_t, 3>;
+using Point = std::array<std::int64_t, 3>;    // coordinates on the grid
+using Corners = std::array<std::uint32_t, 3>; // a triangle, as numbers of points
 
 constexpr double kGrid = 1'048'575.0; // nodes along the largest extent
 

@@ -20,6 +20,7 @@ struct PieceCounts {
     std::vector<std::uint64_t> indices; // by material of the scene
 };
 
+/// Makes the mesh of all triangles of a forest.
 class Baker {
 public:
     Baker(const ForestScene& scene, std::uint32_t threads)
@@ -214,11 +215,12 @@ private:
     ForestPlan plan_;
     ForestMaterials materials_;
     std::vector<InstanceVertices> instance_vertices_; // by stage
-    std::vector<std::size_t> first_stage_;            // by species
+    std::vector<std::size_t> first_stage_;            // by species: index in plan_.stages()
     std::size_t stage_count_ = 0;
     std::vector<PieceCounts> piece_counts_;
     LargeVector<std::uint32_t> indices_;           // moved into mesh_ when complete
     std::vector<std::uint64_t> next_ground_index_; // by material
+    // Whether the mesh gets the optional array, because all surfaces have it.
     bool textured_ = true;
     bool tangents_ = true;
     bool colours_ = true;

@@ -149,9 +149,9 @@ std::uint64_t ForestDocument::node_count() const {
 
 std::string ForestDocument::mesh_name(const ExportedStage& stage, std::uint32_t instance) const {
     const ForestSpecies& species = scene_.forest.species[stage.species];
-    const std::string own = stage_name(species, stage.stage_index);
-    return own.empty() ? fmt::format("{} {}", species.name, instance)
-                       : fmt::format("{} {} {}", species.name, own, instance);
+    const std::string stage_text = stage_name(species, stage.stage_index);
+    return stage_text.empty() ? fmt::format("{} {}", species.name, instance)
+                              : fmt::format("{} {} {}", species.name, stage_text, instance);
 }
 
 void ForestDocument::put_expanded_nodes(JsonWriter& json) const {

@@ -154,24 +154,25 @@ private:
     std::vector<ForestSurface> surfaces_;
     std::vector<ItemGrid> grids_;               // by stage
     std::vector<GltfCollision> collisions_;     // by instance among all stages; empty: no collision
-    std::vector<std::size_t> collision_meshes_; // number of the first mesh, by instance
+    std::vector<std::size_t> collision_meshes_; // by instance: number of its first mesh
     std::size_t first_collision_accessor_ = 0;
     std::size_t first_collision_view_ = 0;
     std::vector<GltfTextureForm> texture_forms_; // by material of the scene
-    std::vector<std::size_t> surface_of_stage_;
+    std::vector<std::size_t> surface_of_stage_;  // by stage: index in surfaces_, or kNoSurface
     std::size_t ground_surface_ = kNoSurface;
+    /// By instance among all stages: number of its mesh; 0 if it has none.
     std::vector<std::uint32_t> mesh_of_instance_;
     /// Number in the file of each pair (material of the scene, vertices have colours).
     std::map<std::pair<std::uint32_t, bool>, std::size_t> material_numbers_;
     Pictures pictures_;
     std::size_t view_count_ = 0;
-    std::vector<std::string> images_;
+    std::vector<std::string> images_;      // PNG files, padded to multiples of 4 bytes
     std::vector<PackedTransforms> packed_; // empty: transforms are floats
     std::size_t transforms_view_ = 0;      // first view of transforms
     std::size_t first_image_view_ = 0;
     std::size_t first_group_accessor_ = 0;
     std::uint64_t transforms_offset_ = 0; // of float transforms; if packed, of the images
-    std::uint64_t bytes_ = 0;
+    std::uint64_t bytes_ = 0;             // size of the buffer
     std::uint64_t decoded_bytes_ = 0;
 };
 

@@ -110,11 +110,11 @@ void ForestDocument::add_collisions() {
                 continue;
             }
             shapes.name = mesh_name(stage, i);
-            GltfCollision& made = collisions_[stage.first + i];
-            made.shapes =
+            GltfCollision& collision = collisions_[stage.first + i];
+            collision.shapes =
                 make_collision(skeleton_of(*stage.cache, stage.cache->instances[i]), shapes);
             // From m to steps of `grid`, counted from grid.low.
-            for (CollisionShape& shape : made.shapes) {
+            for (CollisionShape& shape : collision.shapes) {
                 for (glm::vec3& vertex : shape.vertices) {
                     vertex = glm::vec3((glm::dvec3(vertex) - glm::dvec3(grid.low)) /
                                        static_cast<double>(grid.step));

@@ -14,7 +14,7 @@ namespace lsys {
 namespace {
 
 constexpr std::int32_t kMaxMantissa = (1 << 23) - 1;
-constexpr int kScaleBits = 16;
+constexpr int kScaleBits = 16;    // significant bits of scales
 constexpr int kMaxExponent = 100; // max absolute exponent of the filter's items
 
 template <typename T>

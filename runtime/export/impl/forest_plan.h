@@ -19,7 +19,7 @@ struct ExportedStage {
     std::uint32_t first = 0;       // number of its first instance among all stages
     const InstanceCache* cache = nullptr;
     const InstanceMeshes* meshes = nullptr;
-    std::uint64_t trees = 0;
+    std::uint64_t trees = 0; // number of trees
 };
 
 /// All copies of one instance in one cell.

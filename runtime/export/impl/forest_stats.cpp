@@ -13,6 +13,7 @@ namespace lsys {
 
 namespace {
 
+/// Sums over the slots with the same branch id and age; hits to dropped: as in InstanceSlot.
 struct KeyCounts {
     std::uint64_t slots = 0;
     std::uint64_t instances = 0;

@@ -17,6 +17,7 @@ constexpr std::size_t kInstanceFloats = kInstanceBytes / sizeof(float);
 using Write = std::function<bool(std::span<const std::byte>)>;
 using Visit = std::function<void(std::span<const ForestGroup>, std::span<const float>)>;
 
+/// Computes the transforms window by window.
 class Transforms {
 public:
     Transforms(const ForestPlan& plan,
@@ -97,9 +98,9 @@ private:
     /// begins with instance `begin`.
     void fill(std::span<const ForestGroup> groups, const ForestPiece& piece, std::uint64_t begin) {
         struct Place {
-            float* base = nullptr; // of the group; null: outside of the window
-            std::uint64_t count = 0;
-            std::uint64_t next = 0;
+            float* base = nullptr;   // of the group; null: outside of the window
+            std::uint64_t count = 0; // number of instances of the group
+            std::uint64_t next = 0;  // number of the next instance in the group
         };
         std::vector<Place> places(plan_.instance_counts().size());
         auto group = groups.begin();

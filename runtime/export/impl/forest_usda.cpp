@@ -118,11 +118,11 @@ private:
                 fmt::format("{}</Forest/{}/Prototypes/I{}>", p == 0 ? "" : ", ", name, used[p]));
         }
         out_->put("]\n");
-        const InstanceVertices own = number_vertices(stage, plan_);
+        const InstanceVertices instance_vertices = number_vertices(stage, plan_);
         std::vector<float> sizes; // m, largest extent of each prototype
         for (const std::uint32_t i : used) {
             Bounds bounds;
-            for (const std::uint32_t vertex : own.of(i)) {
+            for (const std::uint32_t vertex : instance_vertices.of(i)) {
                 bounds.add(stage.meshes->mesh.positions[vertex]);
             }
             const glm::vec3 extent = bounds.high - bounds.low;
@@ -134,7 +134,7 @@ private:
         for (const std::uint32_t i : used) {
             const Instance& instance = stage.cache->instances[i];
             const glm::dquat back = glm::conjugate(instance.frame);
-            const std::span<const std::uint32_t> vertices = own.of(i);
+            const std::span<const std::uint32_t> vertices = instance_vertices.of(i);
             const std::span<const MeshPart> parts = stage.meshes->parts_of(i);
             const std::vector<std::string> names = names_of(parts, materials);
             const std::string prim = fmt::format("I{}", i);
@@ -147,7 +147,9 @@ private:
                     return glm::vec3(
                         back * (glm::dvec3(v) - (place ? instance.position : glm::dvec3(0.0))));
                 },
-                [&](std::uint64_t k) { return own.indices[parts[0].first_index + k]; });
+                [&](std::uint64_t k) {
+                    return instance_vertices.indices[parts[0].first_index + k];
+                });
         }
         out_->put("        }\n    }\n");
     }

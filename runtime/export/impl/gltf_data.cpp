@@ -21,13 +21,13 @@ bool has_vertex_colours(const Mesh& mesh, const MeshPart& part) {
     if (!is_complete(mesh, mesh.colours) || mesh.materials[part.material].picture != nullptr) {
         return false;
     }
-    const glm::vec3 own(mesh.materials[part.material].colour);
-    std::uint32_t last_colour = ~std::uint32_t{0}; // last index found to have the colour `own`
+    const glm::vec3 material_colour(mesh.materials[part.material].colour);
+    std::uint32_t last_colour = ~std::uint32_t{0}; // last index found to have this colour
     TriangleReader indices(mesh.indices);
     for (std::uint64_t i = 0; i < part.index_count; ++i) {
         const ItemColour colour = mesh.colours[indices[part.first_index + i]];
         if (colour != last_colour) {
-            if (plain_colour(mesh.looks.get(), colour) != own) {
+            if (plain_colour(mesh.looks.get(), colour) != material_colour) {
                 return true;
             }
             last_colour = colour;

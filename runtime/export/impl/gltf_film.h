@@ -17,7 +17,7 @@ namespace lsys {
 struct GltfFilmCounts {
     std::uint64_t times = 0;
     std::uint64_t scales = 0;
-    std::uint64_t weights = 0;
+    std::uint64_t weights = 0; // of morph targets
 };
 [[nodiscard]] GltfFilmCounts count_film_items(const MeshFilm& film);
 /// Times of the frames, then times at which each shape appears and disappears.

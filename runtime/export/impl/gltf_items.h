@@ -75,8 +75,8 @@ struct GltfForm {
 /// Type of the items of an array.
 struct GltfItem {
     int component = kGltfFloat;
-    std::string_view type; // "VEC3"
-    bool normalized = false;
+    std::string_view type;    // "VEC3"
+    bool normalized = false;  // integers stand for fractions from 0 or -1 to 1
     std::uint32_t stride = 0; // bytes from one item to the next
     bool padded = false;      // items are shorter than the stride
 };

@@ -39,11 +39,11 @@ GltfNumbers add_missing(GltfJson& document, const char* list, GltfJson items, co
     GltfNumbers numbers;
     for (GltfJson& item : items) {
         adapt(item);
-        GltfJson& there = document[list];
-        const auto found = std::find(there.begin(), there.end(), item);
-        numbers.push_back(static_cast<std::size_t>(found - there.begin()));
-        if (found == there.end()) {
-            there.push_back(std::move(item));
+        GltfJson& existing = document[list];
+        const auto found = std::find(existing.begin(), existing.end(), item);
+        numbers.push_back(static_cast<std::size_t>(found - existing.begin()));
+        if (found == existing.end()) {
+            existing.push_back(std::move(item));
         }
     }
     return numbers;

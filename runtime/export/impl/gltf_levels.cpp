@@ -146,7 +146,7 @@ private:
 
     /// Like add_missing(); a material that differs from an earlier one of the same name is renamed.
     GltfNumbers add_materials(Json items, std::size_t level, const GltfNumbers& textures) {
-        Json& there = file_.document["materials"];
+        Json& existing = file_.document["materials"];
         for (Json& item : items) {
             renumber_material(item, textures);
             const std::string name = item["name"];
@@ -156,10 +156,10 @@ private:
                 return renamed == item && other["name"].get<std::string>().starts_with(name);
             };
             const auto same_name = [&](const Json& other) { return other["name"] == name; };
-            if (const auto found = std::find_if(there.begin(), there.end(), looks_same);
-                found != there.end()) {
+            if (const auto found = std::find_if(existing.begin(), existing.end(), looks_same);
+                found != existing.end()) {
                 item = *found;
-            } else if (std::any_of(there.begin(), there.end(), same_name)) {
+            } else if (std::any_of(existing.begin(), existing.end(), same_name)) {
                 item["name"] = level_name(item["name"], level);
             }
         }
@@ -171,16 +171,17 @@ private:
         for (Json& image : images) {
             const std::string_view bytes =
                 bytes_of(views[image["bufferView"].get<std::size_t>()], data);
-            Json& there = file_.document["images"];
-            const auto found = std::find_if(there.begin(), there.end(), [&](const Json& other) {
-                const Json& view =
-                    file_.document["bufferViews"][other["bufferView"].get<std::size_t>()];
-                return bytes_of(view, file_.data) == bytes;
-            });
-            numbers.push_back(static_cast<std::size_t>(found - there.begin()));
-            if (found == there.end()) {
+            Json& existing = file_.document["images"];
+            const auto found =
+                std::find_if(existing.begin(), existing.end(), [&](const Json& other) {
+                    const Json& view =
+                        file_.document["bufferViews"][other["bufferView"].get<std::size_t>()];
+                    return bytes_of(view, file_.data) == bytes;
+                });
+            numbers.push_back(static_cast<std::size_t>(found - existing.begin()));
+            if (found == existing.end()) {
                 image["bufferView"] = view_number(views, data, image["bufferView"]);
-                there.push_back(std::move(image));
+                existing.push_back(std::move(image));
             }
         }
         return numbers;

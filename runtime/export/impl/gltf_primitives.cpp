@@ -170,6 +170,7 @@ private:
     LargeVector<std::uint32_t>& users_;
     LargeVector<std::uint32_t>& vertices_;
     LargeVector<std::uint32_t> numbers_; // of each vertex, in the part that used it last
+    // Whether vertices are equal only with equal texture coordinates, tangents and colours.
     bool textured_ = false;
     bool tangents_ = false;
     bool coloured_ = false;

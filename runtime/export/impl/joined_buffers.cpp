@@ -101,11 +101,11 @@ void join_buffers(std::span<MeshDocument* const> documents, std::string& file) {
             const ItemKind kind{std::move(name), stored["byteStride"].get<std::uint32_t>()};
             ++number;
             JoinedView& joined = kinds.try_emplace(kind, JoinedView{view, {}}).first->second;
-            auto own = std::find(used[i].begin(), used[i].end(), kind);
-            accessor["bufferView"] = own - used[i].begin();
+            auto found = std::find(used[i].begin(), used[i].end(), kind);
+            accessor["bufferView"] = found - used[i].begin();
             accessor["byteOffset"] =
                 joined.items.size() + accessor.value("byteOffset", std::size_t{0});
-            if (own == used[i].end()) {
+            if (found == used[i].end()) {
                 used[i].push_back(kind);
             }
             decode(stored, documents[i]->data, joined.items);

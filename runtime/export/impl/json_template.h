@@ -15,18 +15,20 @@
 
 namespace lsys {
 
-/// Kinds of numbers in a gap.
+/// Kinds of numbers in a gap, as the document numbers its items.
 enum class JsonGapKind : std::uint8_t {
-    Item,     // an item of TileParts, numbered within its list
-    Accessor, // of the same mesh, counted from its first one
-    Buffer,
-    Fallback, // of a buffer
+    Item,     // an item of a PartTable, such as a view or a material
+    Accessor, // an accessor of the mesh
+    Buffer,   // a buffer of a PartTable
+    Fallback, // the fallback of a buffer (runtime/export/tile_document.h)
 };
 
 /// The item that a gap refers to.
 struct JsonReference {
     JsonGapKind kind = JsonGapKind::Item;
-    std::size_t number = 0; // counted as the comment of its JsonGapKind says
+    /// Accessor: counted from the first accessor of the mesh; else: number of the item or buffer in
+    /// the PartTable.
+    std::size_t number = 0;
 };
 
 class JsonTemplate {

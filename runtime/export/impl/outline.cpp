@@ -20,7 +20,7 @@ namespace lsys {
 
 namespace {
 
-constexpr int kDirections = 128;
+constexpr int kDirections = 128; // in which the farthest point is kept
 
 /// Point `i` of a spiral that covers the sphere evenly (Swinbank and Purser, "Fibonacci grids",
 /// 2006).
@@ -116,15 +116,15 @@ std::vector<Card> find_cards(const UserMesh& mesh) {
     }
     for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
         const Triangle corners{mesh.indices[i], mesh.indices[i + 1], mesh.indices[i + 2]};
-        const std::optional<Card> own = card_of(mesh, corners);
+        const std::optional<Card> triangle_card = card_of(mesh, corners);
         auto card = std::find_if(cards.begin(), cards.end(), [&](const Card& each) {
             return contains(each, mesh, corners, tolerance);
         });
-        if (!own || (card == cards.end() && cards.size() == kMaxCards)) {
+        if (!triangle_card || (card == cards.end() && cards.size() == kMaxCards)) {
             return {};
         }
         if (card == cards.end()) {
-            cards.push_back(*own);
+            cards.push_back(*triangle_card);
             card = cards.end() - 1;
         }
         const auto& t = mesh.texture_coordinates;
@@ -181,15 +181,17 @@ std::vector<Outline> object_outlines(const PlacedObject& object,
     }
     std::vector<Outline> outlines;
     for (const ShapePart& part : shape.parts) {
-        const bool own = part.takes_colour && object.colour != 0;
-        outlines.push_back({extreme_points(part.positions),
-                            {},
-                            plain_colour(looks, own ? object.colour : part.material.palette)});
+        const bool has_object_colour = part.takes_colour && object.colour != 0;
+        outlines.push_back(
+            {extreme_points(part.positions),
+             {},
+             plain_colour(looks, has_object_colour ? object.colour : part.material.palette)});
         if (part.material.textured && object.kind == TurtleOperation::MeshFile) {
             const UserMesh& mesh = user_meshes[object.mesh_file];
-            const Look* const look = looks == nullptr
-                                         ? nullptr
-                                         : looks->find(own ? object.colour : part.material.palette);
+            const Look* const look =
+                looks == nullptr
+                    ? nullptr
+                    : looks->find(has_object_colour ? object.colour : part.material.palette);
             if (look == nullptr || look->picture == nullptr) {
                 outlines.back().colour =
                     mean_colour(*mesh.picture) *

@@ -50,8 +50,8 @@ private:
 
     const ByteSink& sink_;
     std::unique_ptr<char[]> buffer_;
-    char* at_;
-    char* end_;
+    char* at_;  // next byte of buffer_ to write
+    char* end_; // end of buffer_
     bool stopped_ = false;
 };
 

@@ -42,7 +42,7 @@ public:
 private:
     const Looks* looks_;
     std::map<ItemColour, std::array<std::uint8_t, 3>> bytes_;
-    ItemColour last_ = ~ItemColour{0};
+    ItemColour last_ = ~ItemColour{0}; // the last colour asked for; its bytes are in last_bytes_
     std::array<std::uint8_t, 3> last_bytes_{};
 };
 

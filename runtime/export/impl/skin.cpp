@@ -38,12 +38,12 @@ bool goes_with(const PlantAnimation& animation,
                std::uint32_t leader,
                std::uint32_t segment,
                double distance) {
-    const Place own = place_of(animation.frame(0)[segment]);
-    Place relative = own;
+    const Place start = place_of(animation.frame(0)[segment]);
+    Place relative = start;
     if (leader != kNoSegment) {
         const Place joint = place_of(animation.frame(0)[leader]);
         const glm::dquat back = glm::conjugate(joint.frame);
-        relative = {back * (own.base - joint.base), back * own.frame};
+        relative = {back * (start.base - joint.base), back * start.frame};
     }
     for (std::uint32_t i = 1; i < animation.frame_count; ++i) {
         Place taken = relative;

@@ -11,7 +11,7 @@ namespace lsys {
 
 namespace {
 
-constexpr std::uint64_t kAlignment = 64;
+constexpr std::uint64_t kAlignment = 64;   // bytes, of the contents of entries in the file
 constexpr std::uint64_t kHeaderBytes = 30; // bytes of an entry, without name and padding
 constexpr std::uint64_t kDirectoryEntryBytes =
     46;                                 // of an entry of the central directory, without its name

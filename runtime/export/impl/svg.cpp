@@ -74,11 +74,12 @@ const std::vector<Outline>& Drawing::outlines(const PlacedObject& object) {
     auto found = outlines_.find(key);
     if (found == outlines_.end()) {
         const std::vector<UserMesh> none;
-        const bool given = info_.user_meshes != nullptr;
+        const bool has_user_meshes = info_.user_meshes != nullptr;
         found = outlines_
                     .emplace(key, is_organ(object)
                                       ? organ_outlines(skeleton_, object)
-                                      : object_outlines(object, given ? *info_.user_meshes : none,
+                                      : object_outlines(object,
+                                                        has_user_meshes ? *info_.user_meshes : none,
                                                         skeleton_.looks.get()))
                     .first;
     }

@@ -142,8 +142,9 @@ public:
 private:
     static constexpr std::uint32_t kNone = ~std::uint32_t{0};
 
+    /// A list of the document.
     struct List {
-        std::string text;
+        std::string text; // the items, with commas between them
         std::size_t count = 0;
     };
     struct Buffer {
@@ -452,14 +453,14 @@ private:
 
     TileDocument& document_;
     const TileParts::State& parts_;
-    PartTable table_; // the items of the surface, besides the shared ones
-    std::vector<Buffer> buffers_;
-    std::vector<std::uint32_t> buffer_numbers_; // by number in the table
+    PartTable table_;                           // the items of the surface, besides the shared ones
+    std::vector<Buffer> buffers_;               // by number in the document
+    std::vector<std::uint32_t> buffer_numbers_; // by number in the table: number in the document
     std::vector<std::uint32_t> numbers_; // number of an item in its list, by number in the table
     std::array<List, kGltfLists> lists_;
-    std::vector<GltfList> order_; // lists in the order of their first items
-    std::vector<std::string> used_;
-    std::vector<std::string> required_;
+    std::vector<GltfList> order_;            // lists in the order of their first items
+    std::vector<std::string> used_;          // members of `extensionsUsed`
+    std::vector<std::string> required_;      // members of `extensionsRequired`
     std::vector<std::uint32_t> rows_;        // of the table of properties, by tree
     std::vector<std::uint32_t> shown_trees_; // by row
     std::size_t first_root_ = 0;             // number of the first root; all later nodes are roots

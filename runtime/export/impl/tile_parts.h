@@ -30,7 +30,7 @@ enum class GltfList : std::uint8_t {
     Required,   // extensions
     Extensions, // an object: members instead of items
 };
-inline constexpr std::size_t kGltfLists = 11;
+inline constexpr std::size_t kGltfLists = 11; // number of values of GltfList
 
 struct TileItem {
     GltfList list = GltfList::Views;
@@ -67,7 +67,7 @@ private:
     std::size_t first_item_ = 0;
     std::size_t first_buffer_ = 0;
     std::vector<TileItem> items_;
-    std::map<std::string, std::size_t> numbers_; // by list and key
+    std::map<std::string, std::size_t> numbers_; // numbers of items, by list and key
     std::vector<TileBuffer> buffers_;
 };
 

@@ -21,6 +21,7 @@
 namespace lsys {
 
 inline constexpr std::size_t kUsdaItemsPerLine = 8;
+/// Max bytes of an item of put_list() with the separator before it.
 inline constexpr std::size_t kUsdaItemBytes = 16 + 3 * (kNumberBytes + 2);
 
 /// The value of `upAxis`.

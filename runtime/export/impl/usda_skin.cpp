@@ -14,7 +14,7 @@ namespace lsys {
 
 namespace {
 
-constexpr std::string_view kStillJoint = "plant";
+constexpr std::string_view kStillJoint = "plant"; // name of joint 0, which never moves
 
 /// Writes `head [...]` in one line, which readers need for samples of an animation; put(i) writes
 /// item i.

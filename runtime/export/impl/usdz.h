@@ -18,7 +18,7 @@ struct UsdzContents {
     /// Writes the layer. Called twice, as the archive states size and checksum before the bytes.
     std::function<void(PieceWriter&)> put_layer;
     std::vector<Picture> pictures;
-    std::uint32_t threads = 0;
+    std::uint32_t threads = 0; // that encode pictures; 0: as many as the machine has
 };
 /// Stops: Failed for more than 4 GiB, before the first byte; Cancelled.
 Outcome<void> write_usdz_archive(const UsdzContents& contents, PieceWriter& out);

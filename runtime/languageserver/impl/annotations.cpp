@@ -226,6 +226,7 @@ private:
     /// Numbers of parameters, by module.
     std::map<std::string_view, std::set<std::uint32_t>> counts_;
     std::map<std::string_view, std::vector<std::string>> functions_; // formals by function
+    /// Hints by offset and label.
     std::vector<std::pair<std::pair<std::uint32_t, std::string>, Json>> hints_;
 };
 
@@ -282,16 +283,16 @@ Json code_lenses(Workspace& workspace, const Json& params) {
         if (use.kind == NameKind::Formal || use.kind == NameKind::Production) {
             continue;
         }
-        Counted& one = counted[{use.kind, use.name}];
+        Counted& entry = counted[{use.kind, use.name}];
         if (!use.is_definition) {
-            ++one.uses;
-        } else if (one.definition == nullptr && use.place.path == document.path) {
-            one.definition = &use;
+            ++entry.uses;
+        } else if (entry.definition == nullptr && use.place.path == document.path) {
+            entry.definition = &use;
         }
     }
-    for (const auto& [name, one] : counted) {
-        if (one.definition != nullptr) {
-            add(one.definition->place, use_count_text(one.uses));
+    for (const auto& [name, entry] : counted) {
+        if (entry.definition != nullptr) {
+            add(entry.definition->place, use_count_text(entry.uses));
         }
     }
     return lenses;

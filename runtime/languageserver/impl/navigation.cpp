@@ -70,7 +70,7 @@ struct NameAt {
     std::shared_ptr<const NameIndex> index;
     std::vector<std::string> roots;
     const NameUse* use = nullptr; // a use in `index`; null: no name
-    std::string path;
+    std::string path;             // path of the document
 
     /// All uses of the name, definitions too, in ascending order.
     [[nodiscard]] std::vector<const NameUse*> uses() const {

@@ -63,11 +63,11 @@ struct Document {
 
 /// Features of the editor.
 struct EditorFeatures {
-    bool pulls_diagnostics = false;
-    bool related_information = false;
-    bool nested_symbols = false;
-    bool snippets = false;
-    bool registers_watchers = false; // reports changes of files if it is asked to
+    bool pulls_diagnostics = false;   // requests diagnostics itself
+    bool related_information = false; // shows further places of a diagnostic
+    bool nested_symbols = false;      // accepts document symbols as a tree
+    bool snippets = false;            // accepts completions with placeholders
+    bool registers_watchers = false;  // reports changes of files if it is asked to
     PositionEncoding encoding = PositionEncoding::Utf16;
 };
 

@@ -216,10 +216,10 @@ typedef struct lsys_segment {
     float spring; /* N m / rad, of the joint at the base */
     float mass;
     uint32_t parent; /* earlier in the array, or LSYS_NO_PARENT */
-    uint32_t colour;
-    uint16_t order; /* number of open brackets: 0 is the trunk */
-    uint8_t sides;
-    uint8_t flags; /* bit 0: begins where its parent ends */
+    uint32_t colour; /* index of the palette, or 0x1000000 + red * 65536 + green * 256 + blue */
+    uint16_t order;  /* number of open brackets: 0 is the trunk */
+    uint8_t sides;   /* corners of its cross-section; 0: the grammar does not set them */
+    uint8_t flags;   /* bit 0: begins where its parent ends */
 } lsys_segment;
 
 LSYS_C_API lsys_status lsys_grow(const lsys_grammar* grammar,
@@ -309,9 +309,9 @@ typedef struct lsys_tree {
     float position[3]; /* m, of the start of the turtle */
     float yaw;         /* radians about +Y */
     float scale;
-    uint32_t number; /* determines the branches of the tree */
-    uint16_t species;
-    uint16_t age; /* years; 0: the last stage of its species */
+    uint32_t number;  /* determines the branches of the tree */
+    uint16_t species; /* index of the species in the scene, or of its grammar */
+    uint16_t age;     /* years; 0: the last stage of its species */
 } lsys_tree;
 
 /* Grows the forest of a scene (.toml) or of grammars. `grammar_options` hold for all species;

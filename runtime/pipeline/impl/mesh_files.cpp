@@ -290,9 +290,9 @@ private:
     const std::string& text_;
     FileBudget& budget_;
     UserMesh& mesh_;
-    std::uint64_t held_; // bytes in use that `budget_` does not count: texts of files, the mesh
-    FileId obj_ = kNoFile;
-    bool reported_unknown_ = false;
+    std::uint64_t held_;   // bytes in use that `budget_` does not count: texts of files, the mesh
+    FileId obj_ = kNoFile; // id of the mesh file in `sources`; kNoFile before its first use
+    bool reported_unknown_ = false; // whether an unknown material has been reported
     std::vector<MaterialLibrary> libraries_;
 };
 

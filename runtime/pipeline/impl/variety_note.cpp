@@ -18,9 +18,9 @@ namespace lsys {
 namespace {
 
 constexpr std::size_t kFirstSample = 512; // trees compared first; more only if few of them differ
-constexpr double kNearlyAll = 0.9;
-constexpr std::size_t kMaxSample = 20'000; // max trees compared per species
-constexpr std::uint64_t kManyShapes = 1'000;
+constexpr double kNearlyAll = 0.9; // fraction of different trees in the sample; above: no note
+constexpr std::size_t kMaxSample = 20'000;   // max trees compared per species
+constexpr std::uint64_t kManyShapes = 1'000; // number of different trees; with as many: no note
 
 /// Whether most keys of the cache (docs/language.md section 9.5) have only one recorded branch.
 bool has_single_instances(const ForestSpecies& species) {
@@ -36,7 +36,7 @@ bool has_single_instances(const ForestSpecies& species) {
 }
 
 std::string advice(const SceneSpecies& species, const ForestSpecies& grown) {
-    constexpr float kHighRho = 0.75F;
+    constexpr float kHighRho = 0.75F; // for a greater rho, a smaller one is proposed
     std::string text = fmt::format("more heroes make more of them: `--heroes {}`",
                                    std::min(4 * species.cache.heroes, kMaxHeroes));
     if (species.rho > kHighRho) {

@@ -18,7 +18,8 @@ struct Cell {
 
 class CellGrid {
 public:
-    /// `place_bits`: 2^place_bits places per cell; 32 - place_bits is even.
+    /// `side`: side of a cell, m. `place_bits`: 2^place_bits places per cell; 32 - place_bits is
+    /// even.
     CellGrid(double side, std::uint32_t place_bits)
         : side_(side), place_bits_(place_bits),
           half_(std::int64_t{1} << ((32 - place_bits) / 2 - 1)) {}

@@ -20,6 +20,7 @@ constexpr double kMinSpacing = 0.001; // m
 /// Max number of places to sample in a density map, most of which may be black.
 constexpr double kMaxMapPlaces = 1.0e9;
 
+/// The value of an option, and its valid range.
 struct Bound {
     std::string_view name;
     double value;

@@ -14,9 +14,9 @@ namespace lsys {
 
 namespace {
 
-constexpr std::uint64_t kPiece = 2048;
+constexpr std::uint64_t kPiece = 2048; // plants
 
-/// A range of squares, both ends included.
+/// A range of squares, both ends included: columns `left` to `right`, rows `top` to `bottom`.
 struct SquareRange {
     std::uint32_t left = 0;
     std::uint32_t right = 0;
@@ -38,11 +38,11 @@ private:
 
     const Region& region_;
     std::span<const ForestPlant> plants_;
-    double side_ = 1.0;
+    double side_ = 1.0; // m, of a square
     std::uint32_t columns_ = 1;
     std::uint32_t rows_ = 1;
-    LargeVector<std::uint64_t> starts_; // first entry of each square; one more at the end
-    LargeVector<std::uint32_t> entries_;
+    LargeVector<std::uint64_t> starts_;  // first entry of each square; one more at the end
+    LargeVector<std::uint32_t> entries_; // indices of plants, square by square
 };
 
 CrowdGrid::CrowdGrid(const Region& region, std::span<const ForestPlant> plants)

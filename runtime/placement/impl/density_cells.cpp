@@ -17,8 +17,8 @@ namespace lsys {
 namespace {
 
 constexpr std::uint32_t kPlaceBits = 4;
-constexpr std::uint32_t kPlaces = 1U << kPlaceBits;
-constexpr std::uint32_t kSquares = 4; // along each side of a cell
+constexpr std::uint32_t kPlaces = 1U << kPlaceBits; // per cell, one in each square
+constexpr std::uint32_t kSquares = 4;               // along each side of a cell
 
 using Order = std::array<std::uint8_t, kPlaces>;
 

@@ -21,14 +21,15 @@ namespace lsys {
 
 namespace {
 
-constexpr double kThresholdSpan = 0.5;
-constexpr std::uint64_t kPiece = 1024;
+constexpr double kThresholdSpan = 0.5; // thresholds are random from 0.25 to 0.75
+constexpr std::uint64_t kPiece = 1024; // squares that get a tree
 
+/// The squares into which the region is divided.
 struct Squares {
     std::uint32_t columns = 0;
     std::uint32_t rows = 0;
-    double width = 0.0; // m
-    double depth = 0.0; // m
+    double width = 0.0; // m, of a square
+    double depth = 0.0; // m, of a square
 };
 
 /// Squares of at most 1 / density square metres each.

@@ -10,6 +10,7 @@ namespace lsys {
 
 class GreySampler {
 public:
+    /// `span`: the region over which the map is stretched.
     GreySampler(const GreyMap& map, const Region& span);
 
     /// The value of the pixel at a place, 0 to 1.

@@ -89,7 +89,7 @@ private:
     std::vector<std::uint32_t> ranks_;
     std::vector<std::uint8_t> quarters_; // quarter of the cell; bit 0: upper half in x; bit 1: in z
     std::vector<std::uint32_t> order_;   // candidates by rank, then by number
-    std::vector<std::uint32_t> previous_order_;
+    std::vector<std::uint32_t> previous_order_;   // memory for sort_by_rank()
     std::vector<std::uint8_t> acceptance_rounds_; // of candidates; kUndecided: not accepted
     std::vector<std::uint8_t> rejection_rounds_;  // of candidates; kUndecided: not rejected
     /// Accepted candidates by quarter of a cell, row by row, with kNeighbourQuarters more quarters

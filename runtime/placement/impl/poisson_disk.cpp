@@ -26,7 +26,7 @@ namespace {
 constexpr std::uint32_t kBlocks = 26;
 constexpr std::int64_t kReach = 2; // distance in cells within which points may be too close
 constexpr std::uint32_t kNoPoint = 0xFFFFFFFFu;
-constexpr std::uint64_t kPiece = 1024;
+constexpr std::uint64_t kPiece = 1024; // points
 
 struct Offset {
     std::int64_t cells = 0;   // difference of cell indexes
@@ -68,13 +68,13 @@ private:
 
     const PlacementOptions& options_;
     double spacing_;
-    double side_;
+    double side_; // m, of a cell
     std::int64_t columns_;
     std::int64_t rows_;
     LargeVector<std::uint32_t> points_at_; // by cell, with a margin of kReach empty cells
     std::vector<Offset> neighbourhood_;    // offsets of a cell's neighbours and of the cell itself
     LargeVector<glm::vec2> points_;
-    LargeVector<std::uint32_t> active_;
+    LargeVector<std::uint32_t> active_; // indices in points_ of the active points
 };
 
 void DiskSampler::add(glm::vec2 point) {

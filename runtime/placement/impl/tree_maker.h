@@ -16,8 +16,8 @@ namespace lsys {
 /// The trees of one piece of work.
 struct TreeChunk {
     std::vector<Tree> trees;
-    std::uint64_t places = 0;
-    std::uint64_t refused = 0;
+    std::uint64_t places = 0;  // as PlacementReport::places
+    std::uint64_t refused = 0; // as PlacementReport::refused
 };
 
 class TreeMaker {
@@ -46,9 +46,9 @@ private:
 
     const PlacementOptions& options_;
     const Terrain& terrain_;
-    double total_share_ = 0.0; // sum over all species
-    bool has_limits_ = false;  // whether limits keep some species out of some places
-    bool has_steepest_ = false;
+    double total_share_ = 0.0;  // sum over all species
+    bool has_limits_ = false;   // whether limits keep some species out of some places
+    bool has_steepest_ = false; // whether some species has a max slope
 };
 
 /// Appends the trees of the pieces 0 to `pieces` - 1, in this order, and adds up their reports.

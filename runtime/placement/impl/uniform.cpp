@@ -10,7 +10,7 @@ namespace lsys {
 
 namespace {
 
-constexpr std::uint64_t kPiece = 1024;
+constexpr std::uint64_t kPiece = 1024; // trees
 
 } // namespace
 

@@ -17,7 +17,7 @@ namespace {
 
 constexpr std::uint32_t kPlaceBits = 6;
 constexpr std::uint32_t kMaxPlaces = 1U << kPlaceBits; // more would occur once in 10^18 cells
-constexpr double kMeanPlaces = 16.0;
+constexpr double kMeanPlaces = 16.0;                   // per cell
 constexpr double kNoPlaceProbability = 1.1253517471925912e-7; // exp(-16)
 
 /// Cumulative probabilities of 0, 1, ... places, times 2^32.

@@ -20,7 +20,7 @@ namespace lsys::platform {
 namespace fs = std::filesystem;
 
 struct FolderEvents::State {
-    File wake{::eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK)};
+    File wake{::eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK)}; // readable after FolderEvents::wake()
     File inotify;
     std::map<int, fs::path> folders; // by watch descriptor
 

@@ -20,9 +20,9 @@ constexpr int kSignalStatus = 128;
 // Max seconds from SIGTERM or SIGHUP to the end of the process, which a full pipe may block.
 constexpr unsigned kShutdownSeconds = 2;
 
-std::atomic<bool> interrupted{false};
-std::atomic<int> first_signal{0}; // the first signal received by on_end_signal(); 0: none
-std::atomic<bool> has_alarm{false};
+std::atomic<bool> interrupted{false}; // the value of end_requested()
+std::atomic<int> first_signal{0};     // the first signal received by on_end_signal(); 0: none
+std::atomic<bool> has_alarm{false};   // on_end_signal() has set the alarm that ends the process
 std::atomic<void (*)() noexcept> clean_up_before_exit{nullptr};
 // Only lock-free atomics may be used in a signal handler.
 static_assert(std::atomic<bool>::is_always_lock_free && std::atomic<int>::is_always_lock_free);

@@ -31,6 +31,7 @@ constexpr int kWait = 50;                  // milliseconds between two checks of
 std::array<std::atomic<int>, 256> running{};
 static_assert(std::atomic<int>::is_always_lock_free);
 
+/// Adds a process group to `running`.
 void remember(int process) {
     for (std::atomic<int>& each : running) {
         int none = 0;
@@ -40,6 +41,7 @@ void remember(int process) {
     }
 }
 
+/// Removes a process group from `running`.
 void forget(int process) {
     for (std::atomic<int>& each : running) {
         int known = process;
@@ -112,6 +114,7 @@ ssize_t write_quietly(int descriptor, const char* bytes, std::size_t count) {
     return written;
 }
 
+/// Whether a read or write that failed with the errno `reason` may succeed later.
 bool may_be_repeated(int reason) {
     return reason == EAGAIN || reason == EINTR;
 }

@@ -22,8 +22,8 @@ constexpr int kInterruptedStatus = 130;
 constexpr int kTerminatedStatus = 143;
 constexpr int kHungUpStatus = 129;
 
-std::atomic<bool> interrupted{false};
-std::atomic<int> first_status{0};
+std::atomic<bool> interrupted{false}; // the value of end_requested()
+std::atomic<int> first_status{0};     // exit status of the first request to end; 0: none
 std::atomic<void (*)() noexcept> clean_up_before_exit{nullptr};
 
 /// Called by the system in a thread of its own. After the console was closed, the system ends the

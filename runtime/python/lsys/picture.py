@@ -6,8 +6,9 @@ import zlib
 
 import numpy as np
 
+# Unit vector to the light.
 _LIGHT = np.array([0.35, 0.8, 0.5]) / np.linalg.norm([0.35, 0.8, 0.5])
-_MAX_SAMPLES = 4_000_000
+_MAX_SAMPLES = 4_000_000  # about the max number of points that draw() draws
 
 
 def colours_of(mesh):

@@ -76,13 +76,13 @@ Result<void> compile_changed(const RepairSubject& subject,
     const auto fixed_text = changed.find(shown_path(subject.path));
     const std::string& bytes =
         fixed_text != changed.end() ? fixed_text->second : subject.text.bytes;
-    Result<CompiledText> made =
+    Result<CompiledText> result =
         compile_text(subject.path, {bytes, subject.text.dialect}, subject.options,
                      subject.project.limits.max_modules, load);
-    if (!made) {
-        return made.error();
+    if (!result) {
+        return result.error();
     }
-    compiled = std::move(made.value());
+    compiled = std::move(result.value());
     if (compiled.definition_error) {
         return *compiled.definition_error;
     }

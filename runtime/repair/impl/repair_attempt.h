@@ -96,11 +96,12 @@ private:
     const std::set<StatementKey>& excluded_;
     bool excludes_all_;
     FixedGrammar fixed_;
-    std::map<std::string, EditedFile> files_;
+    std::map<std::string, EditedFile> files_;   // by path
     std::set<StatementKey> with_syntax_errors_; // statements with syntax errors in the last round
-    std::map<StatementKey, Errors> original_errors_;
+    std::map<StatementKey, Errors> original_errors_; // errors of the original text, by statement
+    /// Number of diagnostics of the original text, by code.
     std::map<DiagnosticCode, std::size_t> original_counts_;
-    std::map<StatementKey, std::vector<AppliedFix>> applied_;
+    std::map<StatementKey, std::vector<AppliedFix>> applied_; // by statement
     /// Path, offset and code of each repair, which FixChoice::Offered does not repeat.
     std::set<std::tuple<std::string, std::uint32_t, DiagnosticCode>> repaired_places_;
 };

@@ -18,6 +18,7 @@ enum class SceneValueKind : std::uint8_t { Table, List, Text, Integer, Real, Boo
 
 struct SceneEntry;
 
+/// A value. The comments of the last five members name the kinds that set them.
 struct SceneValue {
     SceneValueKind kind = SceneValueKind::Table;
     SourceSpan span;                 // for a table: its heading, or the whole inline table

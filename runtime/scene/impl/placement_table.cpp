@@ -55,6 +55,7 @@ std::string keys_of(const MethodRow& method) {
     return keys;
 }
 
+/// Reports a `spacing` with which PoissonDisk would place more than kMaxTrees trees.
 void check_disk(TableReader& reader, const PlacementOptions& placement) {
     const double trees =
         kDiskTrees * placement.region.area() / (placement.spacing * placement.spacing);

@@ -22,7 +22,7 @@ struct NumberRange {
     double min = 0.0;
     double max = 0.0;
     bool excludes_min = false;
-    std::string_view unit;
+    std::string_view unit; // for messages, such as "m"; empty: none
 };
 
 struct IntegerRange {
@@ -87,7 +87,7 @@ private:
     const SceneValue* table_;
     std::string name_;
     Diagnostics& diagnostics_;
-    std::vector<std::string_view> known_;
+    std::vector<std::string_view> known_; // keys that the reader has asked for
 };
 
 } // namespace lsys

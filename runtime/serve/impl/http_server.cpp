@@ -185,10 +185,11 @@ private:
     std::optional<http::request_parser<http::empty_body>> parser_;
     TileResponse response_;
     std::optional<http::response<http::span_body<const char>>> message_;
-    bool is_idle_ = false;
-    bool is_last_ = false;
+    bool is_idle_ = false; // waits for a request
+    bool is_last_ = false; // the connection is closed after the current response
 };
 
+/// Accepts connections.
 class Listener {
 public:
     Listener(Shared& shared, std::uint32_t max_connections)
@@ -245,7 +246,7 @@ public:
 private:
     Shared& shared_;
     tcp::acceptor acceptor_;
-    asio::steady_timer retry_;
+    asio::steady_timer retry_; // accepts again after an error
     std::uint32_t max_connections_;
 };
 
@@ -284,7 +285,7 @@ private:
     Listener& listener_;
     const std::function<bool()>& should_stop_;
     asio::steady_timer timer_;
-    std::chrono::steady_clock::time_point end_;
+    std::chrono::steady_clock::time_point end_; // when the remaining connections are closed
 };
 
 } // namespace

@@ -66,7 +66,7 @@ private:
     };
 
     std::uint32_t side_;
-    double cell_;
+    double cell_; // m, side of a cell
     std::vector<Cell> cells_;
 };
 

@@ -45,10 +45,11 @@ Shade shade_of(const Material& material) {
     return shade;
 }
 
+/// A square of the ground, seen from above.
 struct Sample {
-    float height = -std::numeric_limits<float>::infinity();
-    glm::dvec3 colour{0.0};
-    double cover = 0.0;
+    float height = -std::numeric_limits<float>::infinity(); // m, of the highest surface
+    glm::dvec3 colour{0.0};                                 // linear, of this surface
+    double cover = 0.0;                                     // opaque fraction of the square, 0 to 1
 };
 
 } // namespace

@@ -16,7 +16,7 @@ namespace {
 /// Size in bytes at which a file ends, so that clients get the models of a forest of many species
 /// in pieces.
 constexpr std::size_t kModelFileBytes = std::size_t{1} << 20;
-constexpr std::size_t kAlignment = 8;
+constexpr std::size_t kAlignment = 8; // bytes, of the models in a file
 
 class ModelWriter {
 public:

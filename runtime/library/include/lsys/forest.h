@@ -3,6 +3,10 @@
 // instances as arrays for renderers, and its files. Metres, right-handed axes, +Y up. Arrays are
 // spans into the Forest or Instances, without a copy: they are valid as long as any copy of the
 // Forest or Instances exists.
+//
+// A hero is a plant that is derived in full. Trees are assembled from branches of heroes; `rho` is
+// the probability that a branch of a hero is replaced by an earlier recorded one. A stage is the
+// plants of a species with the same number of generations. docs/library.md explains forests.
 #pragma once
 
 #include <cstddef>
@@ -27,9 +31,9 @@ struct Tree {
     Vector3 position; // position of the turtle at the start
     float yaw = 0.0F; // radians about +Y
     float scale = 1.0F;
-    std::uint32_t number = 0; // determines the branches of the tree
-    std::uint16_t species = 0;
-    std::uint16_t age = 0; // years; 0: the last stage of its species
+    std::uint32_t number = 0;  // determines the branches of the tree
+    std::uint16_t species = 0; // index in Forest::species()
+    std::uint16_t age = 0;     // years; 0: the last stage of its species
 };
 
 struct Species {

@@ -63,7 +63,7 @@ struct Segment {
     std::uint32_t parent = kNoParent; // the segment before it on its path; earlier in the array
     Colour colour = 0;
     std::uint16_t order = 0; // number of open brackets: 0 is the trunk
-    std::uint8_t sides = 0;  // corners of its cross-section, if the grammar sets them
+    std::uint8_t sides = 0;  // corners of its cross-section; 0: the grammar does not set them
     std::uint8_t flags = 0;  // bit 0: begins where its parent ends
 };
 
@@ -113,7 +113,7 @@ struct PlantSize {
     double length = 0.0;      // m, sum over all segments
     double volume = 0.0;      // m^3, sum over all segments
     double mass = 0.0;        // kg, sum over all segments
-    std::vector<std::uint64_t> segments_by_order;
+    std::vector<std::uint64_t> segments_by_order; // number of segments, by Segment::order
 };
 
 /// A drawn plant. Cheap to copy, immutable, safe to use from several threads at once.
@@ -157,8 +157,8 @@ struct MeshOptions {
     float deviation = 0.0F;
     bool texture_coordinates = true;
     bool tangents = true;
-    bool smooth_joints = false;
-    float min_width = 0.0F; // m, of MeshMethod::Solid; 0: 1/150 of the largest extent
+    bool smooth_joints = false; // Tubes: axes bend along smooth curves through their joints
+    float min_width = 0.0F;     // m, of MeshMethod::Solid; 0: 1/150 of the largest extent
 };
 
 /// Colours are linear, 0 to 1.
