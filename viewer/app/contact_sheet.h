@@ -88,8 +88,8 @@ public:
     /// effect at the next show().
     std::vector<std::string> varied;
     std::array<SheetCell, kSheetCells> cells;         // cells of the last show()
-    std::array<std::uintptr_t, kSheetCells> images{}; // 0: not drawn yet
-    std::array<bool, kSheetCells> done{};
+    std::array<std::uintptr_t, kSheetCells> images{}; // for ImGui::Image(); 0: no picture
+    std::array<bool, kSheetCells> done{};             // true without an image: no plant
     /// Whether all pictures taken so far are equal.
     [[nodiscard]] bool are_alike() const { return are_alike_; }
 
@@ -103,7 +103,7 @@ private:
 /// The action of the user in a frame of draw_contact_sheet().
 struct SheetAction {
     std::optional<std::size_t> chosen_cell; // cell whose plant the user takes
-    bool closes = false;
+    bool closes = false; // the user closes the sheet
     bool varies = false; // ContactSheet::varied has changed
 };
 /// Draws the sheet over the whole window. Returns the action of the user.

@@ -23,7 +23,7 @@ enum class FilmKind : std::uint8_t { Turntable, Growth };
 struct PictureSettings {
     std::uint32_t width = 0; // pixels; width or height 0: size of the window's picture
     std::uint32_t height = 0;
-    std::uint32_t samples = 4;
+    std::uint32_t samples = 4; // per pixel
     bool transparent = false; // has no effect on forests
     std::string folder;       // empty: the current folder
     std::string name;         // without extension
@@ -77,7 +77,7 @@ public:
 
 private:
     PictureSettings settings_;
-    std::shared_ptr<std::atomic<std::uint32_t>> done_;
+    std::shared_ptr<std::atomic<std::uint32_t>> done_; // pictures written so far
     std::unique_ptr<LatestRequestWorker<FilmExportRequest, std::string>> worker_;
 };
 

@@ -372,9 +372,9 @@ private:
     std::vector<std::uint32_t> first_mesh_; // by form: index of its first group in mesh_counts_
     DrawLists lists_;
     std::vector<BranchCandidate> candidates_;
-    std::vector<ImpostorEntry> far_;
+    std::vector<ImpostorEntry> far_; // impostors of trees that are too low for branches
     std::vector<BranchEntry> visible_branches_;
-    std::vector<PoolBranch> made_branches_;
+    std::vector<PoolBranch> made_branches_;  // branches of the tree that is being expanded
     std::vector<VisibleTree> visible_trees_; // trees of visible_branches_
     Sway sway_;
     GroundHorizon* ground_ = nullptr; // the occluder, during select()

@@ -69,7 +69,7 @@ private:
     Group group_;
     std::uint32_t word_end_ = 0; // end of the last word with an unknown letter
     std::u32string reported_greek_;
-    bool explained_ = false;
+    bool explained_ = false; // a message has the note about text copied from a PDF
 };
 
 } // namespace lsys
