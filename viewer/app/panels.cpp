@@ -738,7 +738,7 @@ float source_width(const PanelState& panels, float window_width, float scale) {
         return 0.0F;
     }
     const float left = panels.panels ? std::min(panel_width(scale), window_width) : 0.0F;
-    constexpr float kMaxPart = 0.6F;
+    constexpr float kMaxPart = 0.6F; // of the width that the other panel leaves
     return std::min(panels.source.look.width * scale, kMaxPart * (window_width - left));
 }
 

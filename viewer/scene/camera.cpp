@@ -19,9 +19,9 @@ namespace lsys::view {
 namespace {
 
 constexpr glm::vec3 kUp{0.0F, 1.0F, 0.0F};
-constexpr float kSteepest = 1.553F; // radians, max angle of the view above or below the horizon
-constexpr float kMinField = 1.0F;
-constexpr float kMaxField = 170.0F;
+constexpr float kSteepest = 1.553F;  // radians, max angle of the view above or below the horizon
+constexpr float kMinField = 1.0F;    // degrees
+constexpr float kMaxField = 170.0F;  // degrees
 constexpr float kNearest = 0.02F;    // m, min distance of the near plane
 constexpr float kMaxDistance = 1e7F; // m, of eye and target
 constexpr double kNearWorld =

@@ -117,6 +117,7 @@ private:
         const Level right = level(value.right);
         switch (value.opcode) {
         case Opcode::Literal: {
+            // Sums of multiples of 1/64 are exact, so long as they are not large.
             constexpr float kGrain = 64.0F;
             constexpr float kMaxExact = 65'536.0F;
             const bool exact = std::fabs(value.literal) <= kMaxExact &&

@@ -41,10 +41,10 @@ private:
     struct Group {
         std::uint32_t begin = 0;
         std::uint32_t end = 0;
-        std::string ascii;
+        std::string ascii; // replaces them
         std::string code_points;
-        std::string_view name;
-        std::uint32_t count = 0;
+        std::string_view name;   // of all of them; empty if they differ
+        std::uint32_t count = 0; // number of characters
     };
 
     void replace_confusable(std::uint32_t begin,
