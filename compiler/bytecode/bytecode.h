@@ -182,7 +182,7 @@ struct BytecodeProduction {
     TableRange right;       // range of patterns; Open and Close are balanced
     std::uint32_t formal_count = 0;
     std::uint32_t condition = kNone; // first instruction, or kNone for `*`
-    bool stochastic = false; // has a `~`: chosen at random within its group
+    bool stochastic = false;         // has a `~`: chosen at random within its group
     float weight = 0.0F; // the number after `~`; 0 if there is none or it is not constant
     /// First instruction of a weight that is not constant, else kNone. The code ends with Test, as
     /// the code of a condition does.
@@ -251,7 +251,7 @@ struct BytecodeMaterial {
     float roughness = 0.0F; // 0 to 1
     bool has_translucency = false;
     float translucency = 0.0F; // 0 to 1
-    bool has_sides = false; // the material says whether it has one side or two
+    bool has_sides = false;    // the material says whether it has one side or two
     bool two_sided = false;
 };
 inline constexpr std::uint32_t kMaxColourIndex = 65535;

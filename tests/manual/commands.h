@@ -48,7 +48,7 @@ private:
                                       const std::vector<std::string>& arguments);
 
     std::filesystem::path folder_;
-    int status_ = 0; // exit status of the last command
+    int status_ = 0;   // exit status of the last command
     std::string last_; // the last command, for messages
 };
 

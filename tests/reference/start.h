@@ -34,7 +34,7 @@ private:
 
     const Request& request_;
     System& system_;
-    Environment environment_; // names and random numbers of expressions (evaluate.h)
+    Environment environment_;        // names and random numbers of expressions (evaluate.h)
     std::uint64_t range_number_ = 0; // count of draws so far, by #define, #param and #w
     std::uint32_t generations_ = 0;
     std::map<Stage, std::vector<const Production*>> productions_; // in file order

@@ -103,7 +103,7 @@ private:
     std::uint64_t step_ = 0; // number of the current step, for Ready::last_wanted
     StreamStats stats_;
     bool out_of_memory_ = false;
-    bool ends_ = false; // tells the threads to return
+    bool ends_ = false;                // tells the threads to return
     std::vector<std::thread> threads_; // last member: the threads use the others
 };
 

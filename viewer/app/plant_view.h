@@ -67,7 +67,7 @@ struct PlantEdits : PlantSource, PlantLook {
 struct PlantViewSettings : PlantEdits {
     std::string file;
     Camera camera;
-    bool plays = false;
+    bool plays = false; // growth
     float generations_per_second = 2.0F;
 
     ExportSettings output;
@@ -186,10 +186,10 @@ private:
 
     std::shared_ptr<const PlantDocument> document_;
     LoadOutcome shown_outcome_;
-    PlantSource saved_; // values when the file was opened or last saved
+    PlantSource saved_;              // values when the file was opened or last saved
     std::vector<std::string> files_; // files that the last load has requested
-    bool frame_next_ = true;  // the next swap moves the camera to show the plant
-    bool is_new_file_ = true; // at the next swap, take the damping of the grammar
+    bool frame_next_ = true;         // the next swap moves the camera to show the plant
+    bool is_new_file_ = true;        // at the next swap, take the damping of the grammar
     bool logs_next_frame_ = false;
     PlantViewStats stats_;
     Bounds rest_bounds_; // bounds of document_ at rest
@@ -214,7 +214,7 @@ private:
     std::unique_ptr<PlantMotion> motion_;
     /// The last input of the worker that checks whether the plant stands.
     std::optional<Bending> checked_bending_;
-    bool warns_of_fall_ = false; // the messages warn that the plant falls
+    bool warns_of_fall_ = false;                        // the messages warn that the plant falls
     std::unique_ptr<StandingChecker> standing_checker_; // made by the first simulation
     std::unique_ptr<PlantExporter> exporter_;           // made by the first export
     std::string exported_file_;                         // file of the last export

@@ -204,7 +204,7 @@ private:
     std::uint64_t taken_request_count_ = 0;
     std::string note_;
     SteadyClock::time_point note_since_;
-    bool failed_ = false;
+    bool failed_ = false; // the last load
     std::atomic<bool> shaders_changed_{false};
     bool take_trace();
 

@@ -106,7 +106,7 @@ private:
     };
     /// A word, with modules of fixed classes counted by class.
     struct CountedWord {
-        bool made = false; // the modules have been counted
+        bool made = false;            // the modules have been counted
         std::uint32_t locals = kNone; // code of the local values
         std::vector<ClassTerm> fixed;
         std::vector<VariableModule> variable;
@@ -119,7 +119,7 @@ private:
     };
     struct Matches {
         std::vector<Match> list;
-        bool probabilities_known = true;
+        bool probabilities_known = true; // else Match::probability has no meaning
     };
 
     void find_causes();

@@ -49,7 +49,7 @@ private:
     std::unordered_map<std::uint32_t, Sense> senses_;
     std::vector<bool> ignored_; // by name: ignore() was called; considered_: consider() was
     std::vector<bool> considered_;
-    bool others_ignored_ = false;
+    bool others_ignored_ = false; // ignore_all_but_considered() was called
 };
 
 } // namespace lsys

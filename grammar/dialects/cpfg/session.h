@@ -46,7 +46,7 @@ struct CpfgProduction {
     std::vector<CpfgModule> right;
     std::vector<int> before;          // statements
     ForeignId condition = kNoForeign; // kNoForeign: always holds
-    std::vector<int> after;
+    std::vector<int> after;           // statements
     std::vector<CpfgModule> successor;
     ForeignId weight = kNoForeign;
     SourceSpan span; // place of the predecessor
@@ -69,8 +69,8 @@ public:
     std::optional<SourceSpan> ring; // `ring Lsystem`: the first module is next to the last one
     std::vector<CpfgModule> ignored;
     std::vector<CpfgModule> considered;
-    bool ignores = false;
-    bool considers = false;
+    bool ignores = false;   // there is a statement `ignore:`
+    bool considers = false; // there is a statement `consider:`
     ForeignId derivation_length = kNoForeign;
     ForeignId seed = kNoForeign;
     ForeignId decompose_depth = kNoForeign;

@@ -94,9 +94,9 @@ public:
 
 private:
     FileId file_;
-    std::uint32_t size_ = 0; // bytes of the file
-    std::uint32_t at_ = 0;   // offset of the next match
-    SourceSpan last_;        // place of the last match
+    std::uint32_t size_ = 0;      // bytes of the file
+    std::uint32_t at_ = 0;        // offset of the next match
+    SourceSpan last_;             // place of the last match
     std::uint32_t depth_ = 0;     // open parentheses
     bool in_condition_ = false;   // in a condition or probability
     bool wants_modules_ = false;  // modules follow the key of the line

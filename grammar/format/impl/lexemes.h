@@ -101,11 +101,11 @@ private:
     StatementShape shape_ = StatementShape::Other;
     // Part of a production: 1 name, 2 head, 3 condition and local values, 4 successor; else 0.
     std::uint32_t part_ = 0;
-    bool has_locals_ = false;
+    bool has_locals_ = false;     // the local values of the production have begun
     bool in_probability_ = false; // in the probability of an axiom
     bool in_formals_ = false;     // in the name or the formals of a #function
-    std::uint32_t depth_ = 0;  // open parentheses and braces
-    bool after_value_ = false; // the last token ends a value: `-` is binary, `(` begins a call
+    std::uint32_t depth_ = 0;     // open parentheses and braces
+    bool after_value_ = false;    // the last token ends a value: `-` is binary, `(` begins a call
     LexemeKind previous_ = LexemeKind::Semicolon;
 };
 

@@ -48,7 +48,7 @@ private:
     std::string line_; // the current line, not yet in out_
     std::uint32_t column_;
     std::vector<LineBreak> breaks_; // breaks of the current line, ascending
-    bool at_begin_ = true; // the current line has no piece yet
+    bool at_begin_ = true;          // the current line has no piece yet
     bool one_line_ = true;
 };
 

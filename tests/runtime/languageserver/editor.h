@@ -166,7 +166,7 @@ public:
     std::map<std::string, std::string>& files() { return *files_; }
     LanguageServer& server() { return *server_; }
 
-    Json answer; // result of `initialize`
+    Json answer;                             // result of `initialize`
     std::map<int, Json> responses;           // by id of the request
     std::map<std::string, Json> diagnostics; // as last published, by URI
     int publish_count = 0;
