@@ -361,7 +361,7 @@ void draw_help(std::span<const KeyHelp> keys, PanelState& panels, const Area& ar
 
 /// Wraps the text of an overlay so that the overlay stays within the area.
 void wrap_within(const Area& area) {
-    constexpr float kMargins = 32.0F;
+    constexpr float kMargins = 32.0F; // pixels, on both sides
     ImGui::PushTextWrapPos(std::max(area.high.x - area.low.x - kMargins, 100.0F));
 }
 

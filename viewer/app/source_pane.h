@@ -25,7 +25,7 @@ struct SourcePaneLook {
 
     friend bool operator==(const SourcePaneLook&, const SourcePaneLook&) = default;
 };
-inline constexpr float kMinSourceWidth = 200.0F;
+inline constexpr float kMinSourceWidth = 200.0F; // of `width`
 inline constexpr float kMaxSourceWidth = 4000.0F;
 /// The settings that write_source_look() wrote into the state folder (recent_files.h).
 [[nodiscard]] SourcePaneLook read_source_look(const std::string& folder);

@@ -239,7 +239,7 @@ Camera framing(const Camera& camera, const Bounds& bounds, float aspect) {
         const float high = std::abs(glm::dot(from, upwards)) / tangent;
         distance = std::max(distance, std::max(wide, high) - glm::dot(from, along));
     }
-    constexpr float kMargin = 1.08F;
+    constexpr float kMargin = 1.08F; // factor of the distance
     result.eye = result.target - std::max(kMargin * distance, 0.1F) * along;
     return result;
 }

@@ -15,9 +15,10 @@ namespace lsys {
 
 namespace {
 
+/// How a value arises: exact in binary32, a rounded literal, a result that may be rounded.
 enum class Level : std::uint8_t { Exact, Literal, Computed };
 
-constexpr int kMaxRounds = 16;
+constexpr int kMaxRounds = 16; // of propagate()
 
 class EqualityCheck {
 public:

@@ -85,6 +85,7 @@ public:
     int systems = 0;              // number of labels `Lsystem:` read
 
     // --- for the scanner
+    /// The text at the current place: the begin of a line, modules, or an expression or statement.
     enum class Mode : std::uint8_t { Line, Symbols, Expression };
     Mode mode = Mode::Line;
     int nesting = 0; // brackets open in an expression

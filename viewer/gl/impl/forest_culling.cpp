@@ -55,6 +55,7 @@ constexpr std::uint32_t kRemoved = 0x8000'0000U;                // bit of an Ide
 constexpr std::size_t kPartBytes = 512;                         // of a part of the mapped buffers
 static_assert(sizeof(CullingState) <= kPartBytes && sizeof(CullingState) % 4 == 0);
 
+/// What an invocation, or with BySortPart a workgroup, of a kernel handles.
 enum Dispatch : std::uint8_t { ByTree, ByCandidate, ByNearTree, ByBranch, BySortPart };
 
 /// Identity of a tree: bits of the yaw, number, and kRemoved or 0.
