@@ -83,8 +83,8 @@ struct PlantViewStats {
     double bend_seconds = 0.0;  // time to make the last moment of the simulation
     double bend_time = 0.0;     // s, simulated time
     std::uint64_t moments = 0;  // count of moments of growth shown
-    FrameStats drawn;
-    std::uint64_t swaps = 0; // count of plants shown
+    FrameStats drawn;           // of the last picture
+    std::uint64_t swaps = 0;    // count of plants shown
 };
 
 class PlantView final : public View {

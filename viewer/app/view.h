@@ -192,7 +192,7 @@ protected:
     // Last picture.
     std::optional<Frame> frame_;
     FrameStats drawn_;
-    float aspect_ = 1.0F;
+    float aspect_ = 1.0F;            // width / height
     std::optional<Quality> quality_; // the last quality passed to use_quality()
     bool changed_ = true;            // the next picture is drawn even if its frame equals frame_
 

@@ -261,7 +261,7 @@ private:
     /// A tree that is high enough in the picture to be drawn as branches.
     struct BranchCandidate {
         std::uint32_t tree = 0;
-        float pixels = 0.0F;
+        float pixels = 0.0F; // height in the picture at detail 1
     };
 
     /// A tree in one level that has branches in view.

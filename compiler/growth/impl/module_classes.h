@@ -106,7 +106,7 @@ private:
     };
     /// A word, with modules of fixed classes counted by class.
     struct CountedWord {
-        bool made = false;            // the modules have been counted
+        bool is_counted = false;      // the modules have been counted
         std::uint32_t locals = kNone; // code of the local values
         std::vector<ClassTerm> fixed;
         std::vector<VariableModule> variable;
