@@ -383,7 +383,7 @@ private:
     // The members below are used in streamed forests only.
     glm::dvec3 origin_{};
     std::vector<ShownSquare> squares_;
-    std::vector<std::uint32_t> free_squares_;
+    std::vector<std::uint32_t> free_squares_;               // indices in squares_ for new squares
     std::map<std::uint32_t, std::uint32_t> square_of_tree_; // by first tree: index in squares_
     std::map<std::uint32_t, std::uint32_t>
         free_trees_; // free ranges of trees_; adjacent ranges are merged

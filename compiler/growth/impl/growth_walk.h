@@ -87,9 +87,9 @@ private:
     std::vector<Count> low_;          // by class: min number; high_: max, expected_: mean
     std::vector<Count> high_;
     std::vector<double> expected_;
-    std::vector<bool> is_present_;
-    std::vector<ClassId> present_;
-    std::vector<Rule> rules_; // used in rewriting modes with a pass per rule
+    std::vector<bool> is_present_; // by class: it is in present_
+    std::vector<ClassId> present_; // classes with modules in the word
+    std::vector<Rule> rules_;      // used in rewriting modes with a pass per rule
     std::vector<SequenceRule> sequences_;
     std::unordered_map<std::uint32_t, std::vector<ClassId>> by_symbol_;
     std::uint64_t work_ = 0;

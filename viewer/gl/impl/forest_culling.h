@@ -183,7 +183,7 @@ private:
     Buffer commands_;
     Buffer changes_;
     TextureObject horizon_;
-    std::vector<std::uint32_t> changed_;
+    std::vector<std::uint32_t> changed_; // numbers of trees for apply_changes()
     DeviceDraws draws_;
     std::uint32_t command_count_ = 0;
     std::uint32_t tree_capacity_ = 0;
