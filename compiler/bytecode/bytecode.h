@@ -41,6 +41,7 @@ enum class Opcode : std::uint8_t {
 #include "compiler/bytecode/opcodes.def"
 #undef LSYS_OPCODE
 };
+/// Kinds of operands, as opcodes.def describes them.
 enum class OperandKind : std::uint8_t {
     None,
     Literal,
@@ -91,6 +92,7 @@ enum class ProductionId : std::uint32_t {};
 inline constexpr ProductionId kNoProduction{0xFFFFFFFFu};
 /// A code of a word; see the comment at the top of this file.
 using Code = std::uint32_t;
+/// Stands for a missing index of an instruction, a site or a row of a table.
 inline constexpr std::uint32_t kNone = 0xFFFFFFFFu;
 
 /// Brackets and polygons are recognised by the kind of a symbol, not by its name.
@@ -180,7 +182,7 @@ struct BytecodeProduction {
     TableRange right;       // range of patterns; Open and Close are balanced
     std::uint32_t formal_count = 0;
     std::uint32_t condition = kNone; // first instruction, or kNone for `*`
-    bool stochastic = false;
+    bool stochastic = false;         // has a `~`: chosen at random within its group
     float weight = 0.0F; // the number after `~`; 0 if there is none or it is not constant
     /// First instruction of a weight that is not constant, else kNone. The code ends with Test, as
     /// the code of a condition does.
@@ -249,7 +251,7 @@ struct BytecodeMaterial {
     float roughness = 0.0F; // 0 to 1
     bool has_translucency = false;
     float translucency = 0.0F; // 0 to 1
-    bool has_sides = false;
+    bool has_sides = false;    // the material says whether it has one side or two
     bool two_sided = false;
 };
 inline constexpr std::uint32_t kMaxColourIndex = 65535;

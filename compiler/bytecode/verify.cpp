@@ -731,6 +731,7 @@ private:
     std::vector<std::uint32_t> set_slots_; // slots with a value, in the order of setting
     std::vector<bool> is_set_;             // by slot: whether it has a value
     std::vector<bool> draw_is_seen_;       // per random draw of the current word or constant
+    // The first elements of the tables that no part of the program so far has.
     std::uint64_t next_pattern_ = 0;
     std::uint64_t next_code_ = 0;
     std::uint64_t next_instruction_ = 0;

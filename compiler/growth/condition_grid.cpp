@@ -15,7 +15,7 @@ namespace lsys::analysis {
 
 namespace {
 
-constexpr std::size_t kMaxAxes = 16;
+constexpr std::size_t kMaxAxes = 16;                // max number of parameters of a grid
 constexpr std::int32_t kMaxOrderIndex = 0x7F7FFFFF; // order_index() of the largest finite binary32
 
 /// One operation on the value x of a chain: `x opcode constant`, `constant opcode x`, `opcode x`.

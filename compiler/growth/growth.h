@@ -86,8 +86,8 @@ struct GrowthLimit {
     GenerationSize at_requested; // the last requested generation; see has_requested
     bool has_requested = false;
     ProductionId dominant =
-        kNoProduction; // writes the most modules of the first generation that does not fit
-    bool exact = false;
+        kNoProduction;  // writes the most modules of the first generation that does not fit
+    bool exact = false; // at_next is exact, not lower bounds
 };
 /// A generation from which on the word never changes, for any seed.
 struct FixedPoint {

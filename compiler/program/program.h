@@ -57,7 +57,7 @@ struct Symbol {
     NameId name = kNoName;
     std::uint32_t parameter_count = 0;
     SymbolKind kind = SymbolKind::Plain;
-    bool ignored = false;
+    bool ignored = false; // in contexts
     TurtleOperation turtle = TurtleOperation::Nothing;
     std::string mesh_file; // for MeshFile; for SetContour: the name of a contour, or empty
     Sense sense = Sense::Nothing;
@@ -102,7 +102,7 @@ struct LocalValue {
     SourceSpan name_span;
     SourceSpan span; // `name = value`
     ValueId value = kNoValue;
-    bool is_used = false;
+    bool is_used = false; // an expression reads it
 };
 
 struct Production {
@@ -121,7 +121,7 @@ struct Production {
     ValueId condition = kNoValue;
     SourceSpan condition_span;
     Stage stage = Stage::Rewrite;
-    bool stochastic = false;
+    bool stochastic = false;         // has a `~`
     float weight = 0.0F;             // NaN if the probability is in error or an expression
     ValueId weight_value = kNoValue; // the weight, if it is not constant
     SourceSpan weight_span;
@@ -196,10 +196,10 @@ struct ProgramEnvironment {
 struct Constant {
     NameId name = kNoName;
     SourceSpan span;
-    bool is_param = false;
+    bool is_param = false; // by #param, not #define
     /// True: the value is globals[global], drawn when a derivation starts. False: it is `value`.
     bool is_random = false;
-    bool is_used = false;
+    bool is_used = false; // an expression reads it
     float value = 0.0F;
     std::uint32_t global = kNone;
     float minimum = 0.0F;

@@ -279,7 +279,7 @@ private:
     EnvironmentResolver environments_;
     DeclarationResolver declarations_;
     std::optional<SourceSpan> first_axiom_;
-    bool first_has_weight_ = false;
+    bool first_has_weight_ = false; // first_axiom_ has a `~`
 };
 
 } // namespace

@@ -207,7 +207,7 @@ struct ObjectNode {
     SourceSpan keyword_span; // `#object` or `#include`
     ModuleList name;         // as written; the resolver requires one module without parentheses
     SourceSpan object_span;
-    bool is_file = false; // "leaf.obj"
+    bool is_file = false; // `object` is a file name: "leaf.obj"
     std::string object;   // SPHERE, or a file name
     std::string contour;  // `ring` in `#object C CONTOUR ring;`; empty if there is none
     SourceSpan contour_span;

@@ -54,6 +54,7 @@ public:
     ExpressionId range(std::uint32_t count, SourceSpan span);
     /// A function call with the last `count` arguments.
     ExpressionId call(NameId function, std::uint32_t count, SourceSpan span);
+    /// `-value`; `number` is the place of the number without its sign.
     ExpressionId negated(float value, SourceSpan number, SourceSpan span);
     ExpressionId error(SourceSpan span);
 
@@ -120,7 +121,8 @@ public:
     void right_context(SourceSpan greater, ModuleList right);
     void condition(ExpressionId condition);
     void probability(SourceSpan tilde, ExpressionId probability);
-    /// `label` may include the `#`.
+    /// Sets name and stage of the current production. `label`: place of the name, perhaps with
+    /// the `#`.
     void production_front(NameId name,
                           SourceSpan label,
                           SourceSpan condition,
@@ -205,8 +207,8 @@ private:
     LastName last_name_ = LastName::None;
     /// Place of the last module of the current list in the original file; for translations only.
     SourceSpan list_place_;
-    bool is_discarded_ = false; // the current statement
-    bool has_node_ = false;
+    bool is_discarded_ = false; // finish_statement() rolls the current statement back
+    bool has_node_ = false;     // the node of the current statement is in the Ast
     Statement statement_;
     ProductionNode production_; // the current production; parts not parsed yet are empty
     Watermark watermark_;

@@ -11,7 +11,7 @@
 namespace lsys {
 
 std::string shown(std::string_view text) {
-    constexpr std::size_t kMaxLength = 40;
+    constexpr std::size_t kMaxLength = 40; // bytes
     constexpr char kDigits[] = "0123456789ABCDEF";
     std::string out;
     for (std::size_t at = 0; at < text.size(); ++at) {

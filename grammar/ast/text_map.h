@@ -27,6 +27,7 @@ public:
     void finish();
 
     [[nodiscard]] const std::string& text() const { return text_; }
+    /// Whether nothing is replaced, so that text() equals the source.
     [[nodiscard]] bool empty() const { return edits_.empty(); }
     /// The offset in the source where the character at `offset` of text() begins.
     [[nodiscard]] std::uint32_t source_begin(std::uint32_t offset) const;

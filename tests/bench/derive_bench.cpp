@@ -47,7 +47,7 @@ struct Workload {
     std::string grammar;
     std::uint32_t generations;
     std::size_t capacity; // number of modules for which the buffers have room
-    LimitProgram limit;
+    LimitProgram limit;   // the hand-written program
 };
 
 /// Systems W1 to W6 and W8; W3 and W5 also with local values and if(). W7 twice: with one draw for

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Hand-written programs, each for one L-system. Their speed is an upper bound of the speed that a
-// general program can reach on the machine. Each program derives into buffers of the caller and
-// returns the number of modules. tests/README.md explains the names W1 to W8 of the systems.
+// general program can reach on the machine. Each program derives into two buffers of the caller,
+// `a` and `b`, which generations use in turn, and returns the number of modules. tests/README.md
+// explains the names W1 to W8 of the systems.
 #pragma once
 
 #include <cstddef>

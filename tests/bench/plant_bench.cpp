@@ -48,7 +48,7 @@ struct Plant {
     const char* name;
     bench::PlainSystem system;
     std::uint32_t generations;
-    float angle;
+    float angle; // degrees
     std::string grammar;
 };
 

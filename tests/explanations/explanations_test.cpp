@@ -30,7 +30,7 @@ struct Messages {
     int status = 0;
     std::set<std::string> codes;      // of all diagnostics
     std::set<std::string> severities; // of all diagnostics
-    std::string text;
+    std::string text;                 // the whole standard error
 };
 
 Messages run_example(const Example& example) {

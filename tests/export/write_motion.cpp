@@ -35,7 +35,7 @@ struct Case {
     const char* grammar;
     std::vector<std::string> options;
     std::vector<std::string> skin_options{"--bones", "all"};
-    const char* metres = "0";
+    const char* metres = "0"; // METRES
 };
 
 const std::array kCases{

@@ -54,9 +54,9 @@ const char* const kNames[CallCount] = {"malloc", "open",  "read",  "write",  "re
 constexpr int kShort = -1; // an error number that no call returns: transfer one byte
 
 struct Fault {
-    int call = CallCount; // none
-    std::uint64_t number = 0;
-    int error = 0;
+    int call = CallCount;     // none
+    std::uint64_t number = 0; // of the call that fails, from 1
+    int error = 0;            // its error number, or kShort
 };
 
 Fault fault;

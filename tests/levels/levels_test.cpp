@@ -329,8 +329,8 @@ const std::array<const char*, 10> kSamplesOfLevels{
 struct LevelResult {
     std::uint64_t planned = 0; // triangles
     std::uint64_t triangles = 0;
-    double factor = 1.0; // triangles of the previous level / own triangles
-    float pixels = 0.0F;
+    double factor = 1.0;   // triangles of the previous level / own triangles
+    float pixels = 0.0F;   // largest extent at the distance where the level is shown
     Difference difference; // silhouette in pixels at the distance where the level is shown
 };
 

@@ -48,8 +48,8 @@ private:
                                       const std::vector<std::string>& arguments);
 
     std::filesystem::path folder_;
-    int status_ = 0; // exit status of the last command
-    std::string last_;
+    int status_ = 0;   // exit status of the last command
+    std::string last_; // the last command, for messages
 };
 
 /// Checks the options of `lsc ...` or `lsview ...` without running the program. Returns a message;

@@ -101,7 +101,7 @@ std::vector<RightGrammar> right_grammars() {
 
 /// A correct grammar with one token or character changed.
 struct Mutant {
-    std::string kind;
+    std::string kind; // such as "`;` removed"
     std::string text;
 };
 
@@ -328,8 +328,8 @@ private:
     }
 
     bool keeps_all_;
-    std::map<std::string, Count> counts_;
-    std::string kept_;
+    std::map<std::string, Count> counts_; // by kind of mutant
+    std::string kept_;                    // texts about mutants without the right repair
 };
 
 /// Repairs the mutants `first` to `end` - 1; each is made from the next sample, in turn.

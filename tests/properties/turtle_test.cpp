@@ -109,7 +109,7 @@ struct Turtle {
     Vector up{0, 0, 1};
     Real width = 0.1L;
     Real step = 1.0L;
-    Real angle = 90.0L;
+    Real angle = 90.0L; // degrees
 };
 
 /// Turns `a` towards `b` and `b` towards `-a`.

@@ -61,16 +61,17 @@ enum class Failure {
 struct RunError {
     Failure failure = Failure::NotFinite;
     std::string production;     // empty for an unmatched bracket and for errors before generation 0
-    std::uint64_t position = 0; // in the word that is rewritten; unmatched bracket: in the last
+    std::uint64_t position = 0; // index in the rewritten word; unmatched bracket: in the last word
     std::uint32_t generation = 0; // age of the word that `position` refers to
     Module module;                // the first module that the production rewrites
 };
 
-// The answers of a kind of environment. For those of the turtle the kind is `turtle`.
+// Counts of the answers of one kind of environment; `turtle` is the kind of `?P`, `?H`, `?U`, `?R`
+// and `?L`.
 struct Answered {
-    std::uint64_t modules = 0;         // that got an answer
-    std::uint64_t other_than_zero = 0; // of them: with a number that is not 0
-    std::set<std::vector<float>> different;
+    std::uint64_t modules = 0;              // modules with an answer
+    std::uint64_t other_than_zero = 0;      // modules whose answer has a number other than 0
+    std::set<std::vector<float>> different; // each answer once
 };
 
 struct Derivation {

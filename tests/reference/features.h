@@ -19,7 +19,7 @@ std::set<std::string> features_of(const Case& test_case, const Derivation& deriv
 // All names that features_of() may return.
 const std::vector<std::string>& feature_names();
 
-// The same for what plants that sense exercise beyond that.
+// Further features, which only plants that sense use (generate_plant()).
 std::set<std::string> sense_features_of(const Case& test_case, const Derivation& derivation);
 const std::vector<std::string>& sense_feature_names();
 

@@ -19,8 +19,8 @@ struct Species {
 
 struct Plan {
     std::string rewriting;
-    bool choice_generation = false;
-    bool weights_any = false;
+    bool choice_generation = false; // `#set choice generation`
+    bool weights_any = false;       // `#set weights any`
     bool brackets = false;
     bool unbalanced = false; // some successors do not balance their brackets
     bool polygons = false;

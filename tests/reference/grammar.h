@@ -56,7 +56,7 @@ struct Production {
     std::vector<ModuleUse> successor;
 };
 
-// A key of `#sense` with its value, which is one of the three.
+// A key of `#sense` with its value: one of `numbers`, `word` and `file`.
 struct SenseKey {
     std::string key;
     std::vector<Expr> numbers;

@@ -9,6 +9,7 @@
 
 namespace lsys::reference {
 
+// Draw numbers that are reserved for each rule or pass; see PassInput::first_draw.
 constexpr std::uint64_t kDrawsOfARule = 4096;
 
 // Input of a pass, which rewrites `word` of age `age` once. A generation is one pass, or several in
@@ -17,8 +18,9 @@ struct PassInput {
     const System& system;
     const Word& word;
     std::uint32_t age = 0;
-    // Sequential rewriting: 4096 times the index of the rule; #decompose: 2^32 + 4096 times the
-    // index of the pass, #interpret: 2^31 more; sweeps: kFirstDownDraw, kFirstUpDraw.
+    // Number of the first draw. Sequential rewriting: 4096 times the index of the rule; #decompose:
+    // 2^32 + 4096 times the index of the pass, #interpret: 2^31 more; sweeps: kFirstDownDraw,
+    // kFirstUpDraw.
     std::uint64_t first_draw = 0;
     std::optional<std::size_t> only_rule; // the only rule of this pass; empty: all rules
     Stage stage = Stage::Rewrite;
@@ -30,8 +32,8 @@ Word run_pass(const PassInput& pass, Derivation& derivation);
 // The word of an age after its decomposition.
 Word decomposed(const System& system, const Word& word, std::uint32_t age, Derivation& derivation);
 
-// What is drawn in place of a word of an age: Module::source is the index of the module of `word`
-// in whose place a module is drawn.
+// The word that is drawn in place of `word`. Module::source of each module is the index of the
+// module of `word` in whose place it is drawn.
 Word interpreted(const System& system, const Word& word, std::uint32_t age, Derivation& derivation);
 
 // Visits all modules of the word once, in the direction of Stage::Down or Stage::Up.

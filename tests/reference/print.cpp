@@ -445,9 +445,9 @@ private:
     const File& file_;
     const JoinedNames* joined_;
     Random* random_;
-    std::size_t density_ = 0;
+    std::size_t density_ = 0; // percentage of gaps between tokens that get blanks or comments
     std::string line_end_;
-    bool next_joins_ = false;
+    bool next_joins_ = false; // the next name is written without a blank before it
     std::vector<Token> tokens_;
     std::string out_;
     std::vector<WrittenModule> modules_;

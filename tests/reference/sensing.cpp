@@ -125,7 +125,7 @@ std::vector<double> answer_of_turtle(const std::string& name, const Pose& pose) 
     return is_turtle ? std::vector<double>(answer.begin(), answer.end()) : std::vector<double>{};
 }
 
-// The modules of an environment.
+// The modules that ask an environment.
 struct Asking {
     std::vector<std::size_t> indexes; // in the word
     std::vector<Place> places;

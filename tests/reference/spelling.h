@@ -47,7 +47,7 @@ public:
 private:
     struct Word {
         std::string name;
-        std::size_t count = 0;
+        std::size_t count = 0; // of parameters
         bool has_parameters = false;
     };
     struct List {
@@ -63,7 +63,7 @@ private:
     bool
     join_at(const List& list, std::size_t first, std::size_t last, std::set<std::string>& used);
 
-    std::set<std::string> known_;
+    std::set<std::string> known_; // declared or rewritten names, and commands of the turtle
     std::set<std::string> names_; // all names in the grammar
     std::set<std::string> texts_; // texts of joined names
     std::map<const void*, std::set<std::size_t>> joined_;

@@ -10,18 +10,18 @@ namespace lsys::reference {
 
 class Start {
 public:
-    // Fills `system`, except for what settings say.
+    // Fills `system`, except for the members that settings decide.
     Start(const Grammar& grammar, const Request& request, System& system);
 
     // "Draws of all axioms are numbered, only the chosen one is evaluated."
     [[nodiscard]] Word axiom();
-    // Of `#n`.
+    // Value of `#n`.
     [[nodiscard]] std::uint32_t generations() const { return generations_; }
 
 private:
     struct Axiom {
         const Statement* statement = nullptr;
-        std::uint64_t first_range = 0;
+        std::uint64_t first_range = 0; // range_number_ before its first draw
     };
 
     void read(const Statement& statement);
@@ -34,8 +34,8 @@ private:
 
     const Request& request_;
     System& system_;
-    Environment environment_; // names and random numbers of expressions (evaluate.h)
-    std::uint64_t range_number_ = 0;
+    Environment environment_;        // names and random numbers of expressions (evaluate.h)
+    std::uint64_t range_number_ = 0; // count of draws so far, by #define, #param and #w
     std::uint32_t generations_ = 0;
     std::map<Stage, std::vector<const Production*>> productions_; // in file order
     bool considers_ = false;

@@ -16,6 +16,7 @@
 
 namespace lsys::reference {
 
+// Age with which draws before generation 0 are computed: those of constants and axioms.
 constexpr std::uint32_t kBeforeTheDerivation = 0xFFFFFFFF;
 
 // A production with its group and rule (section 5).

@@ -63,7 +63,7 @@ const std::vector<Lengths> kL3dLengths{
 struct Last {
     std::string file;
     std::string generation;
-    std::string length;
+    std::string length; // of the word
 };
 const std::vector<Last> kLast{
     {"pine.l3d", "15", "24380"}, {"blueberry.l3d", "10", "9898"}, {"pine-bad.l3d", "8", "3138"},

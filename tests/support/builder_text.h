@@ -31,8 +31,7 @@ struct ProductionText {
     std::optional<float> weight;
     std::string successor;
 };
-/// Reads a production, such as "p : A(x) < B > C [ D ] : x > 0
-/// 0.5 : F(x, {1, 2}) B".
+/// Reads a production, such as "p : A(x) < B > C [ D ] : x > 0 ~ 0.5 : F(x, {1, 2}) B".
 [[nodiscard]] ProductionText read_production(const std::string& text);
 
 /// The name of a formal parameter without blanks.

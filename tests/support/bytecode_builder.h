@@ -20,8 +20,7 @@ public:
 
     /// Adds an axiom, such as "F(1)[+(30)A]".
     BytecodeBuilder& axiom(std::string text);
-    /// Adds a production, such as "p : A(x) < B > C [ D ] : x > 0
-    /// 0.5 : F(x, {1, 2}) B".
+    /// Adds a production, such as "p : A(x) < B > C [ D ] : x > 0 ~ 0.5 : F(x, {1, 2}) B".
     BytecodeBuilder& production(std::string text);
     /// Adds a production of a later stage. Stages must be added in their order.
     BytecodeBuilder& production(Stage stage, std::string text);

@@ -59,7 +59,7 @@ public:
     [[nodiscard]] const fs::path& path() const { return path_; }
 
 private:
-    fs::path before_;
+    fs::path before_; // working directory before
     fs::path path_;
 };
 

@@ -90,10 +90,10 @@ std::string sample_scene(const std::string& name) {
 
 TEST_CASE("the default picture shows trees with contrast on grounds of 0.1 to 100 km") {
     struct Ground {
-        const char* size;
-        const char* count;
-        double contrast; // min of PictureContrast::contrast
-        double trees;    // min fraction of the pixels that show trees
+        const char* size;  // m, side of the ground
+        const char* count; // of trees
+        double contrast;   // min of PictureContrast::contrast
+        double trees;      // min fraction of the pixels that show trees
     };
     const Ground ground = GENERATE(values<Ground>({
         {"100", "204", 0.08, 0.2},

@@ -47,10 +47,10 @@ using namespace lsys::view;
 namespace {
 
 struct PaintingCost {
-    std::uint64_t trees = 0; // count of trees before painting
-    std::uint64_t uploaded = 0;
+    std::uint64_t trees = 0;    // count of trees before painting
+    std::uint64_t uploaded = 0; // bytes
     std::uint64_t allocations = 0;
-    std::uint64_t allocated = 0;
+    std::uint64_t allocated = 0; // bytes
     double seconds = 0.0;
 };
 

@@ -462,7 +462,7 @@ TEST_CASE("lsview ends with a message if it cannot show the file") {
     struct Mistake {
         std::vector<std::string> arguments;
         int status;
-        std::string part;
+        std::string part; // of the message
     };
     const ScratchFolder folder;
     write_text(folder / "bad.lsys", "#w : F(;\n");

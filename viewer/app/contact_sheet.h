@@ -54,6 +54,7 @@ struct SheetRequest {
     std::uint32_t height = 0;
     std::shared_ptr<SheetPictures> pictures;
     std::function<void()> wake; // called after each picture
+    // Fields for LatestRequestWorker.
     SteadyClock::time_point changed_at;
     bool is_repeat = false;
 };
@@ -88,8 +89,8 @@ public:
     /// effect at the next show().
     std::vector<std::string> varied;
     std::array<SheetCell, kSheetCells> cells;         // cells of the last show()
-    std::array<std::uintptr_t, kSheetCells> images{}; // 0: not drawn yet
-    std::array<bool, kSheetCells> done{};
+    std::array<std::uintptr_t, kSheetCells> images{}; // for ImGui::Image(); 0: no picture
+    std::array<bool, kSheetCells> done{};             // true without an image: no plant
     /// Whether all pictures taken so far are equal.
     [[nodiscard]] bool are_alike() const { return are_alike_; }
 
@@ -103,8 +104,8 @@ private:
 /// The action of the user in a frame of draw_contact_sheet().
 struct SheetAction {
     std::optional<std::size_t> chosen_cell; // cell whose plant the user takes
-    bool closes = false;
-    bool varies = false; // ContactSheet::varied has changed
+    bool closes = false;                    // the user closes the sheet
+    bool varies = false;                    // ContactSheet::varied has changed
 };
 /// Draws the sheet over the whole window. Returns the action of the user.
 [[nodiscard]] SheetAction draw_contact_sheet(ContactSheet& sheet, const PlantView& view);

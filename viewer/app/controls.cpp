@@ -76,7 +76,7 @@ glm::vec2 place_in_picture(const glm::vec2& pixels, const PixelArea& area) {
 
 void zoom(Camera& camera, float wheel) {
     if (wheel != 0.0F) {
-        constexpr float kZoomPerNotch = 0.85F;
+        constexpr float kZoomPerNotch = 0.85F; // factor of the distance
         camera = zoomed(camera, std::pow(kZoomPerNotch, wheel));
     }
 }
@@ -523,8 +523,8 @@ void Controls::use_tool(const WindowInput& input, const PixelArea& area, ForestV
 void Controls::fly(const WindowInput& input, float seconds, float height, Camera& camera) {
     const float turn = std::numbers::pi_v<float> / (2.0F * std::max(height, 1.0F));
     camera = turned(camera, turn * input.motion.x, -turn * input.motion.y);
-    constexpr float kSpeedPerNotch = 1.2F;
-    constexpr float kFaster = 4.0F;
+    constexpr float kSpeedPerNotch = 1.2F; // factor
+    constexpr float kFaster = 4.0F;        // factor while Shift is held
     speed_ *= std::pow(kSpeedPerNotch, input.wheel);
     // At speed 1 the camera reaches the target in two seconds.
     const float metres = 0.5F * speed_ * (is_held(input, Key::Shift) ? kFaster : 1.0F) * seconds *
@@ -675,7 +675,7 @@ void Controls::press(const KeyPress& press, ForestView& view, PanelState& panels
     const auto take = [&settings](PaintTool tool) {
         settings.tool = settings.tool == tool ? PaintTool::None : tool;
     };
-    constexpr float kBrushStep = 1.25F;
+    constexpr float kBrushStep = 1.25F; // factor
     const auto step = [&](bool more) {
         if (settings.tool != PaintTool::None) {
             settings.brush.radius = std::clamp(

@@ -23,9 +23,9 @@ enum class OpenDialog : std::uint8_t { None, File, Picture, Export, Sheet, Unsav
 
 /// State of overlays and dialogs, and modes of the window.
 struct PanelState {
-    bool panels = true;
-    bool statistics = false;
-    bool help = false;
+    bool panels = true;         // shown
+    bool statistics = false;    // shown
+    bool help = false;          // the list of keys is shown
     bool flies = false;         // fly mode: the mouse looks around, WASD move
     bool wants_to_quit = false; // the user has pressed Ctrl+Q
     bool quits = false;         // quit: unsaved changes are saved or discarded

@@ -78,7 +78,7 @@ private:
     std::string mistake_;
     std::string read_folder_; // the folder of all_
     std::vector<FolderEntry> all_;
-    std::vector<FolderEntry> entries_;
+    std::vector<FolderEntry> entries_; // those that are shown
     std::size_t selected_ = 0;
     bool wants_scroll_ = false;
 };

@@ -41,7 +41,7 @@ std::vector<fs::path> names_of(const std::string& path) {
 
 struct Watched {
     std::string path;
-    std::vector<fs::path> names;
+    std::vector<fs::path> names; // of names_of()
     platform::FileStamp stamp;
     /// Time of the first unreported change; empty: none.
     std::optional<FileWatch::Clock::time_point> changed;
@@ -55,7 +55,7 @@ struct FileWatch::State {
     platform::FolderEvents events;
     std::mutex mutex; // guards `requested` and `stops`
     std::optional<std::vector<std::string>> requested;
-    bool stops = false;
+    bool stops = false; // tells the thread to end
     // Used by the watching thread only.
     std::vector<Watched> files;
     std::thread thread;

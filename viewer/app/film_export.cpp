@@ -42,7 +42,7 @@ public:
 
 private:
     std::filesystem::path path_;
-    bool is_made_ = false;
+    bool is_made_ = false; // the folder could be made
 };
 
 /// The last line of a text.

@@ -23,10 +23,10 @@ enum class FilmKind : std::uint8_t { Turntable, Growth };
 struct PictureSettings {
     std::uint32_t width = 0; // pixels; width or height 0: size of the window's picture
     std::uint32_t height = 0;
-    std::uint32_t samples = 4;
-    bool transparent = false; // has no effect on forests
-    std::string folder;       // empty: the current folder
-    std::string name;         // without extension
+    std::uint32_t samples = 4; // per pixel
+    bool transparent = false;  // has no effect on forests
+    std::string folder;        // empty: the current folder
+    std::string name;          // without extension
     bool is_film = false;
     FilmKind kind = FilmKind::Turntable;
     float seconds = 10.0F;
@@ -50,6 +50,7 @@ struct FilmExportRequest {
     std::shared_ptr<const ViewOptions> options;
     PictureSettings settings;
     std::shared_ptr<std::atomic<std::uint32_t>> finished_pictures; // for progress
+    // Fields for LatestRequestWorker.
     SteadyClock::time_point changed_at;
     bool is_repeat = false;
 };
@@ -77,7 +78,7 @@ public:
 
 private:
     PictureSettings settings_;
-    std::shared_ptr<std::atomic<std::uint32_t>> done_;
+    std::shared_ptr<std::atomic<std::uint32_t>> done_; // pictures written so far
     std::unique_ptr<LatestRequestWorker<FilmExportRequest, std::string>> worker_;
 };
 

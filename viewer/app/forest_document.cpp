@@ -229,15 +229,15 @@ glm::vec3 edge_of(const Forest& forest, const glm::vec3& middle, const glm::vec2
 /// trees in m. All distances are multiples of `height`, so that views of forests of grass and of
 /// trees look alike.
 Camera edge_view(const ForestDocument& document, const glm::vec3& edge, float height) {
-    constexpr float kOutside = 3.5F;   // distance from the eye to the first tree
-    constexpr float kAbove = 2.0F;     // height of the eye above the ground below it
-    constexpr float kClearance = 1.5F; // min height of the eye above the ground ahead
-    constexpr float kAhead = 16.0F;    // distance from the eye to which the ground is checked
-    constexpr std::uint32_t kSteps = 64;
+    constexpr float kOutside = 3.5F;     // distance from the eye to the first tree
+    constexpr float kAbove = 2.0F;       // height of the eye above the ground below it
+    constexpr float kClearance = 1.5F;   // min height of the eye above the ground ahead
+    constexpr float kAhead = 16.0F;      // distance from the eye to which the ground is checked
+    constexpr std::uint32_t kSteps = 64; // number of places where it is checked
     // Angle from the middle of the picture down to the foot of the first tree, radians.
     constexpr float kFootBelow = 0.9F * 0.5F * kFirstField * std::numbers::pi_v<float> / 180.0F;
-    constexpr float kMinPitch = 0.1F;
-    constexpr float kMaxPitch = 0.6F;
+    constexpr float kMinPitch = 0.1F; // radians, downwards
+    constexpr float kMaxPitch = 0.6F; // radians, downwards
     const Terrain& terrain = *document.grown.terrain;
     const glm::vec2 outward = glm::normalize(glm::vec2(kFirstDirection.x, kFirstDirection.z));
     const glm::vec2 from = glm::vec2(edge.x, edge.z) + kOutside * height * outward;
@@ -315,8 +315,8 @@ std::uint64_t tree_count(const ForestDocument& document) {
 }
 
 Camera above_ground(const Camera& camera, const Terrain& terrain) {
-    constexpr float kEyeHeight = 1.7F;
-    constexpr float kMinEyeHeight = 0.3F;
+    constexpr float kEyeHeight = 1.7F;    // m
+    constexpr float kMinEyeHeight = 0.3F; // m
     const glm::dvec3 eye = eye_of(camera);
     const float ground = terrain.height(static_cast<float>(eye.x), static_cast<float>(eye.z));
     if (camera.eye.y >= ground + kMinEyeHeight) {
@@ -334,8 +334,8 @@ double default_visibility(const ForestDocument& document) {
         return kStreamedVisibility;
     }
     const Region& region = document.grown.terrain->region();
-    constexpr double kMin = 10.0;
-    constexpr double kDiagonals = 12.0;
+    constexpr double kMin = 10.0;       // km
+    constexpr double kDiagonals = 12.0; // number of diagonals of the ground
     return std::max(kMin, kDiagonals * std::hypot(region.width, region.depth) / kMetresPerKm);
 }
 

@@ -19,6 +19,7 @@ struct ForestFilmRequest {
     std::uint32_t years = 0; // years of the last moment of the growth
     RunOptions run;
     GrowthMoment moment;
+    // Fields for LatestRequestWorker.
     SteadyClock::time_point changed_at;
     bool is_repeat = false;
 };

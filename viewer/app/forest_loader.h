@@ -18,6 +18,7 @@ struct ForestRequest {
     SceneOverrides edits; // applied after options.overrides
     /// Forest whose heroes may be reused; null: all files are read again.
     std::shared_ptr<const ForestDocument> known;
+    // Fields for LatestRequestWorker.
     SteadyClock::time_point changed_at;
     bool is_repeat = false;
 };

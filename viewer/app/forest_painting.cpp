@@ -14,10 +14,10 @@ namespace lsys::view {
 
 namespace {
 
-constexpr double kPickCell = 1.0; // m, min
-constexpr double kMaxCells = 1024.0;
-constexpr float kStep = 0.5F; // distance between places of a stroke, in radii of the brush
-constexpr std::uint32_t kMaxSteps = 256;
+constexpr double kPickCell = 1.0;    // m, side of a cell on grounds of 16 to 1024 m
+constexpr double kMaxCells = 1024.0; // along a side of the height field
+constexpr float kStep = 0.5F;        // distance between places of a stroke, in radii of the brush
+constexpr std::uint32_t kMaxSteps = 256; // max number of places per motion of the pointer
 
 std::vector<std::string> names_of(const Scene& scene) {
     std::vector<std::string> names;

@@ -100,10 +100,10 @@ private:
     std::vector<SquareId> missing_; // the most urgent square is last
     std::set<SquareId> in_progress_;
     std::map<SquareId, Ready> ready_;
-    std::uint64_t step_ = 0;
+    std::uint64_t step_ = 0; // number of the current step, for Ready::last_wanted
     StreamStats stats_;
     bool out_of_memory_ = false;
-    bool ends_ = false;
+    bool ends_ = false;                // tells the threads to return
     std::vector<std::thread> threads_; // last member: the threads use the others
 };
 

@@ -27,7 +27,7 @@ constexpr std::uint64_t kMaxStreamedTrees = 16'384;
 constexpr double kSlowPicture = 0.12;
 // Time in s without motion after which the picture is drawn again at full quality.
 constexpr double kRest = 0.25;
-constexpr std::uint64_t kMinTriangles = 20'000;
+constexpr std::uint64_t kMinTriangles = 20'000; // min of max_coarse_triangles_
 
 ForestViewSettings first_forest_settings(const ViewOptions& options) {
     ForestViewSettings settings;

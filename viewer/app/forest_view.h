@@ -51,7 +51,7 @@ struct ForestEdits {
 /// Settings of the user.
 struct ForestViewSettings : ForestEdits {
     Camera camera;
-    bool plays = false;
+    bool plays = false; // growth
     float years_per_second = 5.0F;
 
     PaintTool tool = PaintTool::None;
@@ -218,14 +218,14 @@ private:
     std::unique_ptr<ForestStreamer> streamer_; // streamer of document_; null: it is not streamed
     bool is_streaming_ = false;                // the last picture lacked some wanted squares
     ForestPainting painting_;
-    std::vector<std::string> files_;
-    bool frame_next_ = true;  // the next swap moves the camera to show the forest
-    bool plays_next_ = false; // growth starts to play at the next swap
+    std::vector<std::string> files_; // files that the last load has requested
+    bool frame_next_ = true;         // the next swap moves the camera to show the forest
+    bool plays_next_ = false;        // growth starts to play at the next swap
     bool logs_next_frame_ = false;
     bool has_all_impostors_ = true;
     BranchColours shown_colours_ = BranchColours::Natural;
     std::vector<LegendEntry> legend_;
-    std::optional<SceneOverrides> requested_;
+    std::optional<SceneOverrides> requested_; // edits of the last request to the loader
     EditHistory<ForestEdits> history_;
     std::vector<StepKind> steps_;  // oldest first
     std::vector<StepKind> undone_; // the step that was undone first comes first
@@ -248,8 +248,8 @@ private:
     bool used_tool_ = false; // a tool was applied since the last picture
     bool is_slow_ = false;   // the last picture at full quality took longer than kSlowPicture
     bool is_coarse_ = false;
-    std::uint64_t max_coarse_triangles_ = 200'000;
-    SteadyClock::time_point last_motion_;
+    std::uint64_t max_coarse_triangles_ = 200'000; // max triangles while is_coarse_
+    SteadyClock::time_point last_motion_;          // when the picture last changed by motion
     ForestViewStats stats_;
 
     std::mutex saved_mutex_;

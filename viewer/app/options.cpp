@@ -87,8 +87,8 @@ void add_picture(CLI::App& app, ViewOptions& options) {
                    "equal steps along a line")
         ->type_name("LINE")
         ->group("Picture");
-    constexpr float kMinAir = 0.01F;
-    constexpr float kMaxAir = 1e6F;
+    constexpr float kMinAir = 0.01F; // km
+    constexpr float kMaxAir = 1e6F;  // km
     add_parsed(
         app, "--air", options.visibility,
         [](const std::string& text) { return parse_number(text, kMinAir, kMaxAir); },
@@ -111,7 +111,7 @@ void add_picture(CLI::App& app, ViewOptions& options) {
         "Haze of the sky: 2 very clear, 6 hazy (default 3)")
         ->type_name("T")
         ->group("Picture");
-    constexpr float kMaxTime = 86'400.0F;
+    constexpr float kMaxTime = 86'400.0F; // s
     add_parsed(
         app, "--time", options.time,
         [](const std::string& text) { return parse_number(text, 0.0F, kMaxTime); },
@@ -122,8 +122,8 @@ void add_picture(CLI::App& app, ViewOptions& options) {
                "Write a numbered series of pictures: a.png becomes a.0001.png and so on")
         ->type_name("N")
         ->group("Picture");
-    constexpr float kSlowest = 0.1F;
-    constexpr float kFastest = 1000.0F;
+    constexpr float kSlowest = 0.1F;    // pictures per second
+    constexpr float kFastest = 1000.0F; // pictures per second
     add_parsed(
         app, "--fps", options.frames_per_second,
         [](const std::string& text) { return parse_number(text, kSlowest, kFastest); },
@@ -250,7 +250,7 @@ void add_picture(CLI::App& app, ViewOptions& options) {
 }
 
 void add_bending(CLI::App& app, ViewOptions& options) {
-    constexpr float kMaxGravity = 1000.0F;
+    constexpr float kMaxGravity = 1000.0F; // m/s2
     add_parsed(
         app, "--gravity", options.gravity,
         [](const std::string& text) { return parse_number(text, 0.0F, kMaxGravity); },

@@ -62,9 +62,9 @@ struct ViewOptions {
     PlantStyle style = PlantStyle::Surface;
     LineKind lines = LineKind::None;
     SenseLook senses;
-    BranchColours colours = BranchColours::Natural; // forests only
-    SceneLight light;                               // values that replace the scene's
-    std::uint32_t samples = 4;
+    BranchColours colours = BranchColours::Natural;        // forests only
+    SceneLight light;                                      // values that replace the scene's
+    std::uint32_t samples = 4;                             // per pixel
     std::uint64_t max_triangles = 1'500'000;               // max triangles of branches in a forest
     std::uint64_t stream_bytes = std::uint64_t{128} << 20; // for trees of a streamed forest
     Culling culling = Culling::Auto;                       // forests only

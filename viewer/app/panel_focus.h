@@ -13,7 +13,7 @@ namespace lsys::view {
 inline constexpr const char* kSourceButtons = "Source buttons";
 inline constexpr const char* kSourceLines = "Source lines";
 
-/// A request of the user.
+/// Where the user wants the keyboard: in the next panel, or in the picture.
 enum class FocusMove : std::uint8_t { None, Next, Picture };
 
 /// The kind of the open dialog. Controls handles the keys of its own dialogs, which have no ring.

@@ -361,7 +361,7 @@ void draw_help(std::span<const KeyHelp> keys, PanelState& panels, const Area& ar
 
 /// Wraps the text of an overlay so that the overlay stays within the area.
 void wrap_within(const Area& area) {
-    constexpr float kMargins = 32.0F;
+    constexpr float kMargins = 32.0F; // pixels, on both sides
     ImGui::PushTextWrapPos(std::max(area.high.x - area.low.x - kMargins, 100.0F));
 }
 
@@ -738,7 +738,7 @@ float source_width(const PanelState& panels, float window_width, float scale) {
         return 0.0F;
     }
     const float left = panels.panels ? std::min(panel_width(scale), window_width) : 0.0F;
-    constexpr float kMaxPart = 0.6F;
+    constexpr float kMaxPart = 0.6F; // of the width that the other panel leaves
     return std::min(panels.source.look.width * scale, kMaxPart * (window_width - left));
 }
 

@@ -80,6 +80,7 @@ struct PickRequest {
     std::function<Outcome<Description>(const Project&)> describe;
     TraceFunction trace; // traces the module described; empty in forests
     RunOptions run;
+    // Fields for LatestRequestWorker.
     SteadyClock::time_point changed_at;
     bool is_repeat = false;
 };
@@ -95,6 +96,7 @@ struct TraceRequest {
     PickedModule module;
     TraceScope scope = TraceScope::Written;
     RunOptions run;
+    // Fields for LatestRequestWorker.
     SteadyClock::time_point changed_at;
     bool is_repeat = false;
 };

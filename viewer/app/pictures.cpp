@@ -24,7 +24,7 @@ namespace lsys::view {
 
 namespace {
 
-constexpr double kStepsPerSecond = 60.0;
+constexpr double kStepsPerSecond = 60.0; // min number of physics steps per second
 
 PhysicsOptions forces_of(const ViewOptions& options, const PlantDocument& document) {
     PhysicsOptions forces;
@@ -58,7 +58,7 @@ public:
         const double steps = std::max(1.0, std::ceil(kStepsPerSecond * seconds_of_frame_));
         forces.time_step = static_cast<float>(seconds_of_frame_ / steps);
         physics_ = std::make_unique<PlantPhysics>(document.plant.skeleton, forces);
-        constexpr double kRadians = 1e-6;
+        constexpr double kRadians = 1e-6; // tolerance of settle()
         static_cast<void>(
             physics_->settle(kRadians, settle_rounds(document.plant.skeleton.segments.size())));
         go_to(static_cast<double>(options.time));

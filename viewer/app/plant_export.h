@@ -28,6 +28,7 @@ struct ExportRequest {
     std::shared_ptr<const PlantDocument> document;
     ViewOptions options; // options with which the document was made
     ExportSettings settings;
+    // Fields for LatestRequestWorker.
     SteadyClock::time_point changed_at;
     bool is_repeat = false;
 };

@@ -17,7 +17,8 @@ namespace lsys::view {
 struct FilmRequest {
     ViewOptions options; // the growth ends at `options.grammar.generations`
     GrowthMoment moment;
-    SteadyClock::time_point changed_at; // time of the change that caused the request
+    // Fields for LatestRequestWorker.
+    SteadyClock::time_point changed_at;
     bool is_repeat = false;
 };
 

@@ -27,6 +27,7 @@ struct LoadOutcome {
 
 struct LoadRequest {
     ViewOptions options;
+    // Fields for LatestRequestWorker.
     SteadyClock::time_point changed_at;
     bool is_repeat = false;
 };

@@ -51,7 +51,7 @@ struct PlantMotion::State {
     std::optional<Bending> requested;
     BentPlant bent_plant;
     bool is_made = false; // bent_plant has a moment that take() has not returned
-    bool stops = false;
+    bool stops = false;   // tells the thread to end
     std::thread thread;
     // Used by the thread only.
     std::unique_ptr<PlantPhysics> physics;

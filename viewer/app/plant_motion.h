@@ -29,6 +29,7 @@ struct Bending {
 struct StandingRequest {
     std::shared_ptr<const PlantDocument> document;
     Bending bending;
+    // Fields for LatestRequestWorker.
     SteadyClock::time_point changed_at;
     bool is_repeat = false;
 };

@@ -67,7 +67,7 @@ struct PlantEdits : PlantSource, PlantLook {
 struct PlantViewSettings : PlantEdits {
     std::string file;
     Camera camera;
-    bool plays = false;
+    bool plays = false; // growth
     float generations_per_second = 2.0F;
 
     ExportSettings output;
@@ -83,8 +83,8 @@ struct PlantViewStats {
     double bend_seconds = 0.0;  // time to make the last moment of the simulation
     double bend_time = 0.0;     // s, simulated time
     std::uint64_t moments = 0;  // count of moments of growth shown
-    FrameStats drawn;
-    std::uint64_t swaps = 0; // count of plants shown
+    FrameStats drawn;           // of the last picture
+    std::uint64_t swaps = 0;    // count of plants shown
 };
 
 class PlantView final : public View {
@@ -186,15 +186,15 @@ private:
 
     std::shared_ptr<const PlantDocument> document_;
     LoadOutcome shown_outcome_;
-    PlantSource saved_; // values when the file was opened or last saved
-    std::vector<std::string> files_;
-    bool frame_next_ = true;  // the next swap moves the camera to show the plant
-    bool is_new_file_ = true; // at the next swap, take the damping of the grammar
+    PlantSource saved_;              // values when the file was opened or last saved
+    std::vector<std::string> files_; // files that the last load has requested
+    bool frame_next_ = true;         // the next swap moves the camera to show the plant
+    bool is_new_file_ = true;        // at the next swap, take the damping of the grammar
     bool logs_next_frame_ = false;
     PlantViewStats stats_;
     Bounds rest_bounds_; // bounds of document_ at rest
 
-    std::optional<PlantViewSettings> requested_; // last request
+    std::optional<PlantViewSettings> requested_; // of the last request to the loader
     EditHistory<PlantEdits> history_;
     FileEdits file_edits_;
     LineKind shown_lines_ = LineKind::None;
@@ -214,7 +214,7 @@ private:
     std::unique_ptr<PlantMotion> motion_;
     /// The last input of the worker that checks whether the plant stands.
     std::optional<Bending> checked_bending_;
-    bool warns_of_fall_ = false;
+    bool warns_of_fall_ = false;                        // the messages warn that the plant falls
     std::unique_ptr<StandingChecker> standing_checker_; // made by the first simulation
     std::unique_ptr<PlantExporter> exporter_;           // made by the first export
     std::string exported_file_;                         // file of the last export

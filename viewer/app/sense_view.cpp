@@ -282,7 +282,7 @@ SenseDrawing make_sense_drawing(const SensedPlant& plant,
     // arrows are short, to leave room for each other.
     constexpr double kShortestArrow = 0.04;
     constexpr double kLongestArrow = 0.3;
-    constexpr double kMarkerPart = 0.006;
+    constexpr double kMarkerPart = 0.006; // size of a marker, as a fraction of that diagonal
     const SenseExtent extent = extent_of(plant, bounds);
     const double diagonal =
         bounds.empty ? 2.0 * extent.radius

@@ -16,7 +16,7 @@ namespace lsys::view {
 
 namespace {
 
-constexpr std::uint32_t kPageRows = 20;
+constexpr std::uint32_t kPageRows = 20; // number of lines that PageUp and PageDown move
 
 /// Number of bytes of the beginning of `text` that fit into `columns`: up to the last blank that
 /// fits or, without blanks, all that fit.

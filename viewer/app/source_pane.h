@@ -25,7 +25,7 @@ struct SourcePaneLook {
 
     friend bool operator==(const SourcePaneLook&, const SourcePaneLook&) = default;
 };
-inline constexpr float kMinSourceWidth = 200.0F;
+inline constexpr float kMinSourceWidth = 200.0F; // of `width`
 inline constexpr float kMaxSourceWidth = 4000.0F;
 /// The settings that write_source_look() wrote into the state folder (recent_files.h).
 [[nodiscard]] SourcePaneLook read_source_look(const std::string& folder);
@@ -96,13 +96,13 @@ private:
 
     std::unique_ptr<SourceWorker> worker_;
     std::string requested_file_;
-    std::uint64_t requested_load_ = 0;
-    std::uint64_t followed_pick_ = 0;
-    std::string shown_file_; // file of the view to which text_ belongs
+    std::uint64_t requested_load_ = 0; // View::taken_request_count() at the last request
+    std::uint64_t followed_pick_ = 0;  // View::pick_count() when the pane last showed a pick
+    std::string shown_file_;           // file of the view to which text_ belongs
     std::shared_ptr<const SourceText> text_;
     std::size_t file_index_ = 0;
-    std::string first_error_; // first error of text_, with its place
-    std::uint32_t anchor_ = 0;
+    std::string first_error_;    // first error of text_, with its place
+    std::uint32_t anchor_ = 0;   // number of the line where the selection began; 0: none
     std::uint32_t selected_ = 0; // number of the selected line; 0: none
     LineRange highlighted_;
     std::optional<std::uint32_t> target_;

@@ -324,9 +324,9 @@ private:
 
     const LoadedSources& loaded_;
     Project project_;
-    std::shared_ptr<SourceText> made_;
-    CompiledText compiled_;
-    std::optional<repair::FixScope> scope_;
+    std::shared_ptr<SourceText> made_;      // the result
+    CompiledText compiled_;                 // the file, with its diagnostics and fixes
+    std::optional<repair::FixScope> scope_; // files that fixes may change
 };
 
 } // namespace

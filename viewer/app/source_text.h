@@ -96,6 +96,7 @@ struct LoadedSources {
 
 struct SourceRequest {
     LoadedSources loaded;
+    // Fields for LatestRequestWorker.
     SteadyClock::time_point changed_at;
     bool is_repeat = false;
 };

@@ -19,7 +19,7 @@ using AddImage = std::function<std::uintptr_t(const Texture& picture)>;
 
 /// State of the start page. The selection is a recent file or a sample.
 struct StartPage {
-    bool is_loaded = false;
+    bool is_loaded = false;     // load() has been called
     std::string samples_folder; // empty: no samples are installed
     std::vector<std::string> recent;
     std::vector<GallerySample> samples;

@@ -192,7 +192,7 @@ protected:
     // Last picture.
     std::optional<Frame> frame_;
     FrameStats drawn_;
-    float aspect_ = 1.0F;
+    float aspect_ = 1.0F;            // width / height
     std::optional<Quality> quality_; // the last quality passed to use_quality()
     bool changed_ = true;            // the next picture is drawn even if its frame equals frame_
 
@@ -204,7 +204,7 @@ private:
     std::uint64_t taken_request_count_ = 0;
     std::string note_;
     SteadyClock::time_point note_since_;
-    bool failed_ = false;
+    bool failed_ = false; // the last load
     std::atomic<bool> shaders_changed_{false};
     bool take_trace();
 

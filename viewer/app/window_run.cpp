@@ -205,16 +205,16 @@ private:
     const Console& console_;
     Controls controls_;
     PanelState panels_;
-    Clock::time_point last_ = Clock::now();
-    Clock::time_point last_progress_ = last_;
-    bool shows_progress_ = false;
-    bool shows_sheet_ = false;
-    WindowLook look_;            // look of the window
-    SourcePaneLook source_look_; // settings of the source pane, as last written
-    Clock::time_point last_drawn_ = last_;
-    double last_seconds_ = 0.0; // time taken by the last picture or sample
-    bool refines_ = false;
-    int pictures_left_ = kPicturesAfterInput;
+    Clock::time_point last_ = Clock::now();   // time of the last round
+    Clock::time_point last_progress_ = last_; // time of the last picture for the progress
+    bool shows_progress_ = false;             // something was being made in the last round
+    bool shows_sheet_ = false;                // the sheet was open in the last round
+    WindowLook look_;                         // look of the window
+    SourcePaneLook source_look_;              // settings of the source pane, as last written
+    Clock::time_point last_drawn_ = last_;    // time of the last new picture of the view
+    double last_seconds_ = 0.0;               // time taken by the last picture or sample
+    bool refines_ = false;                    // the last round added a sample to the picture
+    int pictures_left_ = kPicturesAfterInput; // pictures to draw before the window rests
 };
 
 } // namespace

@@ -256,7 +256,7 @@ public:
         return draw_sample();
     }
     bool refine() override {
-        constexpr std::uint32_t kMax = 16;
+        constexpr std::uint32_t kMax = 16; // max number of refinements of a picture
         if (!shown_frame_ || refinements_ >= kMax) {
             return false;
         }

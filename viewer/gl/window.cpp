@@ -127,8 +127,8 @@ struct Window::State {
     bool panels_have_keys = false;
     // Events are collected until the next wait().
     WindowInput input;
-    glm::vec2 mouse{0.0F};
-    bool has_mouse = false;
+    glm::vec2 mouse{0.0F};      // pixels, last known place
+    bool has_mouse = false;     // `mouse` is known
     bool shift = false;         // at the last press or release of the left button
     std::array<bool, 3> held{}; // buttons that were pressed outside of panels
     std::vector<std::pair<int, Key>> keys;

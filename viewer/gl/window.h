@@ -102,9 +102,9 @@ struct WindowInput {
     bool over_picture = false;                // the pointer is on the picture, not on a panel
     glm::vec2 motion{0.0F};                   // pixels, right and down, while the mouse is captured
     float wheel = 0.0F;                       // positive away from the user
-    std::vector<std::string> dropped;
-    bool has_events = false;      // any event, also of panels
-    bool close_requested = false; // by the window manager
+    std::vector<std::string> dropped;         // paths of files dropped on the window
+    bool has_events = false;                  // any event, also of panels
+    bool close_requested = false;             // by the window manager
 };
 
 /// How panels are drawn.

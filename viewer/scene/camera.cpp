@@ -19,9 +19,9 @@ namespace lsys::view {
 namespace {
 
 constexpr glm::vec3 kUp{0.0F, 1.0F, 0.0F};
-constexpr float kSteepest = 1.553F; // radians, max angle of the view above or below the horizon
-constexpr float kMinField = 1.0F;
-constexpr float kMaxField = 170.0F;
+constexpr float kSteepest = 1.553F;  // radians, max angle of the view above or below the horizon
+constexpr float kMinField = 1.0F;    // degrees
+constexpr float kMaxField = 170.0F;  // degrees
 constexpr float kNearest = 0.02F;    // m, min distance of the near plane
 constexpr float kMaxDistance = 1e7F; // m, of eye and target
 constexpr double kNearWorld =
@@ -239,7 +239,7 @@ Camera framing(const Camera& camera, const Bounds& bounds, float aspect) {
         const float high = std::abs(glm::dot(from, upwards)) / tangent;
         distance = std::max(distance, std::max(wide, high) - glm::dot(from, along));
     }
-    constexpr float kMargin = 1.08F;
+    constexpr float kMargin = 1.08F; // factor of the distance
     result.eye = result.target - std::max(kMargin * distance, 0.1F) * along;
     return result;
 }

@@ -261,7 +261,7 @@ private:
     /// A tree that is high enough in the picture to be drawn as branches.
     struct BranchCandidate {
         std::uint32_t tree = 0;
-        float pixels = 0.0F;
+        float pixels = 0.0F; // height in the picture at detail 1
     };
 
     /// A tree in one level that has branches in view.
@@ -372,9 +372,9 @@ private:
     std::vector<std::uint32_t> first_mesh_; // by form: index of its first group in mesh_counts_
     DrawLists lists_;
     std::vector<BranchCandidate> candidates_;
-    std::vector<ImpostorEntry> far_;
+    std::vector<ImpostorEntry> far_; // impostors of trees that are too low for branches
     std::vector<BranchEntry> visible_branches_;
-    std::vector<PoolBranch> made_branches_;
+    std::vector<PoolBranch> made_branches_;  // branches of the tree that is being expanded
     std::vector<VisibleTree> visible_trees_; // trees of visible_branches_
     Sway sway_;
     GroundHorizon* ground_ = nullptr; // the occluder, during select()
@@ -383,7 +383,7 @@ private:
     // The members below are used in streamed forests only.
     glm::dvec3 origin_{};
     std::vector<ShownSquare> squares_;
-    std::vector<std::uint32_t> free_squares_;
+    std::vector<std::uint32_t> free_squares_;               // indices in squares_ for new squares
     std::map<std::uint32_t, std::uint32_t> square_of_tree_; // by first tree: index in squares_
     std::map<std::uint32_t, std::uint32_t>
         free_trees_; // free ranges of trees_; adjacent ranges are merged

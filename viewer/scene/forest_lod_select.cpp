@@ -17,9 +17,9 @@ namespace lsys::view {
 namespace {
 
 constexpr std::uint32_t kMinClusterTrees = 8; // min trees of a cluster
-constexpr std::uint32_t kFramesKept = 32;
-constexpr int kDetailSteps = 24;
-constexpr float kNearest = 0.1F; // m: min distance
+constexpr std::uint32_t kFramesKept = 32;     // frames for which unused branches stay in the pool
+constexpr int kDetailSteps = 24;              // number of bisections
+constexpr float kNearest = 0.1F;              // m: min distance
 
 float pixels_of(const Frustum& frustum, const glm::vec3& place, float height) {
     return height * frustum.pixels / std::max(glm::distance(frustum.eye, place), kNearest);

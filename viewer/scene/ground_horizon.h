@@ -34,8 +34,8 @@ private:
     /// Steepest slope (rise / distance) of the ground between two directions, up to each distance.
     /// The ground occludes all that lies behind it and below this slope.
     struct Sector {
-        bool known = false;
-        std::vector<float> slopes; // by step
+        bool known = false;        // the slopes have been computed for the eye
+        std::vector<float> slopes; // by number of the distance
     };
 
     [[nodiscard]] const std::vector<float>& slopes_of(std::uint32_t sector);
@@ -43,7 +43,7 @@ private:
 
     const TerrainLod* ground_ = nullptr; // null: occludes nothing
     glm::vec3 eye_{};
-    std::uint32_t steps_ = 0;
+    std::uint32_t steps_ = 0; // distance_count() of ground_
     std::array<Sector, kDirections> sectors_;
 };
 

@@ -61,8 +61,8 @@ private:
     std::uint32_t rows_;
     double step_x_; // m between samples
     double step_z_;
-    std::vector<float> heights_;
-    std::vector<Level> levels_; // first one square per cell, at last one square
+    std::vector<float> heights_; // m, of samples by row
+    std::vector<Level> levels_;  // first one square per cell, at last one square
 };
 
 } // namespace lsys::view

@@ -13,7 +13,7 @@ namespace lsys::view {
 
 namespace {
 
-constexpr std::uint32_t kMaxCells = std::uint32_t{1} << 22;
+constexpr std::uint32_t kMaxCells = std::uint32_t{1} << 22; // max number of squares
 constexpr std::uint32_t kPaintGeneration =
     0x5041494EU; // differs from the numbers by which placements draw
 // Number of random places that are tried per tree that still fits into the brush; max number of

@@ -139,7 +139,7 @@ private:
     LargeVector<std::uint32_t> head_; // by square: index in painted_
     LargeVector<std::uint32_t> next_; // by painted tree
 
-    std::vector<TreeChange> log_;
+    std::vector<TreeChange> log_; // changes of all strokes, undone ones included
     std::vector<Stroke> strokes_;
     std::size_t done_ = 0;  // number of strokes that are not undone
     std::size_t saved_ = 0; // done_ when last saved; kNone: that state cannot return

@@ -26,14 +26,14 @@ Region SquareLayout::region_of(const SquareId& id) const {
 SquareLayout make_square_layout(const Region& ground, double density) {
     constexpr double kTreesPerSquare = 4096.0;
     constexpr double kTreesPerCell = 16.0;
-    constexpr double kMinSide = 16.0;
-    constexpr double kMaxSide = 4096.0;
+    constexpr double kMinSide = 16.0;   // m
+    constexpr double kMaxSide = 4096.0; // m
     SquareLayout layout;
     layout.ground = ground;
     layout.side = std::clamp(std::exp2(std::round(0.5 * std::log2(kTreesPerSquare / density))),
                              kMinSide, kMaxSide);
     const double trees = density * layout.side * layout.side;
-    constexpr double kMaxCells = 64.0;
+    constexpr double kMaxCells = 64.0; // along a side of a square
     layout.cells_across = static_cast<std::uint32_t>(
         std::clamp(std::floor(std::sqrt(trees / kTreesPerCell)), 1.0, kMaxCells));
     return layout;

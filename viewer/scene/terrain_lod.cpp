@@ -23,7 +23,7 @@ constexpr float kMorphStart = 0.85F;
 // Number of texels by which the height grid is moved when it follows the camera. It moves in large
 // steps, so that it is seldom rebuilt.
 constexpr std::int64_t kGridStep = 16;
-constexpr std::uint64_t kRowsPerPiece = 16;
+constexpr std::uint64_t kRowsPerPiece = 16; // rows of the grid that a worker fills at a time
 
 std::int64_t floor_to(double value, std::int64_t step) {
     return static_cast<std::int64_t>(std::floor(value / static_cast<double>(step))) * step;

@@ -6,7 +6,7 @@ layout(local_size_x = 256) in;
 #include "culling_tables.glsl"
 #include "culling_near.glsl"
 layout(std430, binding = 13) readonly buffer Nodes { uvec4 nodes[]; };
-struct Branch {
+struct Branch { // as in forest.glsl
     vec4 position_scale;
     uvec4 rotation_mesh_tree;
 };

@@ -18,6 +18,7 @@ const uint kTrees = 2u;
 const uint kMinClusterTrees = 8u;
 const uint kHasRemoved = 0x80000000u;
 
+// ForestLod::cluster_size(), m.
 float cluster_size(float tallest, vec3 middle) {
     vec3 eye = culling.eye_pixels.xyz;
     float away = max(distance(eye, middle), kNearest);

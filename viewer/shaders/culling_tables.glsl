@@ -16,14 +16,15 @@ vec4 table_vec4(uint at) {
     return vec4(table_vec3(at), table_float(at + 3u));
 }
 
+// Lengths in m at scale 1.
 struct LodForm {
-    vec3 centre; // bounding sphere at yaw 0
-    float radius;
+    vec3 centre; // of the bounding sphere at yaw 0
+    float radius; // of that sphere
     float height;
     float low;
     float high;
-    float impostor_radius;
-    float width; // m at scale 1, for sway_of()
+    float impostor_radius; // of a sphere around the middle
+    float width; // max distance from the root, for sway_of()
 };
 LodForm form_at(uint form) {
     uint at = kFormWords * form;

@@ -19,6 +19,7 @@ uint draw_of(uint tree_number, uint node) {
     }
     return counter.x;
 }
+// The instance that fills a slot.
 uint choose(uint slots, uint slot, uint tree_number, uint node) {
     uint first = tables[slots + 2u * slot];
     uint count = tables[slots + 2u * slot + 1u];

@@ -30,7 +30,7 @@ public:
 private:
     using Matrix = std::vector<Count>; // row-major: [class before][class after]
     struct Power {
-        Matrix low;
+        Matrix low; // bounds of the counts
         Matrix high;
     };
 

@@ -58,7 +58,7 @@ private:
     struct SequenceRule {
         std::vector<std::pair<SymbolId, std::uint32_t>> uses; // modules that a match replaces
         std::vector<ClassTerm> max_written; // max count of modules of each class per match
-        ProductionId first = kNoProduction;
+        ProductionId first = kNoProduction; // first production of the rule
     };
     struct Rule {
         SymbolId symbol = kNoSymbol;    // the predecessor, if it is one module
@@ -83,13 +83,13 @@ private:
 
     ModuleClasses* classes_;
     std::uint32_t age_ = 0;
-    bool probabilities_known_ = true;
-    std::vector<Count> low_; // by class: min number; high_: max, expected_: mean
+    bool probabilities_known_ = true; // else expected_ has no meaning
+    std::vector<Count> low_;          // by class: min number; high_: max, expected_: mean
     std::vector<Count> high_;
     std::vector<double> expected_;
-    std::vector<bool> is_present_;
-    std::vector<ClassId> present_;
-    std::vector<Rule> rules_; // used in rewriting modes with a pass per rule
+    std::vector<bool> is_present_; // by class: it is in present_
+    std::vector<ClassId> present_; // classes with modules in the word
+    std::vector<Rule> rules_;      // used in rewriting modes with a pass per rule
     std::vector<SequenceRule> sequences_;
     std::unordered_map<std::uint32_t, std::vector<ClassId>> by_symbol_;
     std::uint64_t work_ = 0;

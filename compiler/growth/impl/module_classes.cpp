@@ -143,7 +143,7 @@ std::vector<KnownValue> ModuleClasses::parameters(ClassId id) const {
 // --- words
 
 void ModuleClasses::count_word(const WordTemplate& word, CountedWord& out) {
-    out.made = true;
+    out.is_counted = true;
     out.locals = word.locals;
     work_ += word.codes.count;
     if (code_counts_.empty()) {
@@ -460,7 +460,7 @@ ClassExpansion ModuleClasses::expand_matches(const Matches& matches,
             // Without relevant parameters each successor is read only once, so it is not stored.
             CountedWord once;
             CountedWord& word = index_.any_relevant() ? words_[m.production] : once;
-            if (!word.made) {
+            if (!word.is_counted) {
                 count_word(bytecode_->productions[m.production].successor, word);
             }
             outcome.terms = instantiate(word, inputs(formals));

@@ -37,7 +37,7 @@ struct ClassOutcome {
 
 /// All outcomes of a class, and the min and max number of modules of each class among them.
 struct ClassExpansion {
-    bool done = false;
+    bool done = false;                // the outcomes have been computed
     bool probabilities_known = false; // the probabilities of the outcomes are known
     bool copies = false;    // the module may be copied, since possibly no production matches
     bool unchanged = false; // every outcome is the module itself with the same parameters
@@ -106,7 +106,7 @@ private:
     };
     /// A word, with modules of fixed classes counted by class.
     struct CountedWord {
-        bool made = false;
+        bool is_counted = false;      // the modules have been counted
         std::uint32_t locals = kNone; // code of the local values
         std::vector<ClassTerm> fixed;
         std::vector<VariableModule> variable;
@@ -119,7 +119,7 @@ private:
     };
     struct Matches {
         std::vector<Match> list;
-        bool probabilities_known = true;
+        bool probabilities_known = true; // else Match::probability has no meaning
     };
 
     void find_causes();

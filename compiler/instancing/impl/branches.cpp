@@ -454,14 +454,14 @@ private:
     Diagnostics& diagnostics_;
     std::vector<std::vector<const ProgramPattern*>> rules_of_; // predecessors per first symbol
     std::vector<Effects> effects_;                             // per symbol
-    std::vector<OpenBranch> open_;
+    std::vector<OpenBranch> open_;   // branches around the current item, outermost first
     std::vector<FoundBranch> found_; // branches of the current word, in order of their `[`
     std::vector<FoundKind> found_kinds_;
-    std::unordered_map<std::string, std::uint32_t> kind_of_key_;
-    std::vector<ValueId> values_;
+    std::unordered_map<std::string, std::uint32_t> kind_of_key_; // index in found_kinds_
+    std::vector<ValueId> values_;                                // stack of add_value()
     std::uint32_t local_count_ = 0; // number of local values of the current production
     Branches branches_;
-    bool instanceable_ = true;
+    bool instanceable_ = true; // no obstacle has been reported
 };
 
 } // namespace

@@ -25,7 +25,7 @@ struct BranchSite {
 
 /// A set of branches that are equal after names are resolved.
 struct BranchKind {
-    std::uint32_t first_site = 0;
+    std::uint32_t first_site = 0;       // index in Branches::sites
     std::vector<std::uint32_t> formals; // formals used in the branch, ascending
     std::vector<std::uint32_t> locals;  // local values used in the branch, ascending
     /// Whether the drawing of the branch depends on the vertical: by tropism or an operation with

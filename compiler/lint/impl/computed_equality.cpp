@@ -15,9 +15,10 @@ namespace lsys {
 
 namespace {
 
+/// How a value arises: exact in binary32, a rounded literal, a result that may be rounded.
 enum class Level : std::uint8_t { Exact, Literal, Computed };
 
-constexpr int kMaxRounds = 16;
+constexpr int kMaxRounds = 16; // of propagate()
 
 class EqualityCheck {
 public:
@@ -117,6 +118,7 @@ private:
         const Level right = level(value.right);
         switch (value.opcode) {
         case Opcode::Literal: {
+            // Sums of multiples of 1/64 are exact, so long as they are not large.
             constexpr float kGrain = 64.0F;
             constexpr float kMaxExact = 65'536.0F;
             const bool exact = std::fabs(value.literal) <= kMaxExact &&

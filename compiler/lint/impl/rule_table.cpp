@@ -13,8 +13,8 @@ namespace lsys {
 
 namespace {
 
-constexpr std::uint64_t kMaxEntries = 1'000'000;
-constexpr std::uint64_t kMaxPoints = 65'536;
+constexpr std::uint64_t kMaxEntries = 1'000'000; // max number of productions times points
+constexpr std::uint64_t kMaxPoints = 65'536;     // of the grid
 
 } // namespace
 

@@ -25,7 +25,7 @@ private:
 
     Resolution& resolution_;
     ExpressionResolver& expressions_;
-    std::unordered_map<NameId, SourceSpan> first_;
+    std::unordered_map<NameId, SourceSpan> first_; // by name: place in its first #contour
 };
 
 } // namespace lsys

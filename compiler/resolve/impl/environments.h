@@ -68,7 +68,7 @@ private:
     ExpressionResolver& expressions_;
     SymbolTable& symbols_;
     Suggestions suggestions_;
-    std::unordered_map<NameId, SourceSpan> first_; // by name
+    std::unordered_map<NameId, SourceSpan> first_; // by name: place in its first #sense
     /// Index of the environment, by index in Ast::senses.
     std::unordered_map<std::uint32_t, std::uint32_t> numbers_;
     std::unordered_map<NameId, bool> declared_; // by name of the module, with `?`

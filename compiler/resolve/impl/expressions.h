@@ -120,7 +120,7 @@ private:
         std::vector<std::uint32_t> uses;
         std::vector<ValueId> nodes; // body without literals, operands before users
         ValueId body = kPoison;     // root of the body
-        bool has_choice = false;
+        bool has_choice = false;    // the body has an if()
     };
 
     void visit(ExpressionPlace place);
@@ -182,25 +182,25 @@ private:
     ConstantTable& constants_;
     AttemptedStatements attempted_;
     Suggestions suggestions_;
-    bool files_missing_ = false;
+    bool files_missing_ = false; // an included file could not be read
     std::unordered_map<NameId, Function> functions_;
     std::unordered_map<NameId, UserFunction> user_functions_;
     std::uint32_t slot_count_ = 0;   // slots in use in the current statement
     std::size_t expanded_count_ = 0; // values made by calls in the current statement
     bool keeps_expressions_ = false;
     NameId defining_ = kNoName; // the function whose body is being resolved
-    NameId step_;
-    NameId steps_;
+    NameId step_;               // the name `step`
+    NameId steps_;              // the name `steps`
 
     std::vector<std::uint32_t> formal_of_; // per name: number of the formal, or kNone
     std::vector<NameId> formals_;
     std::vector<SourceSpan> formal_spans_;
-    bool formals_incomplete_ = false;
+    bool formals_incomplete_ = false; // set_formals_incomplete() was called for this statement
     /// Per name: the local value, or kNoValue after expect_local() alone.
     std::unordered_map<NameId, ValueId> locals_;
     std::unordered_set<NameId> used_locals_;
     std::unordered_set<NameId> reported_; // names with an error in this statement
-    bool drawn_once_noted_ = false;
+    bool drawn_once_noted_ = false;       // the statement has the note [drawn-once]
     std::uint32_t draw_count_ = 0;
     std::size_t last_root_ = 0; // the largest id resolved so far
     bool is_random_ = false;

@@ -12,6 +12,7 @@
 
 namespace lsys {
 
+/// Finds the productions with the same predecessor, and those with the same contexts too.
 class ProductionClasses {
 public:
     explicit ProductionClasses(Program& program) : program_(program) {}
@@ -23,7 +24,7 @@ private:
     /// The first production of each class, by hash; kNone in free slots.
     struct Table {
         std::vector<std::uint32_t> firsts = std::vector<std::uint32_t>(1024, kNone);
-        std::uint32_t count = 0;
+        std::uint32_t count = 0; // number of classes
     };
     using Hash = std::uint64_t (*)(const Production&);
     using Equal = bool (*)(const Production&, const Production&);

@@ -585,14 +585,14 @@ private:
     FileId id_;
     const ParseContext* context_;
     AbopFile file_;
-    Open open_ = Open::Nothing; // the statement that an indented line continues
-    SourceSpan open_span_;
+    Open open_ = Open::Nothing;       // the statement that an indented line continues
+    SourceSpan open_span_;            // of that statement
     SourceSpan more_;                 // the rest of the line after a setting
     std::vector<SourceSpan> bare_;    // lines of symbols before the first rule
     std::vector<SourceSpan> unread_;  // lines without meaning
     bool is_unread_reported_ = false; // an unread line has been reported
-    std::size_t statements_ = 0;
-    std::size_t others_ = 0;
+    std::size_t statements_ = 0;      // number of statements so far
+    std::size_t others_ = 0;          // number of lines that are no statements
 };
 
 } // namespace

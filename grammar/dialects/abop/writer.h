@@ -23,6 +23,7 @@ public:
     void write(std::string_view turtle);
 
 private:
+    /// Place of modules: axiom or successor; predecessor or context; list of #ignore or #consider.
     enum class Place : std::uint8_t { Word, Pattern, List };
     struct Symbol {
         SourceSpan span;
@@ -77,8 +78,9 @@ private:
     std::map<std::size_t, Parentheses> parentheses_; // parentheses of expressions, by offset
     std::set<std::size_t> range_ends_;               // `)` of random numbers
     std::optional<SourceSpan> sphere_;               // the first `@O(d)`
-    std::optional<SourceSpan> reported_head_;
-    std::uint32_t depth_ = 0; // number of nested settings being written
+    std::optional<SourceSpan> reported_head_;        // the last head with a reported mistake
+    // Settings whose values are being written in place of their names, one within another.
+    std::uint32_t depth_ = 0;
 };
 
 } // namespace lsys

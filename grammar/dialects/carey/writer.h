@@ -13,6 +13,7 @@
 
 namespace lsys {
 
+/// The axiom, or a side of a rule.
 enum class CareyText : std::uint8_t { Axiom, Left, Right };
 
 /// `text` without blanks; left sides are compared in this form.

@@ -122,9 +122,9 @@ private:
     CpfgSession& session_;
     ForeignExpressions& tree_;
     const std::vector<CpfgCurve>& curves_;
-    Variables variables_;
-    Variables globals_;
-    Variables state_;                             // values of changing globals in this production
+    Variables variables_; // values of the variables of the current block or production
+    Variables globals_;   // initial values of variables of the whole system
+    Variables state_;     // values of changing globals in this production
     std::map<std::string, ForeignId> increments_; // per global: amount that each step adds
     std::set<std::string> assigned_each_step_; // globals that each step assigns before reading them
     std::map<std::string, Array> arrays_;
@@ -132,23 +132,23 @@ private:
     /// Names of functions in .lsys, by index in curves_; only of curves that expressions call.
     std::map<std::size_t, CpfgCurveNames> curve_names_;
     std::map<std::size_t, std::vector<double>> tables_; // by index in curves_
-    std::set<std::string> function_names_;
+    std::set<std::string> function_names_; // names of functions and curves in .lsys, all taken
     std::set<std::string> formals_;
     std::set<std::string> changed_globals_; // globals that blocks of a step assign
     std::set<Stage> reported_stages_;       // stages whose step statements have been reported
-    std::set<std::string> warned_;
+    std::set<std::string> warned_;          // each `what` of warn_left_out()
     KnownValues known_values_;
     int loops_ = 0;                   // loops that are being unrolled, one in another
     std::size_t loop_statements_ = 0; // statements of loops run so far
-    std::uint32_t draws_ = 0;
+    std::uint32_t draws_ = 0;         // random numbers of the production so far
     std::size_t end_of_constants_ = 0;
     Stage stage_ = Stage::Rewrite;
-    bool binds_draws_ = false;
+    bool binds_draws_ = false; // random numbers are parameters, see bind_draws()
     bool in_header_ = false;
     bool in_axiom_ = false;
-    bool in_step_ = false; // whether the current block runs in each step
-    bool has_integer_part_ = false;
-    bool has_normal_ = false;
+    bool in_step_ = false;          // whether the current block runs in each step
+    bool has_integer_part_ = false; // an expression calls int(), which .lsys lacks
+    bool has_normal_ = false;       // an expression calls nran()
     bool quiet_ = false;
 };
 

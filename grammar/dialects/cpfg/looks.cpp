@@ -74,7 +74,7 @@ struct ViewTropism {
     std::array<double, 3> direction{};
     double strength = 0.0;
     double increment = 0.0;
-    double angle = 0.0;
+    double angle = 0.0; // degrees
     bool is_valid = true;
 };
 
@@ -286,11 +286,11 @@ private:
 
     CpfgLooks looks_;
     const CpfgUses& uses_;
-    ViewTropism after_;
-    std::vector<ViewTropism> rows_;
+    ViewTropism after_;               // the tropism of elasticity
+    std::vector<ViewTropism> rows_;   // the other tropisms and torques
     std::optional<SourceSpan> place_; // of the last tropism
-    std::optional<double> width_;
-    std::optional<bool> is_pixel_;
+    std::optional<double> width_;     // initial line width
+    std::optional<bool> is_pixel_;    // widths are in pixels
     std::optional<SourceSpan> width_place_;
 };
 

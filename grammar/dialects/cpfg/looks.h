@@ -32,7 +32,7 @@ struct CpfgLooks {
         SourceSpan span;
     };
     std::vector<Text> statements;
-    std::vector<Text> left_out;
+    std::vector<Text> left_out; // messages about lines that have no effect
     /// Colour at the start of the word; nullopt: the view file sets none.
     std::optional<unsigned> first_colour;
 };

@@ -200,7 +200,7 @@ private:
 
     CpfgSession& session_;
     KnownValues known_values_;
-    std::vector<Sequence> found_;
+    std::vector<Sequence> found_; // sequences to join
 };
 
 } // namespace

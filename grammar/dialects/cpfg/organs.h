@@ -17,7 +17,7 @@ namespace lsys {
 struct CpfgSurface {
     std::string file;
     double scale = 1.0;
-    bool can_be_read = false;
+    bool can_be_read = false; // the file exists
 };
 
 struct CpfgOrgans {

@@ -421,8 +421,8 @@ private:
     std::map<std::string, Macro> macros_;
     std::vector<Condition> conditions_;
     std::vector<std::string> active_; // macros that are being replaced
-    std::size_t expanded_ = 0;
-    bool reported_ = false;
+    std::size_t expanded_ = 0;        // bytes written by macros so far
+    bool reported_ = false;           // an error has said that they are too many
 };
 
 } // namespace

@@ -46,7 +46,7 @@ struct CpfgProduction {
     std::vector<CpfgModule> right;
     std::vector<int> before;          // statements
     ForeignId condition = kNoForeign; // kNoForeign: always holds
-    std::vector<int> after;
+    std::vector<int> after;           // statements
     std::vector<CpfgModule> successor;
     ForeignId weight = kNoForeign;
     SourceSpan span; // place of the predecessor
@@ -69,8 +69,8 @@ public:
     std::optional<SourceSpan> ring; // `ring Lsystem`: the first module is next to the last one
     std::vector<CpfgModule> ignored;
     std::vector<CpfgModule> considered;
-    bool ignores = false;
-    bool considers = false;
+    bool ignores = false;   // there is a statement `ignore:`
+    bool considers = false; // there is a statement `consider:`
     ForeignId derivation_length = kNoForeign;
     ForeignId seed = kNoForeign;
     ForeignId decompose_depth = kNoForeign;
@@ -85,6 +85,7 @@ public:
     int systems = 0;              // number of labels `Lsystem:` read
 
     // --- for the scanner
+    /// The text at the current place: the begin of a line, modules, or an expression or statement.
     enum class Mode : std::uint8_t { Line, Symbols, Expression };
     Mode mode = Mode::Line;
     int nesting = 0; // brackets open in an expression

@@ -12,8 +12,8 @@ namespace lsys {
 
 /// One L-system, from its line `Lsystem: name` to the next such line.
 struct CpfgSystem {
-    std::string name; // the text after `Lsystem:`
-    std::size_t begin = 0;
+    std::string name;      // the text after `Lsystem:`
+    std::size_t begin = 0; // byte offset in the text
     std::size_t end = 0;
 };
 

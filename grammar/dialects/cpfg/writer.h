@@ -32,8 +32,8 @@ public:
 private:
     /// A production translated to .lsys.
     struct Lowered {
-        bool is_written = false;
-        bool in_group = false;
+        bool is_written = false; // false: left out
+        bool in_group = false;   // write_group() writes it with others
         ForeignId condition = kNoForeign;
         ForeignId weight = kNoForeign;
         std::vector<std::vector<ForeignId>> arguments; // one list per module of the successor

@@ -14,6 +14,7 @@ namespace lsys {
 
 namespace {
 
+/// Nothing: blank or a comment. NamedPremise: with the label `Premise`.
 enum class LineKind : std::uint8_t { Nothing, Setting, NamedPremise, Premise, Rule, Other };
 
 /// The line without a leading label, `Rule 2:`.

@@ -122,7 +122,7 @@ HoudiniWriter::all_parameter_counts(const HoudiniRule& rule) const {
                     extended.back().push_back(count);
                 }
             }
-            constexpr std::size_t kMax = 64;
+            constexpr std::size_t kMax = 64; // max number of combinations
             if (extended.size() > kMax) {
                 report_unsupported(rule.span,
                                    "turtle symbols occur here with too many different numbers "

@@ -61,6 +61,7 @@ public:
     SourceSpan take(std::uint32_t length);
     /// Puts the last `length` bytes of the last match back.
     void put_back(std::uint32_t length);
+    /// Place of the last match.
     [[nodiscard]] SourceSpan last() const { return last_; }
     /// The token of a line's first word; 0 if the word is not a key. `text` includes the blanks
     /// after the word.
@@ -69,6 +70,7 @@ public:
     int any_key_token(std::string_view text);
     [[nodiscard]] static std::uint32_t length_of_key(std::string_view text);
     [[nodiscard]] bool wants_modules() const { return wants_modules_; }
+    /// Opens a parenthesis.
     void open() { ++depth_; }
     /// Closes a parenthesis; returns true if more modules follow.
     bool close();
@@ -92,9 +94,9 @@ public:
 
 private:
     FileId file_;
-    std::uint32_t size_ = 0;
-    std::uint32_t at_ = 0;
-    SourceSpan last_;
+    std::uint32_t size_ = 0;      // bytes of the file
+    std::uint32_t at_ = 0;        // offset of the next match
+    SourceSpan last_;             // place of the last match
     std::uint32_t depth_ = 0;     // open parentheses
     bool in_condition_ = false;   // in a condition or probability
     bool wants_modules_ = false;  // modules follow the key of the line

@@ -56,12 +56,14 @@ private:
                        const ParameterCounts& counts,
                        const std::string& name,
                        bool is_last);
+    /// `slot`: index in `counts` of the next symbol of the turtle; advanced past those written.
     void write_pattern(const std::vector<HoudiniModule>& modules,
                        const ParameterCounts& counts,
                        std::size_t& slot);
     void write_formals(const HoudiniModule& head, std::uint32_t count, bool has_age);
     void write_ageing(const HoudiniRule& rule, std::size_t index);
     [[nodiscard]] std::vector<ParameterCounts> all_parameter_counts(const HoudiniRule& rule) const;
+    /// Key of rules with equal symbols in predecessor and contexts, which compete.
     [[nodiscard]] std::string group_of(const HoudiniRule& rule) const;
     void find_random_pairs();
     [[nodiscard]] std::string probability_of(ForeignId condition) const;
@@ -97,7 +99,7 @@ private:
     HoudiniSymbols symbols_;
     std::map<std::string_view, SourceSpan> settings_; // place of the value, by name of the setting
     HoudiniExpressions expressions_;
-    std::map<std::string, bool> has_probability_; // by group
+    std::map<std::string, bool> has_probability_; // by group: whether a rule has a probability
     // Probability in place of a condition with `rand`.
     std::map<const HoudiniRule*, std::string> probabilities_;
     std::map<std::string_view, bool> aged_; // symbols whose ageing rule is written

@@ -45,9 +45,9 @@ struct ForeignNode {
     ForeignKind kind = ForeignKind::Number;
     std::string text{};
     std::vector<ForeignId> parts{};
-    SourceSpan span{};  // place of the node with its operands
-    SourceSpan token{}; // the operator or name
-    std::uint32_t index = 0;
+    SourceSpan span{};       // place of the node with its operands
+    SourceSpan token{};      // the operator or name
+    std::uint32_t index = 0; // of a Draw or Local
     std::uint32_t depth = 1; // set by ForeignExpressions::add()
 };
 

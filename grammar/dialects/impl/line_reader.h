@@ -35,8 +35,8 @@ struct DialectWords;
 
 class LineReader {
 public:
-    /// Returns the bytes of the piece at the start of a text, which is not empty and begins with no
-    /// blank; 0 stands for a piece of one character.
+    /// Returns the length in bytes of the piece at the start of a text that is not empty and begins
+    /// with no blank; 0 stands for a piece of one character.
     using PieceLength = std::size_t (*)(std::string_view ahead);
 
     /// Precondition: the sources of `context` hold `text` as long as the reader is in use.

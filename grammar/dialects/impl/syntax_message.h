@@ -39,9 +39,9 @@ private:
     const ParseContext& context_;
     SourceSpan place_;
     const DialectWords* words_;
-    std::string expected_;
-    std::string last_;
-    int count_ = 0;
+    std::string expected_; // expected tokens except the last one, with commas
+    std::string last_;     // the expected token added last
+    int count_ = 0;        // of expected tokens
 };
 
 /// Reports the character at the start of `place` with a fix, if it looks like an ASCII character;

@@ -16,7 +16,7 @@ namespace lsys {
 
 namespace {
 
-constexpr std::size_t kMaxKeys = 256;
+constexpr std::size_t kMaxKeys = 256;                  // max number of left sides
 constexpr std::size_t kMaxText = std::size_t{1} << 16; // max characters of a word
 constexpr std::size_t kMaxWork = std::size_t{1} << 20; // max characters read in one derivation
 // Number of derivations to compare, each with other choices, if a key has several values.

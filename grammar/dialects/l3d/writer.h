@@ -28,8 +28,8 @@ public:
 
 private:
     struct Parameter {
-        std::uint32_t open = 0;
-        std::uint32_t end = 0; // one past the `)`
+        std::uint32_t open = 0; // offset of the `(`
+        std::uint32_t end = 0;  // one past the `)`
     };
     std::uint32_t put_character(std::uint32_t at, std::uint32_t end);
     void put_characters(std::uint32_t at, std::uint32_t end);

@@ -290,12 +290,12 @@ private:
     std::string_view source_;
     AbopFile file_;
     AbopStage stage_ = AbopStage::Rewrite;
-    bool in_rules_ = false;
-    bool has_ended_ = false;
+    bool in_rules_ = false;               // a line `production:` or the like has been read
+    bool has_ended_ = false;              // a line `endlsystem` has been read
     std::optional<AbopRule> block_;       // the rule whose indented lines follow
     std::optional<SourceSpan> condition_; // condition of the next `produce`
-    bool has_produced_ = false;
-    std::vector<SourceSpan> python_; // lines of Python that are not reported yet
+    bool has_produced_ = false;           // a `produce`, or Python, of block_ has been read
+    std::vector<SourceSpan> python_;      // lines of Python that are not reported yet
 };
 
 } // namespace

@@ -69,6 +69,8 @@ public:
     [[nodiscard]] StatementShape shape() const { return shape_; }
 
 private:
+    /// Kind of the text at the current place: between statements; modules; value of #object; values
+    /// of #set; a name before an expression; an expression.
     enum class Area : std::uint8_t { Between, Modules, Object, Set, Name, Expression };
 
     [[nodiscard]] bool starts(char first, char second) const {
@@ -93,17 +95,17 @@ private:
     std::string_view text_;
     std::size_t at_;
     Lexeme lexeme_;
-    std::uint32_t newlines_ = 0;
-    bool blank_ = false;
+    std::uint32_t newlines_ = 0; // line ends before the next token
+    bool blank_ = false;         // blanks stand before the next token
     Area area_ = Area::Between;
     StatementShape shape_ = StatementShape::Other;
     // Part of a production: 1 name, 2 head, 3 condition and local values, 4 successor; else 0.
     std::uint32_t part_ = 0;
-    bool has_locals_ = false;
+    bool has_locals_ = false;     // the local values of the production have begun
     bool in_probability_ = false; // in the probability of an axiom
     bool in_formals_ = false;     // in the name or the formals of a #function
-    std::uint32_t depth_ = 0;
-    bool after_value_ = false;
+    std::uint32_t depth_ = 0;     // open parentheses and braces
+    bool after_value_ = false;    // the last token ends a value: `-` is binary, `(` begins a call
     LexemeKind previous_ = LexemeKind::Semicolon;
 };
 

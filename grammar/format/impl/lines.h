@@ -23,6 +23,7 @@ public:
     void add(const Piece& piece, std::uint32_t blanks, bool may_break);
     /// Ends the statement.
     void finish();
+    /// Whether all pieces so far stand on one line.
     [[nodiscard]] bool one_line() const { return one_line_; }
     /// The columns of the last line.
     [[nodiscard]] std::uint32_t column() const { return column_; }
@@ -47,7 +48,7 @@ private:
     std::string line_; // the current line, not yet in out_
     std::uint32_t column_;
     std::vector<LineBreak> breaks_; // breaks of the current line, ascending
-    bool at_begin_ = true;
+    bool at_begin_ = true;          // the current line has no piece yet
     bool one_line_ = true;
 };
 

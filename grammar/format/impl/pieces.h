@@ -23,7 +23,7 @@ struct Piece {
     std::uint32_t last_width = 0;   // width of the last line
     bool has_several_lines = false; // a comment within has line ends
     bool has_blank_before = false;
-    bool begins_cell = false;
+    bool begins_cell = false; // aligned with the pieces of other statements (LayoutRow)
     bool is_in_list = false;  // in a list of modules, after the last colon
     bool begins_line = false; // the author began a line with this piece
     BreakClass break_class = BreakClass::Never;
@@ -61,10 +61,10 @@ private:
     std::size_t end_ = 0;
     bool done_ = false;
     StatementShape shape_ = StatementShape::Other;
-    std::uint32_t index_ = 0; // index of current_, not counting comments
-    std::uint32_t colons_ = 0;
-    std::uint32_t parentheses_ = 0;
-    std::uint32_t brackets_ = 0;
+    std::uint32_t index_ = 0;        // index of current_, not counting comments
+    std::uint32_t colons_ = 0;       // number of `:` so far
+    std::uint32_t parentheses_ = 0;  // number of open `(`
+    std::uint32_t brackets_ = 0;     // number of open `[`
     std::uint32_t repeat_count_ = 1; // adjacent equal symbols, `////`
     bool is_in_list_ = false;
     bool has_comment_ = false;

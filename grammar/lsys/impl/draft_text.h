@@ -31,7 +31,7 @@ struct DraftText {
     Diagnostics& diagnostics;
     /// The text with comments replaced by blanks and text in back quotes replaced by letters.
     std::string masked;
-    bool is_changed = false;
+    bool is_changed = false;    // `text` differs from the file
     bool is_incomplete = false; // a statement is left out
     std::vector<FreeLine> lines;
     bool has_free_lines = false; // `lines` is up to date with `text`

@@ -41,10 +41,10 @@ private:
     struct Group {
         std::uint32_t begin = 0;
         std::uint32_t end = 0;
-        std::string ascii;
+        std::string ascii; // replaces them
         std::string code_points;
-        std::string_view name;
-        std::uint32_t count = 0;
+        std::string_view name;   // of all of them; empty if they differ
+        std::uint32_t count = 0; // number of characters
     };
 
     void replace_confusable(std::uint32_t begin,
@@ -69,7 +69,7 @@ private:
     Group group_;
     std::uint32_t word_end_ = 0; // end of the last word with an unknown letter
     std::u32string reported_greek_;
-    bool explained_ = false;
+    bool explained_ = false; // a message has the note about text copied from a PDF
 };
 
 } // namespace lsys

@@ -61,8 +61,8 @@ enum class Part : std::uint8_t {
 enum class NextInLocals : std::uint8_t {
     Let,
     Name,
-    Sign,
-    Value,
+    Sign,  // the `=`
+    Value, // the expression, or the `,` after it
 };
 
 /// The event before which the scanner inserts missing tokens.

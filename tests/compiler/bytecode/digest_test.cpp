@@ -17,7 +17,7 @@ class Change {
 public:
     struct Progress {
         std::size_t target = 0;
-        std::size_t next = 0;
+        std::size_t next = 0; // number of the next field
         bool changed = false;
         bool outside_digest = false; // the changed field does not affect derived words
     };

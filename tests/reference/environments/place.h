@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What an environment gets of a word, and its answers (docs/language.md section 13.3).
+// Inputs of an environment, taken from a word, and its answers (docs/language.md section 13.3).
 
 #pragma once
 
@@ -29,7 +29,7 @@ using Answers = std::vector<std::vector<double>>;
 
 // A place without an answer; thrown.
 struct NoAnswer {
-    std::size_t place = 0; // index
+    std::size_t place = 0; // index among the places
 };
 
 // The number as a module gets it: rounded once, and -0 becomes 0.

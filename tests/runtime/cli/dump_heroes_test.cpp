@@ -64,6 +64,7 @@ std::string plain_word(const std::string& hero) {
     return word;
 }
 
+/// Branches of the heroes with one key, as `lsc dump --stage cache` counts them.
 struct KeyRow {
     int instances = 0;
     int hits = 0;

@@ -60,13 +60,13 @@ public:
     }
 
     std::vector<std::uint32_t> ages; // of the words that were sensed
-    int begun = 0;
+    int begun = 0;                   // number of calls of begin()
     std::uint32_t last_generations = 0;
-    std::uint32_t fails_at = ~std::uint32_t{0};
+    std::uint32_t fails_at = ~std::uint32_t{0}; // age
 
 private:
     const Bytecode& bytecode_;
-    int count_ = 0;
+    int count_ = 0; // number of sense modules answered, from 1000 times the seed on
 };
 
 Bytecode sensing_plant() {

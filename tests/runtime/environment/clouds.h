@@ -26,6 +26,7 @@ public:
     [[nodiscard]] double between(double low, double high) {
         return low + (high - low) * (static_cast<double>(engine_()) * 0x1p-32);
     }
+    /// A place in a cube around the origin. `half`: half of its side.
     [[nodiscard]] Vector3 in_cube(double half) {
         const double x = between(-half, half);
         const double y = between(-half, half);

@@ -33,7 +33,7 @@ inline std::vector<reference::Place> places_of(const std::vector<SensePlace>& pl
     return result;
 }
 
-/// One after the other, as Environment::answer() gives them.
+/// The numbers of all answers, one after the other, as Environment::answer() returns them.
 inline std::vector<float> numbers_of(const reference::Answers& answers) {
     std::vector<float> numbers;
     for (const std::vector<double>& answer : answers) {

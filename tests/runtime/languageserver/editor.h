@@ -138,6 +138,7 @@ public:
     static Json at(const std::string& path, int line, int character) {
         return {{"textDocument", {{"uri", uri(path)}}}, {"position", position(line, character)}};
     }
+    /// Parameters of a request about a whole file.
     static Json in(const std::string& path) { return {{"textDocument", {{"uri", uri(path)}}}}; }
 
     /// The text after the edits of a WorkspaceEdit or of a list of TextEdits. Precondition: edited
@@ -165,11 +166,11 @@ public:
     std::map<std::string, std::string>& files() { return *files_; }
     LanguageServer& server() { return *server_; }
 
-    Json answer; // result of `initialize`
-    std::map<int, Json> responses;
+    Json answer;                             // result of `initialize`
+    std::map<int, Json> responses;           // by id of the request
     std::map<std::string, Json> diagnostics; // as last published, by URI
     int publish_count = 0;
-    std::vector<Json> others;
+    std::vector<Json> others; // all further messages of the server, in order
 
 private:
     std::shared_ptr<std::map<std::string, std::string>> files_;

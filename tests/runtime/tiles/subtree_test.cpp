@@ -95,8 +95,8 @@ public:
     }
 
     SeenTiles seen;
-    std::size_t count = 0;
-    std::size_t files = 0;
+    std::size_t count = 0; // number of tiles
+    std::size_t files = 0; // number of subtree files
     /// By name of an availability, the number of files in which it is a constant.
     std::map<std::string, std::size_t> constants;
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// CullingTables: forms, slots, instances and exits of a forest as words for the compute shaders that
-// expand trees; shaders/culling_tables.glsl reads them. No OpenGL.
+// CullingTables: forms, slots, instances and exits of a forest as words for the compute shaders
+// that expand trees; shaders/culling_tables.glsl reads them. The glossary of
+// runtime/forest/README.md explains slots, instances and exits. No OpenGL.
 #pragma once
 
 #include "viewer/scene/forest_model.h"

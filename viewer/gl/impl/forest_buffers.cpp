@@ -40,6 +40,7 @@ struct Vertex {
 };
 static_assert(sizeof(Vertex) == 16);
 
+/// Material of branch.vert.glsl.
 struct MaterialRecord {
     glm::vec3 colour{};
     // kTextured, kTranslucent, kBumpy; from bit 8 on: translucency in 1/256; from bit 20 on:
@@ -53,11 +54,13 @@ constexpr std::uint32_t kBumpy = 4;
 constexpr unsigned kTranslucencyShift = 8;
 constexpr unsigned kRoughnessShift = 20;
 
+/// Form of forest.glsl.
 struct FormRecord {
     glm::vec4 cylinder{};
     glm::vec4 layers{};
 };
 
+/// A tree of forest.glsl, as three uvec2.
 struct TreeRecord {
     glm::vec3 root{};
     float scale = 1.0F;

@@ -41,20 +41,21 @@ constexpr GLuint kCommands = 19;
 constexpr GLuint kHeightsTexture = 1;
 constexpr GLuint kHorizonTexture = 6;
 
-constexpr std::uint32_t kBlock = 256;     // number of elements that a workgroup handles
-constexpr std::uint32_t kSortPart = 2048; // number of branches that a workgroup sorts
-constexpr std::uint32_t kDigitBits = 8;
-constexpr std::uint32_t kDetailSteps = 6;
-constexpr std::uint32_t kMaxCandidates = 1U << 20U;
-constexpr std::uint32_t kRoomForTrees = 1U << 14U; // number of spare records for added trees
+constexpr std::uint32_t kBlock = 256;               // number of elements that a workgroup handles
+constexpr std::uint32_t kSortPart = 2048;           // number of branches that a workgroup sorts
+constexpr std::uint32_t kDigitBits = 8;             // of a digit of the keys, in a pass of the sort
+constexpr std::uint32_t kDetailSteps = 6;           // number of refinements of the detail
+constexpr std::uint32_t kMaxCandidates = 1U << 20U; // max number of trees listed as high enough
+constexpr std::uint32_t kRoomForTrees = 1U << 14U;  // number of spare records for added trees
 constexpr std::size_t kIdentityBytes = 12;
 constexpr std::size_t kCellBytes = 48;
 constexpr std::size_t kNearBytes = 48;
 constexpr std::size_t kSumsBytes = 192 * sizeof(std::uint32_t); // `sums` of State (culling.glsl)
-constexpr std::uint32_t kRemoved = 0x8000'0000U;
-constexpr std::size_t kPartBytes = 512;
+constexpr std::uint32_t kRemoved = 0x8000'0000U;                // bit of an Identity or cell
+constexpr std::size_t kPartBytes = 512;                         // of a part of the mapped buffers
 static_assert(sizeof(CullingState) <= kPartBytes && sizeof(CullingState) % 4 == 0);
 
+/// What an invocation, or with BySortPart a workgroup, of a kernel handles.
 enum Dispatch : std::uint8_t { ByTree, ByCandidate, ByNearTree, ByBranch, BySortPart };
 
 /// Identity of a tree: bits of the yaw, number, and kRemoved or 0.

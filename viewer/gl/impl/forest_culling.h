@@ -52,7 +52,7 @@ struct CullingState {
     std::uint32_t cluster_blended = 0; // trees drawn both alone and in a cluster
     std::uint32_t branch_blended = 0;  // trees drawn both as branches and as an impostor
     std::uint32_t drawn_branches = 0;
-    float detail = 1.0F;
+    float detail = 1.0F; // DrawLists::detail
     std::array<std::uint32_t, kTreeLevels> level_counts{};
     std::array<std::uint32_t, 2> triangles{};
     std::uint32_t coarser_used = 0;  // branches that are also drawn in a coarser level
@@ -173,7 +173,7 @@ private:
     Buffer tree_entries_;
     Buffer cluster_entries_;
     Buffer candidates_;
-    Buffer near_;
+    Buffer near_; // near trees (culling_near.glsl)
     Buffer nodes_;
     Buffer branches_;
     std::array<Buffer, 2> sorted_;
@@ -183,7 +183,7 @@ private:
     Buffer commands_;
     Buffer changes_;
     TextureObject horizon_;
-    std::vector<std::uint32_t> changed_;
+    std::vector<std::uint32_t> changed_; // numbers of trees for apply_changes()
     DeviceDraws draws_;
     std::uint32_t command_count_ = 0;
     std::uint32_t tree_capacity_ = 0;

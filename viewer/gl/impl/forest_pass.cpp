@@ -24,6 +24,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
+// Bindings and locations of the shaders of trees.
 constexpr GLuint kBarkTexture = 1;
 constexpr GLuint kLeafTexture = 2;
 constexpr GLuint kAlbedos = 3;
@@ -453,7 +454,7 @@ glm::vec4 ForestPass::draw_crowns(const glm::vec3& eye) {
     constexpr GLsizei kTexels = 1024;
     constexpr GLuint kCrownMap = 9; // in crowns.glsl
     constexpr float kHalf = 120.0F; // m, half side of the map
-    constexpr float kStep = 20.0F;  // m
+    constexpr float kStep = 20.0F;  // m, by which the map follows the eye
     if (!crowns_) {
         crowns_ = make_texture(*device_, GL_TEXTURE_2D);
         glTextureStorage2D(crowns_.name(), 1, GL_RG8, kTexels, kTexels);

@@ -24,11 +24,13 @@ constexpr std::uint32_t kSupersampling = 2; // along a side
 constexpr std::uint32_t kAtlasWidth = ImpostorAtlas::kYaws * ImpostorAtlas::kTile;
 constexpr std::uint32_t kAtlasHeight = ImpostorAtlas::kElevations * ImpostorAtlas::kTile;
 constexpr GLsizei kLevels = 6; // mip levels; tiles of the last have sides of 4 texels
+/// Radians; impostor.glsl has them too.
 constexpr std::array<float, ImpostorAtlas::kElevations> kElevationAngles = {0.0F, 0.6108652F,
                                                                             1.3089969F};
 /// Margin of opaque_box() in texels, because opaque texels of coarse mip levels extend beyond those
 /// of fine levels.
 constexpr float kBoxMargin = 2.5F;
+// Uniforms of branch.frag.glsl.
 constexpr GLint kCentre = 2;
 constexpr GLint kToEye = 3;
 constexpr GLint kRight = 4;

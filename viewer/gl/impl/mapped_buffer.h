@@ -42,7 +42,7 @@ private:
     std::size_t part_bytes_;
     Object<BufferKind> object_;
     std::byte* memory_ = nullptr;
-    std::size_t part_ = 0;
+    std::size_t part_ = 0;                // the current one
     std::array<GLsync, kParts> fences_{}; // null: the part has not been used
 };
 

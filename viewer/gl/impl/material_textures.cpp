@@ -62,7 +62,7 @@ Texture halved(const Texture& texture) {
 void keep_coverage(Texture& texture, double wanted) {
     float low = 0.25F;
     float high = 8.0F;
-    constexpr int kRounds = 12;
+    constexpr int kRounds = 12; // of bisection
     for (int i = 0; i < kRounds; ++i) {
         const float middle = 0.5F * (low + high);
         (coverage(texture.texels, middle) < wanted ? low : high) = middle;

@@ -27,7 +27,7 @@ public:
 private:
     Renderbuffer content_;
     Renderbuffer depth_;
-    Framebuffer drawn_;
+    Framebuffer drawn_; // of both
 };
 
 } // namespace lsys::view

@@ -280,6 +280,7 @@ FrameStats TerrainPass::draw() {
     }
     if (has_canopy) {
         // The colour of the canopy appears before the trees end, so that no border is visible.
+        // Both are fractions of tree_range_.
         constexpr float kBegin = 0.45F;
         constexpr float kEnd = 0.95F;
         glUniform3f(kCanopy, canopy_.r, canopy_.g, canopy_.b);

@@ -66,7 +66,7 @@ private:
     TextureObject covers_; // empty without cover
     glm::vec3 canopy_{0.0F};
     glm::dvec3 origin_{};
-    float tree_range_ = 0.0F;
+    float tree_range_ = 0.0F; // m
     TextureObject noise_;
     VertexArray array_;
     VertexArray grass_array_; // without attributes
