@@ -37,7 +37,7 @@ struct TraceOptions {
     std::string name;                      // all modules of this name
     std::uint64_t rows = 10;               // max number of modules of `name` to trace
     TraceScope scope = TraceScope::Next;
-    bool is_drawn = false; // whether the word is drawn; the last word always is
+    bool is_drawn = false; // trace its drawing (`#interpret`) too; always done for the last word
 };
 
 /// The production that wrote a module, its place in the grammar, and the generation.

@@ -24,10 +24,10 @@ ModuleClasses::ModuleClasses(const Bytecode& bytecode, std::uint32_t steps)
     : bytecode_(&bytecode), index_(bytecode), steps_(steps),
       changed_parameters_(changed_parameters(bytecode)), fixed_ids_(bytecode.code_count(), kNone),
       evaluator_(bytecode.stack_depth, bytecode.local_count) {
-    find_causes();
+    fill_causes();
 }
 
-void ModuleClasses::find_causes() {
+void ModuleClasses::fill_causes() {
     causes_.resize(bytecode_->symbols.size());
     for (std::size_t s = 0; s < causes_.size(); ++s) {
         for (std::uint32_t i = 0; i < changed_parameters_[s]; ++i) {

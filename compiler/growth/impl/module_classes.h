@@ -122,7 +122,7 @@ private:
         bool probabilities_known = true; // else Match::probability has no meaning
     };
 
-    void find_causes();
+    void fill_causes(); // sets what causes() returns
     static std::size_t number(ClassId id) { return static_cast<std::size_t>(id); }
     ClassId add_class(Code code, std::uint32_t first_value);
     ClassId fixed_class(Code code);

@@ -274,7 +274,7 @@ void HoudiniWriter::write_module(const Lowered& made) {
 }
 
 /// Warns, once per symbol, that lsc ignores the effect of the symbol.
-void HoudiniWriter::warn_lost(char symbol, SourceSpan place) {
+void HoudiniWriter::warn_ignored_effect(char symbol, SourceSpan place) {
     if (warned_.find(symbol) != std::string::npos) {
         return;
     }
@@ -346,25 +346,25 @@ bool HoudiniWriter::lower_special(Lowered& made, char symbol, const HoudiniScope
         if (count == 0) {
             return false;
         }
-        warn_lost('a', module.symbol);
+        warn_ignored_effect('a', module.symbol);
         const bool named = session_.node(module.arguments.front()).kind == ForeignKind::Text;
         made.arguments = arguments(module, named ? 1 : 0, scope);
         return true;
     }
     case 'g':
         if (count != 0) {
-            warn_lost('g', module.symbol);
+            warn_ignored_effect('g', module.symbol);
         }
         return false;
     case '\'':
     case '#':
-        warn_lost('\'', module.symbol);
+        warn_ignored_effect('\'', module.symbol);
         return false;
     case 'J':
     case 'K':
     case 'M':
         if (count > 2) {
-            warn_lost('J', module.symbol);
+            warn_ignored_effect('J', module.symbol);
         }
         return false;
     default:

@@ -88,7 +88,7 @@ private:
     [[nodiscard]] ForeignId
     omitted_argument(const HoudiniModule& module, std::uint32_t index, SourceSpan place);
     void write_symbol(const HoudiniModule& module);
-    void warn_lost(char symbol, SourceSpan place);
+    void warn_ignored_effect(char symbol, SourceSpan place);
 
     void report_syntax(SourceSpan place, const std::string& message) const;
     void report_unsupported(SourceSpan place, const std::string& message) const;

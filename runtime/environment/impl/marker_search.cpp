@@ -148,7 +148,7 @@ private:
         return sum;
     }
 
-    /// Bits of the places of a leaf that may kill the marker, or that may see it and be nearer than
+    /// A mask of the places of a leaf that may kill the marker, or that may see it and be nearer than
     /// the nearest place so far.
     [[nodiscard]] std::uint32_t candidates(const Node& node) const {
         Lanes squared{};

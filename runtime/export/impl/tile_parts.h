@@ -72,7 +72,7 @@ private:
 };
 
 struct TilePart {
-    std::vector<std::size_t> buffers; // numbers in the table: of its mesh, then of its pictures
+    std::vector<std::size_t> buffers; // of its mesh, then of its pictures: PartTable numbers
     std::uint64_t decoded_bytes = 0;  // size of the fallback of its buffer; 0: no fallback
     std::vector<std::size_t> items;   // in the order in which a document lists them
     std::vector<JsonTemplate> accessors;

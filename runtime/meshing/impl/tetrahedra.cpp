@@ -214,7 +214,7 @@ private:
     [[nodiscard]] Size measure(const SolidShape& shape, const glm::dvec3& point) const {
         const ShapeProbe at = lsys::probe(shape, point);
         double cell = solid_.cell * at.radius;
-        double base_height = 0.0; // height at which `cell` depends on the flat base, else 0
+        double base_height = 0.0; // of the point above the flat base if that limits `cell`, else 0
         if (solid_.ground) {
             const double height = std::abs(point.y - *solid_.ground);
             const double at_base = kBaseCells * cell + kGrowth * height;
