@@ -62,7 +62,7 @@ std::uint32_t TriangleList::operator[](std::uint64_t index) const {
 }
 
 /// Writes the triangles of a patch whose shape is not Shape::Bands.
-void TriangleList::write_unit(const Patch& patch, std::uint32_t vertex, std::uint32_t* to) {
+void TriangleList::write_whole_patch(const Patch& patch, std::uint32_t vertex, std::uint32_t* to) {
     const std::uint32_t sides = patch.sides;
     const std::uint32_t low = vertex + patch.first;
     const std::uint32_t high = vertex + patch.second;
@@ -115,7 +115,7 @@ void TriangleList::read_patches(const Block& block,
         }
         const auto write = [&](std::uint64_t number, std::uint32_t* out) {
             if (!bands) {
-                write_unit(*patch, block.first_vertex, out);
+                write_whole_patch(*patch, block.first_vertex, out);
                 return;
             }
             const std::uint32_t base =

@@ -92,7 +92,8 @@ private:
     };
     struct Pattern;
 
-    static void write_unit(const Patch& patch, std::uint32_t vertex, std::uint32_t* to);
+    /// Writes all indices of a patch that is a fan or an uneven band.
+    static void write_whole_patch(const Patch& patch, std::uint32_t vertex, std::uint32_t* to);
     static void read_patches(const Block& block,
                              std::uint64_t first,
                              std::span<std::uint32_t> to,

@@ -43,7 +43,7 @@ struct Choice {
     std::uint32_t cap = 0;          // CacheOptions::cap
     std::uint64_t bytes = kNoBytes; // needed memory
     std::uint64_t different = 0;    // number of different trees
-    std::uint32_t max_variants = 0; // max number of recorded branches per key
+    std::uint32_t largest_slot = 0; // result: branches recorded in the fullest slot
 
     [[nodiscard]] bool is_set() const { return bytes != kNoBytes; }
 };
@@ -117,7 +117,7 @@ public:
                 Choice choice = smallest;
                 choice.cap = cap;
                 const std::uint64_t bytes = smallest.bytes;
-                if (cap >= smallest.max_variants) {
+                if (cap >= smallest.largest_slot) {
                     break;
                 }
                 if (!step.take(try_choice(choice, budget))) {
@@ -179,8 +179,8 @@ private:
         for (const ForestStage& stage : forest.species.front().stages) {
             choice.bytes += stage.cache.byte_count() + stage.cache.skeleton.byte_count();
             for (std::size_t i = 1; i < stage.cache.slots.size(); ++i) {
-                choice.max_variants =
-                    std::max(choice.max_variants, stage.cache.slots[i].variant_count);
+                choice.largest_slot =
+                    std::max(choice.largest_slot, stage.cache.slots[i].variant_count);
             }
         }
         if (choice.bytes >= smallest.bytes) {

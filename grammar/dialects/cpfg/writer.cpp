@@ -51,7 +51,7 @@ void CpfgWriter::write(std::string_view turtle) {
     lower_header();
     lower_productions();
     find_groups();
-    find_local_names();
+    name_local_values();
     write_settings(turtle);
     out_.put("\n#w : ", *session_.axiom_span);
     write_modules(session_.axiom, axiom_, {});
@@ -301,7 +301,7 @@ ForeignId CpfgWriter::weighted_condition(const std::vector<std::size_t>& members
 }
 
 /// Decides which variables become local values and constants, and their names.
-void CpfgWriter::find_local_names() {
+void CpfgWriter::name_local_values() {
     std::vector<ForeignId> roots{length_, seed_, decompose_depth_, interpret_depth_};
     std::vector<ForeignId> expanded;
     const auto add = [](std::vector<ForeignId>& to,

@@ -73,7 +73,8 @@ private:
     void weigh_group(const std::vector<std::size_t>& members);
     [[nodiscard]] ForeignId weighted_condition(const std::vector<std::size_t>& members,
                                                std::size_t index);
-    void find_local_names();
+    /// Chooses names of local values that differ from constants, formals and draws.
+    void name_local_values();
     [[nodiscard]] bool check(const CpfgProduction& production);
     void write_production(std::size_t index);
     void write_group(std::size_t index);

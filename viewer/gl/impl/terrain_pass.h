@@ -63,7 +63,7 @@ private:
     TextureObject normals_;
     glm::vec3 mean_{0.0F}; // linear RGB, mean of the ground's colour picture
     TextureObject heights_;
-    TextureObject covers_; // empty without cover
+    TextureObject covers_; // by level: fraction of the ground below crowns; empty: no GroundCover
     glm::vec3 canopy_{0.0F};
     glm::dvec3 origin_{};
     float tree_range_ = 0.0F; // m
