@@ -165,6 +165,9 @@ private:
         if (!stored_arguments_.empty()) {
             word_template.arguments = emitter_.arguments(stored_arguments_);
         }
+        if (word_template.locals == kNone && word_template.arguments == kNone) {
+            word_template.draw_count = 0; // its draws are in operands that `if()` never chooses
+        }
         return word_template;
     }
 

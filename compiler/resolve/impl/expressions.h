@@ -187,6 +187,7 @@ private:
     std::unordered_map<NameId, UserFunction> user_functions_;
     std::uint32_t slot_count_ = 0;   // slots in use in the current statement
     std::size_t expanded_count_ = 0; // values made by calls in the current statement
+    std::size_t expanded_in_all_ = 0; // and in all statements so far
     bool keeps_expressions_ = false;
     NameId defining_ = kNoName; // the function whose body is being resolved
     NameId step_;               // the name `step`

@@ -17,9 +17,10 @@ namespace {
 constexpr std::uint32_t kMaxFormals = 8;
 constexpr std::uint32_t kMinPoints = 2;
 constexpr std::uint32_t kMaxPoints = 256;
-/// Max number of values that inlining the calls of one statement may create. If each of n functions
-/// calls the next one twice, inlining creates 2^n values.
-constexpr std::size_t kMaxExpanded = std::size_t{1} << 22;
+/// Max numbers of values that inlining the calls of one statement, and of all statements, may
+/// create. If each of n functions calls the next one twice, inlining creates 2^n values.
+constexpr std::size_t kMaxExpanded = std::size_t{1} << 18;
+constexpr std::size_t kMaxExpandedInAll = std::size_t{1} << 21;
 
 } // namespace
 
@@ -221,12 +222,15 @@ ValueId ExpressionResolver::user_call(const Expression& expression,
         }
     }
     expanded_count_ += function.nodes.size() + 1;
-    if (expanded_count_ > kMaxExpanded) {
+    expanded_in_all_ += function.nodes.size() + 1;
+    const bool statement_is_too_large = expanded_count_ > kMaxExpanded;
+    if (statement_is_too_large || expanded_in_all_ > kMaxExpandedInAll) {
         if (first_report_of(expression.name)) {
             resolution_.diagnostics.add(
                 DiagnosticCode::ProgramTooLarge, span,
-                fmt::format("the functions of this statement expand to more than {} operations",
-                            kMaxExpanded));
+                fmt::format("the functions of {} expand to more than {} operations",
+                            statement_is_too_large ? "this statement" : "the grammar",
+                            statement_is_too_large ? kMaxExpanded : kMaxExpandedInAll));
         }
         return kPoison;
     }

@@ -138,6 +138,14 @@ TEST_CASE("a program read from a file is the same, and its dumps are complete") 
     }
 }
 
+TEST_CASE("a successor has no draws if a constant condition leaves them out") {
+    const Bytecode b = lowered("#define wild 0;\n"
+                               "#w : B;\n"
+                               "#p : B : * : +(if(wild, {10, 30}, 20)) F;\n");
+    CHECK(b.productions[0].successor.draw_count == 0);
+    CHECK(read_module_file(write_module_file(b)).ok());
+}
+
 TEST_CASE("brackets of a predecessor stand between the formals of its modules") {
     const Bytecode b = lowered("#set rewriting leftmost; #set names letters;\n"
                                "#w : A(1)B[C(2)]D(3);\n"
