@@ -245,8 +245,8 @@ struct BytecodeMaterial {
     std::uint32_t index = 0; // colour index, up to kMaxColourIndex
     bool has_colour = false;
     std::array<float, 3> colour{}; // sRGB, 0 to 1
-    BytecodePicture picture;
-    BytecodePicture normal;
+    BytecodePicture picture;       // of the colour
+    BytecodePicture normal;        // normal map
     bool has_roughness = false;
     float roughness = 0.0F; // 0 to 1
     bool has_translucency = false;

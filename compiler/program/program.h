@@ -176,8 +176,8 @@ struct ProgramMaterial {
     std::uint32_t index = 0;                    // a colour index, up to 65,535
     SourceSpan span;                            // place of the index
     std::optional<std::array<float, 3>> colour; // sRGB, 0 to 1
-    MaterialPictureName picture;
-    MaterialPictureName normal;
+    MaterialPictureName picture;                // of the colour
+    MaterialPictureName normal;                 // normal map
     std::optional<float> roughness;
     std::optional<float> translucency;
     std::optional<bool> two_sided;
