@@ -204,7 +204,6 @@ float checked_weight(Resolution& resolution, float weight, SourceSpan span) {
     return std::numeric_limits<float>::quiet_NaN();
 }
 
-/// Checks that the successor of a #down or #up is its predecessor with other parameters.
 bool ProductionResolver::check_sweep(const Production& production) {
     if (production.stage != Stage::Down && production.stage != Stage::Up) {
         return true;

@@ -25,12 +25,15 @@ public:
     void finish();
 
 private:
+    /// Returns false after reporting an earlier production of the same name.
     [[nodiscard]] bool check_first_of_name(const ProductionNode& node);
     void resolve_condition(const ConditionNode& node, Production& production);
     void resolve_locals(ListRange locals, Production& production);
     [[nodiscard]] bool check_new_local(const LocalNode& node, const Production& production);
     void resolve_weight(ExpressionId probability, Production& production);
+    /// Checks that the successor of a #down or #up is its predecessor with other parameters.
     [[nodiscard]] bool check_sweep(const Production& production);
+    /// Reports a successor with too many random ranges.
     void check_draws(const ProgramWord& successor);
 
     ModuleReading& reading_;
