@@ -104,7 +104,7 @@ private:
     std::vector<ClassId> present_; // classes with modules in the word
     std::vector<Rule> rules_;      // used in rewriting modes with a pass per rule
     std::vector<SequenceRule> sequences_;
-    /// The classes in present_, by SymbolId; only with rules_.
+    /// The classes in present_, by SymbolId.
     std::unordered_map<std::uint32_t, std::vector<ClassId>> by_symbol_;
     std::uint64_t work_ = 0; // see work()
 };
