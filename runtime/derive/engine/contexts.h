@@ -94,12 +94,16 @@ public:
 private:
     template <typename C>
     [[nodiscard]] bool is_plain(const C* codes) const;
+    /// Builds left_, the table of left_of().
     template <typename C>
     void build_left(const C* codes);
+    /// Builds next_ and jump_, the tables of next_from() and jump_from().
     template <typename C>
     void build_right(const C* codes);
+    /// Builds offsets_, the table of offset_before().
     template <typename C>
     void build_offsets(const C* codes, const Plan& plan);
+    /// prepare() for codes of type C.
     template <typename C>
     [[nodiscard]] bool build(const Plan& plan, std::span<const C> word);
 
