@@ -106,10 +106,10 @@ private:
     };
     /// A word, with modules of fixed classes counted by class.
     struct CountedWord {
-        bool is_counted = false;      // the modules have been counted
-        std::uint32_t locals = kNone; // code of the local values
-        std::vector<ClassTerm> fixed;
-        std::vector<VariableModule> variable;
+        bool is_counted = false;              // the modules have been counted
+        std::uint32_t locals = kNone;         // code of the local values
+        std::vector<ClassTerm> fixed;         // modules of fixed classes
+        std::vector<VariableModule> variable; // the other modules
     };
     struct Match {
         std::uint32_t production = kNone; // kNone: no production matches, the module is copied
@@ -170,7 +170,7 @@ private:
 
     const Bytecode* bytecode_;
     ProductionIndex index_;
-    std::uint32_t steps_;
+    std::uint32_t steps_;                           // requested generations
     std::vector<std::uint32_t> changed_parameters_; // see changed_parameters()
     std::vector<std::vector<SymbolId>> causes_;     // by symbol
     bool covers_folded_ = false;                    // see covers_folded()

@@ -128,8 +128,6 @@ void ProductionResolver::resolve_locals(ListRange locals, Production& production
     }
 }
 
-/// Returns false after reporting that a parameter or an earlier local value has the name. Warns of
-/// a constant with the name.
 bool ProductionResolver::check_new_local(const LocalNode& node, const Production& production) {
     const auto report = [&](const char* what, SourceSpan first) {
         Diagnostic& error = resolution_.diagnostics.add(

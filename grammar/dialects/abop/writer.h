@@ -33,7 +33,7 @@ private:
     };
 
     struct Parentheses {
-        std::size_t close = 0;
+        std::size_t close = 0; // offset of the `)`
         bool is_empty = true;
         bool has_comma = false; // between two arguments
     };

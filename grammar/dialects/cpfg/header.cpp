@@ -293,7 +293,6 @@ void CpfgWriter::write_constants() {
     tree_.write_constants(0, expressions_.end_of_constants(), out_);
 }
 
-/// Declares the modules that no production rewrites and that draw nothing.
 void CpfgWriter::write_declarations() {
     std::set<std::string> rewritten;
     for (const CpfgProduction& production : session_.productions) {

@@ -72,6 +72,7 @@ private:
     [[nodiscard]] CpfgUses find_uses() const;
     /// Writes functions, arrays and the variables of `Start:`, which settings may read.
     void write_constants();
+    /// Declares the modules that no production rewrites and that draw nothing.
     void write_declarations();
     /// Writes an `#ignore` or `#consider` of the symbols of `list`.
     void write_names(const char* begin, const std::vector<CpfgModule>& list);
@@ -114,6 +115,7 @@ private:
     void write_condition(std::size_t index, const ForeignWriting& how);
     void write_weight(std::size_t index, const ForeignWriting& how);
     void write_successor(std::size_t index, const ForeignWriting& how);
+    /// Writes the .lsys name of a symbol, for which messages show the name in the file.
     void write_name(const CpfgModule& module);
     void write_modules(const std::vector<CpfgModule>& list,
                        const std::vector<std::vector<ForeignId>>& arguments,
@@ -126,6 +128,8 @@ private:
     [[nodiscard]] std::string random_module(std::size_t index) const;
     /// Warns of a weight that is ignored, and of a choice that cpfg makes differently.
     void warn_weight(const CpfgProduction& production);
+    /// Writes parameters and the random numbers of a group in parentheses; nothing if there are
+    /// none.
     void write_parameters(const std::vector<std::string>& names,
                           const std::vector<std::string>& draws,
                           SourceSpan span);

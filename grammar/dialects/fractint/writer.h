@@ -52,7 +52,7 @@ private:
     void report_syntax(SourceSpan place, const std::string& message);
 
     const std::vector<FractintLine>& lines_;
-    SourceSpan name_;
+    SourceSpan name_; // of the system
     const ParseContext& context_;
     Translation& translation_;
     bool has_unknown_key_ = false; // a line begins with a word that is not a key

@@ -50,7 +50,7 @@ private:
 
     HoudiniSession& session_;
     ForeignExpressions& tree_;
-    std::string angle_;
+    std::string angle_;                      // see set_angle()
     std::map<std::string, ForeignId> seeds_; // random numbers of the rule, by seed as written
     bool has_warned_random_ = false;
 };
