@@ -59,6 +59,7 @@ private:
         bool verbatim = false; // corresponds to span byte by byte
         SourceSpan span;
     };
+    /// The part with the byte at `offset`; the last part beyond the end.
     [[nodiscard]] const Part& part_at(std::uint32_t offset) const;
     /// Whether `text` still fits into max_bytes_; records the first place where it does not.
     [[nodiscard]] bool claim_room(std::string_view text, SourceSpan span);

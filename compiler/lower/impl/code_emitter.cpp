@@ -188,7 +188,6 @@ void CodeEmitter::expression(ValueId root, std::uint32_t site) {
     }
 }
 
-/// Pushes onto frames_ the steps that compute a value, the first step on top.
 void CodeEmitter::operands(ValueId id, const Value& value, std::uint32_t site) {
     if (value.left == kNoValue) {
         leaf_or_operation(value, false, site);

@@ -35,6 +35,7 @@ private:
     void instruction(Opcode opcode, std::uint32_t operand = 0);
     /// Makes the next instructions belong to the site; does nothing for kNone.
     void begin_site(std::uint32_t site);
+    /// Emits the code of a value.
     void expression(ValueId root, std::uint32_t site);
     /// Emits the instruction of `value`, after the code of its operands. `swapped`: the right
     /// operand was emitted first.
@@ -45,6 +46,7 @@ private:
     [[nodiscard]] std::uint32_t stack_need(ValueId id) const {
         return stack_need_[static_cast<std::size_t>(id)];
     }
+    /// Pushes onto frames_ the steps that compute a value, the first step on top.
     void operands(ValueId id, const Value& value, std::uint32_t site);
     /// Sets the operand of the If or Else at index `at`, so that the instruction skips to the next
     /// one to be emitted.

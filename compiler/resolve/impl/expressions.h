@@ -155,6 +155,7 @@ private:
                                        std::span<const ValueId> arguments);
     /// Forgets divisors that are zero, and causes of infinite values, within `unchosen`.
     void forget_faults(SourceSpan unchosen);
+    /// The value of a call of a #function or #curve.
     [[nodiscard]] ValueId user_call(const Expression& expression,
                                     ExpressionPlace place,
                                     UserFunction& function,

@@ -54,6 +54,7 @@ private:
     ValueId add(const Value& value);
     /// Enlarges literals_.
     void grow_table();
+    /// Index in literals_ of the literal with these bits, or of the unused entry for it.
     [[nodiscard]] std::size_t slot_of(std::uint32_t bits) const;
 
     ChunkedVector<Value>& values_;

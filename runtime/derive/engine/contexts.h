@@ -26,6 +26,7 @@ enum class ContextRole : std::uint8_t { Module, Ignored, Open, Close };
 /// Indices into a word, of 4 bytes each if the word is short enough.
 class IndexTable {
 public:
+    /// Bytes of an index.
     [[nodiscard]] static std::uint64_t width(std::uint64_t word_length) {
         return word_length < 0xFFFFFFFFu ? sizeof(std::uint32_t) : sizeof(std::uint64_t);
     }
