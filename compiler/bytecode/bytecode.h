@@ -103,9 +103,9 @@ struct BytecodeSymbol {
     std::uint32_t parameter_count = 0;
     SymbolKind kind = SymbolKind::Plain;
     bool ignored = false; // contexts skip the symbol (#ignore, #consider)
-    TurtleOperation turtle = TurtleOperation::Nothing;
-    std::string mesh_file; // for MeshFile; for SetContour: the name of a contour, or empty
-    Sense sense = Sense::Nothing;
+    TurtleOperation turtle = TurtleOperation::Nothing; // effect of a module on the turtle
+    std::string mesh_file;        // for MeshFile; for SetContour: the name of a contour, or empty
+    Sense sense = Sense::Nothing; // quantity that a sense module reads
 
     /// Whether the symbol is a sense module, `?NAME`.
     [[nodiscard]] bool senses() const { return sense != Sense::Nothing; }
@@ -171,12 +171,12 @@ struct WordTemplate {
 
 struct BytecodeProduction {
     std::string name;
-    std::uint32_t name_site = kNone;
-    std::uint32_t rule = 0;  // number of its rule, by first appearance
-    std::uint32_t group = 0; // number of its group, by first appearance
+    std::uint32_t name_site = kNone; // index in sites
+    std::uint32_t rule = 0;          // number of its rule, by first appearance
+    std::uint32_t group = 0;         // number of its group, by first appearance
     Stage stage = Stage::Rewrite;
-    bool has_left = false;
-    bool has_right = false;
+    bool has_left = false;  // has a left context
+    bool has_right = false; // has a right context
     TableRange left;        // range of patterns; only modules, in text order
     TableRange predecessor; // range of patterns; only modules, at least one
     TableRange right;       // range of patterns; Open and Close are balanced
@@ -193,7 +193,7 @@ struct BytecodeProduction {
 /// An axiom. If there are several, a derivation begins with a randomly chosen one.
 struct BytecodeAxiom {
     WordTemplate word;
-    std::uint32_t site = kNone;
+    std::uint32_t site = kNone;      // index in sites
     std::uint32_t draw_position = 0; // index of its first draw, as BytecodeGlobal::draw_position
     float weight = 1.0F;             // the number after `~`
 };
@@ -204,11 +204,11 @@ struct BytecodeGlobal {
     std::uint32_t instruction = 0; // first instruction of its code, which ends with Emit, End
     /// Index of its first draw among the draws of all #define, #param and #w.
     std::uint32_t draw_position = 0;
-    std::uint32_t draw_count = 0;
-    bool has_bounds = false; // true for a #param
+    std::uint32_t draw_count = 0; // random ranges and distributions
+    bool has_bounds = false;      // true for a #param
     float minimum = 0.0F;
     float maximum = 0.0F;
-    std::uint32_t site = kNone;
+    std::uint32_t site = kNone; // index in sites
 };
 
 /// A `#curve`. set_slopes() has set the slopes of the points.
@@ -237,7 +237,7 @@ struct BytecodeContour {
 /// The file of a picture, relative to the grammar; empty if there is none.
 struct BytecodePicture {
     std::string path;
-    std::uint32_t site = kNone;
+    std::uint32_t site = kNone; // index in sites
 };
 
 /// `#material`: the appearance of a colour index.
@@ -245,8 +245,8 @@ struct BytecodeMaterial {
     std::uint32_t index = 0; // colour index, up to kMaxColourIndex
     bool has_colour = false;
     std::array<float, 3> colour{}; // sRGB, 0 to 1
-    BytecodePicture picture;
-    BytecodePicture normal;
+    BytecodePicture picture;       // of the colour
+    BytecodePicture normal;        // normal map
     bool has_roughness = false;
     float roughness = 0.0F; // 0 to 1
     bool has_translucency = false;
@@ -262,11 +262,11 @@ struct Bytecode {
 
     std::vector<std::string> files; // paths; FileId of a Site indexes them
     std::vector<BytecodeSymbol> symbols;
-    std::vector<FoldedModule> folded;
-    std::vector<float> constants;
+    std::vector<FoldedModule> folded;    // modules with constant arguments
+    std::vector<float> constants;        // arguments of `folded`, one after the other
     std::vector<BytecodeGlobal> globals; // in source order; a global uses only earlier ones
-    std::vector<PatternItem> patterns;
-    std::vector<Code> template_codes;
+    std::vector<PatternItem> patterns;   // contexts and predecessors
+    std::vector<Code> template_codes;    // codes of axioms and successors
     std::vector<std::uint32_t> instructions;
     std::vector<Site> sites;
     std::vector<SiteRange> site_ranges;          // sorted by instruction

@@ -50,6 +50,7 @@ struct EnvironmentKey {
     [[nodiscard]] bool may_repeat() const {
         return form == EnvironmentKeyForm::Plane || form == EnvironmentKeyForm::Meshes;
     }
+    /// Whether the value is in the range of the key.
     [[nodiscard]] bool admits(float value) const;
 };
 

@@ -71,6 +71,7 @@ inline constexpr std::array<TurtleInfo, kTurtleOperationCount> TurtleInfo::kRows
 [[nodiscard]] constexpr std::string_view name_of(TurtleOperation operation) {
     return info(operation).name;
 }
+/// Whether the operation adds an element to the skeleton.
 [[nodiscard]] constexpr bool draws(TurtleOperation operation) {
     return info(operation).drawn != DrawnKind::Nothing;
 }

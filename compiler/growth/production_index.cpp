@@ -22,7 +22,7 @@ ProductionIndex::ProductionIndex(const Bytecode& bytecode) : bytecode_(&bytecode
             }
         }
     });
-    find_relevant();
+    find_relevant_parameters();
     find_age_dependence();
 }
 
@@ -54,7 +54,7 @@ bool ProductionIndex::scan(std::uint32_t production,
     return calls_step;
 }
 
-void ProductionIndex::find_relevant() {
+void ProductionIndex::find_relevant_parameters() {
     const Bytecode& bytecode = *bytecode_;
     std::uint32_t parameters = 0;
     for (const BytecodeSymbol& symbol : bytecode.symbols) {

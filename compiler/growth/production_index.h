@@ -31,16 +31,22 @@ public:
             .first_formal;
     }
 
+    /// Whether the parameter can decide how modules are rewritten: a condition, a weight or an
+    /// argument for a relevant parameter reads it.
     [[nodiscard]] bool is_relevant(SymbolId symbol, std::uint32_t parameter) const {
         return relevant_[parameter_base_[static_cast<std::size_t>(symbol)] + parameter];
     }
+    /// Number of relevant parameters of a symbol.
     [[nodiscard]] std::uint32_t relevant_count(SymbolId symbol) const;
+    /// Whether some symbol has a relevant parameter.
     [[nodiscard]] bool any_relevant() const { return any_relevant_; }
     /// Whether a condition, a weight or a relevant argument calls step().
     [[nodiscard]] bool depends_on_age() const { return depends_on_age_; }
 
 private:
-    void find_relevant();
+    /// Sets relevant_.
+    void find_relevant_parameters();
+    /// Sets depends_on_age_.
     void find_age_dependence();
     /// Calls visit(parameter) for each formal of the predecessor that the instructions, or the
     /// local values if the instructions use any, read. Returns whether one of them calls step().
@@ -48,10 +54,10 @@ private:
     bool scan(std::uint32_t production, InstructionRange instructions, Visit&& visit) const;
 
     const Bytecode* bytecode_;
-    GroupedLists by_symbol_;
-    GroupedLists by_group_;
+    GroupedLists by_symbol_;                    // see productions_of()
+    GroupedLists by_group_;                     // see group()
     std::vector<std::uint32_t> parameter_base_; // by symbol: its first parameter in relevant_
-    std::vector<bool> relevant_;
+    std::vector<bool> relevant_;                // by number of the parameter, see parameter_base_
     bool any_relevant_ = false;
     bool depends_on_age_ = false;
 };

@@ -57,10 +57,10 @@ struct Symbol {
     NameId name = kNoName;
     std::uint32_t parameter_count = 0;
     SymbolKind kind = SymbolKind::Plain;
-    bool ignored = false; // in contexts
-    TurtleOperation turtle = TurtleOperation::Nothing;
-    std::string mesh_file; // for MeshFile; for SetContour: the name of a contour, or empty
-    Sense sense = Sense::Nothing;
+    bool ignored = false;                              // in contexts
+    TurtleOperation turtle = TurtleOperation::Nothing; // effect of a module on the turtle
+    std::string mesh_file;        // for MeshFile; for SetContour: the name of a contour, or empty
+    Sense sense = Sense::Nothing; // quantity that a sense module reads
 };
 
 /// A module of an axiom or successor. Its arguments are the next Symbol::parameter_count entries of
@@ -75,7 +75,7 @@ struct ProgramWord {
     std::uint32_t first_module = 0; // index in Program::modules
     std::uint32_t module_count = 0;
     std::uint32_t first_argument = 0; // index in Program::arguments
-    std::uint32_t draw_count = 0;
+    std::uint32_t draw_count = 0;     // random ranges and distributions
     SourceSpan span;
 };
 
@@ -145,7 +145,7 @@ struct Global {
     SourceSpan span;
     ValueId value = kNoValue;
     std::uint32_t draw_position = 0; // index of its first draw among all of #define, #param, #w
-    std::uint32_t draw_count = 0;
+    std::uint32_t draw_count = 0;    // random ranges and distributions
     bool has_bounds = false;
     float minimum = 0.0F;
     float maximum = 0.0F;
@@ -176,8 +176,8 @@ struct ProgramMaterial {
     std::uint32_t index = 0;                    // a colour index, up to 65,535
     SourceSpan span;                            // place of the index
     std::optional<std::array<float, 3>> colour; // sRGB, 0 to 1
-    MaterialPictureName picture;
-    MaterialPictureName normal;
+    MaterialPictureName picture;                // of the colour
+    MaterialPictureName normal;                 // normal map
     std::optional<float> roughness;
     std::optional<float> translucency;
     std::optional<bool> two_sided;

@@ -245,7 +245,6 @@ void AstBuilder::set_file(NameId path, SourceSpan span) {
     ast_.set_values.push_back({span, false, path, kNoExpression, true});
 }
 
-/// The set values added since the last statement.
 ListRange AstBuilder::new_set_values() const {
     const auto first = static_cast<std::uint32_t>(watermark_.set_values);
     return {first, static_cast<std::uint32_t>(ast_.set_values.size()) - first};
@@ -328,8 +327,6 @@ void AstBuilder::recover() {
     arguments_.clear();
 }
 
-/// Returns whether 32-bit ids suffice for one more statement, which has fewer than 2^31 nodes of
-/// each kind; reports a grammar that is too large.
 bool AstBuilder::check_room(SourceSpan span) {
     constexpr std::size_t kMaxNodes = std::size_t{1} << 31;
     const std::size_t max_count =

@@ -166,25 +166,48 @@ private:
     };
 
     ExpressionId add(const Expression& expression);
+    /// Moves the last `count` arguments to Ast::expression_lists.
     ListRange take_arguments(std::uint32_t count);
+    /// The set values added since the last statement.
     [[nodiscard]] ListRange new_set_values() const;
+    /// Returns whether 32-bit ids suffice for one more statement, which has fewer than 2^31 nodes
+    /// of each kind; reports a grammar that is too large.
     [[nodiscard]] bool check_room(SourceSpan span);
+    /// Removes the nodes of the current statement.
     void rollback();
+    /// Makes node `index` of this kind the node of the current statement.
     void begin_node(StatementKind kind, std::size_t index);
     void push_module(NameId name, TextRange text);
+    /// Appends a module of text that was translated or edited before the scan.
     void push_module_of_edited_text(NameId name, TextRange text);
+    /// Appends a module; stores the end of its name if the text of the file does not give it.
     void push_with_place(NameId name, SourceSpan span);
+    /// Returns `span`, or the last span in the file of the list if `span` is in another file:
+    /// modules store offsets without files. Only statements of a translation can span files.
     [[nodiscard]] SourceSpan place_in_list(SourceSpan span);
+    /// Adds the modules appended since the list began, up to `span`.
     void extend_list(ModuleList& list, SourceSpan span);
+    /// Begins the call of the last module and sets CallNode::module. Returns false if the module
+    /// cannot take `parentheses`, which is reported here or has been reported before.
     [[nodiscard]] bool begin_call(SourceSpan parentheses, CallNode& call);
+    /// Reads `(1, 2.5, -3)` at `open` for the last module; returns its end. Precondition: the
+    /// scanner has matched the parentheses.
     std::uint32_t read_plain_arguments(std::uint32_t open, std::uint32_t name_end);
     ExpressionId plain_number(std::uint32_t begin, std::uint32_t end);
+    /// Appends each letter as a module; reports other characters.
     void push_letters(TextRange word);
+    /// Appends the sense module `?NAME` at the beginning of `run`; returns its end. With single
+    /// letters NAME is one letter.
     std::uint32_t push_sense(TextRange run);
+    /// Appends one character, which stands for the bytes of `text`.
     void push_character(std::string_view character, TextRange text);
+    /// Names::intern() with a cache of short names.
     NameId intern_word(std::string_view word);
+    /// Counts open brackets; reports branches that are nested too deep.
     void count_bracket(char bracket, SourceSpan span);
-    void check_stray_comment(std::uint32_t slashes);
+    /// Records a `//` before a word; the author may have meant a comment.
+    void record_slashes(std::uint32_t slashes);
+    /// The place of a name without the `#` before it.
     [[nodiscard]] SourceSpan name_without_hash(SourceSpan label) const;
 
     const ScannedText& scanned_;

@@ -40,7 +40,7 @@ private:
     const ParseContext& context_;
     std::vector<Link> chain_;
     std::unordered_map<std::string, FileId> read_; // files read so far, by normalised path
-    std::uint32_t inclusions_ = 0;
+    std::uint32_t inclusions_ = 0;                 // number of inclusions so far
 };
 
 } // namespace lsys

@@ -50,8 +50,6 @@ ModuleList AstBuilder::empty_modules(SourceSpan where) {
     return {static_cast<std::uint32_t>(ast_.modules.size()), 0, where};
 }
 
-/// Returns `span`, or the last span in the file of the list if `span` is in another file: modules
-/// store offsets without files. Only statements of a translation can span files.
 SourceSpan AstBuilder::place_in_list(SourceSpan span) {
     if (scanned_.translation == nullptr) {
         return span;
@@ -79,12 +77,10 @@ inline void AstBuilder::push_module(NameId name, TextRange text) {
     last_name_ = LastName::Bare;
 }
 
-/// Appends a module of text that was translated or edited before the scan.
 void AstBuilder::push_module_of_edited_text(NameId name, TextRange text) {
     push_with_place(name, place_in_list(scanned_.span(text.begin, text.end)));
 }
 
-/// Appends a module; stores the end of its name if the text of the file does not give it.
 void AstBuilder::push_with_place(NameId name, SourceSpan span) {
     ast_.modules.push_back({name, span.begin});
     const std::string_view text = names_.text(name);
@@ -128,7 +124,7 @@ ModuleList AstBuilder::modules(ModuleList list, TextRange run) {
         case CharacterClass::Slash:
             if (at + 1 < run.end && text[at + 1] == '/' &&
                 (at == run.begin || text[at - 1] != '/')) {
-                check_stray_comment(at);
+                record_slashes(at);
             }
             break;
         case CharacterClass::Bracket:
@@ -166,8 +162,6 @@ NameId AstBuilder::intern_word(std::string_view word) {
     return cached.name;
 }
 
-/// Appends the sense module `?NAME` at the beginning of `run`; returns its end. With single letters
-/// NAME is one letter.
 std::uint32_t AstBuilder::push_sense(TextRange run) {
     const std::string_view text = scanned_.text;
     std::uint32_t end = run.begin + 2;
@@ -211,7 +205,6 @@ ModuleList AstBuilder::quoted_module(ModuleList list, NameId name, SourceSpan sp
     return list;
 }
 
-/// Appends one character, which stands for the bytes of `text`.
 void AstBuilder::push_character(std::string_view character, TextRange text) {
     if (character.size() > 1) {
         push_module(names_.intern(character), text);
@@ -261,8 +254,6 @@ AstBuilder::module_arguments(ModuleList list, std::uint32_t count, SourceSpan pa
     return list;
 }
 
-/// Begins the call of the last module and sets CallNode::module. Returns false if the module cannot
-/// take `parentheses`, which is reported here or has been reported before.
 bool AstBuilder::begin_call(SourceSpan parentheses, CallNode& call) {
     switch (last_name_) {
     case LastName::None:
@@ -290,8 +281,6 @@ bool AstBuilder::begin_call(SourceSpan parentheses, CallNode& call) {
     return true;
 }
 
-/// Reads `(1, 2.5, -3)` at `open` for the last module; returns its end. Precondition: the scanner
-/// has matched the parentheses.
 std::uint32_t AstBuilder::read_plain_arguments(std::uint32_t open, std::uint32_t name_end) {
     const std::string_view text = scanned_.text;
     CallNode call;
@@ -356,8 +345,7 @@ void AstBuilder::remove_slashes(std::uint32_t begin) {
     }
 }
 
-/// Records a `//` before a word; the author may have meant a comment.
-void AstBuilder::check_stray_comment(std::uint32_t slashes) {
+void AstBuilder::record_slashes(std::uint32_t slashes) {
     // Maximum per grammar; bounds the memory for files that use `//` to roll the turtle twice.
     constexpr std::size_t kMaxKept = 10'000;
     const std::size_t next = scanned_.text.find_first_not_of(" \t", slashes + 2);

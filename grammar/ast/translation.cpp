@@ -81,7 +81,6 @@ std::vector<FileId> Translation::files() const {
     return files;
 }
 
-/// The part with the byte at `offset`; the last part beyond the end.
 const Translation::Part& Translation::part_at(std::uint32_t offset) const {
     LSYS_CHECK(!parts_.empty());
     if (hint_ >= parts_.size()) {

@@ -59,13 +59,15 @@ private:
         bool verbatim = false; // corresponds to span byte by byte
         SourceSpan span;
     };
+    /// The part with the byte at `offset`; the last part beyond the end.
     [[nodiscard]] const Part& part_at(std::uint32_t offset) const;
+    /// Whether `text` still fits into max_bytes_; records the first place where it does not.
     [[nodiscard]] bool claim_room(std::string_view text, SourceSpan span);
 
     FileId file_;
     std::uint64_t max_bytes_ = 0;
-    std::optional<SourceSpan> overflow_;
-    std::string text_; // at most max_bytes_
+    std::optional<SourceSpan> overflow_; // first place whose text does not fit
+    std::string text_;                   // at most max_bytes_
     std::vector<Part> parts_;
     std::map<std::string, std::string> replaced_names_;
     mutable std::size_t hint_ = 0; // last part_at(), a start for the next search

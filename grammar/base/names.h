@@ -18,6 +18,7 @@ inline constexpr NameId kNoName{0x7FFFFFFFu};
 
 class Names {
 public:
+    /// The id of `text`, which is added if it is new.
     NameId intern(std::string_view text);
     /// The id of `text`; kNoName if `text` is not interned.
     [[nodiscard]] NameId find(std::string_view text) const;

@@ -48,7 +48,7 @@ public:
                 begin_item(first, after_comment);
             }
             const std::size_t begin = reader.offset() - first.text.size();
-            rows_.push_back(measure(text_, begin, beside_comment ? column_ : 0));
+            rows_.push_back(measure_statement(text_, begin, beside_comment ? column_ : 0));
             find_comments(rows_.back());
             const LayoutRow& row = rows_.back();
             at = row.comments_end;

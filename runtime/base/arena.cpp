@@ -115,9 +115,6 @@ bool Arena::reserve(std::size_t bytes) {
     return true;
 }
 
-/// Requests huge pages for the bytes in use; for the last huge page only if a third of that page is
-/// in use. Populates the small pages after the huge pages; pages before byte `before` are already
-/// in use.
 void Arena::prepare_pages(std::size_t before) {
     if (capacity_ > kMaxSmallArena) {
         const std::size_t rest = max_reserved_ % kHugePage;

@@ -42,6 +42,9 @@ public:
     [[nodiscard]] std::size_t max_reserved() const { return max_reserved_; }
 
 private:
+    /// Requests huge pages for the bytes in use; for the last huge page only if a third of that
+    /// page is in use. Populates the small pages after the huge pages; pages before byte `before`
+    /// are already in use.
     void prepare_pages(std::size_t before);
 
     std::byte* data_ = nullptr;

@@ -194,7 +194,6 @@ void TilesetFolder::name_files(const std::unique_lock<std::mutex>& /*lock*/) {
     outputs_.clear();
 }
 
-/// Makes a folder below the folder of the tileset.
 void TilesetFolder::make_folder(std::string_view path) {
     const std::lock_guard<std::mutex> lock(mutex_);
     if (!folders_.insert(std::string(path)).second) {

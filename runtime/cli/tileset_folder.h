@@ -83,10 +83,13 @@ private:
         std::uint64_t end = 0;     // one more than the number of its last file
     };
 
+    /// Adds the files of one kind and level, with the next numbers.
     void add_section(Kind kind, std::uint32_t level);
     void write_numbered(std::uint64_t number);
+    /// Writes the bytes that make() returns, unless the file exists and the command resumes.
     template <typename Make>
     void write_file_at(const std::string& path, const Make& make);
+    /// Makes a folder below the folder of the tileset.
     void make_folder(std::string_view path);
     /// Stores the files of `outputs_` on the disk, then gives them their names.
     void name_files();

@@ -94,8 +94,8 @@ struct DerivationPass {
     std::uint32_t number = 0;     // Decompose, Interpret: index among the passes of this kind
     std::uint32_t generation = 0; // key of its random draws; value of step() in the grammar
     std::uint64_t first_draw = 0; // number of the first draw of each module
-    const Word* in = nullptr;
-    const Word* out = nullptr; // null: the pass is about to begin
+    const Word* in = nullptr;     // the word that the pass reads
+    const Word* out = nullptr;    // null: the pass is about to begin
     /// Down, Up: the module at which the sweep ended with an error; kNoFault: none. Modules that
     /// the sweep had not visited are equal in `in` and `out`.
     std::uint64_t fault = kNoFault;

@@ -100,7 +100,6 @@ WordPrinter::WordPrinter(const Bytecode& bytecode) {
     }
 }
 
-/// Prints words whose modules are one character each, by a table.
 bool WordPrinter::write_letters(std::span<const std::uint8_t> codes, const Sink& sink) {
     const char* const letters = letters_.data();
     while (!codes.empty()) {

@@ -56,8 +56,11 @@ private:
     };
     using Sink = std::function<bool(std::string_view)>;
 
+    /// Makes pairs_.
     void make_pairs();
+    /// print() without the quotes around the word.
     [[nodiscard]] bool print_modules(const Word& word, const Sink& flush);
+    /// Prints words whose modules are one character each, by a table.
     [[nodiscard]] bool write_letters(std::span<const std::uint8_t> codes, const Sink& sink);
 
     template <typename C>

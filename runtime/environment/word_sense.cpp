@@ -83,15 +83,15 @@ public:
         const SenseOfCode sense_of_code = senses_[module.code];
         switch (sense_of_code.sense) {
         case Sense::Position:
-            return write(module, sense_of_code.count, pose.position, 1.0);
+            return write_vector(module, sense_of_code.count, pose.position, 1.0);
         case Sense::Heading:
-            return write(module, sense_of_code.count, pose.heading, 1.0);
+            return write_vector(module, sense_of_code.count, pose.heading, 1.0);
         case Sense::Up:
-            return write(module, sense_of_code.count, pose.up, 1.0);
+            return write_vector(module, sense_of_code.count, pose.up, 1.0);
         case Sense::Right:
-            return write(module, sense_of_code.count, pose.right, 1.0);
+            return write_vector(module, sense_of_code.count, pose.right, 1.0);
         case Sense::Left:
-            return write(module, sense_of_code.count, pose.right, -1.0);
+            return write_vector(module, sense_of_code.count, pose.right, -1.0);
         default:
             break;
         }
@@ -114,10 +114,10 @@ private:
         std::uint32_t count = 0; // numbers of the answer for which the module has parameters
     };
 
-    void write(const SenseModule& module,
-               std::uint32_t count,
-               const std::array<double, 3>& vector,
-               double sign) {
+    void write_vector(const SenseModule& module,
+                      std::uint32_t count,
+                      const std::array<double, 3>& vector,
+                      double sign) {
         float* const parameters = parameters_.data() + module.first_parameter;
         for (std::uint32_t i = 0; i < count; ++i) {
             parameters[i] = static_cast<float>(sign * vector[i]) + 0.0F; // -0 becomes 0
@@ -296,14 +296,13 @@ EnvironmentSense::ask(std::size_t index, Word& word, std::uint32_t age, Derivati
     if (!all_places.empty()) {
         sensed.answers.resize(sensed.places.size() * size);
     }
-    return write(index, word, age, end);
+    return write_answers(index, word, age, end);
 }
 
-/// Writes the answers into the first parameters of the modules.
-std::optional<Stop> EnvironmentSense::write(std::size_t index,
-                                            Word& word,
-                                            std::uint32_t age,
-                                            DerivationEnd& end) const {
+std::optional<Stop> EnvironmentSense::write_answers(std::size_t index,
+                                                    Word& word,
+                                                    std::uint32_t age,
+                                                    DerivationEnd& end) const {
     const SensedEnvironment& sensed = sensed_[index];
     const std::uint32_t fixed = answer_size(bytecode_.environments[index].kind);
     const float* answer = sensed.answers.data();

@@ -79,8 +79,9 @@ private:
     /// Asks environment `index` for its answers, and stores them in sensed_.
     [[nodiscard]] std::optional<Stop>
     ask(std::size_t index, Word& word, std::uint32_t age, DerivationEnd& end);
+    /// Writes the answers into the first parameters of the modules.
     [[nodiscard]] std::optional<Stop>
-    write(std::size_t index, Word& word, std::uint32_t age, DerivationEnd& end) const;
+    write_answers(std::size_t index, Word& word, std::uint32_t age, DerivationEnd& end) const;
     /// Sets `end` to a failure of environment `index`. `word`: null before the first word.
     [[nodiscard]] std::optional<Stop> end_failed(std::size_t index,
                                                  EnvironmentFailure failure,

@@ -96,6 +96,7 @@ struct ForestCounts {
 void for_each_piece(const Forest& forest,
                     std::uint32_t threads,
                     const std::function<void(std::uint64_t, std::span<const Tree>)>& visit);
+/// Number of pieces of for_each_piece().
 [[nodiscard]] std::uint64_t piece_count(const Forest& forest);
 
 /// Counts the branches of all trees by expanding every tree. Time is linear in the number of

@@ -176,6 +176,7 @@ public:
 private:
     static constexpr std::uint32_t kHidden = ~std::uint32_t{0}; // order of unvisited instances
 
+    /// An exit to expand.
     struct Pending {
         glm::quat rotation;
         glm::vec3 position;
@@ -205,8 +206,10 @@ private:
         std::size_t count_ = 0;
     };
 
+    /// The instance of `slot` that node number `node` of a tree takes.
     [[nodiscard]] std::uint32_t
     choose(const InstanceSlot& slot, std::uint32_t tree, std::uint32_t node);
+    /// Adds the exits of an instance, placed at `at`, to pending_.
     void add_exits(const Instance& instance, const BranchInstance& at);
 
     const InstanceCache& cache_;

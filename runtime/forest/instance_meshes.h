@@ -60,6 +60,7 @@ struct InstancePose {
     glm::vec3 translation{}; // m
     float scale = 1.0F;
 };
+/// The pose of the mesh of an instance at the place of a branch.
 [[nodiscard]] InstancePose pose_of(const BranchInstance& branch, const Instance& instance);
 
 } // namespace lsys

@@ -24,6 +24,7 @@ struct HeightTable {
     std::vector<std::optional<double>> whole;
     double min_height = 0.0; // m; a lower tree counts as flat
 };
+/// Measures the instances of a cache.
 [[nodiscard]] HeightTable make_height_table(const InstanceCache& cache);
 
 /// Measures trees of one cache at scale 1. Use one for each thread.

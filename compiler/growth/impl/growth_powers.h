@@ -39,7 +39,7 @@ private:
     [[nodiscard]] GrowthWalk
     advanced_by(const GrowthWalk& walk, const Power& power, std::uint32_t generations);
 
-    std::size_t size_ = 0;
+    std::size_t size_ = 0;     // number of classes: rows and columns of a Matrix
     std::uint32_t period_ = 1; // generations; the number of rules in cyclic rewriting, else 1
     bool never_shrinks_ = true;
     std::vector<Power> powers_; // the maps of 1, 2, 4, ... periods

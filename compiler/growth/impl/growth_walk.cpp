@@ -64,7 +64,7 @@ GenerationSize size_of(const Bytecode& bytecode, Code code) {
 
 GrowthWalk::GrowthWalk(ModuleClasses& classes) : classes_(&classes) {
     const ClassExpansion start = classes.start();
-    reserve();
+    reserve_counts();
     for (const ClassTerm& term : classes.terms(start.high)) {
         add_present(term.target);
         high_[static_cast<std::size_t>(term.target)] = count_of(term.count);
@@ -112,10 +112,10 @@ void GrowthWalk::list_rules() {
             sequences_[i].max_written.push_back({target, count});
         }
     }
-    reserve();
+    reserve_counts();
 }
 
-void GrowthWalk::reserve() {
+void GrowthWalk::reserve_counts() {
     const std::size_t count = classes_->count();
     if (low_.size() < count) {
         low_.resize(count);
@@ -155,7 +155,6 @@ SymbolId GrowthWalk::cause_of_next() const {
     return kNoSymbol;
 }
 
-/// Replaces all modules of these classes by their outcomes.
 void GrowthWalk::rewrite(std::span<const ClassId> ids) {
     struct Taken {
         ClassId id;
@@ -174,7 +173,7 @@ void GrowthWalk::rewrite(std::span<const ClassId> ids) {
     }
     for (const Taken& t : taken) {
         const ClassExpansion expansion = classes_->expand(t.id, age_);
-        reserve();
+        reserve_counts();
         const std::span<const ClassTerm> high = classes_->terms(expansion.high);
         const std::span<const ClassTerm> low = classes_->terms(expansion.low);
         for (const ClassTerm& term : high) {
@@ -222,8 +221,6 @@ Count GrowthWalk::max_matches(const SequenceRule& rule) const {
     return matches;
 }
 
-/// Subtracts the modules that the rule replaces from the lower bounds, because up to `matches`
-/// matches may occur.
 void GrowthWalk::subtract_replaced(const SequenceRule& rule, const Count& matches) {
     if (is_zero(matches)) {
         return;
@@ -237,11 +234,11 @@ void GrowthWalk::subtract_replaced(const SequenceRule& rule, const Count& matche
     }
 }
 
-void GrowthWalk::write(const SequenceRule& rule, const Count& matches) {
+void GrowthWalk::add_written(const SequenceRule& rule, const Count& matches) {
     if (is_zero(matches)) {
         return;
     }
-    reserve();
+    reserve_counts();
     for (const ClassTerm& term : rule.max_written) {
         add_present(term.target);
         add_times(high_[static_cast<std::size_t>(term.target)], matches, term.count);
@@ -249,13 +246,13 @@ void GrowthWalk::write(const SequenceRule& rule, const Count& matches) {
     work_ += rule.max_written.size();
 }
 
-void GrowthWalk::apply(const Rule& rule) {
+void GrowthWalk::apply_rule(const Rule& rule) {
     ++work_;
     if (rule.sequence != kNone) {
         const SequenceRule& sequence = sequences_[rule.sequence];
         const Count matches = max_matches(sequence);
         subtract_replaced(sequence, matches);
-        write(sequence, matches);
+        add_written(sequence, matches);
         return;
     }
     const auto found = by_symbol_.find(static_cast<std::uint32_t>(rule.symbol));
@@ -306,20 +303,20 @@ void GrowthWalk::advance() {
         const std::vector<ClassId> ids = present_;
         rewrite(ids);
         for (std::size_t i = 0; i < sequences_.size(); ++i) {
-            write(sequences_[i], matches[i]);
+            add_written(sequences_[i], matches[i]);
         }
         break;
     }
     case RewritingMode::Sequential:
         index_by_symbol();
         for (const Rule& rule : rules_) {
-            apply(rule);
+            apply_rule(rule);
         }
         break;
     case RewritingMode::Cyclic:
         if (!rules_.empty()) {
             index_by_symbol();
-            apply(rules_[age_ % rules_.size()]);
+            apply_rule(rules_[age_ % rules_.size()]);
         }
         break;
     }
@@ -366,7 +363,7 @@ bool GrowthWalk::is_final() {
                     [&](const SequenceRule& rule) { return is_zero(max_matches(rule)); });
     return none && std::all_of(present_.begin(), present_.end(), [&](ClassId id) {
                const ClassExpansion expansion = classes_->expand(id, age_);
-               reserve();
+               reserve_counts();
                return expansion.unchanged;
            });
 }
@@ -383,7 +380,7 @@ ProductionId GrowthWalk::dominant() {
     const std::vector<ClassId> ids = present_;
     for (const ClassId id : ids) {
         const ClassExpansion expansion = classes_->expand(id, age_);
-        reserve();
+        reserve_counts();
         const auto i = static_cast<std::size_t>(id);
         for (const ClassOutcome& outcome : classes_->outcomes(expansion.outcomes)) {
             if (outcome.production == kNoProduction) {
@@ -424,7 +421,7 @@ void GrowthWalk::load(std::uint32_t age, std::span<const Count> low, std::span<c
     present_.clear();
     by_symbol_.clear();
     probabilities_known_ = false;
-    reserve();
+    reserve_counts();
     age_ = age;
     for (std::size_t i = 0; i < high.size(); ++i) {
         if (!is_zero(high[i]) || !is_zero(low[i])) {

@@ -27,8 +27,10 @@ public:
     explicit GrowthWalk(ModuleClasses& classes);
 
     [[nodiscard]] std::uint32_t age() const { return age_; }
+    /// Rewrites the word into the word of the next generation.
     void advance();
 
+    /// Bounds of the size of the word.
     [[nodiscard]] GenerationSize low() const { return total(low_, true); }
     [[nodiscard]] GenerationSize high() const { return total(high_, false); }
     [[nodiscard]] double expected_modules() const;
@@ -47,6 +49,7 @@ public:
     /// Number of terms processed so far.
     [[nodiscard]] std::uint64_t work() const { return work_; }
 
+    /// Bounds of the number of modules of a class in the word.
     [[nodiscard]] Count low(ClassId id) const { return at(low_, id); }
     [[nodiscard]] Count high(ClassId id) const { return at(high_, id); }
     [[nodiscard]] std::span<const ClassId> present() const { return present_; }
@@ -70,15 +73,25 @@ private:
         return i < counts.size() ? counts[i] : Count{};
     }
     void list_rules();
-    void apply(const Rule& rule);
+    /// Rewrites the modules of the word that a rule matches.
+    void apply_rule(const Rule& rule);
+    /// Replaces all modules of these classes by their outcomes.
     void rewrite(std::span<const ClassId> ids);
+    /// Subtracts the modules that the rule replaces from the lower bounds, because up to `matches`
+    /// matches may occur.
     void subtract_replaced(const SequenceRule& rule, const Count& matches);
-    void write(const SequenceRule& rule, const Count& matches);
+    /// Adds the modules that `matches` matches of the rule write to the upper bounds.
+    void add_written(const SequenceRule& rule, const Count& matches);
+    /// Max number of matches of the rule in the word.
     [[nodiscard]] Count max_matches(const SequenceRule& rule) const;
+    /// Adds a class to present_, unless present_ has it.
     void add_present(ClassId id);
-    void reserve();
+    /// Extends the lists of counts to classes that were added.
+    void reserve_counts();
     void index_by_symbol();
+    /// Removes classes without modules from present_.
     void drop_absent();
+    /// The size of a word with these counts by class.
     [[nodiscard]] GenerationSize total(const std::vector<Count>& counts, bool is_low) const;
 
     ModuleClasses* classes_;
@@ -91,8 +104,9 @@ private:
     std::vector<ClassId> present_; // classes with modules in the word
     std::vector<Rule> rules_;      // used in rewriting modes with a pass per rule
     std::vector<SequenceRule> sequences_;
+    /// The classes in present_, by SymbolId.
     std::unordered_map<std::uint32_t, std::vector<ClassId>> by_symbol_;
-    std::uint64_t work_ = 0;
+    std::uint64_t work_ = 0; // see work()
 };
 
 } // namespace lsys::analysis

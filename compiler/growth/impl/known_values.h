@@ -45,7 +45,7 @@ public:
 
 private:
     std::vector<KnownValue> stack_;
-    std::vector<KnownValue> slots_;
+    std::vector<KnownValue> slots_; // local values
     std::uint64_t work_ = 0;
 };
 

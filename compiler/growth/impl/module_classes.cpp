@@ -63,7 +63,6 @@ ClassId ModuleClasses::add_class(Code code, std::uint32_t first_value) {
     return id;
 }
 
-/// The class of a code without relevant stored parameters.
 ClassId ModuleClasses::fixed_class(Code code) {
     if (fixed_ids_[code] == kNone) {
         fixed_ids_[code] = static_cast<std::uint32_t>(add_class(code, kNone));
@@ -71,7 +70,6 @@ ClassId ModuleClasses::fixed_class(Code code) {
     return static_cast<ClassId>(fixed_ids_[code]);
 }
 
-/// The class of a code with unknown parameters.
 ClassId ModuleClasses::unknown_class(Code code) {
     const SymbolId symbol = bytecode_->symbol_of(code);
     const std::uint32_t values =
@@ -91,7 +89,7 @@ ClassId ModuleClasses::unknown_class(Code code) {
 }
 
 ClassId ModuleClasses::class_with_known_values(Code code, std::span<const KnownValue> values) {
-    if (exhausted()) {
+    if (is_work_exhausted()) {
         return unknown_class(code);
     }
     std::vector<std::uint32_t> key{code};
@@ -194,7 +192,7 @@ TableRange ModuleClasses::instantiate(const CountedWord& word, const ExpressionI
     work_ += word.fixed.size() + word.variable.size();
     for (const VariableModule& module : word.variable) {
         values.assign(index_.relevant_count(static_cast<SymbolId>(module.code)), KnownValue{});
-        if (!exhausted()) {
+        if (!is_work_exhausted()) {
             const auto symbol = static_cast<SymbolId>(module.code);
             std::uint32_t parameter = 0;
             for (std::size_t i = 0; i < values.size(); ++i, ++parameter) {
@@ -358,7 +356,6 @@ ModuleClasses::Matches ModuleClasses::match(SymbolId symbol,
     return matches;
 }
 
-/// The matches of a module over all values of its unknown parameters.
 ModuleClasses::Matches ModuleClasses::match_everywhere(SymbolId symbol,
                                                        std::span<const KnownValue> parameters) {
     const std::span<const std::uint32_t> productions = index_.productions_of(symbol);
@@ -423,8 +420,6 @@ bool ModuleClasses::is_identity(Code code, std::uint32_t production) const {
     return true;
 }
 
-/// Whether every outcome yields the module itself, and nothing else changes it. More than 16
-/// outcomes count as a change.
 bool ModuleClasses::is_unchanged(const ClassExpansion& expansion, Code code) const {
     constexpr std::uint32_t kMaxOutcomes = 16;
     if (expansion.outcomes.count > kMaxOutcomes || may_change(bytecode_->symbol_of(code), 0)) {
@@ -471,7 +466,6 @@ ClassExpansion ModuleClasses::expand_matches(const Matches& matches,
     return expansion;
 }
 
-/// Stores the outcomes, and the min and max count of each class over them.
 void ModuleClasses::set_outcomes(const std::vector<ClassOutcome>& outcomes,
                                  ClassExpansion& expansion) {
     expansion.outcomes = {static_cast<std::uint32_t>(outcomes_.size()),
@@ -480,7 +474,6 @@ void ModuleClasses::set_outcomes(const std::vector<ClassOutcome>& outcomes,
     add_bounds(expansion);
 }
 
-/// Adds the min and max count of each class over the outcomes.
 void ModuleClasses::add_bounds(ClassExpansion& expansion) {
     if (expansion.outcomes.count == 1) {
         expansion.low = expansion.high = outcomes_[expansion.outcomes.first].terms;
@@ -531,7 +524,7 @@ const ClassExpansion& ModuleClasses::expand(ClassId id, std::uint32_t age) {
     if (index_.productions_of(symbol).empty()) {
         expansion = expand_matches(Matches{{{kNone, 1.0}}, true}, id, {});
         expansion.unchanged = !may_change(symbol, 0);
-    } else if (no_values || exhausted()) {
+    } else if (no_values || is_work_exhausted()) {
         // One expansion serves all codes of the symbol.
         ClassExpansion& shared = shared_[static_cast<std::uint32_t>(symbol)];
         if (!shared.done) {
@@ -541,7 +534,7 @@ const ClassExpansion& ModuleClasses::expand(ClassId id, std::uint32_t age) {
         }
         expansion = shared;
         if (shared.copies && id != unknown_class(static_cast<Code>(symbol))) {
-            if (exhausted()) {
+            if (is_work_exhausted()) {
                 covers_folded_ = true; // the symbol's class now counts its folded modules
             } else {
                 const std::vector<KnownValue> values = parameters(id);

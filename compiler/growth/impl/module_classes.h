@@ -106,10 +106,10 @@ private:
     };
     /// A word, with modules of fixed classes counted by class.
     struct CountedWord {
-        bool is_counted = false;      // the modules have been counted
-        std::uint32_t locals = kNone; // code of the local values
-        std::vector<ClassTerm> fixed;
-        std::vector<VariableModule> variable;
+        bool is_counted = false;              // the modules have been counted
+        std::uint32_t locals = kNone;         // code of the local values
+        std::vector<ClassTerm> fixed;         // modules of fixed classes
+        std::vector<VariableModule> variable; // the other modules
     };
     struct Match {
         std::uint32_t production = kNone; // kNone: no production matches, the module is copied
@@ -125,9 +125,12 @@ private:
     void fill_causes(); // sets what causes() returns
     static std::size_t number(ClassId id) { return static_cast<std::size_t>(id); }
     ClassId add_class(Code code, std::uint32_t first_value);
+    /// The class of a code without relevant stored parameters.
     ClassId fixed_class(Code code);
     ClassId class_with_known_values(Code code, std::span<const KnownValue> values);
+    /// The class of a code with unknown parameters.
     ClassId unknown_class(Code code);
+    /// Counts the modules of a word whose classes are fixed, and lists the others.
     void count_word(const WordTemplate& word, CountedWord& out);
     /// Appends the terms of a word to terms_, merged and in order of classes.
     TableRange instantiate(const CountedWord& word, const ExpressionInputs& inputs);
@@ -137,6 +140,7 @@ private:
     [[nodiscard]] bool may_change(SymbolId symbol, std::uint32_t parameter) const {
         return parameter < changed_parameters_[static_cast<std::size_t>(symbol)];
     }
+    /// The value of the condition of a production for a module with these parameters.
     KnownValue condition(std::uint32_t production, std::span<const KnownValue> parameters);
     KnownValue weight_of(std::uint32_t production, std::span<const KnownValue> parameters);
     KnownValue value_of(std::uint32_t production,
@@ -148,26 +152,33 @@ private:
     Matches match(SymbolId symbol,
                   std::span<const KnownValue> point,
                   std::span<const KnownValue> parameters);
+    /// The matches of a module over all values of its unknown parameters.
     Matches match_everywhere(SymbolId symbol, std::span<const KnownValue> parameters);
     ClassExpansion
     expand_matches(const Matches& matches, ClassId self, std::span<const KnownValue> parameters);
+    /// Stores the outcomes, and the min and max count of each class over them.
     void set_outcomes(const std::vector<ClassOutcome>& outcomes, ClassExpansion& expansion);
+    /// Adds the min and max count of each class over the outcomes.
     void add_bounds(ClassExpansion& expansion);
+    /// Whether every outcome yields the module itself, and nothing else changes it. More than 16
+    /// outcomes count as a change.
     [[nodiscard]] bool is_unchanged(const ClassExpansion& expansion, Code code) const;
+    /// Whether the production writes the same module with the same parameters.
     [[nodiscard]] bool is_identity(Code code, std::uint32_t production) const;
-    [[nodiscard]] bool exhausted() const { return work_ + evaluator_.work() > kMaxWork; }
+    /// Whether kMaxWork is exceeded.
+    [[nodiscard]] bool is_work_exhausted() const { return work_ + evaluator_.work() > kMaxWork; }
 
     const Bytecode* bytecode_;
     ProductionIndex index_;
-    std::uint32_t steps_;
+    std::uint32_t steps_;                           // requested generations
     std::vector<std::uint32_t> changed_parameters_; // see changed_parameters()
     std::vector<std::vector<SymbolId>> causes_;     // by symbol
-    bool covers_folded_ = false;
+    bool covers_folded_ = false;                    // see covers_folded()
     std::uint32_t age_ = 0; // age of the word that expansions_ are valid for
 
     std::vector<Class> classes_;
-    std::vector<KnownValue> values_;
-    std::vector<std::uint32_t> fixed_ids_;   // by code: the class without values, or kNone
+    std::vector<KnownValue> values_;       // relevant parameters of classes, see Class::first_value
+    std::vector<std::uint32_t> fixed_ids_; // by code: the class without values, or kNone
     std::vector<std::uint32_t> unknown_ids_; // by code: the class with unknown values
     std::map<std::vector<std::uint32_t>, ClassId> known_value_ids_; // classes with known values
     std::vector<ClassExpansion> expansions_;
@@ -176,12 +187,12 @@ private:
     std::vector<ClassOutcome> outcomes_;
     std::vector<ClassTerm> terms_;
     std::unordered_map<std::uint32_t, CountedWord> words_; // by production
-    std::vector<std::uint32_t> argument_starts_;
-    std::vector<std::uint32_t> code_counts_; // scratch of count_word
-    std::vector<KnownValue> formals_;        // scratch of value_of
+    std::vector<std::uint32_t> argument_starts_; // first instructions of relevant arguments
+    std::vector<std::uint32_t> code_counts_;     // scratch of count_word
+    std::vector<KnownValue> formals_;            // scratch of value_of
 
     Evaluator evaluator_;
-    std::uint64_t work_ = 0;
+    std::uint64_t work_ = 0; // counts towards kMaxWork
 };
 
 } // namespace lsys::analysis

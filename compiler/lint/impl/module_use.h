@@ -29,10 +29,11 @@ struct ModuleUse {
     std::vector<std::uint32_t> first_production; // per symbol: the first that rewrites it, or kNone
     std::vector<bool> in_context;                // per symbol: some context names it
     std::vector<bool> declared;                  // per symbol: a #module declares it
-    std::unordered_map<std::uint32_t, std::vector<SymbolId>> by_name;
+    std::unordered_map<std::uint32_t, std::vector<SymbolId>> by_name; // by NameId
     bool draws = false;         // some module that occurs draws
     std::vector<bool> reported; // per symbol: a message about its name has been reported
 
+    /// The symbols with the name of `id`, one for each number of parameters; `id` is one of them.
     [[nodiscard]] const std::vector<SymbolId>& same_name(const Program& program,
                                                          SymbolId id) const {
         return by_name.at(static_cast<std::uint32_t>(program.symbol(id).name));

@@ -23,6 +23,7 @@ argument_spans(const CheckInput& input, const ProgramWord& word, std::size_t ind
 /// Whether the condition is a number between 0 and 1, which is meant as a probability.
 [[nodiscard]] bool is_meant_as_probability(const CheckInput& input, const Production& production);
 
+/// The place of an item of a context or predecessor.
 [[nodiscard]] SourceSpan item_span(const Production& production, const ProgramPatternItem& item);
 
 /// "(0, 0, 0, 0)": first values for an answer of `count` numbers.

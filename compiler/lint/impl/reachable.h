@@ -23,6 +23,7 @@ struct Reachable {
     }
 };
 
+/// Finds the symbols that can occur and the productions that can be used.
 [[nodiscard]] Reachable find_reachable(const Program& program);
 
 } // namespace lsys

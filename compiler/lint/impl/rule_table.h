@@ -19,8 +19,8 @@ namespace lsys {
 struct RuleTable {
     std::vector<std::uint32_t> productions; // indices of productions, in file order
     analysis::ConditionGrid grid;
-    std::uint64_t points = 0;
-    std::vector<bool> truth; // row-major
+    std::uint64_t points = 0; // number of columns
+    std::vector<bool> truth;  // row-major
 
     [[nodiscard]] bool holds(std::size_t row, std::uint64_t point) const {
         return truth[row * points + point];

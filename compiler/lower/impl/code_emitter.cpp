@@ -44,19 +44,19 @@ CodeEmitter::CodeEmitter(const Program& program, const SourceMap& sources, Bytec
         if (value.left == kNoValue) {
             continue;
         }
-        const std::uint32_t left = need(value.left);
+        const std::uint32_t left = stack_need(value.left);
         if (value.right == kNoValue) {
             stack_need_[i] = left;
             continue;
         }
-        const std::uint32_t right = need(value.right);
+        const std::uint32_t right = stack_need(value.right);
         const std::uint32_t left_to_right_need = std::max(left, right + 1);
         switch (value.opcode) {
         case Opcode::If: // the stack holds the condition, then `left`, while `right` is computed
-            stack_need_[i] = std::max({need(value.third), left + 1, right + 2});
+            stack_need_[i] = std::max({stack_need(value.third), left + 1, right + 2});
             break;
         case Opcode::Mix:
-            stack_need_[i] = std::max(left_to_right_need, need(value.third) + 2);
+            stack_need_[i] = std::max(left_to_right_need, stack_need(value.third) + 2);
             break;
         case Opcode::SetLocal:
             stack_need_[i] = std::max(left, right);
@@ -70,9 +70,9 @@ CodeEmitter::CodeEmitter(const Program& program, const SourceMap& sources, Bytec
     }
 }
 
-bool CodeEmitter::right_first(const Value& value) const {
-    const std::uint32_t left = need(value.left);
-    const std::uint32_t right = need(value.right);
+bool CodeEmitter::emits_right_first(const Value& value) const {
+    const std::uint32_t left = stack_need(value.left);
+    const std::uint32_t right = stack_need(value.right);
     return value.opcode != Opcode::SetLocal && value.opcode != Opcode::Mix &&
            std::max(left, right + 1) > kMaxLeftToRightStack && right > left;
 }
@@ -88,8 +88,6 @@ void CodeEmitter::instruction(Opcode opcode, std::uint32_t operand) {
     bytecode_.instructions.push_back(encode(opcode, operand & kMaxOperand));
 }
 
-/// Sets the operand of the If or Else at index `at`, so that the instruction skips to the next one
-/// to be emitted.
 void CodeEmitter::end_skip(std::size_t at) {
     const std::size_t words = bytecode_.instructions.size() - at - 1;
     overflowed_ = overflowed_ || words > kMaxOperand;
@@ -162,7 +160,7 @@ void CodeEmitter::expression(ValueId root, std::uint32_t site) {
             operands(frame.value, value, site);
             break;
         case Step::Operation:
-            leaf_or_operation(value, value.right != kNoValue && right_first(value), site);
+            leaf_or_operation(value, value.right != kNoValue && emits_right_first(value), site);
             break;
         case Step::Store:
             instruction(Opcode::SetLocal, value.index);
@@ -190,7 +188,6 @@ void CodeEmitter::expression(ValueId root, std::uint32_t site) {
     }
 }
 
-/// Pushes onto frames_ the steps that compute a value, the first step on top.
 void CodeEmitter::operands(ValueId id, const Value& value, std::uint32_t site) {
     if (value.left == kNoValue) {
         leaf_or_operation(value, false, site);
@@ -214,7 +211,7 @@ void CodeEmitter::operands(ValueId id, const Value& value, std::uint32_t site) {
     if (value.opcode == Opcode::Mix) {
         later(value.third);
     }
-    const bool swapped = value.right != kNoValue && right_first(value);
+    const bool swapped = value.right != kNoValue && emits_right_first(value);
     if (value.right != kNoValue) {
         later(swapped ? value.left : value.right);
     }

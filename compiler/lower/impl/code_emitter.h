@@ -33,14 +33,23 @@ public:
 
 private:
     void instruction(Opcode opcode, std::uint32_t operand = 0);
+    /// Makes the next instructions belong to the site; does nothing for kNone.
     void begin_site(std::uint32_t site);
+    /// Emits the code of a value.
     void expression(ValueId root, std::uint32_t site);
+    /// Emits the instruction of `value`, after the code of its operands. `swapped`: the right
+    /// operand was emitted first.
     void leaf_or_operation(const Value& value, bool swapped, std::uint32_t site);
-    [[nodiscard]] bool right_first(const Value& value) const;
-    [[nodiscard]] std::uint32_t need(ValueId id) const {
+    /// Whether the right operand is emitted first, which needs less stack.
+    [[nodiscard]] bool emits_right_first(const Value& value) const;
+    /// Stack depth that the code of a value needs.
+    [[nodiscard]] std::uint32_t stack_need(ValueId id) const {
         return stack_need_[static_cast<std::size_t>(id)];
     }
+    /// Pushes onto frames_ the steps that compute a value, the first step on top.
     void operands(ValueId id, const Value& value, std::uint32_t site);
+    /// Sets the operand of the If or Else at index `at`, so that the instruction skips to the next
+    /// one to be emitted.
     void end_skip(std::size_t at);
 
     const Program& program_;

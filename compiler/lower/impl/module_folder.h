@@ -27,7 +27,7 @@ private:
     std::vector<bool> changes_; // by symbol: whether answers or sweeps change its parameters
     std::uint64_t capacity_;    // max number of codes
     std::unordered_map<std::string, Code> codes_; // keys are the bytes of symbol and constants
-    std::string key_;
+    std::string key_;                             // scratch of code()
     std::string last_key_; // key of the last module: a cache, since long axioms repeat one module
     Code last_code_ = 0;
 };

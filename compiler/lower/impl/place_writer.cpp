@@ -29,8 +29,6 @@ void PlaceWriter::set_position(const SourceFile& file, std::uint32_t offset) {
     place_ = file.line_column(offset);
 }
 
-/// Moves to the module at `offset`. Returns whether the text between the last module and that
-/// module is ASCII without a line end.
 bool PlaceWriter::move_to(std::uint32_t offset) {
     bool is_one_line = true;
     bool is_ascii = true;

@@ -25,7 +25,10 @@ public:
     void word(const ProgramWord& word, std::uint32_t first);
 
 private:
+    /// Goes to byte `offset` of a file.
     void set_position(const SourceFile& file, std::uint32_t offset);
+    /// Moves to the module at `offset`. Returns whether the text between the last module and that
+    /// module is ASCII without a line end.
     [[nodiscard]] bool move_to(std::uint32_t offset);
     [[nodiscard]] std::uint32_t length_of(const ProgramWord& word,
                                           const ProgramModule& module) const;
@@ -41,10 +44,10 @@ private:
     const Program& program_;
     const Names& names_;
     const SourceMap& sources_;
-    std::vector<PlaceRun>& runs_;
+    std::vector<PlaceRun>& runs_;     // Bytecode::template_places
     std::vector<Spelling> spellings_; // per symbol
     const SourceFile* file_ = nullptr;
-    std::string_view text_;
+    std::string_view text_;    // of file_
     std::uint32_t offset_ = 0; // byte offset of the last module
     LineColumn place_;         // place of the last module
 };

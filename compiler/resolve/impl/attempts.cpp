@@ -29,12 +29,12 @@ AttemptedStatements::AttemptedStatements(const Resolution& resolution) {
     }
     for (const AstFile& file : resolution.ast.files) {
         const std::string_view text = resolution.sources.file(file.file).text();
-        read(text);
-        read_lines(text);
+        read_statements(text);
+        read_other_notations(text);
     }
 }
 
-void AttemptedStatements::read(std::string_view text) {
+void AttemptedStatements::read_statements(std::string_view text) {
     for (std::size_t at = text.find('#'); at != std::string_view::npos; at = text.find('#', at)) {
         ++at;
         const std::string_view keyword = leading_identifier(text.substr(at, 16));
@@ -50,8 +50,7 @@ void AttemptedStatements::read(std::string_view text) {
     }
 }
 
-/// Records lines in other notations that give the axiom or the generations.
-void AttemptedStatements::read_lines(std::string_view text) {
+void AttemptedStatements::read_other_notations(std::string_view text) {
     for (std::size_t at = 0; at < text.size();) {
         const std::size_t end = std::min(text.find('\n', at), text.size());
         const std::string_view line = text.substr(at, end - at);

@@ -24,8 +24,10 @@ public:
     [[nodiscard]] bool defines(std::string_view name) const;
 
 private:
-    void read(std::string_view text);
-    void read_lines(std::string_view text);
+    /// Records the keywords and the defined names of statements.
+    void read_statements(std::string_view text);
+    /// Records lines in other notations that give the axiom or the generations.
+    void read_other_notations(std::string_view text);
 
     std::unordered_set<std::string> keywords_; // found in the text
     std::unordered_set<std::string> defined_names_;

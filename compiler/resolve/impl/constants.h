@@ -51,6 +51,7 @@ private:
         std::uint32_t constant = kNone; // index in Program::constants
         std::size_t statement = 0;      // index of the definition in Ast::statements
     };
+    /// Records the first definition of a name, in state Later.
     void declare(NameId name, SourceSpan span, std::size_t statement);
 
     Resolution& resolution_;

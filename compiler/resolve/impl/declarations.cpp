@@ -29,7 +29,6 @@ void DeclarationResolver::report_bad_declaration(SourceSpan span, std::string me
     resolution_.diagnostics.add(DiagnosticCode::BadDeclaration, span, std::move(message));
 }
 
-/// Checks that a statement names one module; with `names letters` it may name several.
 bool DeclarationResolver::check_one_name(ModuleList list,
                                          SourceSpan statement,
                                          const char* keyword) {
@@ -48,7 +47,7 @@ bool DeclarationResolver::check_one_name(ModuleList list,
     return true;
 }
 
-bool DeclarationResolver::check_bare(const ModuleView& module, const char* statement) {
+bool DeclarationResolver::check_no_parentheses(const ModuleView& module, const char* statement) {
     if (!module.has_parentheses) {
         return true;
     }
@@ -93,7 +92,7 @@ void DeclarationResolver::object(const ObjectNode& node) {
     for (; !cursor.done(); cursor.next()) {
         const ModuleView module = cursor.view();
         const std::string_view name = resolution_.text(module.name);
-        if (!check_not_sense(module, "#object") || !check_bare(module, "#object")) {
+        if (!check_not_sense(module, "#object") || !check_no_parentheses(module, "#object")) {
             continue;
         }
         if (is_structural(resolution_.program.settings.turtle, name)) {
@@ -111,7 +110,6 @@ void DeclarationResolver::object(const ObjectNode& node) {
     }
 }
 
-/// Reports file names with variables or formats of other programs.
 bool DeclarationResolver::check_file_name(const ObjectNode& node) {
     const std::string_view name = node.object;
     const bool has_variable = name.starts_with('$') || name.find("/$") != std::string_view::npos;
@@ -140,7 +138,6 @@ bool DeclarationResolver::check_file_name(const ObjectNode& node) {
     return false;
 }
 
-/// Reads the name of a contour behind the object; returns false after reporting a mistake.
 bool DeclarationResolver::set_contour(const ObjectNode& node, ObjectBinding& binding) {
     if (node.contour.empty()) {
         return true; // CONTOUR alone sets the circle
@@ -256,7 +253,7 @@ void DeclarationResolver::ignore_module(const ModuleView& module,
                                         NameSplitter& splitter,
                                         SplitReport& splits) {
     if (!environments_.check_name(module.name, module.name_span) ||
-        !check_bare(module, considers ? "#consider" : "#ignore")) {
+        !check_no_parentheses(module, considers ? "#consider" : "#ignore")) {
         return;
     }
     const SymbolKind kind =

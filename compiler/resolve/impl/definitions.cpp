@@ -139,8 +139,6 @@ void DefinitionResolver::param(const ParamNode& node) {
     advance_draw_position(draws);
 }
 
-/// Adds a constant. Its value is that of -D if given, else a global if the value is random, else
-/// the literal `value`.
 void DefinitionResolver::add(Constant constant, ValueId value, bool is_random) {
     const auto replacement = replacements_.empty()
                                  ? replacements_.end()

@@ -42,8 +42,12 @@ public:
     void advance_draw_position(std::uint32_t count) { draw_position_ += count; }
 
 private:
+    /// Returns false after reporting that the name has a definition already.
     [[nodiscard]] bool check_first_definition(NameId name, SourceSpan span);
+    /// Adds a constant. Its value is that of -D if given, else a global if the value is random,
+    /// else the literal `value`.
     void add(Constant constant, ValueId value, bool is_random);
+    /// Reports a value of a #param outside of its bounds.
     void check_bounds(const ParamNode& node, const Constant& constant);
 
     Resolution& resolution_;

@@ -52,9 +52,9 @@ void EnvironmentResolver::read_entry(const Entry& entry, ProgramEnvironment& env
     }
 }
 
-Diagnostic& EnvironmentResolver::report_wanted(const Entry& entry,
-                                               const SetValue& value,
-                                               EnvironmentKind kind) {
+Diagnostic& EnvironmentResolver::report_wrong_value(const Entry& entry,
+                                                    const SetValue& value,
+                                                    EnvironmentKind kind) {
     Diagnostic& error = resolution_.diagnostics.add(
         DiagnosticCode::BadEnvironment, value.span,
         fmt::format("`{}` takes {}", entry.key->word, wanted_text(*entry.key, kind)));
@@ -66,7 +66,7 @@ std::optional<float>
 EnvironmentResolver::number_of(const Entry& entry, const SetValue& value, EnvironmentKind kind) {
     const EnvironmentKey& key = *entry.key;
     if (value.is_word || value.is_file) {
-        report_wanted(entry, value, kind);
+        report_wrong_value(entry, value, kind);
         return std::nullopt;
     }
     const ValueId id = expressions_.resolve(value.value, ExpressionPlace::Environment);
@@ -94,7 +94,7 @@ void EnvironmentResolver::read_shape(const Entry& entry,
         return;
     }
     if (!value.is_word) {
-        report_wanted(entry, value, environment.values.kind);
+        report_wrong_value(entry, value, environment.values.kind);
         return;
     }
     const std::string_view word = resolution_.text(value.word);
@@ -142,7 +142,7 @@ void EnvironmentResolver::read_file(const Entry& entry,
                                     const SetValue& value,
                                     ProgramEnvironment& environment) {
     if (!value.is_file) {
-        Diagnostic& error = report_wanted(entry, value, environment.values.kind);
+        Diagnostic& error = report_wrong_value(entry, value, environment.values.kind);
         if (value.is_word) {
             add_fix(error, "put the name in quotes", value.span,
                     fmt::format("\"{}\"", resolution_.text(value.word)), false);

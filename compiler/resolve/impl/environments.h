@@ -46,11 +46,14 @@ private:
         bool is_complete = true; // no unknown key, which may be meant as a missing one
         std::vector<Entry> entries;
     };
+    /// Returns false after reporting a name that the turtle or another #sense has, or that is no
+    /// letter with `names letters`.
     [[nodiscard]] bool check_free_name(const SenseNode& node);
     [[nodiscard]] std::optional<EnvironmentKind> read_kind(const SenseNode& node);
     void report_unknown_kind(const SetValue& value, SourceSpan name);
     [[nodiscard]] Reading read_entries(const SenseNode& node, EnvironmentKind kind);
     void report_unknown_key(const KeyedValues& word, EnvironmentKind kind);
+    /// Whether the entry has fewer values than its key takes.
     [[nodiscard]] bool lacks_value(const Entry& entry, EnvironmentKind kind) const;
     void read_entry(const Entry& entry, ProgramEnvironment& environment);
     void read_shape(const Entry& entry, const SetValue& value, ProgramEnvironment& environment);
@@ -59,7 +62,8 @@ private:
     [[nodiscard]] std::optional<float>
     number_of(const Entry& entry, const SetValue& value, EnvironmentKind kind);
     void check_missing_keys(const Reading& reading, const ProgramEnvironment& environment);
-    Diagnostic& report_wanted(const Entry& entry, const SetValue& value, EnvironmentKind kind);
+    /// Reports a value that the key does not take.
+    Diagnostic& report_wrong_value(const Entry& entry, const SetValue& value, EnvironmentKind kind);
     [[nodiscard]] const SetValue& value(const Entry& entry, std::uint32_t index) const {
         return resolution_.ast.set_values[entry.written.values.first + index];
     }

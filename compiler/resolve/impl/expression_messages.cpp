@@ -213,7 +213,7 @@ void ExpressionResolver::report_unknown_name(const Expression& expression) {
     const NameId name = expression.name;
     const std::string_view text = resolution_.text(name);
     const ConstantState state = constants_.state(name);
-    if (state == ConstantState::Failed || !first_report_of(name)) {
+    if (state == ConstantState::Failed || !mark_reported(name)) {
         return;
     }
     if (state == ConstantState::Later) {
@@ -281,7 +281,7 @@ void ExpressionResolver::report_unknown_name(const Expression& expression) {
         candidates.insert(candidates.end(), constants.begin(), constants.end());
     }
     std::string nearest = suggestions_.nearest(text, candidates);
-    if (nearest.empty() && is_only_choice(text, expression)) {
+    if (nearest.empty() && must_mean_formal(text, expression)) {
         nearest = resolution_.text(formals_[0]);
     }
     if (!nearest.empty()) {
@@ -298,8 +298,6 @@ void ExpressionResolver::report_unknown_name(const Expression& expression) {
     }
 }
 
-/// The smallest span that shows why a result is not finite: a divisor that is zero, the `^` of a
-/// power, else the whole expression.
 SourceSpan ExpressionResolver::fault_place(Opcode opcode,
                                            std::optional<float> right,
                                            const Expression& expression) const {
@@ -318,10 +316,7 @@ SourceSpan ExpressionResolver::fault_place(Opcode opcode,
     return expression.span();
 }
 
-/// Whether the unknown name `text` can only mean the one parameter of the production: both names
-/// have one letter, there are no constants, and nothing else after the predecessor reads the
-/// parameter.
-bool ExpressionResolver::is_only_choice(std::string_view text, const Expression& unknown) const {
+bool ExpressionResolver::must_mean_formal(std::string_view text, const Expression& unknown) const {
     if (formals_.size() != 1 || text.size() != 1 || !resolution_.program.constants.empty() ||
         formal_spans_[0].file != unknown.file || formal_spans_[0].end > unknown.begin) {
         return false;
@@ -334,7 +329,6 @@ bool ExpressionResolver::is_only_choice(std::string_view text, const Expression&
     return formal.size() == 1 && !has_word(rest.substr(0, rest.find(';')), formal);
 }
 
-/// Explains the probable meaning of a call with a wrong number of arguments.
 void ExpressionResolver::explain_argument_count(const Expression& call,
                                                 ExpressionPlace place,
                                                 Diagnostic& error) const {
@@ -372,8 +366,6 @@ void ExpressionResolver::explain_argument_count(const Expression& call,
     }
 }
 
-/// The function whose name became `text` when all `x` of a file were replaced by `len`: `max` for
-/// `malen`. Empty if there is none.
 std::string_view ExpressionResolver::name_before_replacement(std::string_view text) const {
     for (const NameId formal : formals_) {
         const std::string_view name = resolution_.text(formal);
@@ -538,8 +530,6 @@ bool ExpressionResolver::check_range(const Expression& expression,
     return true;
 }
 
-/// Reports a constant argument that is invalid for the distribution. Returns whether all constant
-/// arguments are valid.
 bool ExpressionResolver::check_distribution_of(const Expression& expression,
                                                Opcode opcode,
                                                ValueId first,

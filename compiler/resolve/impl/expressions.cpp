@@ -193,7 +193,6 @@ ValueId ExpressionResolver::resolve_name(NameId name, SourceSpan span, Expressio
     return name_value(expression, place);
 }
 
-/// Processes the top expression: pushes its next operand, or combines the values of all operands.
 void ExpressionResolver::visit(ExpressionPlace place) {
     Frame& frame = frames_.back();
     const Expression& expression = resolution_.ast.expression(frame.expression);
@@ -288,7 +287,6 @@ ValueId ExpressionResolver::apply(Opcode opcode,
     return result;
 }
 
-/// Whether weights may depend on parameters and on step(): with `#set weights any`.
 bool ExpressionResolver::weights_may_vary() const {
     return resolution_.program.settings.weights == WeightRule::Any;
 }
@@ -359,7 +357,6 @@ ValueId ExpressionResolver::distribution_value(const Expression& expression,
                : kPoison;
 }
 
-/// Returns false after reporting that ranges and distributions are not allowed in `place`.
 bool ExpressionResolver::check_random_allowed(const Expression& expression, ExpressionPlace place) {
     is_random_ = true;
     if (!ranges_allowed(place)) {
@@ -369,7 +366,6 @@ bool ExpressionResolver::check_random_allowed(const Expression& expression, Expr
     return true;
 }
 
-/// A value with the next draw number of the statement.
 ValueId ExpressionResolver::draw_value(Opcode opcode,
                                        ValueId first,
                                        ValueId second,
@@ -454,7 +450,6 @@ ValueId ExpressionResolver::choice_value(const Expression& expression,
     return values_.choice(arguments[0], arguments[1], arguments[2], expression.span());
 }
 
-/// Forgets divisors that are zero, and causes of infinite values, within `unchosen`.
 void ExpressionResolver::forget_faults(SourceSpan unchosen) {
     const auto is_inside = [&](SourceSpan span) {
         return span.file == unchosen.file && span.begin >= unchosen.begin &&

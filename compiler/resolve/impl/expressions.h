@@ -123,35 +123,51 @@ private:
         bool has_choice = false;    // the body has an if()
     };
 
+    /// Processes the top expression: pushes its next operand, or combines the values of all
+    /// operands.
     void visit(ExpressionPlace place);
+    /// Pushes the value of an expression, computed from the values of its operands, to operands_.
     void combine(const Expression& expression, ExpressionPlace place);
+    /// Whether weights may depend on parameters and on step(): with `#set weights any`.
     [[nodiscard]] bool weights_may_vary() const;
     [[nodiscard]] ValueId name_value(const Expression& expression, ExpressionPlace place);
+    /// The value of an expression that names a constant; marks the constant as used.
     [[nodiscard]] ValueId constant_of(const Expression& expression, ExpressionPlace place);
     [[nodiscard]] ValueId range_value(const Expression& expression, ExpressionPlace place);
     [[nodiscard]] ValueId distribution_value(const Expression& expression,
                                              Opcode opcode,
                                              std::span<const ValueId> arguments,
                                              ExpressionPlace place);
+    /// Returns false after reporting that ranges and distributions are not allowed in `place`.
     [[nodiscard]] bool check_random_allowed(const Expression& expression, ExpressionPlace place);
+    /// A value with the next draw number of the statement.
     [[nodiscard]] ValueId draw_value(Opcode opcode,
                                      ValueId first,
                                      ValueId second,
                                      const Expression& expression,
                                      ExpressionPlace place);
     [[nodiscard]] ValueId call_value(const Expression& expression, ExpressionPlace place);
+    /// The value of an operation; records a zero divisor or an infinite result for check_finite().
     [[nodiscard]] ValueId
     apply(Opcode opcode, ValueId left, ValueId right, const Expression& expression);
+    /// The value of a call of if().
     [[nodiscard]] ValueId choice_value(const Expression& expression,
                                        std::span<const ValueId> arguments);
+    /// Forgets divisors that are zero, and causes of infinite values, within `unchosen`.
     void forget_faults(SourceSpan unchosen);
+    /// The value of a call of a #function or #curve.
     [[nodiscard]] ValueId user_call(const Expression& expression,
                                     ExpressionPlace place,
                                     UserFunction& function,
                                     std::span<const ValueId> arguments);
+    /// Inlines a call: a copy of the body with the arguments in place of the formals. An argument
+    /// that the body uses several times, or once if the body has a choice, is computed once into a
+    /// slot, as is an unused argument that draws a random number. Leaves need no slot.
     [[nodiscard]] ValueId
     expanded(const UserFunction& function, std::span<const ValueId> arguments, SourceSpan span);
+    /// Whether a value draws a random number, so that computing it may be a run-time error.
     [[nodiscard]] bool draws(ValueId root) const;
+    /// Returns false after reporting that another function has the name.
     [[nodiscard]] bool check_free_name(NameId name, SourceSpan span);
     [[nodiscard]] bool read_formals(const FunctionNode& node);
     [[nodiscard]] std::optional<std::vector<CurveKnot>> read_points(const CurveNode& node);
@@ -161,37 +177,50 @@ private:
 
     // Messages.
     void report_unknown_name(const Expression& expression);
+    /// The smallest span that shows why a result is not finite: a divisor that is zero, the `^` of
+    /// a power, else the whole expression.
     [[nodiscard]] SourceSpan
     fault_place(Opcode opcode, std::optional<float> right, const Expression& expression) const;
-    [[nodiscard]] bool is_only_choice(std::string_view text, const Expression& unknown) const;
+    /// Whether the unknown name `text` can only mean the one parameter of the production: both
+    /// names have one letter, there are no constants, and nothing else after the predecessor reads
+    /// the parameter.
+    [[nodiscard]] bool must_mean_formal(std::string_view text, const Expression& unknown) const;
+    /// Explains the probable meaning of a call with a wrong number of arguments.
     void
     explain_argument_count(const Expression& call, ExpressionPlace place, Diagnostic& error) const;
+    /// The function whose name became `text` when all `x` of a file were replaced by `len`: `max`
+    /// for `malen`. Empty if there is none.
     [[nodiscard]] std::string_view name_before_replacement(std::string_view text) const;
     void report_unknown_function(const Expression& expression, NameId function);
     void report_not_allowed(const Expression& expression, ExpressionPlace place, bool is_range);
+    /// Reports a parameter or condition that can never be finite.
     void check_finite(ValueId value, ExpressionId root, ExpressionPlace place);
+    /// Returns false after reporting bounds from which no number can be drawn.
     [[nodiscard]] bool check_range(const Expression& expression, ValueId minimum, ValueId maximum);
+    /// Reports a constant argument that is invalid for the distribution. Returns whether all
+    /// constant arguments are valid.
     [[nodiscard]] bool check_distribution_of(const Expression& expression,
                                              Opcode opcode,
                                              ValueId first,
                                              ValueId second);
-    [[nodiscard]] bool first_report_of(NameId name) { return reported_.insert(name).second; }
+    /// Whether the statement has no report about the name yet; adds the name to reported_.
+    [[nodiscard]] bool mark_reported(NameId name) { return reported_.insert(name).second; }
 
     Resolution& resolution_;
     ValueBuilder& values_;
     ConstantTable& constants_;
     AttemptedStatements attempted_;
     Suggestions suggestions_;
-    bool files_missing_ = false; // an included file could not be read
-    std::unordered_map<NameId, Function> functions_;
+    bool files_missing_ = false;                     // an included file could not be read
+    std::unordered_map<NameId, Function> functions_; // functions of the language
     std::unordered_map<NameId, UserFunction> user_functions_;
-    std::uint32_t slot_count_ = 0;   // slots in use in the current statement
-    std::size_t expanded_count_ = 0; // values made by calls in the current statement
+    std::uint32_t slot_count_ = 0;    // slots in use in the current statement
+    std::size_t expanded_count_ = 0;  // values made by calls in the current statement
     std::size_t expanded_in_all_ = 0; // and in all statements so far
-    bool keeps_expressions_ = false;
-    NameId defining_ = kNoName; // the function whose body is being resolved
-    NameId step_;               // the name `step`
-    NameId steps_;              // the name `steps`
+    bool keeps_expressions_ = false;  // see keep_expressions()
+    NameId defining_ = kNoName;       // the function whose body is being resolved
+    NameId step_;                     // the name `step`
+    NameId steps_;                    // the name `steps`
 
     std::vector<std::uint32_t> formal_of_; // per name: number of the formal, or kNone
     std::vector<NameId> formals_;
@@ -206,10 +235,10 @@ private:
     std::size_t last_root_ = 0; // the largest id resolved so far
     bool is_random_ = false;
 
-    std::vector<Frame> frames_;
-    std::vector<ValueId> operands_;
+    std::vector<Frame> frames_;     // expressions being visited, the innermost last
+    std::vector<ValueId> operands_; // values that combine() has pushed
     std::optional<NonFiniteCause> non_finite_cause_;
-    std::vector<SourceSpan> zero_divisors_;
+    std::vector<SourceSpan> zero_divisors_; // places of zero divisors in the expression
 };
 
 } // namespace lsys

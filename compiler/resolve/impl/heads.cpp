@@ -44,7 +44,6 @@ bool HeadResolver::resolve(const ProductionNode& node, Production& production) {
     return ok;
 }
 
-/// Checks that there is at least one predecessor module and no empty context.
 bool HeadResolver::check_shape(const ProductionNode& node) {
     bool ok = true;
     const auto empty_context = [&](SourceSpan sign, const char* side) {
@@ -123,8 +122,6 @@ bool HeadResolver::check_stage(const ProductionNode& node) {
     return false;
 }
 
-/// Checks that a production of #down has no left context, one of #up no right context, and either
-/// one module.
 bool HeadResolver::check_sweep(const ProductionNode& node) {
     const std::string_view keyword = keyword_of(node.stage);
     const RewritingMode rewriting = resolution_.program.settings.rewriting;
@@ -299,7 +296,6 @@ bool HeadResolver::read_formal(const Expression& argument) {
     return true;
 }
 
-/// Reports a number or expression in place of a formal: `A(2)` for `A(x) : x == 2`.
 void HeadResolver::report_argument(const Expression& argument) {
     const std::string_view written = resolution_.sources.text(argument.span());
     Diagnostic& error =
@@ -330,7 +326,6 @@ void HeadResolver::report_argument(const Expression& argument) {
     }
 }
 
-/// The edit that adds the condition `test` to a production without one.
 std::optional<Edit> HeadResolver::condition_edit(const std::string& test) const {
     const ConditionNode& condition = node_->condition;
     const SourceSpan span = condition.span;

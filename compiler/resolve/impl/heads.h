@@ -23,12 +23,18 @@ private:
     [[nodiscard]] bool read_bracket(const ModuleView& module, Part part, ProgramPattern& out);
     [[nodiscard]] bool read_formals(const ModuleView& module);
     [[nodiscard]] bool read_formal(const Expression& argument);
+    /// Appends a module, or the parts of a name that is split, to a pattern.
     void append(const ModuleView& module, std::uint32_t first_formal, ProgramPattern& out);
+    /// Reports a number or expression in place of a formal: `A(2)` for `A(x) : x == 2`.
     void report_argument(const Expression& argument);
+    /// The edit that adds the condition `test` to a production without one.
     [[nodiscard]] std::optional<Edit> condition_edit(const std::string& test) const;
+    /// Checks that there is at least one predecessor module and no empty context.
     [[nodiscard]] bool check_shape(const ProductionNode& node);
     /// Checks the number of modules and the contexts of a head of a later stage.
     [[nodiscard]] bool check_stage(const ProductionNode& node);
+    /// Checks that a production of #down has no left context, one of #up no right context, and
+    /// either one module.
     [[nodiscard]] bool check_sweep(const ProductionNode& node);
 
     ModuleReading& reading_;

@@ -128,8 +128,6 @@ void ProductionResolver::resolve_locals(ListRange locals, Production& production
     }
 }
 
-/// Returns false after reporting that a parameter or an earlier local value has the name. Warns of
-/// a constant with the name.
 bool ProductionResolver::check_new_local(const LocalNode& node, const Production& production) {
     const auto report = [&](const char* what, SourceSpan first) {
         Diagnostic& error = resolution_.diagnostics.add(
@@ -204,7 +202,6 @@ float checked_weight(Resolution& resolution, float weight, SourceSpan span) {
     return std::numeric_limits<float>::quiet_NaN();
 }
 
-/// Checks that the successor of a #down or #up is its predecessor with other parameters.
 bool ProductionResolver::check_sweep(const Production& production) {
     if (production.stage != Stage::Down && production.stage != Stage::Up) {
         return true;

@@ -45,7 +45,7 @@ public:
     [[nodiscard]] bool may_compare(std::size_t count) const { return count <= work_left_; }
 
 private:
-    std::size_t work_left_ = 4'000'000;
+    std::size_t work_left_ = 4'000'000; // candidates that may still be compared
 };
 
 /// Adds "did you mean `name`?" to a message, with a fix that is not machine-applicable.

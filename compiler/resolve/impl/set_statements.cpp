@@ -51,7 +51,6 @@ void SetResolver::read_modes() {
     settings.traits = traits_of(settings.turtle);
 }
 
-/// The scope in which a key may be set once: the file for `names`, the program for other keys.
 std::uint64_t SetResolver::scope_of(const SetNode& node) const {
     const bool of_file = resolution_.text(node.key) == "names";
     const FileId file = of_file ? node.key_span.file : kNoFile;
@@ -139,7 +138,6 @@ void SetResolver::report_statement_for_key(const SetNode& node,
     }
 }
 
-/// Explains a tropism that is given by one number.
 void SetResolver::explain_tropism(const SetNode& node, Diagnostic& error) const {
     const SourceSpan span = resolution_.ast.set_values[node.values.first].span;
     std::string_view number = resolution_.sources.text(span);
@@ -166,7 +164,6 @@ SetResolver::report_bad_value(const SetNode& node, SourceSpan span, const std::s
     return error;
 }
 
-/// The word that is the only value of the statement; empty after an error is reported.
 std::string_view SetResolver::word_of(const SetNode& node, const char* choices) {
     if (node.values.count != 1) {
         report_bad_value(node, node.key_span, fmt::format("takes one of {}", choices));

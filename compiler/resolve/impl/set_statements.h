@@ -33,15 +33,19 @@ public:
     void read_number(const SetNode& node, ExpressionResolver& expressions);
 
 private:
+    /// The scope in which a key may be set once: the file for `names`, the program for other keys.
     [[nodiscard]] std::uint64_t scope_of(const SetNode& node) const;
     [[nodiscard]] bool check_first_setting(const SetNode& node);
     void read_mode(const SetNode& node, std::string_view key);
     void report_unknown_key(const SetNode& node);
     void
     report_statement_for_key(const SetNode& node, const Synonym& synonym, Diagnostic& error) const;
+    /// Explains a tropism that is given by one number.
     void explain_tropism(const SetNode& node, Diagnostic& error) const;
     Diagnostic& report_bad_value(const SetNode& node, SourceSpan span, const std::string& message);
+    /// The word that is the only value of the statement; empty after an error is reported.
     [[nodiscard]] std::string_view word_of(const SetNode& node, const char* choices);
+    /// Sets `chosen` to the value that the statement names; reports other words.
     template <typename Enum, std::size_t size>
     void choose(const SetNode& node, const std::array<Enum, size>& values, Enum& chosen);
     [[nodiscard]] std::optional<float>

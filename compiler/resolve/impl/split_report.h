@@ -21,7 +21,7 @@ public:
 
 private:
     Resolution& resolution_;
-    std::optional<Diagnostic> warning_;
+    std::optional<Diagnostic> warning_; // about the names since the last finish()
 };
 
 } // namespace lsys

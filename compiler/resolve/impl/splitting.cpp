@@ -79,7 +79,7 @@ NameSplitter::parts(NameId name, std::uint32_t parameter_count, FileId file) {
         return {};
     }
     const Use whole{name, parameter_count, file};
-    const auto [found, is_new] = decided_.try_emplace(whole);
+    const auto [found, is_new] = splits_.try_emplace(whole);
     std::vector<NamePart>& parts = found->second;
     if (is_new) {
         parts = split(whole); // recursive: may invalidate `found`, not `parts`

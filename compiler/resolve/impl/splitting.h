@@ -53,6 +53,7 @@ private:
 
     void collect_uses();
     void add_uses(ModuleList list);
+    /// The parts of a name if there is exactly one way to split it, else nothing.
     [[nodiscard]] std::vector<NamePart> split(const Use& whole);
     /// Calls found(length) for every known name that `text` begins with.
     template <typename Function>
@@ -60,10 +61,10 @@ private:
 
     Resolution& resolution_;
     std::vector<bool> unknown_; // per name: whether it is an unknown identifier that occurs
-    std::vector<std::string_view> known_sorted_; // known identifiers
-    std::unordered_set<Use, UseHash> uses_;      // uses of unknown identifiers
-    std::unordered_set<std::size_t> use_lengths_;
-    std::unordered_map<Use, std::vector<NamePart>, UseHash> decided_;
+    std::vector<std::string_view> known_sorted_;  // known identifiers
+    std::unordered_set<Use, UseHash> uses_;       // uses of unknown identifiers
+    std::unordered_set<std::size_t> use_lengths_; // lengths of the names in uses_, bytes
+    std::unordered_map<Use, std::vector<NamePart>, UseHash> splits_; // results of split()
     /// Characters that splitting may still compare. At 0 names that are costly to split stay whole.
     std::uint64_t work_left_ = std::uint64_t{1} << 28;
 };

@@ -24,7 +24,6 @@ constexpr std::size_t kMaxExpandedInAll = std::size_t{1} << 21;
 
 } // namespace
 
-/// Returns false after reporting that another function has the name.
 bool ExpressionResolver::check_free_name(NameId name, SourceSpan span) {
     const std::string_view text = resolution_.text(name);
     UserFunction& function = user_functions_.at(name);
@@ -182,7 +181,7 @@ ValueId ExpressionResolver::user_call(const Expression& expression,
         if (expression.name == defining_) {
             resolution_.diagnostics.add(DiagnosticCode::BadFunction, expression.span(),
                                         fmt::format("the function `{}` calls itself", name));
-        } else if (first_report_of(expression.name)) {
+        } else if (mark_reported(expression.name)) {
             Diagnostic& error = resolution_.diagnostics.add(
                 DiagnosticCode::UsedBeforeDefinition, expression.span(),
                 fmt::format("the function `{}` is used before its definition", name));
@@ -225,7 +224,7 @@ ValueId ExpressionResolver::user_call(const Expression& expression,
     expanded_in_all_ += function.nodes.size() + 1;
     const bool statement_is_too_large = expanded_count_ > kMaxExpanded;
     if (statement_is_too_large || expanded_in_all_ > kMaxExpandedInAll) {
-        if (first_report_of(expression.name)) {
+        if (mark_reported(expression.name)) {
             resolution_.diagnostics.add(
                 DiagnosticCode::ProgramTooLarge, span,
                 fmt::format("the functions of {} expand to more than {} operations",
@@ -237,7 +236,6 @@ ValueId ExpressionResolver::user_call(const Expression& expression,
     return expanded(function, arguments, span);
 }
 
-/// Whether a value draws a random number, so that computing it may be a run-time error.
 bool ExpressionResolver::draws(ValueId root) const {
     std::vector<ValueId> work{root};
     while (!work.empty()) {
@@ -256,9 +254,6 @@ bool ExpressionResolver::draws(ValueId root) const {
     return false;
 }
 
-/// Inlines a call: a copy of the body with the arguments in place of the formals. An argument that
-/// the body uses several times, or once if the body has a choice, is computed once into a slot, as
-/// is an unused argument that draws a random number. Leaves need no slot.
 ValueId ExpressionResolver::expanded(const UserFunction& function,
                                      std::span<const ValueId> arguments,
                                      SourceSpan span) {

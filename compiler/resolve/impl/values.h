@@ -52,12 +52,14 @@ public:
 
 private:
     ValueId add(const Value& value);
+    /// Enlarges literals_.
     void grow_table();
+    /// Index in literals_ of the literal with these bits, or of the unused entry for it.
     [[nodiscard]] std::size_t slot_of(std::uint32_t bits) const;
 
     ChunkedVector<Value>& values_;
     std::vector<ValueId> literals_; // hash table with open addressing, by the bits of the literal
-    std::size_t literal_count_ = 0;
+    std::size_t literal_count_ = 0; // entries in use of literals_
 };
 
 } // namespace lsys

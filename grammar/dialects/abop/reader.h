@@ -65,6 +65,7 @@ struct AbopFile {
     [[nodiscard]] std::string_view text_of(SourceSpan span) const {
         return std::string_view(text).substr(span.begin, span.end - span.begin);
     }
+    /// The setting of a key; null if the file has none.
     [[nodiscard]] const AbopSetting* find(AbopKey key) const;
 };
 

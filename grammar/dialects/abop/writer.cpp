@@ -58,7 +58,7 @@ AbopWriter::AbopWriter(const AbopFile& file, const ParseContext& context, Transl
     find_long_names();
 }
 
-SourceSpan AbopWriter::part(std::size_t begin, std::size_t end) const {
+SourceSpan AbopWriter::trimmed_part(std::size_t begin, std::size_t end) const {
     return trimmed_span(file_.text, {out_.file(), static_cast<std::uint32_t>(begin),
                                      static_cast<std::uint32_t>(end)});
 }
@@ -69,8 +69,6 @@ void AbopWriter::report(SourceSpan place, const std::string& message) {
     }
 }
 
-/// A predecessor of several letters and digits is one symbol wherever the text has it, the longest
-/// first.
 void AbopWriter::find_long_names() {
     long_names_.insert(file_.names.begin(), file_.names.end());
     if (file_.is_lpy) {
@@ -150,7 +148,6 @@ void AbopWriter::write(std::string_view turtle) {
     write_drawings();
 }
 
-/// Whether the text has a symbol that changes widths, or a comment with its character.
 bool AbopWriter::sets_widths() const {
     const std::string_view whole = context_.sources.file(out_.file()).text();
     return whole.find('!') != kNone || whole.find("#(") != kNone || whole.find("_(") != kNone;
@@ -168,7 +165,6 @@ void AbopWriter::write_setting(AbopKey key, std::string_view before) {
     }
 }
 
-/// The label if it can be the name of a production, else `rN`.
 std::string AbopWriter::label_of(const AbopRule& rule, std::size_t index) {
     std::string name = rule.label ? std::string(text(*rule.label)) : "";
     const bool fits = !name.empty() && is_letter(name[0]) && word_length(name) == name.size() &&
@@ -182,7 +178,6 @@ std::string AbopWriter::label_of(const AbopRule& rule, std::size_t index) {
     return name;
 }
 
-/// Whether the left side of a rule is one symbol that rules may replace; reports others.
 bool AbopWriter::check_predecessor(const AbopRule& rule) {
     const SourceSpan span = rule.predecessor;
     std::size_t at = span.begin;
@@ -246,21 +241,20 @@ void AbopWriter::write_rule(const AbopRule& rule, std::size_t index) {
 void AbopWriter::write_chance(SourceSpan chance) {
     std::string_view number = text(chance);
     while (!number.empty() && is_one_of(number.front(), "([")) {
-        number = text(chance = part(chance.begin + 1, chance.end));
+        number = text(chance = trimmed_part(chance.begin + 1, chance.end));
     }
     while (!number.empty() && is_one_of(number.back(), ")]")) {
-        number = text(chance = part(chance.begin, chance.end - 1));
+        number = text(chance = trimmed_part(chance.begin, chance.end - 1));
     }
     out_.put("~ ", chance);
     if (!number.empty() && number.back() == '%') {
-        write_expression(part(chance.begin, chance.end - 1), false);
+        write_expression(trimmed_part(chance.begin, chance.end - 1), false);
         out_.put("/100", chance);
     } else {
         write_expression(chance, false);
     }
 }
 
-/// Writes the `#object` and `#interpret` statements by which symbols such as `F_l` and `~L` draw.
 void AbopWriter::write_drawings() {
     std::size_t index = 0;
     for (const auto& [name, span] : leaves_) {
@@ -281,7 +275,6 @@ void AbopWriter::write_drawings() {
     }
 }
 
-/// Reads the symbol at `at`, with its arguments.
 bool AbopWriter::read_symbol(SourceSpan list, std::size_t& at, Symbol& symbol) {
     const std::string_view whole = file_.text;
     const std::string_view ahead = whole.substr(at, list.end - at);
@@ -319,7 +312,7 @@ bool AbopWriter::read_symbol(SourceSpan list, std::size_t& at, Symbol& symbol) {
             return false;
         }
         symbol.has_arguments = true;
-        symbol.inner = part(open + 1, close);
+        symbol.inner = trimmed_part(open + 1, close);
         at = close + 1;
     }
     return true;
@@ -433,7 +426,7 @@ std::vector<SourceSpan> AbopWriter::arguments_of(const Symbol& symbol) const {
         depth += is_one_of(c, "({") ? 1U : 0U;
         depth -= is_one_of(c, ")}") && depth != 0 ? 1U : 0U;
         if (c == ',' && (depth == 0 || at == symbol.inner.end)) {
-            arguments.push_back(part(begin, at));
+            arguments.push_back(trimmed_part(begin, at));
             begin = at + 1;
         }
     }
@@ -477,12 +470,12 @@ void AbopWriter::write_expression(SourceSpan expression, bool is_condition) {
         }
         const std::string_view ahead = whole.substr(at, expression.end - at);
         if (const std::size_t length = literal_length(ahead); length != 0) {
-            out_.copy(part(at, at + length), context_.sources);
+            out_.copy(trimmed_part(at, at + length), context_.sources);
             at += length;
             continue;
         }
         if (range_ends_.contains(at)) {
-            out_.put("}", part(at, at + 1));
+            out_.put("}", trimmed_part(at, at + 1));
             ++at;
             continue;
         }
@@ -499,7 +492,6 @@ void AbopWriter::write_expression(SourceSpan expression, bool is_condition) {
     }
 }
 
-/// Writes the name at `at`; returns the position after it, npos after a mistake.
 std::size_t AbopWriter::write_name(SourceSpan expression, std::size_t at) {
     struct Word {
         std::string_view name;
@@ -513,7 +505,7 @@ std::size_t AbopWriter::write_name(SourceSpan expression, std::size_t at) {
     const std::string_view greek = greek_letter(ahead);
     const std::size_t letters = greek.empty() ? 0 : 2;
     const std::size_t length = letters + word_length(ahead.substr(letters));
-    const SourceSpan span = part(at, at + length);
+    const SourceSpan span = trimmed_part(at, at + length);
     const std::string name =
         std::string(greek) + std::string(ahead.substr(letters, length - letters));
     const std::size_t end = at + length;
@@ -561,7 +553,6 @@ std::size_t AbopWriter::write_name(SourceSpan expression, std::size_t at) {
     return end;
 }
 
-/// Finds the parentheses of an expression; reports those that do not match.
 bool AbopWriter::find_parentheses(SourceSpan expression) {
     std::vector<std::size_t> open;
     for (std::size_t at = expression.begin; at < expression.end; ++at) {
@@ -576,7 +567,7 @@ bool AbopWriter::find_parentheses(SourceSpan expression) {
             parentheses_[open.back()].has_comma = true;
         } else if (c == ')') {
             if (open.empty()) {
-                report(part(at, at + 1), "`)` has no `(`");
+                report(trimmed_part(at, at + 1), "`)` has no `(`");
                 return false;
             }
             parentheses_[open.back()].close = at;
@@ -584,13 +575,11 @@ bool AbopWriter::find_parentheses(SourceSpan expression) {
         }
     }
     if (!open.empty()) {
-        report(part(open.back(), open.back() + 1), "`(` is never closed");
+        report(trimmed_part(open.back(), open.back() + 1), "`(` is never closed");
     }
     return open.empty();
 }
 
-/// Writes the start of `random()`, `random(high)` or `random(low, high)` as a range; the `)` ends
-/// the range. Returns the position after the `(`.
 std::size_t AbopWriter::write_random(SourceSpan name, std::size_t open) {
     const Parentheses& found = parentheses_[open];
     range_ends_.insert(found.close);
@@ -612,12 +601,12 @@ std::size_t AbopWriter::write_operator(std::size_t at, std::size_t end, bool is_
     const std::string_view ahead = std::string_view(file_.text).substr(at, end - at);
     for (const Operator& each : kOperators) {
         if (ahead.starts_with(each.written) && (each.written != "=" || is_condition)) {
-            out_.put(each.in_lsys, part(at, at + each.written.size()));
+            out_.put(each.in_lsys, trimmed_part(at, at + each.written.size()));
             return at + each.written.size();
         }
     }
     const std::size_t length = decode_utf8(ahead).length;
-    report(part(at, at + length),
+    report(trimmed_part(at, at + length),
            "`" + shown(ahead.substr(0, length)) + "` cannot stand in an expression");
     return kNone;
 }

@@ -27,8 +27,8 @@ struct CareySetting {
 
 struct CareyRule {
     SourceSpan left;
-    SourceSpan right; // empty: the rule erases
-    std::optional<SourceSpan> ratio;
+    SourceSpan right;                // empty: the rule erases
+    std::optional<SourceSpan> ratio; // weight of the rule
 };
 
 struct CareyFile {

@@ -54,7 +54,6 @@ bool CareyWriter::check_symbol(const LetterModule& module) {
     return true;
 }
 
-/// Reports a left side that matches within parentheses, because the forest generator replaces text.
 void CareyWriter::check_arguments(const LetterModule& module) {
     const std::string_view arguments = context_.sources.text(module.arguments);
     for (const std::string& left : left_sides_) {

@@ -23,11 +23,15 @@ class CareyWriter {
 public:
     CareyWriter(const CareyFile& file, const ParseContext& context, Translation& translation);
 
+    /// Writes the modules of an axiom or a side of a rule.
     void write(SourceSpan text, CareyText kind);
 
 private:
+    /// Returns false after reporting a character that cannot be a symbol.
     bool check_symbol(const LetterModule& module);
     void write_arguments(const LetterModule& module, CareyText kind);
+    /// Reports a left side that matches within parentheses, because the forest generator replaces
+    /// text.
     void check_arguments(const LetterModule& module);
 
     const ParseContext& context_;

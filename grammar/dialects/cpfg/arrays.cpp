@@ -28,8 +28,6 @@ std::optional<std::size_t> CpfgExpressions::known_place(const Array& array,
     return place;
 }
 
-/// An element of an array, read from the array's curve; an index out of range reads the nearest
-/// one.
 ForeignId CpfgExpressions::element(const ForeignNode& node) {
     const auto found = arrays_.find(node.text);
     if (found == arrays_.end()) {
@@ -107,7 +105,6 @@ void CpfgExpressions::define_array(const CpfgStatement& statement) {
     arrays_[target.text] = std::move(array);
 }
 
-/// In loops, replaces a known value by its number, so that values do not grow with the rounds.
 ForeignId CpfgExpressions::folded(ForeignId value) {
     const std::optional<double> known =
         loops_ != 0 ? known_values_.of(value) : std::optional<double>();
@@ -125,8 +122,6 @@ ForeignId CpfgExpressions::number_node(double value, SourceSpan span) {
     return tree_.number(std::string_view(buffer.data(), end), span);
 }
 
-/// Runs the block as often as cpfg would. The test must be known before the word is derived in each
-/// round.
 void CpfgExpressions::loop(const CpfgStatement& statement) {
     constexpr std::size_t kMaxStatements = 100'000; // run by all loops of the file
     ++loops_;

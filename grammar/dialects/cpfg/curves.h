@@ -35,6 +35,7 @@ struct CpfgView {
 /// The text of a file beside the L-system, by its name; nullopt if it cannot be read.
 using FileBeside = std::function<std::optional<std::string>(std::string_view name)>;
 
+/// Reads the angle and the curves of a view file and of the files that it names.
 [[nodiscard]] CpfgView read_view(std::string_view text, const FileBeside& beside);
 
 /// The table of a curve as cpfg computes it, with the errors of its search for x (up to 0.001).

@@ -60,8 +60,7 @@ std::optional<double> next_number(std::string_view text, std::size_t& at) {
 
 } // namespace
 
-/// Runs `fp = fopen("name", "r");`; returns false for other assignments.
-bool CpfgExpressions::opens_file(const CpfgStatement& statement) {
+bool CpfgExpressions::open_file(const CpfgStatement& statement) {
     const ForeignNode call = tree_[statement.value];
     if (call.kind != ForeignKind::Call || call.text != "fopen" || call.parts.size() != 2 ||
         tree_[statement.target].kind != ForeignKind::Name || !in_header_ || in_step_) {
@@ -83,7 +82,6 @@ bool CpfgExpressions::opens_file(const CpfgStatement& statement) {
     return true;
 }
 
-/// Runs `fscanf(fp, "%lf", &x);`. As in cpfg, a variable keeps its value where the file ends.
 void CpfgExpressions::read_numbers(const ForeignNode& call) {
     const auto file = call.parts.empty() ? files_.end() : files_.find(tree_[call.parts[0]].text);
     const std::size_t wanted = call.parts.size() < 2 ? 0 : call.parts.size() - 2;

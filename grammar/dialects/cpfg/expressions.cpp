@@ -65,7 +65,6 @@ void CpfgExpressions::warn_left_out(SourceSpan span,
     }
 }
 
-/// Truncates a number to an integer.
 ForeignId CpfgExpressions::truncated(ForeignId value, SourceSpan span) {
     if (tree_[value].kind == ForeignKind::Number && is_integer(tree_[value].text)) {
         return value;
@@ -90,7 +89,6 @@ std::string CpfgExpressions::known_literal(ForeignId value) {
     return literal;
 }
 
-/// The initial value of a global variable, assigned in `Start:`.
 ForeignId CpfgExpressions::first_value(const std::string& global, SourceSpan span) {
     const auto start = globals_.find(global);
     return start == globals_.end() ? tree_.number("0", span) : read(start->second, span);
@@ -145,8 +143,6 @@ std::optional<double> CpfgExpressions::known_point(std::size_t curve, ForeignId 
     return (1.0 - part) * table[below] + part * table[above];
 }
 
-/// The equivalent of `func(which, x)`, where `which` is a number or the name of a function of the
-/// set.
 ForeignId CpfgExpressions::curve(const ForeignNode& node) {
     const ForeignNode which = tree_[node.parts[0]];
     std::size_t index = curves_.size();
@@ -190,7 +186,6 @@ ForeignId CpfgExpressions::curve(const ForeignNode& node) {
     return unsupported(node.span, "no view file beside this one has function `" + shown_name + "`");
 }
 
-/// The equivalent of `ran(size)` or `nran(mean, sd)`.
 ForeignId CpfgExpressions::random_call(const ForeignNode& node, std::vector<ForeignId> arguments) {
     if (node.text == "nran") {
         has_normal_ = true;

@@ -39,8 +39,7 @@ bool is_query(std::string_view name) {
 
 } // namespace
 
-/// Collects the names of all modules, and of the modules in predecessors and contexts.
-void CpfgWriter::find_names() {
+void CpfgWriter::collect_names() {
     const auto note = [&](std::vector<CpfgModule>& list, bool matched) {
         for (CpfgModule& module : list) {
             used_.insert(module.name);
@@ -70,8 +69,6 @@ void CpfgWriter::find_names() {
     }
 }
 
-/// Removes the leading `~` of `~s(x) --> ~s(y)`, so that the production rewrites the `s` after a
-/// `~` and keeps the `~`.
 void CpfgWriter::keep_tilde(CpfgProduction& production) const {
     const auto begins_with_tilde = [](const std::vector<CpfgModule>& list) {
         return list.size() > 1 && list.front().name == "~" && !list.front().has_arguments;
@@ -119,7 +116,6 @@ void CpfgWriter::check_module(CpfgModule& module) {
     module.has_arguments = !module.arguments.empty();
 }
 
-/// Records the symbol after a `~` as a surface.
 void CpfgWriter::add_surface(const CpfgModule& module) {
     surfaces_.emplace(module.name, module.span);
 }
@@ -162,7 +158,6 @@ void CpfgWriter::write_organs() {
     }
 }
 
-/// The .lsys module of a symbol.
 std::string CpfgWriter::spelled(const std::string& name, bool has_arguments) const {
     if (name == ";" && used_.count("'") == 0) {
         return "'";
@@ -199,8 +194,6 @@ void CpfgWriter::write_setting(const char* begin, ForeignId expression, const ch
     out_.put(number ? ";\n" : ");\n", span);
 }
 
-/// Writes the number of passes of a stage. Random numbers in conditions of this stage double the
-/// number; random numbers in conditions of Rewrite add one pass of Decompose.
 void CpfgWriter::write_depth(const char* begin, ForeignId expression, Stage stage) {
     const bool own = bound_.count(stage) != 0;
     const bool first = stage == Stage::Decompose && bound_.count(Stage::Rewrite) != 0;
@@ -218,7 +211,6 @@ void CpfgWriter::write_depth(const char* begin, ForeignId expression, Stage stag
     write_setting(begin, depth, nullptr);
 }
 
-/// Reads the view file, and the colours beside it.
 void CpfgWriter::read_view_file() {
     const std::string_view path = context_.sources.file(out_.file()).path();
     const std::size_t dot = path.rfind('.');
@@ -296,13 +288,11 @@ void CpfgWriter::write_settings(std::string_view turtle) {
     }
 }
 
-/// Writes functions, arrays and the variables of `Start:`, which settings may read.
 void CpfgWriter::write_constants() {
     expressions_.write_functions(out_, header_);
     tree_.write_constants(0, expressions_.end_of_constants(), out_);
 }
 
-/// Declares the modules that no production rewrites and that draw nothing.
 void CpfgWriter::write_declarations() {
     std::set<std::string> rewritten;
     for (const CpfgProduction& production : session_.productions) {

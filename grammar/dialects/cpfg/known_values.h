@@ -19,7 +19,9 @@ public:
     [[nodiscard]] std::optional<double> of(ForeignId expression);
 
 private:
+    /// of() for a node; `depth`: levels of the recursion so far.
     [[nodiscard]] std::optional<double> of_node(const ForeignNode& node, int depth);
+    /// of() for a local value.
     [[nodiscard]] std::optional<double> of_local(std::uint32_t index, int depth);
 
     const ForeignExpressions& tree_;

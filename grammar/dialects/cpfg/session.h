@@ -28,7 +28,7 @@ struct CpfgStatement {
     std::vector<ForeignId> values{}; // Array
     bool tests_last = false;         // Loop: do { block } while (value);
     SourceSpan span{};
-    int depth = 1;
+    int depth = 1; // levels of statements within statements
 };
 
 struct CpfgModule {
@@ -106,10 +106,12 @@ public:
     // --- for the parser
     /// Adds a node; reports and drops nesting beyond the limit.
     ForeignId add(ForeignNode expression);
+    /// Adds a statement; reports nesting beyond the limit. Returns its index in `statements`.
     int add(CpfgStatement statement);
     void report_unsupported(SourceSpan span, std::string message) const {
         context.diagnostics.add(DiagnosticCode::ForeignFeature, span, std::move(message));
     }
+    /// Adds a production of the current stage.
     void production(CpfgProduction made);
     void begin_system() { ++systems; }
 

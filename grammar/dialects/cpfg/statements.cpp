@@ -25,14 +25,14 @@ constexpr std::array<std::string_view, 32> kFunctionNames{
 
 } // namespace
 
-void CpfgExpressions::find_changed_globals(const std::vector<int>& statements) {
+void CpfgExpressions::collect_changed_globals(const std::vector<int>& statements) {
     for (const int index : statements) {
         const CpfgStatement& statement = statement_at(index);
         if (statement.kind == CpfgStatementKind::Assign) {
             changed_globals_.insert(tree_[statement.target].text);
         }
-        find_changed_globals(statement.block);
-        find_changed_globals(statement.otherwise);
+        collect_changed_globals(statement.block);
+        collect_changed_globals(statement.otherwise);
     }
 }
 
@@ -61,12 +61,9 @@ void CpfgExpressions::read_header() {
     in_header_ = false;
 }
 
-/// Classifies the variables that the blocks of a step (`StartEach:`, `EndEach:`) assign:
-/// incremented by each step, assigned anew by each step, or unknown. Then writes the calls of these
-/// blocks.
 void CpfgExpressions::classify_changed_globals() {
-    find_changed_globals(session_.start_each);
-    find_changed_globals(session_.end_each);
+    collect_changed_globals(session_.start_each);
+    collect_changed_globals(session_.end_each);
     for (const std::string& variable : changed_globals_) {
         const ForeignId added = increment_of(variable);
         if (added != kNoForeign) {
@@ -103,14 +100,16 @@ void CpfgExpressions::classify_changed_globals() {
     }
 }
 
-int CpfgExpressions::assignments(const std::vector<int>& statements, const std::string& to) const {
+int CpfgExpressions::count_assignments(const std::vector<int>& statements,
+                                       const std::string& to) const {
     int count = 0;
     for (const int index : statements) {
         const CpfgStatement& statement = statement_at(index);
         count += statement.kind == CpfgStatementKind::Assign && tree_[statement.target].text == to
                      ? 1
                      : 0;
-        count += assignments(statement.block, to) + assignments(statement.otherwise, to);
+        count +=
+            count_assignments(statement.block, to) + count_assignments(statement.otherwise, to);
     }
     return count;
 }
@@ -126,23 +125,20 @@ bool CpfgExpressions::uses(ForeignId expression, const std::set<std::string>& na
                        [&](ForeignId part) { return uses(part, names); });
 }
 
-/// Returns true when a value assigned to `to` has a random number or one of the names in it.
 bool CpfgExpressions::depends(const std::vector<int>& statements,
                               const std::string& to,
                               const std::set<std::string>& names) const {
     return std::any_of(statements.begin(), statements.end(), [&](int index) {
         const CpfgStatement& statement = statement_at(index);
-        const bool assigns = assignments({index}, to) != 0;
+        const bool assigns = count_assignments({index}, to) != 0;
         return assigns && (uses(statement.value, names) || depends(statement.block, to, names) ||
                            depends(statement.otherwise, to, names));
     });
 }
 
-/// The expression that each step adds to the variable, or kNoForeign. It exists if the only
-/// assignment to the variable is `v = v + e;` outside of any `if`, and `e` is neither random nor
-/// changed by a step.
 ForeignId CpfgExpressions::increment_of(const std::string& variable) const {
-    if (assignments(session_.start_each, variable) + assignments(session_.end_each, variable) !=
+    if (count_assignments(session_.start_each, variable) +
+            count_assignments(session_.end_each, variable) !=
         1) {
         return kNoForeign;
     }
@@ -163,7 +159,6 @@ ForeignId CpfgExpressions::increment_of(const std::string& variable) const {
     return kNoForeign;
 }
 
-/// Whether statements assign the variable before they read it; nullopt if they do neither.
 std::optional<bool> CpfgExpressions::is_assigned_first(const std::vector<int>& statements,
                                                        const std::string& variable) const {
     for (const int index : statements) {
@@ -184,7 +179,6 @@ std::optional<bool> CpfgExpressions::is_assigned_first(const std::vector<int>& s
     return std::nullopt;
 }
 
-/// Finds the values of global variables in the production that begins.
 void CpfgExpressions::enter_step() {
     const bool was_quiet = std::exchange(quiet_, quiet_ || !reported_stages_.insert(stage_).second);
     in_header_ = true;
@@ -256,7 +250,6 @@ void CpfgExpressions::bind_draws(std::uint32_t first) {
     draws_ = first;
 }
 
-/// Assigns a value to a variable; adds a local value unless the value already has a name.
 void CpfgExpressions::assign(const std::string& variable, ForeignId value, SourceSpan span) {
     const ForeignKind kind = tree_[value].kind;
     const auto before = variables_.find(variable);
@@ -285,7 +278,7 @@ void CpfgExpressions::run(const CpfgStatement& statement) {
             assign_element(statement);
             return;
         }
-        if (opens_file(statement)) {
+        if (open_file(statement)) {
             return;
         }
         const bool global =

@@ -7,7 +7,6 @@
 
 namespace lsys {
 
-/// Looks for the commands of the model whose effect depends on its view file.
 CpfgUses CpfgWriter::find_uses() const {
     CpfgUses uses;
     const auto is_any = [&](const char* name, bool has_arguments) {

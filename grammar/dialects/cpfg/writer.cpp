@@ -45,7 +45,7 @@ void CpfgWriter::write(std::string_view turtle) {
     add_productions_of_commands(session_);
     join_module_sequences(session_);
     move_statements_of_clock(session_);
-    find_names();
+    collect_names();
     read_view_file();
     expressions_.read_header();
     lower_header();
@@ -67,7 +67,6 @@ void CpfgWriter::write(std::string_view turtle) {
     }
 }
 
-/// Returns true if a condition always holds.
 bool CpfgWriter::is_always(ForeignId condition) const {
     if (condition == kNoForeign) {
         return true;
@@ -76,7 +75,6 @@ bool CpfgWriter::is_always(ForeignId condition) const {
     return !number.empty() && !is_cpfg_zero(number);
 }
 
-/// Returns true if the production is chosen at random among others.
 bool CpfgWriter::is_random_choice(const CpfgProduction& production) const {
     return session_.seed != kNoForeign && production.stage == Stage::Rewrite &&
            !production.predecessor.empty() && alternatives_.at(key_of(production)) > 1;
@@ -114,7 +112,7 @@ void CpfgWriter::lower_productions() {
     lowered_.resize(session_.productions.size());
     for (std::size_t i = 0; i < lowered_.size(); ++i) {
         const CpfgProduction& production = session_.productions[i];
-        if (!check(production)) {
+        if (!check_production(production)) {
             continue;
         }
         const std::vector<std::string> names = formals_of(production);
@@ -126,7 +124,6 @@ void CpfgWriter::lower_productions() {
     }
 }
 
-/// Translates a production to .lsys. Precondition: CpfgExpressions::begin() was called for it.
 void CpfgWriter::lower(std::size_t index) {
     const CpfgProduction& production = session_.productions[index];
     Lowered& lowered = lowered_[index];
@@ -148,9 +145,6 @@ void CpfgWriter::lower(std::size_t index) {
     lowered.draws = expressions_.draws();
 }
 
-/// Finds the modules whose conditions or choices are random. The productions of such a module
-/// become one production that draws the random numbers, and decompositions that choose by the
-/// numbers.
 void CpfgWriter::find_groups() {
     std::map<std::pair<Stage, std::string>, std::vector<std::size_t>> by_module;
     std::set<std::pair<Stage, std::string>> drawn;
@@ -183,7 +177,6 @@ void CpfgWriter::find_groups() {
     }
 }
 
-/// Returns whether the productions can be a group; reports an error if not.
 bool CpfgWriter::can_bind(const std::vector<std::size_t>& members) {
     std::uint32_t draws = 0;
     for (const std::size_t i : members) {
@@ -206,7 +199,6 @@ bool CpfgWriter::can_bind(const std::vector<std::size_t>& members) {
     return true;
 }
 
-/// Translates the productions again, with their random numbers as parameters.
 void CpfgWriter::bind_group(const std::vector<std::size_t>& members) {
     groups_[members.front()] = members;
     expressions_.set_quiet(true);
@@ -232,7 +224,6 @@ void CpfgWriter::bind_group(const std::vector<std::size_t>& members) {
     expressions_.set_quiet(false);
 }
 
-/// Makes the choice by weights part of the conditions.
 void CpfgWriter::weigh_group(const std::vector<std::size_t>& members) {
     std::vector<ForeignId> conditions;
     for (const std::size_t i : members) {
@@ -251,10 +242,6 @@ void CpfgWriter::weigh_group(const std::vector<std::size_t>& members) {
     }
 }
 
-/// The condition under which production `index` of a group is chosen: its own condition holds, and
-/// the last random number, times the sum of the weights of all matching productions, is less than
-/// the sum of their weights up to and including production `index`. The last production of the
-/// group needs only its own condition.
 ForeignId CpfgWriter::weighted_condition(const std::vector<std::size_t>& members,
                                          std::size_t index) {
     const CpfgProduction& production = session_.productions[index];
@@ -384,7 +371,6 @@ void CpfgWriter::write_modules(const std::vector<CpfgModule>& list,
     }
 }
 
-/// Writes a predecessor or context, whose parameters are names.
 void CpfgWriter::write_pattern(const std::vector<CpfgModule>& list) {
     for (const CpfgModule& module : list) {
         const CpfgModule* const next = &module == &list.back() ? nullptr : &module + 1;
@@ -407,8 +393,7 @@ void CpfgWriter::write_pattern(const std::vector<CpfgModule>& list) {
     }
 }
 
-/// Reports productions that .lsys cannot express; returns false for them.
-bool CpfgWriter::check(const CpfgProduction& production) {
+bool CpfgWriter::check_production(const CpfgProduction& production) {
     if (production.predecessor.empty()) {
         session_.report_unsupported(production.span, "a production without a module");
         return false;
@@ -437,7 +422,6 @@ bool CpfgWriter::check(const CpfgProduction& production) {
     return true;
 }
 
-/// Writes the head of a production: `#p1 : left < module > right : `.
 void CpfgWriter::write_head(const CpfgProduction& production, const std::string& label) {
     const bool rewrites = production.stage == Stage::Rewrite;
     out_.put(label + " : ", production.span);
@@ -547,8 +531,6 @@ void CpfgWriter::write_group(std::size_t index) {
     }
 }
 
-/// Whether the production could decompose a module of the axiom. cpfg decomposes the words of
-/// productions, but not the axiom.
 bool CpfgWriter::may_decompose_axiom(const CpfgProduction& production) const {
     return production.stage == Stage::Decompose &&
            std::any_of(session_.axiom.begin(), session_.axiom.end(), [&](const CpfgModule& module) {

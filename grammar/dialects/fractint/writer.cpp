@@ -164,7 +164,6 @@ bool FractintWriter::check_key(const FractintLine& line) {
     return true;
 }
 
-/// Reports the words of a line that Fractint does not read.
 void FractintWriter::check_texts(const FractintLine& line) {
     const bool is_rule = line.kind == FractintLineKind::Rule;
     bool begun = false;
@@ -256,8 +255,6 @@ void FractintWriter::write_symbol(SourceSpan symbol) {
     }
 }
 
-/// Writes the number at the start of `rest`, after a command; returns its length in bytes. A prefix
-/// `I` inverts the number, `Q` takes its square root.
 std::uint32_t FractintWriter::write_number(SourceSpan command, std::string_view rest) {
     bool takes_root = false;
     bool inverts = false;

@@ -149,7 +149,6 @@ ForeignId HoudiniExpressions::call(const ForeignNode& node, std::vector<ForeignI
     return tree_.call(found->in_lsys, std::move(arguments), node.token);
 }
 
-/// A random number from 0 to 1; equal seeds in one rule give one number.
 ForeignId HoudiniExpressions::random(const ForeignNode& node, const HoudiniScope& scope) {
     if (scope.place == HoudiniPlace::Condition || scope.place == HoudiniPlace::Probability) {
         Diagnostic& error =

@@ -39,15 +39,18 @@ public:
 
 private:
     using Terms = std::map<ForeignId, ForeignId>; // by node of the file
+    /// The equivalent of one node. `terms`: the equivalents of its operands.
     [[nodiscard]] ForeignId lower(ForeignId id, const Terms& terms, const HoudiniScope& scope);
     [[nodiscard]] ForeignId name(const ForeignNode& node, const HoudiniScope& scope);
     [[nodiscard]] ForeignId call(const ForeignNode& node, std::vector<ForeignId> arguments);
+    /// A random number from 0 to 1; equal seeds in one rule give one number.
     [[nodiscard]] ForeignId random(const ForeignNode& node, const HoudiniScope& scope);
+    /// Reports a feature that .lsys lacks; returns the number 0 in its place.
     ForeignId unsupported(SourceSpan place, const std::string& message);
 
     HoudiniSession& session_;
     ForeignExpressions& tree_;
-    std::string angle_;
+    std::string angle_;                      // see set_angle()
     std::map<std::string, ForeignId> seeds_; // random numbers of the rule, by seed as written
     bool has_warned_random_ = false;
 };

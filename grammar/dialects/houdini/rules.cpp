@@ -37,8 +37,6 @@ std::string HoudiniWriter::group_of(const HoudiniRule& rule) const {
     return group;
 }
 
-/// Probability that the condition `rand(seed) < number` or `rand(seed) > number` holds, as an
-/// expression; empty for other conditions.
 std::string HoudiniWriter::probability_of(ForeignId condition) const {
     const ForeignNode& test = tree_[condition];
     if (test.kind != ForeignKind::Binary) {
@@ -57,8 +55,6 @@ std::string HoudiniWriter::probability_of(ForeignId condition) const {
     return test.text[0] == '<' ? right.text : "(1 - " + right.text + ")";
 }
 
-/// Finds pairs of rules that together are a random choice: the only two rules of a group, the first
-/// with a condition that probability_of() knows, the second without a condition.
 void HoudiniWriter::find_random_pairs() {
     std::map<std::string, std::vector<const HoudiniRule*>> groups;
     std::map<std::string_view, std::size_t> rule_counts; // by symbol
@@ -249,7 +245,6 @@ void HoudiniWriter::write_expression(ForeignId expression, const HoudiniScope& s
     tree_.write(expressions_.term(expression, scope), {.expands_locals = true}, translation_);
 }
 
-/// Writes the rule that ages a symbol matched by no other rule.
 void HoudiniWriter::write_ageing(const HoudiniRule& rule, std::size_t index) {
     const HoudiniModule& head = rule.predecessor.front();
     const HoudiniSymbol& symbol = symbols_.symbol(head);

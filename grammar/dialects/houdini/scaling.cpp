@@ -59,8 +59,6 @@ void HoudiniWriter::write_scaled(const Lowered& made) {
     translation_.put(after, module.symbol);
 }
 
-/// Writes interpretations that scale each command by a random number from 1 - s to 1 + s, where s
-/// is the Random Scale. They change what is drawn and leave the word.
 void HoudiniWriter::write_random_scale() {
     const auto found = settings_.find("random_scale");
     if (found == settings_.end() || read_literal(number("random_scale", "0")).value == 0.0F) {

@@ -58,6 +58,7 @@ public:
     [[nodiscard]] const ForeignNode& node(ForeignId id) const { return nodes[id]; }
 
     // For the scanner.
+    /// Consumes the next `length` bytes as the last match; returns their span.
     SourceSpan take(std::uint32_t length);
     /// Puts the last `length` bytes of the last match back.
     void put_back(std::uint32_t length);
@@ -68,6 +69,7 @@ public:
     int key_token(std::string_view text);
     /// key_token() of a line that can only be a setting: an unknown key is one, too.
     int any_key_token(std::string_view text);
+    /// Bytes of `text` without the blanks at its end.
     [[nodiscard]] static std::uint32_t length_of_key(std::string_view text);
     [[nodiscard]] bool wants_modules() const { return wants_modules_; }
     /// Opens a parenthesis.

@@ -24,6 +24,7 @@ class HoudiniSymbols {
 public:
     explicit HoudiniSymbols(const HoudiniSession& session);
 
+    /// The facts of the symbol of a module.
     [[nodiscard]] const HoudiniSymbol& symbol(const HoudiniModule& module) const;
     /// Parameters of a module, without omitted ones at the end.
     [[nodiscard]] std::uint32_t count(const HoudiniModule& module) const;
@@ -38,8 +39,12 @@ public:
     static constexpr std::uint32_t kMaxParameters = 60;
 
 private:
+    /// symbol(), made at the first call.
     HoudiniSymbol& symbol_of(const HoudiniModule& module);
+    /// Adds the symbols of modules with their numbers of parameters. `is_word`: of the axiom or a
+    /// successor, not of a head.
     void count_symbols(const std::vector<HoudiniModule>& modules, bool is_word);
+    /// Whether an expression of the rule reads the age `g`.
     [[nodiscard]] bool reads_age(const HoudiniRule& rule) const;
 
     const HoudiniSession& session_;

@@ -63,8 +63,6 @@ void HoudiniWriter::read_setting(const HoudiniSettingRow& row, SourceSpan key, S
     }
 }
 
-/// Splits the number of generations: 4.25 is 5 generations, of which the last one has a quarter of
-/// its lengths, angles and widths.
 void HoudiniWriter::read_generations() {
     const auto found = settings_.find("n");
     if (found == settings_.end()) {
@@ -84,7 +82,6 @@ void HoudiniWriter::read_generations() {
                     : text_of(value - whole);
 }
 
-/// Whether a switch is on, as all are in a new node.
 bool HoudiniWriter::is_on(std::string_view name) const {
     const auto found = settings_.find(name);
     if (found == settings_.end()) {
@@ -94,7 +91,6 @@ bool HoudiniWriter::is_on(std::string_view name) const {
     return word == "on" || word == "1";
 }
 
-/// The value of a setting as written in the file, or `fallback`.
 std::string HoudiniWriter::number(std::string_view name, const char* fallback) const {
     const auto found = settings_.find(name);
     std::string digits = found != settings_.end() ? std::string(text(found->second)) : fallback;
@@ -158,7 +154,6 @@ bool HoudiniWriter::calls(std::string_view function) const {
     return false;
 }
 
-/// Defines the values b, c and d as constants, which the option -D can replace.
 void HoudiniWriter::write_values() {
     for (const std::string_view value : {"b", "c", "d"}) {
         if (!reads_variable(value)) {
@@ -273,7 +268,6 @@ void HoudiniWriter::write_module(const Lowered& made) {
     translation_.put(made.arguments.empty() ? "" : ")", place);
 }
 
-/// Warns, once per symbol, that lsc ignores the effect of the symbol.
 void HoudiniWriter::warn_ignored_effect(char symbol, SourceSpan place) {
     if (warned_.find(symbol) != std::string::npos) {
         return;
@@ -298,7 +292,6 @@ HoudiniWriter::Lowered HoudiniWriter::lower_module(const HoudiniModule& module,
     return made;
 }
 
-/// Random ranges of the three turns of `~`, drawn when the derivation writes the module.
 std::vector<ForeignId> HoudiniWriter::random_turns(const HoudiniModule& module,
                                                    const HoudiniScope& scope) {
     const SourceSpan span = module.symbol;
@@ -316,7 +309,6 @@ std::vector<ForeignId> HoudiniWriter::random_turns(const HoudiniModule& module,
     return turns;
 }
 
-/// Lowers a turtle symbol that .lsys spells in another way; returns false for other symbols.
 bool HoudiniWriter::lower_special(Lowered& made, char symbol, const HoudiniScope& scope) {
     const HoudiniModule& module = *made.module;
     const std::uint32_t count = symbols_.count(module);
@@ -372,7 +364,6 @@ bool HoudiniWriter::lower_special(Lowered& made, char symbol, const HoudiniScope
     }
 }
 
-/// The value of an omitted parameter: its default for a turtle command, else 0.
 ForeignId HoudiniWriter::omitted_argument(const HoudiniModule& module,
                                           std::uint32_t index,
                                           SourceSpan place) {
@@ -398,7 +389,6 @@ ForeignId HoudiniWriter::omitted_argument(const HoudiniModule& module,
     return tree_.number(value, place);
 }
 
-/// The arguments of a module in the axiom or a successor, without the first `skip`.
 std::vector<ForeignId> HoudiniWriter::arguments(const HoudiniModule& module,
                                                 std::uint32_t skip,
                                                 const HoudiniScope& scope) {

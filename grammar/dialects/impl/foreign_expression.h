@@ -128,6 +128,7 @@ public:
         }
         return false;
     }
+    /// Whether the expression has a random number.
     [[nodiscard]] bool has_draw(ForeignId root) const;
     /// Count of nodes written for `root` when local values are expanded, at most about 2^32.
     [[nodiscard]] std::uint64_t expanded_size(ForeignId root) const;
@@ -152,6 +153,7 @@ private:
                     const ForeignWriting& how,
                     std::deque<Item>& items,
                     Translation& out) const;
+    /// Whether the value of a local is written in place of its name.
     [[nodiscard]] bool is_expanded(const ForeignNode& node, const ForeignWriting& how) const {
         return node.kind == ForeignKind::Local &&
                (locals_[node.index].is_inline ||

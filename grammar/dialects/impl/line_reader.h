@@ -66,7 +66,7 @@ private:
     LineFormat format_;
     const ParseContext& context_;
     const DialectWords* words_ = nullptr;
-    std::size_t at_ = 0;
+    std::size_t at_ = 0; // offset in text_ of the next piece
     bool ended_ = false; // the last LineEnd has been taken
 };
 

@@ -81,7 +81,6 @@ bool SyntaxMessage::report_look_alike() {
     return report_foreign_look_alike(place_, context_);
 }
 
-/// Reports a line that begins with a misspelt keyword; returns false for other lines.
 bool SyntaxMessage::report_key() {
     if (words_ == nullptr) {
         return false;
@@ -107,7 +106,6 @@ bool SyntaxMessage::report_key() {
     return true;
 }
 
-/// Reports an arrow of another language at the place or before it; returns false if there is none.
 bool SyntaxMessage::report_arrow() {
     constexpr std::array<std::string_view, 5> kArrows{"-->", "->", "=>", "==>", ":="};
     if (words_ == nullptr || words_->arrow.empty()) {

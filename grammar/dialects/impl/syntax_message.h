@@ -32,8 +32,12 @@ public:
     void report(std::string_view found);
 
 private:
+    /// Reports a character that looks like an ASCII character; returns false for others.
     [[nodiscard]] bool report_look_alike();
+    /// Reports a line that begins with a misspelt keyword; returns false for other lines.
     [[nodiscard]] bool report_key();
+    /// Reports an arrow of another language at the place or before it; returns false if there is
+    /// none.
     [[nodiscard]] bool report_arrow();
 
     const ParseContext& context_;

@@ -82,7 +82,6 @@ void L3dWriter::write_key(SourceSpan text) {
     translation_.put("`", text);
 }
 
-/// Writes the character at `at`; returns the offset of the next character.
 std::uint32_t L3dWriter::put_character(std::uint32_t at, std::uint32_t end) {
     const char c = source_[at];
     const CodePoint point = decode_utf8(source_.substr(at, end - at));
@@ -107,7 +106,6 @@ void L3dWriter::put_characters(std::uint32_t at, std::uint32_t end) {
     }
 }
 
-/// Warns of a parameter whose written value L3D does not use.
 void L3dWriter::check_parameter(char command, Parameter parameter) {
     const std::string_view inner =
         source_.substr(parameter.open + 1, parameter.end - parameter.open - 2);

@@ -31,10 +31,14 @@ private:
         std::uint32_t open = 0; // offset of the `(`
         std::uint32_t end = 0;  // one past the `)`
     };
+    /// Writes the character at `at`; returns the offset of the next character.
     std::uint32_t put_character(std::uint32_t at, std::uint32_t end);
     void put_characters(std::uint32_t at, std::uint32_t end);
+    /// Warns that L3D reads the bytes [begin, end) in an unexpected way.
     void warn(std::uint32_t begin, std::uint32_t end, const std::string& message);
+    /// Warns of a parameter whose written value L3D does not use.
     void check_parameter(char command, Parameter parameter);
+    /// Warns, once each, of a half turn and of a digit, which L3D treats in its own way.
     void check_command(char command, std::uint32_t at);
 
     const ParseContext& context_;

@@ -59,7 +59,7 @@ void line_up_block(std::span<LayoutRow> rows, std::vector<std::uint32_t>& widths
 
 } // namespace
 
-LayoutRow measure(std::string_view text, std::size_t begin, std::uint32_t column) {
+LayoutRow measure_statement(std::string_view text, std::size_t begin, std::uint32_t column) {
     LayoutRow row;
     row.begin = static_cast<std::uint32_t>(begin);
     row.column = column;

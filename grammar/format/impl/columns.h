@@ -34,7 +34,10 @@ struct LayoutRow {
     bool has_several_lines = false; // a comment within has line ends
 };
 
-[[nodiscard]] LayoutRow measure(std::string_view text, std::size_t begin, std::uint32_t column);
+/// Measures the statement at byte `begin`, which is in column `column`; LayoutRow::cells are
+/// widths.
+[[nodiscard]] LayoutRow
+measure_statement(std::string_view text, std::size_t begin, std::uint32_t column);
 
 /// Replaces the widths of cells by the blanks that align the next cells.
 void line_up(std::span<LayoutRow> rows);

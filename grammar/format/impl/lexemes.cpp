@@ -121,7 +121,6 @@ void LexemeReader::read_keyword() {
     }
 }
 
-/// The next character outside of blanks and comments; NUL at the end.
 char LexemeReader::next_character() const {
     std::size_t at = at_;
     while (at < text_.size()) {
@@ -137,8 +136,6 @@ char LexemeReader::next_character() const {
     return '\0';
 }
 
-/// Enters the next part of a production, `#name :` head `:` condition `:` successor, or of an
-/// axiom, `#w ~` probability `:` modules.
 void LexemeReader::enter_next_part() {
     if (in_probability_) { // the modules of the axiom follow the probability
         in_probability_ = false;

@@ -79,11 +79,16 @@ private:
     [[nodiscard]] std::size_t bytes_left() const { return text_.size() - at_; }
     [[nodiscard]] std::size_t word_length(std::size_t from) const;
     [[nodiscard]] std::size_t number_length() const;
+    /// The next character outside of blanks and comments; NUL at the end.
     [[nodiscard]] char next_character() const;
+    /// Skips blanks and counts line ends; returns false at the end of the text.
     bool skip_blanks();
+    /// Makes the next `length` bytes the current token.
     void take(LexemeKind kind, std::size_t length);
     void read_line_comment();
     void read_keyword();
+    /// Enters the next part of a production, `#name :` head `:` condition `:` successor, or of an
+    /// axiom, `#w ~` probability `:` modules.
     void enter_next_part();
     void read_token();
     void read_module();
@@ -109,6 +114,7 @@ private:
     LexemeKind previous_ = LexemeKind::Semicolon;
 };
 
+/// The tokens of a text.
 [[nodiscard]] std::vector<Lexeme> lexemes_of(std::string_view text);
 
 } // namespace lsys

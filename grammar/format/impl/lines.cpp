@@ -63,9 +63,6 @@ void LineWriter::new_line(std::uint32_t depth) {
     one_line_ = false;
 }
 
-/// Index of the break to use: of the breaks that begin at or after kShortLine and end within
-/// kColumns, the one with the highest class, then the lowest rank, then the last. If there is none,
-/// the last break that ends within kColumns, else the first break.
 std::size_t LineWriter::best_break() const {
     std::size_t best = breaks_.size();
     std::size_t last_short = breaks_.size();

@@ -40,8 +40,13 @@ private:
         std::uint32_t depth = 0;
         BreakClass break_class = BreakClass::Fine;
     };
+    /// Breaks the current line at best_break().
     void break_line();
+    /// Ends the current line and begins one with the indent of `depth` brackets.
     void new_line(std::uint32_t depth);
+    /// Index of the break to use: of the breaks that begin at or after kShortLine and end within
+    /// kColumns, the one with the highest class, then the lowest rank, then the last. If there is
+    /// none, the last break that ends within kColumns, else the first break.
     [[nodiscard]] std::size_t best_break() const;
 
     std::string& out_;

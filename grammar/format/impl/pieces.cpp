@@ -168,7 +168,6 @@ bool PieceReader::begins_cell() const {
     return false;
 }
 
-/// Whether the current token is the name of a local value after the first.
 bool PieceReader::begins_local() const {
     return shape_ == StatementShape::Production && !is_in_list_ && parentheses_ == 0 &&
            previous_.kind == LexemeKind::Comma;
@@ -207,7 +206,6 @@ BreakClass PieceReader::break_class() const {
     }
 }
 
-/// Whether `after` repeats the symbol before it.
 bool PieceReader::continues_repeat(const Lexeme& after) const {
     return after.kind == LexemeKind::Module && previous_.kind == LexemeKind::Module &&
            !after.has_blank_before && after.text[0] == previous_.text[0] &&

@@ -47,12 +47,19 @@ public:
     [[nodiscard]] StatementShape shape() const { return shape_; }
 
 private:
+    /// Whether the current piece ends before the token `after`.
     [[nodiscard]] bool ends_before(const Lexeme& after) const;
+    /// Whether `after` repeats the symbol before it.
     [[nodiscard]] bool continues_repeat(const Lexeme& after) const;
+    /// Whether the current token begins a cell of LayoutRow.
     [[nodiscard]] bool begins_cell() const;
+    /// Whether the current token is the name of a local value after the first.
     [[nodiscard]] bool begins_local() const;
+    /// The quality of a line break before the current token.
     [[nodiscard]] BreakClass break_class() const;
+    /// Sets the facts of a piece that begins with the current token.
     void describe(Piece& piece);
+    /// Appends the current token to the piece.
     void take(Piece& piece);
 
     LexemeReader reader_;
@@ -66,8 +73,8 @@ private:
     std::uint32_t parentheses_ = 0;  // number of open `(`
     std::uint32_t brackets_ = 0;     // number of open `[`
     std::uint32_t repeat_count_ = 1; // adjacent equal symbols, `////`
-    bool is_in_list_ = false;
-    bool has_comment_ = false;
+    bool is_in_list_ = false;        // the current token is in a list of modules
+    bool has_comment_ = false;       // a block comment has been read
 };
 
 /// Appends `comment` with line ends `\n`.

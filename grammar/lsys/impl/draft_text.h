@@ -42,6 +42,7 @@ struct DraftText {
     Diagnostic& report(DiagnosticCode code, SourceSpan span, std::string message) {
         return diagnostics.add(code, span, std::move(message));
     }
+    /// Replaces the character at `at`.
     void put(std::size_t at, char c) {
         text[at] = c;
         masked[at] = c;

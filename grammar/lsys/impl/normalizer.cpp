@@ -62,7 +62,7 @@ void Normalizer::replace_all(std::span<const StrayCharacter> strays) {
         const CodePoint point = decode_utf8(text_.substr(stray.begin));
         const std::optional<Confusable> confusable = find_confusable(point.value);
         if (confusable && confusable->name == kSuperscript && !stray.in_value) {
-            report_power(stray.begin, point);
+            report_superscript(stray.begin, point);
             map_.replace(stray.begin, stray.begin + point.length, " ");
         } else if (confusable) {
             const bool continues = confusable->name == kSuperscript &&
@@ -141,8 +141,7 @@ void Normalizer::report_group() {
     group_ = {};
 }
 
-/// Reports a superscript after a module.
-void Normalizer::report_power(std::uint32_t begin, const CodePoint& point) {
+void Normalizer::report_superscript(std::uint32_t begin, const CodePoint& point) {
     report_group();
     if (diagnostics_ == nullptr || !diagnostics_->admits(DiagnosticCode::LookAlike)) {
         return;
@@ -164,7 +163,6 @@ bool Normalizer::is_word_at(std::uint32_t at) const {
     return point.value >= 0x80 && is_letter_beyond_ascii(point.value);
 }
 
-/// Returns whether `word` is a single Greek letter; reports the first occurrence of each letter.
 bool Normalizer::report_greek(std::uint32_t begin, TextPart word, const CodePoint& point) {
     constexpr std::array<std::string_view, 25> kGreek{
         "alpha", "beta",   "gamma",   "delta", "epsilon", "zeta",    "eta",  "theta", "iota",

@@ -47,19 +47,27 @@ private:
         std::uint32_t count = 0; // number of characters
     };
 
+    /// Replaces the character by `ascii` and adds it to group_; reports a group that it does not
+    /// continue.
     void replace_confusable(std::uint32_t begin,
                             const CodePoint& point,
                             std::string_view ascii,
                             std::string_view name);
-    void report_power(std::uint32_t begin, const CodePoint& point);
+    /// Reports a superscript after a module.
+    void report_superscript(std::uint32_t begin, const CodePoint& point);
     /// Bytes [begin, end) of the text.
     struct TextPart {
         std::uint32_t begin = 0;
         std::uint32_t end = 0;
     };
+    /// Returns whether `word` is a single Greek letter; reports the first occurrence of each
+    /// letter.
     bool report_greek(std::uint32_t begin, TextPart word, const CodePoint& point);
+    /// Reports a character beyond ASCII that looks like no ASCII character.
     void report_unknown(std::uint32_t begin, const CodePoint& point);
+    /// Reports and clears group_.
     void report_group();
+    /// Whether the character of byte `at` can belong to a word.
     [[nodiscard]] bool is_word_at(std::uint32_t at) const;
 
     FileId file_;
@@ -67,9 +75,9 @@ private:
     TextMap& map_;
     Diagnostics* diagnostics_;
     Group group_;
-    std::uint32_t word_end_ = 0; // end of the last word with an unknown letter
-    std::u32string reported_greek_;
-    bool explained_ = false; // a message has the note about text copied from a PDF
+    std::uint32_t word_end_ = 0;    // end of the last word with an unknown letter
+    std::u32string reported_greek_; // letters that have been reported
+    bool explained_ = false;        // a message has the note about text copied from a PDF
 };
 
 } // namespace lsys

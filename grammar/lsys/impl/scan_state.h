@@ -120,6 +120,7 @@ struct ScanState {
     // Count of bracket searches in this text, at most kMaxBracketSearches (bracket_search.h).
     std::uint32_t bracket_searches = 0;
 
+    /// Begins a part of the statement.
     void enter(Part next) {
         part = next;
         part_empty = true;
@@ -130,6 +131,7 @@ struct ScanState {
         has_locals = has_locals || next == Part::Locals;
         next_in_locals = next == Part::Locals ? NextInLocals::Let : NextInLocals::Value;
     }
+    /// Ends the operators that wait for operands at this level.
     void end_chain() {
         depth -= chain;
         chain = 0;
@@ -140,6 +142,7 @@ struct ScanState {
         value_before = false;
         name_before = false;
     }
+    /// Opens a bracket.
     void push(OpenBracket::Kind kind) {
         open.push_back({kind, begin, chain});
         open_braces += kind == OpenBracket::Kind::Brace ? 1u : 0u;
@@ -148,6 +151,7 @@ struct ScanState {
         value_before = false;
         name_before = false;
     }
+    /// Closes the innermost bracket; returns its kind.
     OpenBracket::Kind pop() {
         end_chain();
         const OpenBracket top = open.back();

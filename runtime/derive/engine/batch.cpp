@@ -357,7 +357,6 @@ void Batches::add_copy(std::uint32_t index,
     add(index, copy, position, out);
 }
 
-/// Allocates the first batch of a program, or runs its full batch.
 void Batches::make_room(std::uint32_t index) {
     Queue& queue = queues_[index];
     if (queue.modules != nullptr) {
@@ -398,7 +397,6 @@ void Batches::run(std::uint32_t index) {
     faulty_ = run_batch({bytecode_, inputs_, program, modules, rows_.data()}) || faulty_;
 }
 
-/// Evaluates the modules of a small batch one after the other.
 void Batches::run_each(const BatchProgram& program,
                        const BatchModules& modules,
                        std::size_t count) {

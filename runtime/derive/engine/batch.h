@@ -47,7 +47,7 @@ struct BatchInputs {
     float steps = 0.0F; // value of steps()
     std::uint64_t seed = 0;
     std::uint32_t generation = 0;
-    std::uint64_t first_draw = 0;
+    std::uint64_t first_draw = 0; // number of the first draw of each module
 };
 
 /// The modules of a batch, by lane.
@@ -92,8 +92,11 @@ private:
         std::vector<float> copies;             // formals, if the program gathers them
     };
 
+    /// Allocates the first batch of a program, or runs its full batch.
     void make_room(std::uint32_t index);
+    /// Runs the batch of a program and empties it.
     void run(std::uint32_t index);
+    /// Evaluates the modules of a small batch one after the other.
     void run_each(const BatchProgram& program, const BatchModules& modules, std::size_t count);
 
     const Bytecode& bytecode_;

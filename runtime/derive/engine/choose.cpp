@@ -5,8 +5,6 @@
 
 namespace lsys {
 
-/// Evaluates the condition of a candidate. `own`: the parameters of the module. Returns false on a
-/// fault.
 template <typename C>
 bool Chooser<C>::condition(const Candidate& candidate,
                            const ModulePlace& place,
@@ -37,7 +35,6 @@ bool Chooser<C>::condition(const Candidate& candidate,
     return true;
 }
 
-/// Evaluates the expression of a candidate at instruction `first`. Returns false on a fault.
 template <typename C>
 bool Chooser<C>::evaluate_for(const Candidate& candidate,
                               std::uint32_t first,
@@ -47,18 +44,16 @@ bool Chooser<C>::evaluate_for(const Candidate& candidate,
     const EvalFrame frame{matcher_.formals(candidate, place), inputs.globals,
                           static_cast<float>(keys_.generation), inputs.steps};
     return evaluate(plan_.bytecode(), first, frame, nullptr, &value, fault_) ||
-           blame(candidate, false);
+           set_faulty_candidate(candidate, false);
 }
 
-/// Records the candidate to which fault_ belongs. Returns false.
 template <typename C>
-bool Chooser<C>::blame(const Candidate& candidate, bool in_weight) {
+bool Chooser<C>::set_faulty_candidate(const Candidate& candidate, bool in_weight) {
     faulty_candidate_ = static_cast<std::uint32_t>(&candidate - &plan_.candidate(0));
     fault_in_weight_ = in_weight;
     return false;
 }
 
-/// Computes the weight of a matching candidate and adds it to `sum`. Returns false on a fault.
 template <typename C>
 bool Chooser<C>::weight(const Candidate& candidate,
                         const ModulePlace& place,
@@ -71,13 +66,13 @@ bool Chooser<C>::weight(const Candidate& candidate,
     }
     const std::uint32_t first = plan_.bytecode().productions[candidate.production].weight_code;
     if (!evaluate_for(candidate, first, place, weight)) {
-        return blame(candidate, true);
+        return set_faulty_candidate(candidate, true);
     }
     sum += weight;
     if (weight < 0.0F || !std::isfinite(sum)) {
         fault_ = {weight < 0.0F ? Fault::NegativeWeight : Fault::WeightsTooLarge, first, weight,
                   0.0F, 0.0F};
-        return blame(candidate, true);
+        return set_faulty_candidate(candidate, true);
     }
     return true;
 }
@@ -127,7 +122,6 @@ bool Chooser<C>::choose(const ModulePlace& place, const Row& row, std::uint32_t&
     return true;
 }
 
-/// The stochastic choice among the candidates in the group of `first`, which is known to match.
 template <typename C>
 bool Chooser<C>::choose_among(const Family& family,
                               std::uint32_t first,

@@ -94,17 +94,23 @@ public:
     [[nodiscard]] Matcher<C>& matcher() { return matcher_; }
 
 private:
+    /// Evaluates the condition of a candidate. `own`: the parameters of the module. Returns false
+    /// on a fault.
     [[nodiscard]] bool condition(const Candidate& candidate,
                                  const ModulePlace& place,
                                  const float* own,
                                  bool& is_true);
+    /// Evaluates the expression of a candidate at instruction `first`. Returns false on a fault.
     [[nodiscard]] bool evaluate_for(const Candidate& candidate,
                                     std::uint32_t first,
                                     const ModulePlace& place,
                                     float& value);
-    bool blame(const Candidate& candidate, bool in_weight);
+    /// Records the candidate to which fault_ belongs. Returns false.
+    bool set_faulty_candidate(const Candidate& candidate, bool in_weight);
+    /// Computes the weight of a matching candidate and adds it to `sum`. Returns false on a fault.
     [[nodiscard]] bool
     weight(const Candidate& candidate, const ModulePlace& place, float& sum, float& weight);
+    /// The stochastic choice among the candidates in the group of `first`, which is known to match.
     [[nodiscard]] bool choose_among(const Family& family,
                                     std::uint32_t first,
                                     const ModulePlace& place,
@@ -127,7 +133,7 @@ private:
         std::uint32_t candidate = 0;
         float weight = 0.0F;
     };
-    std::vector<Matching> matching_;
+    std::vector<Matching> matching_; // used by choose_among()
 };
 
 } // namespace lsys

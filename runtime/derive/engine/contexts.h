@@ -26,6 +26,7 @@ enum class ContextRole : std::uint8_t { Module, Ignored, Open, Close };
 /// Indices into a word, of 4 bytes each if the word is short enough.
 class IndexTable {
 public:
+    /// Bytes of an index.
     [[nodiscard]] static std::uint64_t width(std::uint64_t word_length) {
         return word_length < 0xFFFFFFFFu ? sizeof(std::uint32_t) : sizeof(std::uint64_t);
     }
@@ -94,12 +95,16 @@ public:
 private:
     template <typename C>
     [[nodiscard]] bool is_plain(const C* codes) const;
+    /// Builds left_, the table of left_of().
     template <typename C>
     void build_left(const C* codes);
+    /// Builds next_ and jump_, the tables of next_from() and jump_from().
     template <typename C>
     void build_right(const C* codes);
+    /// Builds offsets_, the table of offset_before().
     template <typename C>
     void build_offsets(const C* codes, const Plan& plan);
+    /// prepare() for codes of type C.
     template <typename C>
     [[nodiscard]] bool build(const Plan& plan, std::span<const C> word);
 

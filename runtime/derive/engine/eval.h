@@ -36,6 +36,7 @@ public:
     [[nodiscard]] static RangeDraws at_start(std::uint64_t seed, std::uint32_t position) {
         return {seed, kStartGeneration, position, 0};
     }
+    /// The draw of range number `range`, as u in [0, 1).
     [[nodiscard]] float draw(std::uint32_t range);
     /// The draw that decides whether branch `branch` of the module's successor is taken. Branches
     /// draw from blocks of their own, from 2^31 on.

@@ -23,6 +23,7 @@ public:
     [[nodiscard]] float draw(std::uint32_t rule, std::uint32_t generation) const;
 
 private:
+    /// The draw u of a rule for the result `number` of rand().
     [[nodiscard]] float unit(std::uint32_t rule, std::uint32_t number) const;
 
     std::uint32_t seed_;

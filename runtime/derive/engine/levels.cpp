@@ -70,7 +70,7 @@ std::optional<Stop> Levels<C, R>::push(std::uint64_t count) {
             break;
         }
         if (at == last_ && levels_[at].count != 0) {
-            if (!check_decomposed(at) || !emit(levels_[at])) {
+            if (!check_decomposed(at) || !pass_to_sink(levels_[at])) {
                 break;
             }
             levels_[at].next.index = levels_[at].count;
@@ -120,7 +120,6 @@ void Levels<C, R>::set_view(const Level& level, const PassKeys& keys) {
     keys_ = keys;
 }
 
-/// Makes the cuts of a block before a generation rewrites it.
 template <typename C, typename R>
 void Levels<C, R>::prune(std::uint64_t index) {
     Level& level = levels_[index];
@@ -151,7 +150,6 @@ void Levels<C, R>::prune(std::uint64_t index) {
     level.count = kept;
 }
 
-/// Moves a whole block to the level below without rewriting it.
 template <typename C, typename R>
 void Levels<C, R>::pass_down(Level& level, Level& below) {
     std::swap(level.codes, below.codes);
@@ -162,7 +160,6 @@ void Levels<C, R>::pass_down(Level& level, Level& below) {
     level.next.index = level.count;
 }
 
-/// Rewrites as much of a level's block as fits into the block of the level below.
 template <typename C, typename R>
 bool Levels<C, R>::descend(std::uint64_t index) {
     Level& level = levels_[index];
@@ -201,7 +198,6 @@ bool Levels<C, R>::descend(std::uint64_t index) {
     return true;
 }
 
-/// Checks a block after its last pass: if a production still matches, fails with TooDeep.
 template <typename C, typename R>
 bool Levels<C, R>::check_decomposed(std::uint64_t index) {
     if (!steps_.checked || !steps_.rewrites(index)) {
@@ -220,7 +216,7 @@ bool Levels<C, R>::check_decomposed(std::uint64_t index) {
 }
 
 template <typename C, typename R>
-bool Levels<C, R>::emit(Level& level) {
+bool Levels<C, R>::pass_to_sink(Level& level) {
     if (!sink_({{level.codes.get(), level.count},
                 level.parameters.get(),
                 level.origins.get(),

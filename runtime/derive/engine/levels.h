@@ -108,13 +108,21 @@ private:
         bool pruned = false;              // cuts have been made
     };
 
+    /// Allocates the block of one more level; returns false at the limit on memory.
     [[nodiscard]] bool add_level();
+    /// Rewrites as much of a level's block as fits into the block of the level below.
     [[nodiscard]] bool descend(std::uint64_t index);
+    /// Checks a block after its last pass: if a production still matches, fails with TooDeep.
     [[nodiscard]] bool check_decomposed(std::uint64_t index);
-    [[nodiscard]] bool emit(Level& level);
+    /// Passes the block of the last level to the sink; returns false if the sink stops.
+    [[nodiscard]] bool pass_to_sink(Level& level);
+    /// Moves a whole block to the level below without rewriting it.
     void pass_down(Level& level, Level& below);
+    /// Makes the cuts of a block before a generation rewrites it.
     void prune(std::uint64_t index);
+    /// Makes the block of a level the input of choosers.
     void set_view(const Level& level, const PassKeys& keys);
+    /// Sets error_ and stop_; returns false.
     [[nodiscard]] bool fail(RuntimeError error);
 
     LevelSteps steps_;
@@ -126,7 +134,7 @@ private:
     std::deque<Chooser<C>> choosers_; // one for rewriting, one for passes; refer to view_ and keys_
     std::vector<Level> levels_;
     std::deque<Pruner> pruners_; // by generation, if LevelSteps::prunes
-    std::vector<R> records_;
+    std::vector<R> records_;     // of the block being rewritten, see count_modules()
     std::uint64_t room_codes_ = 0;
     std::uint64_t room_parameters_ = 0;
     std::uint64_t held_bytes_ = 0;

@@ -81,7 +81,6 @@ bool Matcher<C>::matches_contexts(const BytecodeProduction& production, std::uin
            (!production.has_right || matches_right(production, index));
 }
 
-/// The number of parameters stored before module `index`.
 template <typename C>
 std::uint64_t Matcher<C>::parameters_before(std::uint64_t index, ModulePlace near) const {
     const std::vector<Row>& rows = plan_.rows();
@@ -107,12 +106,10 @@ std::uint64_t Matcher<C>::parameters_before(std::uint64_t index, ModulePlace nea
     return before;
 }
 
-/// Copies the parameters of matched modules to formals_. `places`: the module matched by each item
-/// of `pattern`; `near`: a place from which parameters are counted.
 template <typename C>
-void Matcher<C>::gather(TableRange pattern,
-                        const std::vector<std::uint64_t>& places,
-                        ModulePlace near) {
+void Matcher<C>::gather_formals(TableRange pattern,
+                                const std::vector<std::uint64_t>& places,
+                                ModulePlace near) {
     const Bytecode& bytecode = plan_.bytecode();
     for (std::uint32_t i = 0; i < pattern.count; ++i) {
         const PatternItem& item = bytecode.patterns[pattern.first + i];
@@ -141,10 +138,10 @@ const float* Matcher<C>::formals(const Candidate& candidate, const ModulePlace& 
     for (std::uint32_t i = 0; i < production.predecessor.count; ++i) {
         predecessor_[i] = place.index + i;
     }
-    gather(production.predecessor, predecessor_, place);
+    gather_formals(production.predecessor, predecessor_, place);
     if (candidate.reads_context) {
-        gather(production.left, left_, place);
-        gather(production.right, right_, place);
+        gather_formals(production.left, left_, place);
+        gather_formals(production.right, right_, place);
     }
     return formals_.data();
 }

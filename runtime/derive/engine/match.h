@@ -73,8 +73,12 @@ private:
     [[nodiscard]] SymbolId symbol_at(std::uint64_t index) const {
         return plan_.bytecode().symbol_of(word_.codes[index]);
     }
+    /// The number of parameters stored before module `index`.
     [[nodiscard]] std::uint64_t parameters_before(std::uint64_t index, ModulePlace near) const;
-    void gather(TableRange pattern, const std::vector<std::uint64_t>& places, ModulePlace near);
+    /// Copies the parameters of matched modules to formals_. `places`: the module matched by each
+    /// item of `pattern`; `near`: a place from which parameters are counted.
+    void
+    gather_formals(TableRange pattern, const std::vector<std::uint64_t>& places, ModulePlace near);
 
     const Plan& plan_;
     const WordView<C>& word_;

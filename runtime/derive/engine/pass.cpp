@@ -149,8 +149,6 @@ Passes::run_typed(const WordView<C>& word, const Word& in, Word& out, const Pass
     return std::nullopt;
 }
 
-/// Divides the word into chunks of DeriveOptions::chunk_modules, into smaller ones if several
-/// threads would have few of them, and into one chunk if the word is too short for a second thread.
 template <typename C>
 void Passes::make_chunks(const WordView<C>& word) {
     std::uint64_t size = std::max(options_.chunk_modules, 1U);
@@ -172,7 +170,6 @@ void Passes::make_chunks(const WordView<C>& word) {
     }
 }
 
-/// Finds the first parameter of each chunk, if the word stores any and several threads read them.
 template <typename C>
 void Passes::place_chunks(const WordView<C>& word, bool stores) {
     if (!stores || workers_.count() == 1 || chunks_.size() == 1) {
@@ -194,7 +191,6 @@ void Passes::place_chunks(const WordView<C>& word, bool stores) {
     }
 }
 
-/// Estimates the share of active modules from the first modules of the chunk.
 template <typename C>
 bool Passes::is_mask_faster(const WordView<C>& word, const Chunk& chunk) const {
     if (!mask_.usable()) {
@@ -356,7 +352,6 @@ bool Passes::check_limits(const Word& in, const Word& out, const PassKeys& keys)
     return !too_many && held <= options_.limits.max_bytes;
 }
 
-/// The production whose applications add most modules to the word.
 template <typename C>
 std::uint32_t Passes::dominant_production(const WordView<C>& word, const PassKeys& keys) const {
     std::vector<std::uint64_t> uses(plan_.entries().size(), 0);
@@ -400,7 +395,6 @@ std::uint32_t Passes::dominant_production(const WordView<C>& word, const PassKey
     return dominant;
 }
 
-/// Makes the census unless it is known, and computes the sizes of the next word from it.
 template <typename C>
 void Passes::take_census(const WordView<C>& word) {
     if (!census_known_) {
@@ -418,7 +412,6 @@ void Passes::take_census(const WordView<C>& word) {
     }
 }
 
-/// Replaces the census by the census of the written word: multiplies it by the growth matrix.
 void Passes::advance_census() {
     std::vector<std::uint64_t> next(census_.size(), 0);
     for (Code code = 0; code < census_.size(); ++code) {

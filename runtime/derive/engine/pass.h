@@ -53,27 +53,40 @@ private:
     template <typename C, typename R>
     [[nodiscard]] std::optional<Stop>
     run_typed(const WordView<C>& word, const Word& in, Word& out, const PassKeys& keys);
+    /// Divides the word into chunks of DeriveOptions::chunk_modules, into smaller ones if several
+    /// threads would have few of them, and into one chunk if the word is too short for a second
+    /// thread.
     template <typename C>
     void make_chunks(const WordView<C>& word);
+    /// Finds the first parameter of each chunk, if the word stores any and several threads read
+    /// them.
     template <typename C>
     void place_chunks(const WordView<C>& word, bool stores);
+    /// Whether the mask takes less time, judged by the share of active modules among the first ones
+    /// of the chunk.
     template <typename C>
     [[nodiscard]] bool is_mask_faster(const WordView<C>& word, const Chunk& chunk) const;
+    /// Counts the modules and parameters that each chunk writes, and records the choices.
     template <typename C, typename R>
     [[nodiscard]] std::optional<Stop> count(const WordView<C>& word, const PassKeys& keys);
     template <typename C, typename R>
     [[nodiscard]] std::optional<Stop>
     write(const WordView<C>& word, Word& out, const PassKeys& keys);
+    /// Makes the census unless it is known, and computes the sizes of the next word from it.
     template <typename C>
     void take_census(const WordView<C>& word);
+    /// Replaces the census by the census of the written word: multiplies it by the growth matrix.
     void advance_census();
+    /// Sets the values of limit_ for the word to write; returns false if it exceeds a limit.
     [[nodiscard]] bool check_limits(const Word& in, const Word& out, const PassKeys& keys);
+    /// The production whose applications add most modules to the word.
     template <typename C>
     [[nodiscard]] std::uint32_t dominant_production(const WordView<C>& word,
                                                     const PassKeys& keys) const;
     [[nodiscard]] const ContextTables* contexts() const {
         return plan_.needs_contexts() ? &contexts_ : nullptr;
     }
+    /// Sets error_ to the first fault of the modules from `begin` to `end`.
     template <typename C>
     [[nodiscard]] std::optional<Stop> report_fault(const WordView<C>& word,
                                                    const PassKeys& keys,
@@ -81,6 +94,7 @@ private:
                                                    std::uint64_t end);
     [[nodiscard]] std::optional<Stop> report_out_of_memory(const Word& in, std::uint64_t bytes);
     [[nodiscard]] bool cancelled() const;
+    /// Adds written modules; calls DeriveOptions::progress now and then.
     void report_progress(std::uint32_t generation, std::uint64_t modules);
     template <typename R>
     [[nodiscard]] R* records_at(std::uint64_t index) {

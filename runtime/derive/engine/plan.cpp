@@ -198,9 +198,6 @@ void Plan::make_families() {
     }
 }
 
-/// Makes the guards. If every candidate of a family has a left context, a lookup of the left
-/// neighbour rules out most modules. The guards of right contexts do the same for the right
-/// neighbour.
 void Plan::make_guards() {
     constexpr std::uint64_t kMaxBytes = std::uint64_t{1} << 22;
     const Code codes = bytecode_.code_count();
@@ -277,7 +274,6 @@ Code Plan::pool_code(std::uint32_t index) const {
     return code < bytecode_.code_count() ? code : folding_.codes[code - bytecode_.code_count()];
 }
 
-/// Appends a template to the pool; returns its index there.
 std::uint32_t Plan::add_template(const std::vector<Code>& codes) {
     codes_.pool.resize(codes_.pool.size() - kWordSlack);
     const auto first = static_cast<std::uint32_t>(codes_.pool.size() / codes_.width);

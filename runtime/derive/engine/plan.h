@@ -199,6 +199,7 @@ public:
     /// Codes at the word's width: the codes of the templates, then every code once, then templates
     /// with folded modules, then kWordSlack bytes.
     [[nodiscard]] const std::byte* pool() const { return codes_.pool.data(); }
+    /// The code at an index of pool().
     [[nodiscard]] Code pool_code(std::uint32_t index) const;
 
     /// Bytes of codes per wide store: 16 or 32.
@@ -248,32 +249,56 @@ public:
     [[nodiscard]] std::uint64_t held_bytes() const;
 
 private:
+    /// Makes codes_.
     void make_codes();
+    /// Makes the families and their candidates.
     void make_families();
+    /// Makes the guards. If every candidate of a family has a left context, a lookup of the left
+    /// neighbour rules out most modules. The guards of right contexts do the same for the right
+    /// neighbour.
     void make_guards();
+    /// Makes a row for each code, and an entry for each code and each candidate.
     void make_entries();
     /// Finds the shapes of the conditions and arguments of all candidates.
     void shape(Family& family);
+    /// Sets the kind and the comparisons of the condition.
     void shape_condition(Candidate& candidate);
+    /// Sets the terms of the parameters, or Entry::general if they have no terms.
     void shape_entry(const Candidate& candidate, Entry& entry);
     void make_batch_program(Candidate& candidate);
+    /// The inputs of the expressions of a candidate that are known.
     [[nodiscard]] ShapeKnowledge knowledge(const Candidate& candidate) const;
+    /// Sets the rows of all codes that the family rewrites.
     void activate_family(std::uint32_t family_index);
     /// Sets the row of `code`, a code of the symbol that the family rewrites.
     void resolve(std::uint32_t family_index, Code code);
+    /// Sets a row whose first possible match is a candidate with a weight: Fixed, Choice or
+    /// General.
     void resolve_choice(const Family& family, std::uint32_t first_match, Code code);
+    /// Makes the row Fixed, with a copy of `entry`.
     void resolve_fixed(Code code, const Entry& entry);
+    /// Makes the tests of a row if single comparisons suffice to choose a production: no contexts,
+    /// no draws, no other conditions. Returns whether the tests were made.
     [[nodiscard]] bool resolve_tests(const Family& family, Code code);
+    /// Turns the parameters of `entry`, the only entry of a folded module, into constants. Returns
+    /// false if that is not possible.
     [[nodiscard]] bool make_constant(const Row& row, Entry& entry) const;
+    /// Makes an entry write folded modules only, if the arguments of the module are known and the
+    /// program has all folded modules needed. Returns whether the entry was changed.
     [[nodiscard]] bool fold(Code code, Entry& entry);
+    /// Folds the entries of a module that one of several productions may rewrite.
     void fold_records(const Family& family, Code code);
+    /// Puts the successor with folded modules for the arguments `own` into the pool; returns its
+    /// index, or kNone if the program lacks one of these modules.
     [[nodiscard]] std::uint32_t folded_template(const Candidate& candidate, const float* own);
+    /// Appends a template to the pool; returns its index there.
     [[nodiscard]] std::uint32_t add_template(const std::vector<Code>& codes);
     /// The condition of a candidate for a module with the arguments `own`, if known; null: unknown.
     [[nodiscard]] ConditionKind
     condition_for(const Family& family, const Candidate& candidate, const float* own) const;
     /// The arguments of the folded module of a row; null: the row has no folded module.
     [[nodiscard]] const float* folded_arguments(const Row& row) const;
+    /// Sets the kind of a row, and the count of rows that are not Fixed.
     void set_kind(Code code, RowKind kind);
     /// Makes the row copy its modules.
     void reset_row(Code code);

@@ -16,8 +16,6 @@ constexpr std::uint32_t kMaxCandidatesForOwnEntries = 256;
 
 } // namespace
 
-/// Makes an entry write folded modules only, if the arguments of the module are known and the
-/// program has all folded modules needed. Returns whether the entry was changed.
 bool Plan::fold(Code code, Entry& entry) {
     if (!folding_.index || rows_[code].stored != 0 || entry.parameter_count == 0) {
         return false;
@@ -40,8 +38,6 @@ bool Plan::fold(Code code, Entry& entry) {
     return true;
 }
 
-/// Puts the successor with folded modules for the arguments `own` into the pool; returns its index,
-/// or kNone if the program lacks one of these modules.
 std::uint32_t Plan::folded_template(const Candidate& candidate, const float* own) {
     const WordTemplate& successor = bytecode_.productions[candidate.production].successor;
     if (candidate.gathers || has_random_parameters(bytecode_, successor) ||
@@ -73,7 +69,6 @@ std::uint32_t Plan::folded_template(const Candidate& candidate, const float* own
     return add_template(codes);
 }
 
-/// Folds the entries of a module that one of several productions may rewrite.
 void Plan::fold_records(const Family& family, Code code) {
     Row& row = rows_[code];
     if (!folding_.index || row.stored != 0 || family.count > kMaxCandidatesForOwnEntries) {

@@ -225,8 +225,6 @@ void Plan::resolve(std::uint32_t family_index, Code code) {
     row.slow = false; // no production can match
 }
 
-/// Makes the tests of a row if single comparisons suffice to choose a production: no contexts, no
-/// draws, no other conditions. Returns whether the tests were made.
 bool Plan::resolve_tests(const Family& family, Code code) {
     constexpr std::size_t kMaxTests = 16;
     Row& row = rows_[code];
@@ -361,8 +359,6 @@ void Plan::resolve_fixed(Code code, const Entry& taken) {
     set_kind(code, RowKind::Fixed);
 }
 
-/// Turns the parameters of `entry`, the only entry of a folded module, into constants. Returns
-/// false if that is not possible.
 bool Plan::make_constant(const Row& row, Entry& entry) const {
     const BytecodeProduction& production =
         bytecode_.productions[candidates_[entry.candidate].production];

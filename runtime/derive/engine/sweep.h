@@ -52,8 +52,10 @@ private:
     template <typename C>
     class Run; // one pass over a word with codes of type C
 
+    /// Prepares contexts_ for the word, unless the memory would exceed the limit; sets limit_.
     [[nodiscard]] std::optional<Stop>
     make_tables(const Word& word, const Limits& limits, std::uint64_t other_bytes);
+    /// run() for codes of type C.
     template <typename C>
     [[nodiscard]] std::optional<Stop> run_typed(const Word& word,
                                                 const WordView<C>& view,

@@ -162,8 +162,6 @@ SweepProgram::SweepProgram(const Bytecode& bytecode, const PlanInputs& inputs, S
     }
 }
 
-/// Adds the elements of the context, and tells `compiler` where their formals are. Returns false if
-/// the context is anything but branches of at most one module each, followed by at most one module.
 bool SweepProgram::add_contexts(const Bytecode& bytecode,
                                 TableRange pattern,
                                 Compiler& compiler,

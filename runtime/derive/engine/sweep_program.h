@@ -131,8 +131,12 @@ private:
         }
         return result;
     }
+    /// Adds a production; returns false if it is not of the form that chains need.
     [[nodiscard]] bool add_candidate(const Bytecode& bytecode,
                                      const BytecodeProduction& production);
+    /// Adds the elements of the context, and tells `compiler` where their formals are. Returns
+    /// false if the context is anything but branches of at most one module each, followed by at
+    /// most one module.
     [[nodiscard]] bool add_contexts(const Bytecode& bytecode,
                                     TableRange pattern,
                                     Compiler& compiler,

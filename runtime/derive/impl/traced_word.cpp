@@ -51,8 +51,6 @@ bool TracedWord::is_ignored(std::uint64_t position) const {
     return bytecode_.symbol(symbol(position)).ignored;
 }
 
-/// The next module on the path to the root: skips closed branches, and leaves an open branch
-/// through its `[`.
 std::optional<std::uint64_t> TracedWord::left_of(std::uint64_t position,
                                                  ContextTrace& trace) const {
     while (position > 0) {
@@ -84,7 +82,6 @@ std::optional<std::uint64_t> TracedWord::left_of(std::uint64_t position,
     return std::nullopt;
 }
 
-/// The place after the branch that opens at `open`; the end of the word if it does not close.
 std::uint64_t TracedWord::after_branch(std::uint64_t open) const {
     std::uint64_t depth = 0;
     for (std::uint64_t i = open; i < count(); ++i) {
@@ -98,7 +95,6 @@ std::uint64_t TracedWord::after_branch(std::uint64_t open) const {
     return count();
 }
 
-/// The next module along the axis at or after `gap`: skips branches; a `]` ends the axis.
 std::optional<std::uint64_t> TracedWord::next_from(std::uint64_t gap, ContextTrace& trace) const {
     while (gap < count()) {
         switch (kind(gap)) {

@@ -39,10 +39,14 @@ private:
         return bytecode_.symbol(symbol(position)).kind;
     }
     [[nodiscard]] bool is_ignored(std::uint64_t position) const;
+    /// The next module on the path to the root: skips closed branches, and leaves an open branch
+    /// through its `[`.
     [[nodiscard]] std::optional<std::uint64_t> left_of(std::uint64_t position,
                                                        ContextTrace& trace) const;
+    /// The next module along the axis at or after `gap`: skips branches; a `]` ends the axis.
     [[nodiscard]] std::optional<std::uint64_t> next_from(std::uint64_t gap,
                                                          ContextTrace& trace) const;
+    /// The place after the branch that opens at `open`; the end of the word if it does not close.
     [[nodiscard]] std::uint64_t after_branch(std::uint64_t open) const;
 
     const Bytecode& bytecode_;

@@ -29,6 +29,7 @@ struct CellBox {
     CellIndex low{};
     CellIndex high{};
 
+    /// Number of cells along an axis.
     [[nodiscard]] std::uint64_t extent(std::size_t axis) const {
         return static_cast<std::uint64_t>(high[axis] - low[axis]) + 1;
     }
@@ -60,6 +61,7 @@ struct Extinction {
 
 class LeafAreaGrid {
 public:
+    /// Memory of the grid.
     [[nodiscard]] static std::uint64_t bytes_for(const CellBox& box);
     LeafAreaGrid(std::span<const CellArea> areas, const CellBox& box, const Extinction& extinction);
 
@@ -87,6 +89,7 @@ private:
 /// each axis. The largest block contains all cells.
 class LeafAreaTable {
 public:
+    /// Memory of a table of `organs` organs.
     [[nodiscard]] static std::uint64_t bytes_for(std::uint64_t organs, const CellBox& box);
     LeafAreaTable(std::span<const CellArea> areas,
                   const CellBox& box,
@@ -120,6 +123,7 @@ private:
         [[nodiscard]] bool is_used() const { return key != Key{}; }
     };
 
+    /// The number of levels that a table of the box needs.
     [[nodiscard]] static std::uint32_t levels_of(const CellBox& box);
     [[nodiscard]] Steps steps_to(const CellIndex& cell) const {
         Steps steps;
@@ -136,6 +140,7 @@ private:
         return {(std::uint64_t{level + 1} << 36) | ((z >> 32) << 35) | ((y >> 32) << 34) | x,
                 (y << 32) | (z & 0xFFFFFFFFU)};
     }
+    /// Index of the entry at which the search for a key begins.
     [[nodiscard]] std::size_t slot_of(const Key& key) const {
         std::uint64_t hash = key.high * 0x9E3779B97F4A7C15U ^ key.low * 0xC2B2AE3D27D4EB4FU;
         hash = (hash ^ (hash >> 29)) * 0xBF58476D1CE4E5B9U;

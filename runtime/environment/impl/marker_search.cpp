@@ -40,14 +40,13 @@ MarkerSearch::MarkerSearch(std::span<const SensePlace> places,
     const LargeVector<WideChild> children = make_wide_nodes(split, nodes_);
     for (Node& node : nodes_) {
         if (node.is_leaf) {
-            fill_node(node, items);
+            fill_leaf(node, items);
         }
     }
     fill_boxes(children, items);
 }
 
-/// Fills the lanes of a leaf; its children become indexes of places of the word.
-void MarkerSearch::fill_node(Node& node, std::span<const SplitItem> items) const {
+void MarkerSearch::fill_leaf(Node& node, std::span<const SplitItem> items) const {
     for (std::size_t lane = 0; lane < node.count; ++lane) {
         const std::uint32_t position = items[node.children[lane]].index;
         node.children[lane] = position;

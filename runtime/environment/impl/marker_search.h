@@ -54,7 +54,9 @@ private:
     };
     class Query;
 
-    void fill_node(Node& node, std::span<const SplitItem> items) const;
+    /// Fills the lanes of a leaf; its children become indexes of places of the word.
+    void fill_leaf(Node& node, std::span<const SplitItem> items) const;
+    /// Sets the boxes of the children of nodes that are not leaves.
     void fill_boxes(std::span<const WideChild> children, std::span<const SplitItem> items);
     /// Whether a place sees a marker at the vector `way` from it. `squared`: length of `way`,
     /// squared.

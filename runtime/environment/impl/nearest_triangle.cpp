@@ -65,8 +65,6 @@ Vector3 NearestTriangle::axis_of(const WideChild& child) const {
     return is_finite(axis) && axis != Vector3{} ? axis : Vector3{0.0, 1.0, 0.0};
 }
 
-/// A middle for the cylinder of `child`: about equally far from the outermost corners, both along
-/// the axis and away from it.
 Vector3 NearestTriangle::middle_of(const WideChild& child, const Vector3& axis) const {
     constexpr std::uint32_t kFew = 16; // max triangles for which the middle is improved in rounds
     constexpr int kRounds = 6;

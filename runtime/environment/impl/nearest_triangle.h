@@ -57,6 +57,7 @@ private:
         Lanes radius{};
     };
 
+    /// Sets frame_ and cylinder_margin_.
     void find_frame();
     [[nodiscard]] Vector3 framed(std::uint32_t vertex) const {
         return frame_.framed(vertices_[vertex]);
@@ -65,8 +66,12 @@ private:
         const auto& [a, b, c] = triangle.vertices;
         return {vertices_[a], vertices_[b], vertices_[c]};
     }
+    /// Sets the cylinder of a child in its parent node.
     void fill_cylinder(const WideChild& child);
+    /// The axis of the cylinder of a child: the mean normal of its triangles, sides ignored.
     [[nodiscard]] Vector3 axis_of(const WideChild& child) const;
+    /// A middle for the cylinder of `child`: about equally far from the outermost corners, both
+    /// along the axis and away from it.
     [[nodiscard]] Vector3 middle_of(const WideChild& child, const Vector3& axis) const;
     /// Lower bounds of the squared distances to the children, except for errors within
     /// FramedPlace::margin.

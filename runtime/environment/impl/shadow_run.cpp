@@ -192,8 +192,6 @@ void ShadowRun::read_sources() {
     }
 }
 
-/// Whether counting by tables takes less time than counting pairs, by costs in cycles measured on
-/// one processor.
 bool ShadowRun::prefers_tables() const {
     constexpr std::uint64_t kCyclesPerCell = 2;
     constexpr std::uint64_t kCyclesPerLayer = 80;

@@ -49,16 +49,23 @@ private:
         std::int32_t z = 0;
     };
 
+    /// Sets targets_ and the place and size of the tables.
     void find_targets(std::size_t begin, std::size_t end);
+    /// Sets neighbours_: the tile itself and the tiles around it.
     void find_neighbours(std::size_t tile);
     void add_neighbour(std::size_t tile, std::int32_t x, std::int32_t z);
+    /// Sets sources_ and rows_: the voxels of neighbours_ that may shade a target.
     void read_sources();
     [[nodiscard]] std::span<const ShadowSource> sources_of(std::size_t row) const {
         return std::span(sources_).subspan(rows_[row].first,
                                            rows_[row + 1].first - rows_[row].first);
     }
+    /// Whether counting by tables takes less time than counting pairs, by costs in cycles measured
+    /// on one processor.
     [[nodiscard]] bool prefers_tables() const;
+    /// Sets the sums of all targets by the tables.
     void count_with_tables();
+    /// Sets the sums of all targets by comparing each with each source near it.
     void count_pairs();
     void count_pairs_of(std::size_t target, std::size_t first_row, std::size_t end_row);
 

@@ -94,6 +94,7 @@ public:
     }
 
 private:
+    /// The axis with the smallest of the distances.
     [[nodiscard]] static std::size_t nearest(const std::array<double, 3>& exits) {
         return exits[0] <= exits[1] ? (exits[0] <= exits[2] ? 0 : 2)
                                     : (exits[1] <= exits[2] ? 1 : 2);

@@ -123,8 +123,6 @@ Triangle TriangleTree::triangle(std::size_t at) const {
     return {mesh_.vertices[corners[0]], mesh_.vertices[corners[1]], mesh_.vertices[corners[2]]};
 }
 
-/// The crossing of the triangle by the ray from `place` along +x, or along -x unless `upwards`:
-/// 1 or -1 by the side that the triangle faces; 0 without a crossing.
 int TriangleTree::crossing(std::size_t at, const Vector3& place, bool upwards) const {
     const Triangle t = triangle(at);
     const auto is_beside = [&](std::size_t axis) {

@@ -44,9 +44,15 @@ private:
         std::uint32_t count = 0; // triangles of a leaf; 0: the first child follows
     };
 
+    /// Makes nodes_ without their boxes, triangles_ in the order of the leaves, and
+    /// nearest_triangle_.
     void order_triangles(const EnvironmentContext& context);
+    /// Sets the boxes of all nodes.
     void fill_boxes();
+    /// The corners of triangles_[at].
     [[nodiscard]] Triangle triangle(std::size_t at) const;
+    /// The crossing of the triangle by the ray from `place` along +x, or along -x unless `upwards`:
+    /// 1 or -1 by the side that the triangle faces; 0 without a crossing.
     [[nodiscard]] int crossing(std::size_t at, const Vector3& place, bool upwards) const;
 
     const EnvironmentMesh& mesh_;

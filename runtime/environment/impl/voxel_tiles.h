@@ -71,9 +71,12 @@ public:
     [[nodiscard]] std::size_t lower_tile(std::uint64_t key) const;
 
 private:
+    /// Sets the voxel of each place, and low_ and high_.
     [[nodiscard]] std::optional<EnvironmentFailure>
     find_indexes(std::size_t count, const std::function<Vector3(std::size_t)>& index);
+    /// Turns the voxels in records_ into keys of tile and voxel.
     void make_keys();
+    /// Sets first_record_ and first_voxel_ from the sorted records.
     void find_voxels();
 
     std::uint32_t edge_bits_;

@@ -97,6 +97,7 @@ private:
     static constexpr std::size_t kNoSurface = ~std::size_t{0};
     [[nodiscard]] bool instanced() const { return form_ == ForestForm::Instanced; }
 
+    /// Adds a mesh, sliced by `lists`, to surfaces_; its views are added later.
     void add_surface(std::size_t stage,
                      const Mesh& mesh,
                      const std::vector<std::uint32_t>& materials,
@@ -117,8 +118,10 @@ private:
     void for_each_collider(const Visit& visit) const;
     /// Plans the views of a surface, without their offsets in the buffer.
     void add_views(ForestSurface& surface);
+    /// Compresses the arrays of all views.
     void compress_views();
     void compress_transforms();
+    /// Sets the offsets of all views, one after the other.
     void place_views();
     /// Sets the offset of a view to the end of the views placed before it.
     void place(ForestView& view);
@@ -126,6 +129,7 @@ private:
     template <typename Visit>
     void for_each_view(const Visit& visit);
     void put_extensions(JsonWriter& json) const;
+    /// Writes facts of the scene and its species.
     void put_extras(JsonWriter& json) const;
     void put_nodes(JsonWriter& json) const;
     void put_instanced_nodes(JsonWriter& json) const;

@@ -42,7 +42,6 @@ ForestPlan::ForestPlan(const ForestScene& scene, float cell, std::uint32_t threa
     find_groups();
 }
 
-/// Sorts trees by cells, within a cell in the order of the forest.
 void ForestPlan::sort_trees(float cell) {
     const LargeVector<Tree>& trees = scene_.forest.trees;
     if (!(cell > 0.0F)) {
@@ -106,8 +105,6 @@ void ForestPlan::split_cells_into_pieces() {
     }
 }
 
-/// Sets ForestPiece::counts_before to the counts of the piece itself; find_groups() then replaces
-/// them by the counts in earlier pieces.
 void ForestPlan::count_pieces(std::uint32_t threads) {
     Workers(threads).for_each(pieces_.size(), [this](std::uint64_t number) {
         ForestPiece& piece = pieces_[number];

@@ -84,13 +84,19 @@ public:
     }
 
 private:
+    /// Sorts trees by cells, within a cell in the order of the forest.
     void sort_trees(float cell);
     void split_cells_into_pieces();
+    /// Sets ForestPiece::counts_before to the counts of the piece itself; find_groups() then
+    /// replaces them by the counts in earlier pieces.
     void count_pieces(std::uint32_t threads);
+    /// Sets the groups of all cells, the counts of instances and the final
+    /// ForestPiece::counts_before; removes cells without groups.
     void find_groups();
     template <typename Visit>
     void for_each_branch_of(std::uint64_t first, std::uint64_t count, const Visit& visit) const;
     [[nodiscard]] std::vector<TreeExpander> make_expanders() const;
+    /// The tree at a place in the order of the plan.
     [[nodiscard]] const Tree& tree_at(std::uint64_t place) const {
         return scene_.forest.trees[tree_of_place_.empty() ? place : tree_of_place_[place]];
     }
@@ -146,6 +152,7 @@ struct InstanceVertices {
         return std::span(vertices).subspan(first[instance], first[instance + 1] - first[instance]);
     }
 };
+/// The vertices of the used instances of a stage.
 [[nodiscard]] InstanceVertices number_vertices(const ExportedStage& stage, const ForestPlan& plan);
 
 } // namespace lsys

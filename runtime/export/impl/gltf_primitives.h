@@ -42,10 +42,10 @@ struct GltfPrimitive {
     std::uint32_t shape = 0; // number of the shape of the film; 0 without a film
     glm::vec3 colour{1.0F};  // linear colour of the material
     GltfColours colours = GltfColours::None;
-    std::uint64_t first_vertex = 0;
+    std::uint64_t first_vertex = 0; // index in GltfPrimitives::vertices
     std::uint64_t vertex_count = 0;
     std::uint64_t index_count = 0;
-    Bounds bounds;
+    Bounds bounds; // of the positions
 };
 
 struct GltfPrimitives {

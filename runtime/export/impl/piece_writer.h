@@ -45,6 +45,7 @@ public:
     [[nodiscard]] bool finish();
 
 private:
+    /// Passes the buffered bytes to the sink.
     void flush();
     void pass_on(std::string_view piece);
 

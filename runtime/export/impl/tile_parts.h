@@ -51,6 +51,7 @@ public:
     /// The number of an item, which is added if the table does not have it.
     std::size_t
     add_item(GltfList list, const nlohmann::ordered_json& item, const JsonReferences& references);
+    /// The number of the buffer with this URI, which is added if the table does not have it.
     std::size_t add_buffer(const std::string& uri, std::uint64_t bytes);
 
     [[nodiscard]] std::size_t item_count() const { return first_item_ + items_.size(); }
@@ -71,6 +72,7 @@ private:
     std::vector<TileBuffer> buffers_;
 };
 
+/// A mesh document as items of a PartTable.
 struct TilePart {
     std::vector<std::size_t> buffers; // of its mesh, then of its pictures: PartTable numbers
     std::uint64_t decoded_bytes = 0;  // size of the fallback of its buffer; 0: no fallback
@@ -84,6 +86,7 @@ struct TilePart {
     float step = 1.0F;
 };
 
+/// Adds the items and buffers of a document to the table.
 [[nodiscard]] TilePart make_tile_part(const MeshDocument& document, PartTable& table);
 
 struct TileParts::State {

@@ -89,7 +89,7 @@ struct UsdaDigits {
 struct UsdaSurface {
     const Mesh& mesh; // may have vertices that no triangle of the prim uses
     std::string name;
-    std::uint64_t vertices = 0;
+    std::uint64_t vertices = 0; // count of vertices
     std::span<const MeshPart> parts;
     const std::vector<std::string>& materials; // names of the materials, by part
     std::string_view root;                     // path of the prim of put_usda_materials()

@@ -48,6 +48,7 @@ private:
         std::array<float, 2> bend{}; // at base and tip, relative to the max of the plant
     };
 
+    /// The wind data of a vertex of one segment.
     [[nodiscard]] WindVertex on(std::uint32_t segment, const glm::vec3& position) const;
 
     const Skeleton* plant_;

@@ -129,8 +129,11 @@ public:
                                               const GrammarOptions& options) const;
 
 private:
+    /// The text of a document as .lsys or its dialect; sets `failure` if it cannot be read.
     [[nodiscard]] GrammarText grammar_text(const Document& document, std::string& failure) const;
+    /// The options of a check: whether the document is a part of a grammar.
     [[nodiscard]] GrammarOptions options_of(const Document& document) const;
+    /// check() without the result of an earlier check.
     [[nodiscard]] CheckedDocument check_anew(const Document& document) const;
     [[nodiscard]] FileLoader loader() const;
     [[nodiscard]] bool is_lsys_text(const std::string& path) const;

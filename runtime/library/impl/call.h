@@ -65,6 +65,7 @@ public:
     void check_environments(const Bytecode& bytecode);
 
 private:
+    /// Makes a function of the host answer for an environment.
     void add_environment(const std::string& name, EnvironmentFunction function);
     [[nodiscard]] static Messages error(std::string text);
     [[nodiscard]] static Messages public_messages(::lsys::Messages messages);
@@ -82,6 +83,7 @@ private:
             return otherwise;
         }
     }
+    /// Rethrows the exception that guarded() has stored, if any.
     void throw_caught() const {
         if (caught_) {
             std::rethrow_exception(caught_);
@@ -93,7 +95,7 @@ private:
     std::mutex answer_mutex_;            // functions of the host are called one at a time
     std::atomic<bool> own_cancel_flag_{false};
     std::atomic<bool>* cancel_flag_ = &own_cancel_flag_; // or Host::cancelled
-    std::exception_ptr caught_;
+    std::exception_ptr caught_;                          // thrown by a function of the host
 };
 
 } // namespace lsys::v0

@@ -75,7 +75,7 @@ typedef struct lsys_environment {
                   const lsys_environment_query* query,
                   const double** numbers,
                   size_t* size);
-    void* user;
+    void* user; /* first argument of `answer` */
 } lsys_environment;
 
 /* Input that all calls share. Initialise with LSYS_PROJECT_DEFAULTS. The functions get `user` as
@@ -132,7 +132,7 @@ typedef struct lsys_definition {
 } lsys_definition;
 typedef struct lsys_setting {
     const char* key;
-    const char* values;
+    const char* values; /* as after the key in `#set`: "0 -1 0" */
 } lsys_setting;
 
 /* Initialise with LSYS_GRAMMAR_DEFAULTS. */
@@ -213,8 +213,8 @@ typedef struct lsys_segment {
     float length;
     float frame[4];
     float base_radius, tip_radius;
-    float spring; /* N m / rad, of the joint at the base */
-    float mass;
+    float spring;    /* N m / rad, of the joint at the base */
+    float mass;      /* kg */
     uint32_t parent; /* earlier in the array, or LSYS_NO_PARENT */
     uint32_t colour; /* index of the palette, or 0x1000000 + red * 65536 + green * 256 + blue */
     uint16_t order;  /* number of open brackets: 0 is the trunk */
@@ -252,10 +252,10 @@ lsys_mesh_read_indices(const lsys_mesh* mesh, uint64_t first, uint64_t count, ui
 /* Triangles of one material: `index_count` indices from `first_index` on. */
 typedef struct lsys_mesh_part {
     uint64_t first_index, index_count;
-    const char* material;
-    float colour[4]; /* linear red, green, blue, opacity */
-    float roughness;
-    int two_sided;
+    const char* material; /* its name */
+    float colour[4];      /* linear red, green, blue, opacity */
+    float roughness;      /* 0 to 1 */
+    int two_sided;        /* 0 or 1 */
 } lsys_mesh_part;
 LSYS_C_API size_t lsys_mesh_part_count(const lsys_mesh* mesh);
 /* Precondition: index < lsys_mesh_part_count(). */

@@ -58,8 +58,8 @@ struct Segment {
     Quaternion frame;
     float base_radius = 0.0F;
     float tip_radius = 0.0F;
-    float spring = 0.0F; // N m / rad, of the joint at the base
-    float mass = 0.0F;
+    float spring = 0.0F;              // N m / rad, of the joint at the base
+    float mass = 0.0F;                // kg
     std::uint32_t parent = kNoParent; // the segment before it on its path; earlier in the array
     Colour colour = 0;
     std::uint16_t order = 0; // number of open brackets: 0 is the trunk
@@ -75,9 +75,9 @@ struct Object {
     Vector3 position;
     float size = 1.0F; // factor
     Quaternion frame;
-    std::uint32_t parent = kNoParent;
+    std::uint32_t parent = kNoParent; // index in Plant::segments()
     Colour colour = 0;
-    std::uint16_t order = 0;
+    std::uint16_t order = 0; // number of open brackets
 };
 
 inline constexpr std::uint32_t kNoPicture = 0xFFFFFFFFu;
@@ -86,11 +86,11 @@ inline constexpr std::uint32_t kNoPicture = 0xFFFFFFFFu;
 struct Polygon {
     std::uint32_t first_corner = 0; // index in Plant::corners()
     std::uint32_t corner_count = 0;
-    Quaternion frame; // frame of the turtle where the polygon begins
-    std::uint32_t parent = kNoParent;
+    Quaternion frame;                 // frame of the turtle where the polygon begins
+    std::uint32_t parent = kNoParent; // index in Plant::segments()
     Colour colour = 0;
     std::uint32_t picture = kNoPicture; // index in Plant::files()
-    std::uint16_t order = 0;
+    std::uint16_t order = 0;            // number of open brackets
 };
 
 /// Names of Object::kind.

@@ -25,9 +25,9 @@ struct FileContents {
 
 /// Progress of a derivation.
 struct Progress {
-    std::uint32_t generation = 0; // generation being derived
-    std::uint32_t generations = 0;
-    std::uint64_t modules = 0; // modules of this generation written so far
+    std::uint32_t generation = 0;  // generation being derived
+    std::uint32_t generations = 0; // number of generations to derive
+    std::uint64_t modules = 0;     // modules of this generation written so far
 };
 
 /// The pose of the turtle at a module `?NAME`, in the plant's own axes, +Y up.
