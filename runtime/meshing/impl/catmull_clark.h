@@ -77,6 +77,7 @@ private:
     }
     void find_twins();
     void place_vertices(PolygonMesh& to);
+    /// One step, for one attribute of the vertices.
     template <typename T>
     void smooth(const LargeVector<T>& from, LargeVector<T>& to);
     template <typename Piece>
