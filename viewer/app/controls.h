@@ -195,6 +195,7 @@ private:
                               std::string& chosen);
     static void press_in_browser(const KeyPress& press, PanelState& panels, std::string& chosen);
     static void press_with_alt(Key key, ViewSwitcher& switcher, PanelState& panels);
+    /// Passes input to the view: keys, tools, picking and motion of the camera.
     void apply_to_view(const WindowInput& input,
                        double seconds,
                        const PixelArea& area,

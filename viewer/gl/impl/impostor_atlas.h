@@ -23,7 +23,7 @@ namespace lsys::view {
 
 class ImpostorAtlas {
 public:
-    static constexpr std::uint32_t kYaws = 8;
+    static constexpr std::uint32_t kYaws = 8; // directions around the tree
     static constexpr std::uint32_t kElevations = 3;
     static constexpr std::uint32_t kTile = 128; // texels
 
@@ -35,6 +35,7 @@ public:
     /// they or other layers of their form are baked. The first missing layer of each form is baked
     /// first.
     void begin(const ForestModel& model, ImpostorPlan plan, const ForestBuffers& buffers);
+    /// All layers are baked.
     [[nodiscard]] bool is_done() const { return pending_.empty(); }
     /// Whether each layer has a picture: its own or, until this is baked, that of another layer of
     /// its form.
@@ -51,6 +52,7 @@ public:
     /// Precondition: is_done().
     [[nodiscard]] glm::vec3 mean_colour_from_above(std::span<const float> parts) const;
     [[nodiscard]] std::uint64_t texture_bytes() const { return texture_bytes_; }
+    /// Number of layers.
     [[nodiscard]] std::uint32_t layers() const { return layers_; }
 
 private:
@@ -66,7 +68,8 @@ private:
 
     using LayerBoxes = std::array<glm::vec4, std::size_t{kYaws} * kElevations>;
 
-    void find_missing();
+    void find_missing(); // sets pending_
+    /// Resizes the atlas; layers whose key is in `keys` keep their pictures.
     void make_layers(const std::vector<std::uint64_t>& keys);
     [[nodiscard]] BakeState make_bake_state() const;
     /// Sets up meshes and draw commands for a layer.
@@ -78,6 +81,7 @@ private:
                         MaterialTextures& textures,
                         Buffer& frame) const;
     void upload_layer(std::uint32_t layer, ImpostorTexels picture);
+    /// Sets boxes_ of the layer.
     void find_boxes(std::uint32_t layer, std::span<const std::uint8_t> albedos);
     /// Copies a baked layer to the layers of its form that are empty.
     void stand_in(std::uint32_t layer);
@@ -97,7 +101,7 @@ private:
     std::vector<std::uint8_t> filled_;       // by layer: whether it has a picture
     std::vector<std::uint32_t> pending_;     // layers to bake; the next is last
     std::optional<BakeState> bake_;
-    std::uint32_t layers_ = 0;
+    std::uint32_t layers_ = 0; // layers()
     std::uint64_t texture_bytes_ = 0;
 };
 
