@@ -96,12 +96,12 @@ private:
     /// The response, before it is counted.
     [[nodiscard]] TileResponse answer(const TileRequest& request);
     /// Finds the file in the cache, or makes it. Returns false if the forest has no such file.
-    [[nodiscard]] bool find(const std::string& path, bool wants_packed, EncodedFile& file);
+    [[nodiscard]] bool find_or_make(const std::string& path, bool wants_packed, EncodedFile& file);
     /// The file that `path` names; nullopt if the forest does not have it.
     [[nodiscard]] std::optional<MadeFile> made_file(std::string_view path) const;
     [[nodiscard]] std::string make(const MadeFile& file) const;
     /// The entry of the cache for a path; a new one if there is none.
-    [[nodiscard]] std::shared_ptr<Entry> entry_of(const std::string& path);
+    [[nodiscard]] std::shared_ptr<Entry> find_or_add_entry(const std::string& path);
     /// Sets the size of an entry; drops entries used least recently while the cache is too large.
     void keep(const std::string& path, const std::shared_ptr<Entry>& entry, std::uint64_t bytes);
     void forget(const std::string& path);      // drops it from the cache

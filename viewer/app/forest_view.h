@@ -256,7 +256,7 @@ private:
     SteadyClock::time_point last_motion_;          // when the picture last changed by motion
     ForestViewStats stats_;
 
-    std::mutex saved_mutex_;
+    std::mutex saved_mutex_;     // guards saved_text_
     std::string saved_text_;     // text of the scene file as this view last wrote it
     ViewOptions shown_options_;  // options with which document_ was made
     SceneOverrides shown_edits_; // edits with which document_ was made

@@ -88,7 +88,7 @@ struct SensingTurtle::State {
     void forward(double length, bool adds_corners); // draws a segment, which first bends
     void move(double length, bool adds_corners);    // without a segment
     /// Moves along the second heading; the frame stays unchanged.
-    void secondary(const Action& action, std::uint8_t argument_count, const float* arguments);
+    void move_secondary(const Action& action, std::uint8_t argument_count, const float* arguments);
     void turn_by(std::uint8_t argument_count, const float* arguments);
     void turn_left(double degrees);
     /// Turns by half of a full turn, rounded down to whole steps of the current angle.
@@ -99,7 +99,7 @@ struct SensingTurtle::State {
     bool save();
     bool restore();
     bool close_polygon();
-    bool unbalanced(); // stops with the error of an unmatched bracket
+    bool stop_unbalanced(); // stops with the error of an unmatched bracket
     bool stop(Stop why) {
         stopped = why;
         return false;

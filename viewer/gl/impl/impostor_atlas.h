@@ -68,7 +68,7 @@ private:
 
     using LayerBoxes = std::array<glm::vec4, std::size_t{kYaws} * kElevations>;
 
-    void find_missing(); // sets pending_
+    void list_missing(); // sets pending_
     /// Resizes the atlas; layers whose key is in `keys` keep their pictures.
     void make_layers(const std::vector<std::uint64_t>& keys);
     [[nodiscard]] BakeState make_bake_state() const;
@@ -82,7 +82,7 @@ private:
                         Buffer& frame) const;
     void upload_layer(std::uint32_t layer, ImpostorTexels picture);
     /// Sets boxes_ of the layer.
-    void find_boxes(std::uint32_t layer, std::span<const std::uint8_t> albedos);
+    void set_boxes(std::uint32_t layer, std::span<const std::uint8_t> albedos);
     /// Copies a baked layer to the layers of its form that are empty.
     void stand_in(std::uint32_t layer);
     /// Whether two layers show trees of the same form, or clusters of the same form.
