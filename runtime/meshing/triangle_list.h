@@ -51,6 +51,7 @@ public:
     friend bool operator==(const TriangleList& a, const TriangleList& b);
 
     void push_back(std::uint32_t index);
+    /// Appends a list of three indices per triangle.
     void append(LargeVector<std::uint32_t> indices);
     /// Appends `list`, with `first_vertex` added to its indices.
     void append(TriangleList list, std::uint32_t first_vertex);
@@ -134,7 +135,7 @@ public:
     }
 
 private:
-    void fill(std::uint64_t first);
+    void fill(std::uint64_t first); // expands indices from `first` on
 
     const TriangleList& list_;
     std::uint64_t first_ = 0; // number of the index in buffer_[0]

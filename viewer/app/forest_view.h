@@ -40,9 +40,9 @@ struct ForestEdits {
     BranchColours colours = BranchColours::Natural;
     bool windy = false; // wind is on
     Wind wind;
-    std::optional<double> visibility; // km; empty: default_visibility()
-    SceneLight light;                 // values that replace the scene's
-    std::uint64_t max_triangles = 1'500'000;
+    std::optional<double> visibility;        // km; empty: default_visibility()
+    SceneLight light;                        // values that replace the scene's
+    std::uint64_t max_triangles = 1'500'000; // max triangles of branches in a picture
     SenseLook senses;
 
     friend bool operator==(const ForestEdits&, const ForestEdits&) = default;
@@ -121,6 +121,7 @@ public:
     /// Plays or pauses growth. If all years are shown, growth begins again at the first year.
     void play_or_pause();
     void set_years(std::uint32_t years);
+    /// Number of years to show: that of the user, else the default.
     [[nodiscard]] std::uint32_t years() const;
     /// Number of years that the scene grows, without edits of the user. For trees placed by stages,
     /// the number of stages; 0: the scene does not grow.
@@ -190,9 +191,9 @@ private:
     void add_step(StepKind kind); // a new step of undo()
     /// Undoes or repeats a step: moves the last step of `from` to `to`.
     bool move_step(std::vector<StepKind>& from, std::vector<StepKind>& to, bool redoes);
-    void take_outcome(ForestOutcome outcome);
-    void swap(ForestOutcome outcome); // shows the new forest in place of the old one
-    void show_outline();              // of the tool, at pointed_
+    void take_outcome(ForestOutcome outcome); // unless it is of another scene
+    void swap(ForestOutcome outcome);         // shows the new forest in place of the old one
+    void show_outline();                      // of the tool, at pointed_
     void show_senses();
     /// Displacements of environments since the shown forest grew.
     [[nodiscard]] SpeciesMoves new_moves() const;
@@ -201,7 +202,7 @@ private:
     /// Returns whether the forest is streamed. If so, shows a note that a streamed forest cannot be
     /// painted.
     bool refuses_painting();
-    [[nodiscard]] Result<void> save_season(const std::string& scene);
+    [[nodiscard]] Result<void> save_season(const std::string& scene); // settings.edits.season
     void show_colours(); // of branches, if the setting has changed
     /// For notes: `what`, then counts of painted trees.
     [[nodiscard]] std::string painted_text(const char* what) const;
@@ -213,9 +214,10 @@ private:
     void take_moment();   // shows the trees that film_ has made
     /// Ends growth and shows the forest after `years` years.
     void end_growth(std::uint32_t years);
-    void request_load();
+    void request_load(); // sends the settings to loader_
     /// Called on the thread of watch_.
     void files_changed(const std::vector<std::string>& files, SteadyClock::time_point changed_at);
+    /// The ground below a place of the picture, in the units of hover().
     [[nodiscard]] std::optional<glm::dvec3> ground_at(const glm::vec2& place);
 
     std::shared_ptr<ForestDocument> document_;

@@ -22,6 +22,7 @@ public:
     /// Makes `host` report to this object, which must outlive all calls with `host`. Forgets earlier
     /// reports.
     void follow(Host& host);
+    /// The step that is being made, as text.
     [[nodiscard]] MakingState state() const;
 
 private:

@@ -28,10 +28,10 @@ namespace lsys::view {
 
 /// Values from which the plant of a file is made; a change makes a new plant.
 struct PlantSource {
-    std::vector<Definition> definitions; // replace constants of the grammar
-    std::vector<SettingText> set_values; // replace `#set` statements of the grammar
-    std::optional<std::uint32_t> generations;
-    std::optional<std::uint64_t> seed;
+    std::vector<Definition> definitions;      // replace constants of the grammar
+    std::vector<SettingText> set_values;      // replace `#set` statements of the grammar
+    std::optional<std::uint32_t> generations; // unset: default_generations()
+    std::optional<std::uint64_t> seed;        // unset: the value of #set seed
     MeshOptions mesh;
     std::vector<EnvironmentMove> moves; // displacements of obstacles; save() does not write them
 
@@ -141,6 +141,7 @@ public:
     /// Number of generations that the command line or the grammar sets, without the user's
     /// settings.
     [[nodiscard]] std::uint32_t default_generations() const;
+    /// Number of generations to show: that of the user, else the default.
     [[nodiscard]] std::uint32_t generations() const;
     /// What the plant that is shown has sensed; null if it senses nothing.
     [[nodiscard]] const SensedPlant* sensed() const;
@@ -167,14 +168,14 @@ private:
         glm::dvec3 place{};          // the grabbed point, relative to the eye, m
     };
 
-    void take_outcome(LoadOutcome outcome);
-    void swap(LoadOutcome outcome); // shows the new plant in place of the old one
+    void take_outcome(LoadOutcome outcome); // unless it is of another file
+    void swap(LoadOutcome outcome);         // shows the new plant in place of the old one
     void show_lines();
     void show_senses();
     /// Displacements of environments since the shown plant grew.
     [[nodiscard]] std::vector<EnvironmentMove> new_moves() const;
     void watch_files();
-    void start_growth();
+    void start_growth();      // from the generation shown
     void grow();              // requests the next moment of growth
     void take_moment();       // shows the moment that film_ has made
     void widen_film_ground(); // never narrower than before
@@ -186,7 +187,9 @@ private:
     void drop_unknown_definitions(); // drops values of constants that the file lacks
     /// Undoes or repeats changes of files until they agree with PlantEdits::file_steps.
     void follow_file_steps();
-    [[nodiscard]] ViewOptions options_with_settings() const;
+    [[nodiscard]] ViewOptions options_with_settings() const; // options_ with the values of settings
+    /// The bytes of the file with these values. Error: the plant shown is not that of the file on
+    /// disk.
     [[nodiscard]] Result<std::string> text_with_values(const StatementValues& values) const;
 
     std::shared_ptr<const PlantDocument> document_;

@@ -69,6 +69,7 @@ public:
     /// The text of the selected lines; empty if none is selected.
     [[nodiscard]] std::string selected_text() const;
 
+    /// Shows another file, without a selection.
     void select_file(std::size_t file);
     /// Selects a line; with `extends`, the other end of the selection stays.
     void select_line(std::uint32_t line, bool extends);

@@ -62,6 +62,7 @@ struct Sway {
         return height_factor * height + width_factor * width + flutter;
     }
 };
+/// The largest displacements in a wind.
 [[nodiscard]] Sway sway_in(const Wind& wind);
 
 /// Range [low, high) of dither thresholds: while an object blends with another object, it draws
@@ -296,6 +297,7 @@ private:
         const auto turned = turned_.empty() ? turned_.end() : turned_.find(number);
         return turned == turned_.end() ? model_.forest->trees[trees_[number].tree] : turned->second;
     }
+    /// Sets yaw and form of a tree in `cell` whose surroundings have changed.
     void replace_yaw_and_form(std::uint32_t number, const Tree& tree, ForestCell& cell);
     [[nodiscard]] Tree streamed_tree(std::uint32_t number) const; // from its square
     /// Finds a free range of `count` trees in trees_. Returns its first index.
@@ -313,6 +315,7 @@ private:
         return static_cast<std::uint32_t>(trees_.size());
     }
     [[nodiscard]] std::uint64_t cell_of(const glm::vec3& place) const; // of a tree of the forest
+    /// `index`: LodTree::tree.
     [[nodiscard]] LodTree make_lod_tree(const Tree& tree, std::uint32_t index);
     /// Lists a tree. `weight`: weight of its impostor; the cluster of its cell has the weight 1 -
     /// `weight`.

@@ -123,9 +123,9 @@ private:
     std::uint64_t key_;                    // of the forest
     std::map<std::uint32_t, Tree> turned_; // placed trees whose surroundings have changed
     LargeVector<Tree> painted_;
-    std::vector<PaintedTree> paints_; // parallel to painted_
-    LargeVector<std::uint8_t> placed_alive_;
-    LargeVector<std::uint8_t> painted_alive_;
+    std::vector<PaintedTree> paints_;         // parallel to painted_
+    LargeVector<std::uint8_t> placed_alive_;  // by placed tree
+    LargeVector<std::uint8_t> painted_alive_; // by painted tree
     std::uint64_t alive_count_ = 0;
     float max_scale_ = 0.0F; // of all trees, including removed ones
     // Erased trees of the painting whose numbers no tree of `placed` has.

@@ -111,7 +111,7 @@ private:
     std::uint32_t levels_ = 1; // number of levels
     std::array<HeightGrid, kTerrainLevels> grids_;
     std::vector<TerrainPatch> patches_;
-    std::vector<std::uint32_t> changed_;
+    std::vector<std::uint32_t> changed_; // changed()
     glm::vec3 eye_{};
     float eye_height_ = 0.0F;
 };

@@ -90,8 +90,12 @@ private:
     /// Fits the base into the tube of the parent segment; returns false if the base lies outside of
     /// it.
     bool fit_into_parent(const Run& run, std::optional<CurveStart>& start);
+    /// The tangent at the tip of a segment of a smooth curve through the tip. `next`: the segment
+    /// that continues it.
     [[nodiscard]] glm::vec3 tip_tangent(const Segment& segment, std::uint32_t next) const;
+    /// Length of the collar along the first edge of the run.
     [[nodiscard]] float collar_length(const Segment& parent, float parent_radius) const;
+    /// Adds the collar: a cone by which the run widens towards its parent.
     void add_collar(const Segment& parent, float parent_radius);
     /// Sets base_widening_ for `#set collar`; returns false if the branch has no such collar.
     bool set_wide_collar(const Segment& child, float parent_radius);

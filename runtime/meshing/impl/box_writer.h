@@ -90,6 +90,7 @@ private:
     };
     std::uint32_t add_vertex(const glm::vec3& position, float u, float v, float radius);
     void add_face(std::span<const std::uint32_t> corners);
+    /// Sets `ring` to a ring of new vertices across `direction`, without faces.
     void place_ring(float distance, const glm::vec3& direction, float half, BoxSocket& ring);
     void join(const BoxSocket& from, const BoxSocket& to); // adds the faces between two rings
     void fade_radii();                                     // ends the grooves at end_

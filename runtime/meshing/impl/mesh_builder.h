@@ -67,6 +67,7 @@ struct MeshBlock {
     std::span<VertexSegments> segments;
     std::span<std::uint32_t> indices;
 
+    /// Writes a vertex into all arrays that the mesh has.
     void set(std::size_t vertex, const MeshVertex& value) const;
 };
 

@@ -73,6 +73,7 @@ private:
     void set_straight(const glm::vec3& edge, Ring& ring) const; // sets a ring across `edge`
     /// Sets a ring in the plane that halves the bend.
     void set_mitred(const glm::vec3& in, const glm::vec3& out, Ring& ring) const;
+    /// Rotates the normal of `place` by the shortest rotation from `in` to `out`.
     static void transport_normal(const glm::vec3& in, const glm::vec3& out, Place& place);
     /// Writes the two or three rings of a sharp bend.
     void bend(const Joint& before, const Joint& joint, Ring& ring);
@@ -84,6 +85,7 @@ private:
     void put_tip(const glm::vec3& position, const glm::vec3& normal, const Ring& ring);
     void close(const Run& run, Ring& ring);     // closes the end of the run; `ring`: written last
     void put_break(const Run& run, Ring& ring); // writes the two rings of a broken end
+    /// Whether bark noise, grooves or roots move the vertices of a ring.
     [[nodiscard]] bool has_normal_map(const Ring& ring) const;
     [[nodiscard]] float v_of(double arc) const { return static_cast<float>(-arc * v_scale_); }
 

@@ -81,6 +81,7 @@ private:
     void read_original_errors(); // sets original_errors_ and original_counts_
     /// Edits the files and notes what was fixed.
     void apply(const ChosenFixes& chosen);
+    /// Whether scope, message levels and excluded statements allow a fix; notes files out of scope.
     [[nodiscard]] bool may_apply(const Diagnostic& diagnostic, const Fix& fix);
     /// Statements that the span touches.
     [[nodiscard]] std::vector<StatementKey> statements_at(SourceSpan span) const;

@@ -64,6 +64,7 @@ struct SensingTurtle::State {
     /// Puts the turtle at the start, without open branches and polygons.
     void begin();
     std::optional<Stop> walk(const Word& word, std::uint32_t age); // executes a whole word
+    /// walk() of a program without productions of `#interpret`.
     template <typename C>
     std::optional<Stop> walk_plain(std::span<const C> codes, const float* parameters);
     /// walk() of a program with productions of `#interpret`.
@@ -89,15 +90,15 @@ struct SensingTurtle::State {
     void move(double length, bool adds_corners);    // without a segment
     /// Moves along the second heading; the frame stays unchanged.
     void move_secondary(const Action& action, std::uint8_t argument_count, const float* arguments);
-    void turn_by(std::uint8_t argument_count, const float* arguments);
+    void turn_by(std::uint8_t argument_count, const float* arguments); // pitches, rolls and yaws
     void turn_left(double degrees);
     /// Turns by half of a full turn, rounded down to whole steps of the current angle.
     void half_turn_snapped();
     void set_angle(double angle);
     /// Reports an object at the place of the turtle to `sink`.
     void place(const Action& action, std::uint8_t argument_count, const float* arguments);
-    bool save();
-    bool restore();
+    bool save();    // `[`
+    bool restore(); // `]`
     bool close_polygon();
     bool stop_unbalanced(); // stops with the error of an unmatched bracket
     bool stop(Stop why) {
@@ -118,7 +119,7 @@ struct SensingTurtle::State {
     std::size_t reported = 0;         // number of modules in `waiting` that have been reported
     PendingSensing pending;
     SenseSink* sink = nullptr;
-    std::uint32_t age = 0;
+    std::uint32_t age = 0; // of the word
     /// Index of the next module; after an error, index of the faulty module in the word.
     std::uint64_t position = 0;
     Code code = 0;                       // of the current module

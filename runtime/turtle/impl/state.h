@@ -107,10 +107,12 @@ struct Turtle::State {
         }
     }
 
+    /// Executes modules.
     template <typename C>
     std::optional<Stop> run(std::span<const C> codes,
                             std::span<const float> parameters,
                             std::span<const Origin> origins);
+    /// Executes modules after the productions of `#interpret` have rewritten them.
     template <typename C>
     std::optional<Stop> interpret(std::span<const C> codes,
                                   std::span<const float> parameters,
@@ -121,6 +123,7 @@ struct Turtle::State {
                              std::span<const Origin> origins) {
         return interprets ? interpret(codes, parameters, origins) : run(codes, parameters, origins);
     }
+    /// The loop of run() for all words but those of L3D.
     template <bool kOrigins, typename C>
     void run_some(std::span<const C> codes, const float*& parameters, const Origin* origins);
     /// run() for a word of L3D.
@@ -137,9 +140,11 @@ struct Turtle::State {
     bool forward(const Action& action, const float* arguments, float part);
     bool forward_with_tropisms(const Action& action, const float* arguments, float part);
     bool move(double length, bool adds_corners); // without drawing
+    /// Arguments: length, base width, tip width.
     bool draw_tapered(const Action& action, const float* arguments);
     bool
     draw(double length, float base_width, float tip_width, const float* spring, const float* mass);
+    /// Adds a segment at `base`; the turtle does not move.
     Segment& put_segment(const Pose& base,
                          float length,
                          float base_width,
@@ -153,8 +158,8 @@ struct Turtle::State {
     bool put_object(TurtleOperation kind, std::uint32_t mesh_file, const Pose& pose, float size);
     bool place(const Action& action, const float* arguments); // puts an object at the pose
     bool place_centred(const Action& action, float diameter); // the turtle does not move
-    bool save();
-    bool restore();
+    bool save();                                              // `[`
+    bool restore();                                           // `]`
     /// Skips a module after a `%` or in a skipped branch. The `]` of that branch restores the
     /// turtle.
     bool skip(const Action& action);
@@ -162,6 +167,8 @@ struct Turtle::State {
     bool save_branch(const Action& action, const float* arguments);
     [[nodiscard]] TurtlePlace current_place() const;
     [[nodiscard]] DrawnCounts drawn() const;
+    /// Draws a segment of the common case and moves `pose` to its tip. Returns false, without any
+    /// effect, in other cases.
     bool quick_forward(const Action& action, const float* arguments, Pose& pose);
     bool close_polygon(); // adds the polygon that was opened last
     bool begin_organ();
@@ -179,6 +186,7 @@ struct Turtle::State {
     /// Turns by half of a full turn, rounded down to whole steps of the current angle.
     void half_turn_snapped();
     void mirror(); // exchanges left and right
+    /// forward() with the parameters of Houdini: length, width, sections (ignored), sides.
     bool forward_with_width(const Action& action, const float* arguments, float part);
     void turn_by(const Action& action, const float* arguments);
     /// Moves along the second heading.

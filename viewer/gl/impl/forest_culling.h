@@ -148,6 +148,7 @@ private:
     };
     struct Block;
 
+    /// Uploads yaw and number of each tree.
     void upload_identities(const ForestLod& lod);
     /// Makes room in the buffers for the lists of a forest with this many trees.
     void grow_lists(std::uint32_t trees);
@@ -157,6 +158,7 @@ private:
     /// Computes horizon_, unless eye and heights are those of the last picture.
     void make_horizon(const View& view);
     void list_trees(std::uint32_t cells); // of the first `cells` cells
+    /// Chooses levels for candidates, then lists and sorts their visible branches.
     void list_branches();
 
     Device* device_;

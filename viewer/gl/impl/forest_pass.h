@@ -187,10 +187,10 @@ private:
     GpuTimer terrain_timer_;
     GpuTimer shadow_timer_;
     std::array<float, 2> caster_altitudes_{}; // m, lowest and highest, in the last shadow_bounds()
-    double bake_seconds_ = 0.0;
+    double bake_seconds_ = 0.0;               // time to bake impostors of the forest
     double upload_seconds_ = 0.0;
-    double cull_seconds_ = 0.0;
-    double cull_cpu_seconds_ = 0.0;
+    double cull_seconds_ = 0.0;              // time to choose trees for the prepared frame
+    double cull_cpu_seconds_ = 0.0;          // processor time of this
     std::unique_ptr<ForestCulling> culling_; // null until the first cull_on_device(true)
     bool culls_on_device_ = false;           // compute shaders choose the trees of later forests
     bool is_culled_on_device_ = false;       // for the forest that is shown

@@ -23,9 +23,9 @@ namespace lsys::view {
 
 class ImpostorAtlas {
 public:
-    static constexpr std::uint32_t kYaws = 8; // directions around the tree
-    static constexpr std::uint32_t kElevations = 3;
-    static constexpr std::uint32_t kTile = 128; // texels
+    static constexpr std::uint32_t kYaws = 8;       // directions around the tree
+    static constexpr std::uint32_t kElevations = 3; // of the camera, for each yaw
+    static constexpr std::uint32_t kTile = 128;     // texels
 
     explicit ImpostorAtlas(Device& device) : device_(&device), box_buffer_(device) {}
 
@@ -61,9 +61,9 @@ private:
         Framebuffer target;
         std::array<Renderbuffer, 3> storage; // albedos, normals, depths
         Buffer frame;
-        ImpostorTexels row;      // one elevation, supersampled
-        ImpostorTexels finished; // the baked elevations of the layer
-        std::uint32_t elevation = 0;
+        ImpostorTexels row;          // one elevation, supersampled
+        ImpostorTexels finished;     // the baked elevations of the layer
+        std::uint32_t elevation = 0; // the next to bake
     };
 
     using LayerBoxes = std::array<glm::vec4, std::size_t{kYaws} * kElevations>;
@@ -80,6 +80,7 @@ private:
                         const ForestBuffers& buffers,
                         MaterialTextures& textures,
                         Buffer& frame) const;
+    /// Uploads all mip levels of a layer, and sets its boxes.
     void upload_layer(std::uint32_t layer, ImpostorTexels picture);
     /// Sets boxes_ of the layer.
     void set_boxes(std::uint32_t layer, std::span<const std::uint8_t> albedos);
