@@ -54,7 +54,7 @@ public:
     [[nodiscard]] MeshFilm finish();
 
 private:
-    void close_shape();
+    void close_shape(); // moves the frames of the open shape to film_
 
     MeshFilm film_;
     Mesh last_;                            // the last frame of the open shape

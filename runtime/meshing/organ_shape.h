@@ -34,6 +34,7 @@ struct OrganStrip {
     ItemColour colour = 0;
     std::vector<glm::vec3> corners;
 };
+/// The surface of an organ as strips.
 [[nodiscard]] std::vector<OrganStrip> organ_strips(const Skeleton& skeleton,
                                                    const PlacedObject& object);
 

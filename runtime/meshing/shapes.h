@@ -39,6 +39,7 @@ struct Shape {
 
 /// The shape of an object of the library; empty for other operations.
 [[nodiscard]] Shape make_shape(TurtleOperation kind, std::uint32_t level);
+/// The shape of a mesh file.
 [[nodiscard]] Shape make_shape(const UserMesh& mesh);
 
 /// Half the width of LEAF at a distance from its base, 0 to 1: the outline of its texture.

@@ -45,11 +45,13 @@ public:
     [[nodiscard]] std::uint32_t operator[](std::uint64_t index) const;
     /// Copies the indices from `first` on. Precondition: first + to.size() <= size().
     void read(std::uint64_t first, std::span<std::uint32_t> to) const;
+    /// All indices as a plain list.
     [[nodiscard]] LargeVector<std::uint32_t> expanded() const;
     /// Compares indices, however they are stored.
     friend bool operator==(const TriangleList& a, const TriangleList& b);
 
     void push_back(std::uint32_t index);
+    /// Appends a list of three indices per triangle.
     void append(LargeVector<std::uint32_t> indices);
     /// Appends `list`, with `first_vertex` added to its indices.
     void append(TriangleList list, std::uint32_t first_vertex);
@@ -94,11 +96,12 @@ private:
 
     /// Writes all indices of a patch that is a fan or an uneven band.
     static void write_whole_patch(const Patch& patch, std::uint32_t vertex, std::uint32_t* to);
+    /// read() within the patches of one block.
     static void read_patches(const Block& block,
                              std::uint64_t first,
                              std::span<std::uint32_t> to,
                              Pattern& pattern);
-    void append_patch(Patch patch, std::uint32_t indices);
+    void append_patch(Patch patch, std::uint32_t indices); // `indices`: number of its indices
 
     std::vector<Block> blocks_; // none of them empty
     std::uint64_t size_ = 0;
@@ -132,7 +135,7 @@ public:
     }
 
 private:
-    void fill(std::uint64_t first);
+    void fill(std::uint64_t first); // expands indices from `first` on
 
     const TriangleList& list_;
     std::uint64_t first_ = 0; // number of the index in buffer_[0]

@@ -40,7 +40,9 @@ public:
     Ranks& operator=(const Ranks&) = delete;
 
     [[nodiscard]] int rank() const { return rank_; }
+    /// Number of ranks of the job.
     [[nodiscard]] int count() const { return count_; }
+    /// Whether this is the leading rank, 0.
     [[nodiscard]] bool leads() const { return rank_ == 0; }
     /// The name of this machine.
     [[nodiscard]] static std::string machine();

@@ -91,6 +91,7 @@ void parse_grammar(const std::string& path,
                    Dialect dialect,
                    const FileLoader& load,
                    ParsedGrammar& parsed);
+/// The uses of names and the statements of a parsed grammar.
 [[nodiscard]] NameIndex index_names(const ParsedGrammar& parsed);
 
 } // namespace lsys

@@ -54,6 +54,7 @@ using NamedOption = std::pair<std::string, std::string>;
 /// an invalid value.
 [[nodiscard]] Result<PlantFileOptions> parse_plant_files(const std::string& output,
                                                          const std::vector<NamedOption>& options);
+/// Like parse_plant_files(), for a forest file.
 [[nodiscard]] Result<ForestFileOptions> parse_forest_files(const std::string& output,
                                                            const std::vector<NamedOption>& options);
 
@@ -65,6 +66,7 @@ struct OptionHelp {
 };
 /// The options of parse_plant_files(), parse_forest_files() and parse_scene_overrides().
 enum class OptionSet : std::uint8_t { Plant, Forest, Scene };
+/// The options of a set, for help texts.
 [[nodiscard]] std::vector<OptionHelp> describe_options(OptionSet set);
 
 /// Options of `lsc forest` that replace values of a scene.

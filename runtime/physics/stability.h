@@ -41,6 +41,7 @@ enum class Stiffening : std::uint8_t {
     Springs, // multiplies springs by the factor
     Widths   // multiplies radii by the factor, springs by its 4th power, masses by its square
 };
+/// The skeleton with its springs or widths changed by a factor, see Stiffening.
 [[nodiscard]] Skeleton stiffened(const Skeleton& rest, Stiffening way, double factor);
 /// The smallest factor, to within 20 %, with which the plant stands (kStandingHeight); 1 if it
 /// already stands. nullopt: the plant falls with all factors up to 1e9 (springs) or 1e3 (widths).

@@ -36,7 +36,7 @@ struct Plant {
     Skeleton skeleton;
     std::vector<UserMesh> user_meshes; // the meshes of skeleton.mesh_files, in the same order
     std::uint64_t modules = 0;         // number of modules of the derived word
-    std::uint32_t generations = 0;
+    std::uint32_t generations = 0;     // of the derived word
     std::uint64_t seed = 0;
     double derive_seconds = 0.0; // includes drawing with PlantOptions::stream
     double draw_seconds = 0.0;
@@ -57,7 +57,7 @@ struct DerivedWord {
     Word word;
     /// Bytecode that defines the codes of `word`; unset: the bytecode of the grammar does.
     std::optional<Bytecode> folded;
-    std::uint32_t generations = 0;
+    std::uint32_t generations = 0; // of the derived word
     std::uint64_t seed = 0;
 };
 

@@ -39,11 +39,11 @@ struct HeightRange {
 struct SpeciesOverrides {
     std::optional<double> share; // PlacementSpecies::share
     std::optional<float> min_scale;
-    std::optional<float> max_scale;  // raised to min_scale if it is less
-    std::optional<float> min_height; // m; ignored for a species without a range of heights
-    std::optional<float> max_height; // m; raised to min_height if it is less
-    std::optional<std::uint32_t> heroes;
-    std::optional<float> rho;
+    std::optional<float> max_scale;      // raised to min_scale if it is less
+    std::optional<float> min_height;     // m; ignored for a species without a range of heights
+    std::optional<float> max_height;     // m; raised to min_height if it is less
+    std::optional<std::uint32_t> heroes; // number of heroes per stage
+    std::optional<float> rho;            // SceneSpecies::rho
     std::optional<bool> senses_surroundings;
     std::vector<EnvironmentMove> moves; // of environments; names that a grammar lacks are ignored
 
@@ -52,34 +52,34 @@ struct SpeciesOverrides {
 
 struct SceneOverrides {
     GrammarOptions grammar; // options for all species; `generations` replaces their stages by one
-    std::optional<std::uint64_t> key;
-    std::optional<std::uint64_t> seed; // seed of the first hero
-    std::optional<std::uint32_t> heroes;
-    std::optional<float> rho;
-    std::optional<std::uint32_t> cache_cap;
+    std::optional<std::uint64_t> key;        // PlacementOptions::key
+    std::optional<std::uint64_t> seed;       // seed of the first hero
+    std::optional<std::uint32_t> heroes;     // number of heroes per stage of every species
+    std::optional<float> rho;                // SceneSpecies::rho of every species
+    std::optional<std::uint32_t> cache_cap;  // CacheOptions::cap
     std::optional<float> tolerance;          // CacheOptions::tolerance
     std::optional<float> season;             // SceneSpecies::season
     std::optional<bool> senses_surroundings; // of every species
     std::optional<HeightRange> height;       // for the trees of every species
     std::optional<double> variety;           // InstancingGoal::variety
     std::optional<std::uint64_t> memory;     // InstancingGoal::max_bytes
-    std::optional<PlacementMethod> method;
-    std::optional<std::uint64_t> count;
-    std::optional<float> size;          // m, side of a square region with a corner at the origin
-    std::optional<double> spacing;      // m
-    std::optional<double> density;      // trees per square metre
-    std::string density_map;            // absolute, or relative to the working folder
-    std::optional<std::uint32_t> years; // Domination: years; other methods: stages since the start
-    std::vector<std::uint32_t> stages;  // generations of each stage, ascending, for all species
-    std::optional<StageStart> start;    // first stage of trees, for all species
-    std::optional<float> years_of_stage;
-    std::optional<ForestTile> tile;
+    std::optional<PlacementMethod> method;   // PlacementOptions::method
+    std::optional<std::uint64_t> count;      // PlacementOptions::count
+    std::optional<float> size;           // m, side of a square region with a corner at the origin
+    std::optional<double> spacing;       // m
+    std::optional<double> density;       // trees per square metre
+    std::string density_map;             // absolute, or relative to the working folder
+    std::optional<std::uint32_t> years;  // Domination: years; other methods: stages since the start
+    std::vector<std::uint32_t> stages;   // generations of each stage, ascending, for all species
+    std::optional<StageStart> start;     // first stage of trees, for all species
+    std::optional<float> years_of_stage; // SceneSpecies::years_of_stage
+    std::optional<ForestTile> tile;      // tile that replaces the region
     std::optional<TerrainKind> terrain;
-    std::optional<double> hill_height;  // m
-    std::optional<double> hill_spacing; // m
-    std::optional<std::uint64_t> hill_seed;
-    std::string ground_picture;        // absolute, or relative to the working folder
-    std::string ground_normals;        // absolute, or relative to the working folder
+    std::optional<double> hill_height;      // m
+    std::optional<double> hill_spacing;     // m
+    std::optional<std::uint64_t> hill_seed; // NoiseOptions::seed
+    std::string ground_picture;             // absolute, or relative to the working folder
+    std::string ground_normals;             // absolute, or relative to the working folder
     std::optional<double> ground_tile; // m, side of the square that a picture of the ground covers
     /// By species name. These values have priority over the values for all species. Names that the
     /// scene does not have are ignored.

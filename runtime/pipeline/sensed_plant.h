@@ -37,7 +37,7 @@ struct SensedPart {
     EnvironmentKind kind = EnvironmentKind::Shadow;
     double cell = 0.0; // edge of a voxel, m; 0: no voxels
     std::vector<SensedModule> modules;
-    std::vector<float> answers;
+    std::vector<float> answers;      // of all `modules`
     std::vector<SensedVoxel> voxels; // voxels with a sense module or leaf area; sorted by x, y, z
     std::vector<Vector3> markers;    // markers that are left; kind Space
     // Obstacles of an environment of kind Solid.

@@ -57,12 +57,13 @@ public:
 
 private:
     Domination(const PlacementOptions& options, const Terrain& terrain);
+    /// Age of the tree: includes the years of the stages that a plant of year 0 skipped.
     [[nodiscard]] std::uint16_t age_of(const ForestPlant& plant, const TreeMaker& maker) const;
 
     PlacementOptions options_;
     const Terrain* terrain_;
     std::uint32_t year_ = 0;
-    std::uint32_t next_number_ = 0;
+    std::uint32_t next_number_ = 0; // number of the next seedling
     LargeVector<ForestPlant> plants_;
     /// Radius by species and age of a plant of full vigour that was never dominated.
     std::vector<std::vector<float>> undominated_radii_;

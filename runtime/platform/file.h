@@ -59,6 +59,7 @@ struct FileFacts {
 /// access rights of its folder.
 [[nodiscard]] Reason create_file(const std::string& path, bool is_private, File& file);
 
+/// Attributes of an open file.
 [[nodiscard]] Reason facts_of(const File& file, FileFacts& facts);
 /// Attributes of the file at `path`, or of its target if it is a link; the type Missing if the file
 /// does not exist. Only the types Regular and Directory are exact.

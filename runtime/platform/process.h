@@ -29,6 +29,7 @@ namespace lsys::platform {
 /// in a signal handler or another thread. A write beyond the file size limit becomes an error. Call
 /// handle_end_requests() at most once per process.
 void handle_end_requests(void (*clean_up)() noexcept);
+/// True after the first request to end the process.
 [[nodiscard]] const std::atomic<bool>& end_requested();
 /// Exit status of a process that ends because of a request, 128 plus the number of the signal: 130
 /// for Ctrl-C, 143 for SIGTERM, 129 for SIGHUP. 0 without a request.

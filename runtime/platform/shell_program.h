@@ -48,13 +48,14 @@ public:
     [[nodiscard]] const std::string& messages() const { return messages_; }
 
 private:
-    struct Exchange;
+    struct Exchange; // a question and its answer so far
 
-    void end();
+    void end(); // kills the program
+    /// Writes a part of the question; returns false after an error.
     [[nodiscard]] bool write_some(Exchange& exchange);
-    [[nodiscard]] bool read_some(Exchange& exchange);
-    void read_messages();
-    void wait_for_exit();
+    [[nodiscard]] bool read_some(Exchange& exchange); // false at the end of the output
+    void read_messages();                             // of standard error
+    void wait_for_exit();                             // for at most half a second
 
     int process_ = 0;  // 0: none
     int input_ = -1;   // our end of the program's standard input, a file descriptor

@@ -26,6 +26,7 @@ public:
 
     [[nodiscard]] const Io& io() const { return io_; }
     [[nodiscard]] const MessageOptions& options() const { return options_; }
+    /// Whether the user has requested the end of the program.
     [[nodiscard]] bool interrupted() const;
     /// Whether a progress bar may be drawn.
     [[nodiscard]] bool shows_progress() const;

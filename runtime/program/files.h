@@ -85,11 +85,14 @@ private:
     };
 
     Output(const Console& console, std::string path) : console_(&console), path_(std::move(path)) {}
-    [[nodiscard]] Error failure(int reason) const;
+    [[nodiscard]] Error failure(int reason) const; // an Error with the path and the reason
+    /// Makes the empty temporary file in the folder of target_; `exists`: target_ exists and has
+    /// these permissions.
     [[nodiscard]] Result<void> make_temporary(bool exists, unsigned permissions);
-    void forget_temporary();
+    void forget_temporary(); // does not remove the file
+    /// Gives the file its name. An earlier file of that name gets the temporary name.
     [[nodiscard]] Result<void> publish();
-    void unpublish();
+    void unpublish(); // undoes publish()
 
     const Console* console_;
     std::string path_;   // path as the user gave it

@@ -32,6 +32,7 @@ struct WeightReport {
 [[nodiscard]] WeightReport
 make_weight_report(const Skeleton& plant, const Settings& settings, const PhysicsOptions& options);
 
+/// The report as text for people.
 [[nodiscard]] std::string weight_text(const WeightReport& report);
 /// The report as a JSON object with a line end.
 [[nodiscard]] std::string weight_json(const WeightReport& report);

@@ -138,7 +138,7 @@ public:
     bool wait_for(std::chrono::milliseconds time);
 
 private:
-    void do_calls();
+    void do_calls(); // the main function of the thread
 
     std::mutex mutex_;
     std::condition_variable changed_;

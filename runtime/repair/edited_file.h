@@ -38,6 +38,7 @@ public:
     /// The indices of the statements that a place of the original touches.
     [[nodiscard]] std::vector<std::size_t> original_statements_at(TextPlace place) const;
 
+    /// The text before all rounds of edits.
     [[nodiscard]] const std::string& original() const { return original_; }
     /// Places of the statements in the original, ascending.
     [[nodiscard]] const std::vector<TextPlace>& statements() const { return statements_; }
@@ -48,9 +49,9 @@ private:
         TextPlace after;  // in the text after the round
     };
 
-    std::string original_;
-    std::vector<TextPlace> statements_;
-    std::vector<std::vector<RoundEdit>> rounds_;
+    std::string original_;                       // original()
+    std::vector<TextPlace> statements_;          // statements()
+    std::vector<std::vector<RoundEdit>> rounds_; // the edits of each round
 };
 
 /// Whether the first line of `text` ends with CRLF.

@@ -43,7 +43,7 @@ struct FixedGrammar {
     std::vector<std::string> lines;
     /// All fixes as lines of JSON. Places refer to the text just before the fix was applied.
     std::string records;
-    std::uint64_t fix_count = 0;
+    std::uint64_t fix_count = 0; // number of applied fixes
     /// Files with certain fixes that are outside the scope.
     std::set<std::string> out_of_scope;
     /// The compiled repaired text with the remaining diagnostics, whose fixes are not

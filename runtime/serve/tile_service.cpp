@@ -238,7 +238,7 @@ TileResponse TileService::answer(const TileRequest& request) {
     const std::string path = target.empty() ? "index.html" : std::string(target);
     const bool wants_part = !request.range.empty() && request.method == "GET";
     EncodedFile file;
-    if (!find(path, !wants_part && accepts_gzip(request.accept_encoding), file)) {
+    if (!find_or_make(path, !wants_part && accepts_gzip(request.accept_encoding), file)) {
         return text_response(404, "no such file\n");
     }
     TileResponse response;
@@ -278,7 +278,7 @@ TileResponse TileService::answer(const TileRequest& request) {
 }
 
 /// Finds or makes the file at `path`; returns false if the forest has no such file.
-bool TileService::find(const std::string& path, bool wants_packed, EncodedFile& file) {
+bool TileService::find_or_make(const std::string& path, bool wants_packed, EncodedFile& file) {
     std::shared_ptr<Entry> entry;
     std::optional<MadeFile> made; // none: a shared file
     const auto shared = shared_.find(path);
@@ -289,7 +289,7 @@ bool TileService::find(const std::string& path, bool wants_packed, EncodedFile& 
         if (!made) {
             return false;
         }
-        entry = entry_of(path);
+        entry = find_or_add_entry(path);
     }
     const std::lock_guard<std::mutex> making(entry->making);
     try {
@@ -366,7 +366,7 @@ std::string TileService::make(const MadeFile& file) const {
 }
 
 /// The entry of the cache for a path, moved to the front; a new one if there is none.
-std::shared_ptr<TileService::Entry> TileService::entry_of(const std::string& path) {
+std::shared_ptr<TileService::Entry> TileService::find_or_add_entry(const std::string& path) {
     const std::lock_guard<std::mutex> lock(mutex_);
     const auto found = cache_.find(path);
     if (found != cache_.end()) {

@@ -93,24 +93,29 @@ private:
         bool is_packed = false;
     };
 
+    /// The response, before it is counted.
     [[nodiscard]] TileResponse answer(const TileRequest& request);
-    [[nodiscard]] bool find(const std::string& path, bool wants_packed, EncodedFile& file);
+    /// Finds the file in the cache, or makes it. Returns false if the forest has no such file.
+    [[nodiscard]] bool find_or_make(const std::string& path, bool wants_packed, EncodedFile& file);
+    /// The file that `path` names; nullopt if the forest does not have it.
     [[nodiscard]] std::optional<MadeFile> made_file(std::string_view path) const;
     [[nodiscard]] std::string make(const MadeFile& file) const;
-    [[nodiscard]] std::shared_ptr<Entry> entry_of(const std::string& path);
+    /// The entry of the cache for a path; a new one if there is none.
+    [[nodiscard]] std::shared_ptr<Entry> find_or_add_entry(const std::string& path);
+    /// Sets the size of an entry; drops entries used least recently while the cache is too large.
     void keep(const std::string& path, const std::shared_ptr<Entry>& entry, std::uint64_t bytes);
-    void forget(const std::string& path);
-    [[nodiscard]] std::string metrics() const;
+    void forget(const std::string& path);      // drops it from the cache
+    [[nodiscard]] std::string metrics() const; // the text of /metrics
 
     const TileForest& forest_;
-    std::uint64_t cache_bytes_;
+    std::uint64_t cache_bytes_; // max sum of the sizes of cached files
     TileCounts counts_;
     std::unordered_map<std::string, std::shared_ptr<Entry>>
-        shared_;               // files that tiles share, and the page
-    mutable std::mutex mutex_; // guards the members below
-    std::unordered_map<std::string, Cached> cache_;
-    std::list<std::string> uses_; // paths of the files in cache_, the most recently used first
-    std::uint64_t used_bytes_ = 0;
+        shared_;                                    // files that tiles share, and the page
+    mutable std::mutex mutex_;                      // guards the members below
+    std::unordered_map<std::string, Cached> cache_; // by path
+    std::list<std::string> uses_;  // paths of the files in cache_, the most recently used first
+    std::uint64_t used_bytes_ = 0; // sum of the sizes of cached files
 };
 
 /// Sets `tile` to the tile that `path` names, such as "3/5/2.glb" with the extension ".glb".

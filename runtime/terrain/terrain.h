@@ -96,12 +96,12 @@ private:
     };
 
     explicit Terrain(const Region& region) : region_(region) {}
-    [[nodiscard]] double exact_height(double x, double z) const;
-    [[nodiscard]] double noise_height(double x, double z) const;
+    [[nodiscard]] double exact_height(double x, double z) const; // before rounding to float
+    [[nodiscard]] double noise_height(double x, double z) const; // m above base_
     void
     add_noise(std::span<const float> x, std::span<const float> z, std::span<double> sums) const;
-    [[nodiscard]] double map_height(double x, double z) const;
-    [[nodiscard]] std::array<double, 2> gradient(float x, float z) const;
+    [[nodiscard]] double map_height(double x, double z) const;            // m above base_
+    [[nodiscard]] std::array<double, 2> gradient(float x, float z) const; // of height(), per m
 
     Region region_;
     double base_ = 0.0;       // m

@@ -160,8 +160,8 @@ make_tile_forest(LoadedScene loaded, const TileOptions& options, const Project& 
 
 /// The trees of a scene, placed once for all tiles.
 struct PlacedScene {
-    std::uint64_t placement_digest = 0;
-    LargeVector<Tree> trees; // in the order of write_tree_file()
+    std::uint64_t placement_digest = 0; // identifies the scene to which the trees belong
+    LargeVector<Tree> trees;            // in the order of write_tree_file()
 };
 
 /// Places the trees of a scene. Stops for the reasons of grow_species() and place_forest().

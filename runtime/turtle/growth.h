@@ -53,6 +53,7 @@ public:
     /// springs, masses, colours and sides; then the shrinking segments of `before`.
     void pose(double part, Skeleton& out) const;
 
+    /// The two drawings between which the plant grows.
     [[nodiscard]] const Skeleton& before() const;
     [[nodiscard]] const Skeleton& after() const;
     /// Moves the later drawing out; the growth cannot be used afterwards.

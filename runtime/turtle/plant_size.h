@@ -29,6 +29,7 @@ struct StemMaterial {
     double density = 0.0;    // kg/m^3
     double elasticity = 0.0; // Pa
 };
+/// The material that `settings` have set.
 [[nodiscard]] StemMaterial material_of(const Settings& settings);
 
 /// count^(1 / exponent) in binary64: the factor between the width of a tip and that of a segment

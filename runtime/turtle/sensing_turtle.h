@@ -43,6 +43,7 @@ struct SenseModule {
 class SenseSink {
 public:
     virtual ~SenseSink() = default;
+    /// `pose`: pose of the turtle at the module.
     virtual void sense(const SenseModule& module, const SensingPose& pose) = 0;
     /// `area` in m^2, of an object or polygon whose middle is at `middle`.
     virtual void organ(const std::array<double, 3>& middle, double area) = 0;

@@ -61,9 +61,9 @@ struct PlacedObject {
     glm::vec3 position{};
     float size = 1.0F; // scale factor
     glm::quat frame{1.0F, 0.0F, 0.0F, 0.0F};
-    std::uint32_t parent = kNoSegment;
+    std::uint32_t parent = kNoSegment; // the segment drawn before it on its path
     ItemColour colour = 0;
-    std::uint16_t order = 0;
+    std::uint16_t order = 0; // number of open brackets around it
 };
 
 inline constexpr std::uint32_t kNoContour = 0xFFFFFFFFu;
@@ -94,10 +94,10 @@ struct Polygon {
     std::uint32_t first_corner = 0;
     std::uint32_t corner_count = 0;
     glm::quat frame{1.0F, 0.0F, 0.0F, 0.0F}; // frame of the turtle at `{`
-    std::uint32_t parent = kNoSegment;
+    std::uint32_t parent = kNoSegment;       // the segment drawn before it on its path
     ItemColour colour = 0;
     std::uint32_t picture = kNoPicture; // index in Skeleton::mesh_files
-    std::uint16_t order = 0;
+    std::uint16_t order = 0;            // number of open brackets around it
 };
 
 /// Shapes of tubes that settings add (docs/language.md section 7.8).
@@ -164,7 +164,7 @@ struct SkeletonStats {
     double length = 0.0;      // m, sum over all segments
     double volume = 0.0;      // m^3, sum over truncated cones
     double mass = 0.0;        // kg, sum over all segments
-    std::vector<std::uint64_t> segments_by_order;
+    std::vector<std::uint64_t> segments_by_order; // number of segments of each order
 };
 [[nodiscard]] SkeletonStats measure(const Skeleton& skeleton);
 

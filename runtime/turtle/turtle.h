@@ -107,6 +107,7 @@ public:
     virtual ~BranchWatcher() = default;
     /// Returns false to skip the branch; end() is then not called for it.
     virtual bool begin(const BranchStart& start) = 0;
+    /// The branch ends. `drawn`: counts of the items drawn so far.
     virtual void end(const DrawnCounts& drawn) = 0;
 
 protected:
@@ -154,7 +155,9 @@ public:
     /// keeps its items.
     /// Precondition: finish() was called, and no Stop was returned.
     void begin_word(std::uint64_t seed);
+    /// Position and state of the turtle after the modules fed so far.
     [[nodiscard]] TurtlePlace place() const;
+    /// Counts of the items that these modules have drawn.
     [[nodiscard]] DrawnCounts drawn() const;
 
     [[nodiscard]] const Skeleton& skeleton() const;

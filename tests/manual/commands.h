@@ -43,7 +43,10 @@ public:
     [[nodiscard]] Result result_of(const std::vector<std::string>& arguments) const;
 
 private:
+    /// Runs `cat`: writes a file that is missing; an existing file must have the text that is
+    /// shown.
     [[nodiscard]] std::string show_file(const SessionStep& step, const std::string& name) const;
+    /// Runs lsc and compares its output with that of the step.
     [[nodiscard]] std::string run_lsc(const SessionStep& step,
                                       const std::vector<std::string>& arguments);
 

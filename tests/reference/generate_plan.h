@@ -24,14 +24,14 @@ struct Plan {
     bool brackets = false;
     bool unbalanced = false; // some successors do not balance their brackets
     bool polygons = false;
-    bool open_polygons = false; // some successors do not balance their polygons
-    std::size_t context_percent = 0;
-    std::size_t condition_percent = 0;
-    std::size_t stochastic_percent = 0;
-    std::size_t range_percent = 0; // percentage of arguments of successors that have a range
-    std::size_t local_percent = 0; // percentage of productions with local values
-    std::vector<Species> species;  // all modules of the grammar
-    std::vector<Species> active;   // modules that productions rewrite
+    bool open_polygons = false;         // some successors do not balance their polygons
+    std::size_t context_percent = 0;    // percentage of bundles with contexts
+    std::size_t condition_percent = 0;  // percentage of bundles with conditions
+    std::size_t stochastic_percent = 0; // percentage of bundles with weights
+    std::size_t range_percent = 0;      // percentage of arguments of successors that have a range
+    std::size_t local_percent = 0;      // percentage of productions with local values
+    std::vector<Species> species;       // all modules of the grammar
+    std::vector<Species> active;        // modules that productions rewrite
     std::vector<std::string> ignored;
     bool senses = false;                   // the grammar is one of a plant that senses
     std::vector<std::string> environments; // names without `?`

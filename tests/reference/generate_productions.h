@@ -43,7 +43,8 @@ private:
     const Species& active_species(bool letters);
     Skeleton skeleton(int length, bool letters, bool polygon);
     const Skeleton& common_skeleton(bool letters);
-    Production shape(bool letters);
+    Production shape(bool letters); // predecessor and contexts
+    // Makes productions with the predecessor and the contexts of `shape`.
     std::vector<Production> bundle_of(const Production& shape, bool letters);
     std::vector<ModuleUse>
     successor(const Production& production, const Scope& scope, bool letters);
@@ -51,7 +52,7 @@ private:
     // Names the parameters of the modules in `pattern`; each name in `used` is used only once.
     void name_formals(Pattern& pattern, std::vector<std::string>& used);
     std::string name_local(const std::vector<std::string>& used);
-    Expr weight(const Scope& scope);
+    Expr weight(const Scope& scope); // depends on the module
 
     Random& random_;
     const Plan& plan_;

@@ -56,9 +56,12 @@ private:
         bool names_only = false; // of an #ignore
     };
 
+    // The lists of a file in which names can be joined.
     static std::vector<List> lists_of(const File& file);
+    // Number of ways to split `text` into two or more names of the grammar.
     [[nodiscard]] std::size_t ways(const std::string& text) const;
-    [[nodiscard]] bool is_safe(const std::string& text);
+    [[nodiscard]] bool is_safe(const std::string& text); // whether it may become a joined name
+    // Joins random neighbours in a list. `late`: from its end on.
     void join(const List& list, std::set<std::string>& used, bool late, Random& random);
     bool
     join_at(const List& list, std::size_t first, std::size_t last, std::set<std::string>& used);
@@ -66,6 +69,7 @@ private:
     std::set<std::string> known_; // declared or rewritten names, and commands of the turtle
     std::set<std::string> names_; // all names in the grammar
     std::set<std::string> texts_; // texts of joined names
+    // By list: indices of words joined to the next word.
     std::map<const void*, std::set<std::size_t>> joined_;
 };
 

@@ -24,13 +24,13 @@ private:
         std::uint64_t first_range = 0; // range_number_ before its first draw
     };
 
-    void read(const Statement& statement);
+    void read(const Statement& statement); // executes a statement
     void read_sense(const Statement& statement);
     void read_production(const Production& production);
     void number_rules();
     [[nodiscard]] const Axiom& choose_axiom() const;
-    std::size_t number_of(const std::string& rule);
-    float value_of(const Statement& statement);
+    std::size_t number_of(const std::string& rule); // a new number at its first use
+    float value_of(const Statement& statement);     // of a #define or #param
 
     const Request& request_;
     System& system_;
@@ -38,8 +38,8 @@ private:
     std::uint64_t range_number_ = 0; // count of draws so far, by #define, #param and #w
     std::uint32_t generations_ = 0;
     std::map<Stage, std::vector<const Production*>> productions_; // in file order
-    bool considers_ = false;
-    std::vector<Axiom> axioms_; // in the order of the text
+    bool considers_ = false;                                      // a #consider has been read
+    std::vector<Axiom> axioms_;                                   // in the order of the text
 };
 
 } // namespace lsys::reference

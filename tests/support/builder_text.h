@@ -14,12 +14,14 @@
 
 namespace lsys::test {
 
+/// Prints a message about `text` and ends the test program.
 [[noreturn]] void mistake(std::string_view what, std::string_view text);
 
 struct ModuleText {
     std::string name;
     std::vector<std::string> arguments;
 };
+/// Reads modules, such as "F(1)[+(30)A]".
 [[nodiscard]] std::vector<ModuleText> read_modules(std::string_view text);
 
 struct ProductionText {

@@ -21,6 +21,7 @@ struct Planted {
 
 /// Options with `count` heroes.
 [[nodiscard]] CacheOptions heroes(std::uint32_t count, std::uint64_t seed = 0);
+/// A tree at the origin with this number.
 [[nodiscard]] Tree tree_of(std::uint32_t number);
 
 /// Compiles a grammar for instancing, and makes an instance cache. Fails the test if this fails.

@@ -12,7 +12,7 @@ namespace lsys::tests {
 struct UiOptions {
     std::filesystem::path root;       // tests/ui
     std::vector<std::string> filters; // parts of `feature/fact`; empty: all cases run
-    bool bless = false;
+    bool bless = false;               // rewrite the expected files
     bool verbose = false; // print the name of each case before it runs, to identify a crash
 };
 

@@ -39,10 +39,10 @@ public:
     void remove(std::size_t index, const Console& console);
 
 private:
-    void write(const Console& console) const;
+    void write(const Console& console) const; // writes all bookmarks to path_
 
     std::string path_; // file of the bookmarks; empty: they are not stored
-    std::string file_;
+    std::string file_; // plant or scene whose bookmarks are loaded
     std::array<std::optional<CameraBookmark>, kBookmarks> bookmarks_;
 };
 

@@ -96,7 +96,7 @@ public:
 
 private:
     std::shared_ptr<SheetPictures> pictures_;
-    std::vector<std::uint8_t> first_texels_;
+    std::vector<std::uint8_t> first_texels_; // of the first picture taken, for are_alike()
     bool are_alike_ = true;
     std::unique_ptr<LatestRequestWorker<SheetRequest, bool>> worker_;
 };

@@ -194,7 +194,9 @@ private:
                               PanelState& panels,
                               std::string& chosen);
     static void press_in_browser(const KeyPress& press, PanelState& panels, std::string& chosen);
+    /// Camera bookmarks (Alt and a digit), and the next or previous file (Alt and an arrow).
     static void press_with_alt(Key key, ViewSwitcher& switcher, PanelState& panels);
+    /// Passes input to the view: keys, tools, picking and motion of the camera.
     void apply_to_view(const WindowInput& input,
                        double seconds,
                        const PixelArea& area,
@@ -206,6 +208,7 @@ private:
     [[nodiscard]] static bool press_common(const KeyPress& press, View& view, PanelState& panels);
     /// Picks the part under the mouse if the left button was pressed and released at one place.
     void click(const WindowInput& input, const PixelArea& area, View& view);
+    /// Passes presses, moves and releases of the mouse to the paint tool.
     void use_tool(const WindowInput& input, const PixelArea& area, ForestView& view);
     void fly(const WindowInput& input, float seconds, float height, Camera& camera);
 

@@ -71,7 +71,7 @@ private:
     [[nodiscard]] static std::string home_folder();
     /// The folder that the text names.
     [[nodiscard]] std::string listed_folder() const;
-    void filter();
+    void filter(); // sets entries_; reads another folder if the text names one
 
     std::string folder_;
     std::string text_;

@@ -33,7 +33,7 @@ public:
 
 private:
     std::vector<std::vector<FileChange>> steps_; // a skipped step has no changes
-    std::size_t position_ = 0;
+    std::size_t position_ = 0;                   // number of applied steps
 };
 
 } // namespace lsys::view

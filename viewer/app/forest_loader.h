@@ -31,6 +31,7 @@ struct ForestOutcome {
     double seconds = 0.0; // time to make the document
 };
 
+/// Makes the forest of a request, on the thread of the loader.
 [[nodiscard]] ForestOutcome make_forest(const ForestRequest& request,
                                         const std::atomic<bool>& cancelled,
                                         MakingProgress& progress);

@@ -86,11 +86,15 @@ public:
     outline(const glm::dvec3& place, float radius, bool erases) const;
 
 private:
-    [[nodiscard]] Painter& painter();
+    [[nodiscard]] Painter& painter(); // made on first use
+    /// The painting with the species numbers of document_; trees of other species are dropped.
     [[nodiscard]] Painting renamed(const Painting& painting) const;
     void apply_at(float x, float z, PaintTool tool, const Brush& brush);
+    /// Sends changed trees to the renderer and counts them.
     void show(std::span<const TreeChange> changes);
+    /// Sends the trees around changed trees, which sense other surroundings, to the renderer.
     void show_surroundings(std::span<const TreeChange> changes);
+    /// Sends all painted and erased trees to the renderer.
     void show_all();
 
     Renderer* renderer_;
@@ -101,7 +105,7 @@ private:
     std::optional<HeightField> ground_; // made on first use
     std::optional<glm::dvec3> last_;    // last place to which the stroke moved
     PaintCount count_;
-    std::uint64_t painted_ = 0;
+    std::uint64_t painted_ = 0; // number of living painted trees
     std::string saved_text_;
 };
 

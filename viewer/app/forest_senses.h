@@ -28,6 +28,7 @@ public:
     NearestSensing(const ForestDocument& document, const glm::dvec3& place)
         : document_(document), place_(place) {}
 
+    /// Adds a tree, unless it senses nothing.
     void add(const Tree& tree);
     /// Up to kMaxObstacleTrees trees, nearest first; equally near ones by their numbers.
     [[nodiscard]] std::vector<Tree> take();

@@ -77,7 +77,7 @@ private:
         bool is_shown = false;
     };
 
-    void work();
+    void work(); // the main function of the threads: makes missing squares
     /// Replaces the list of squares that the threads have to make. Precondition: the caller holds
     /// the lock.
     void want(const WantedSquares& wanted);
@@ -95,9 +95,9 @@ private:
     ForestStream stream_;
     std::function<void()> wake_;
     mutable std::mutex mutex_;
-    std::condition_variable has_work_;
-    std::condition_variable has_square_;
-    std::vector<SquareId> missing_; // the most urgent square is last
+    std::condition_variable has_work_;   // missing_ has squares, or ends_ is set
+    std::condition_variable has_square_; // ready_ has a new square
+    std::vector<SquareId> missing_;      // the most urgent square is last
     std::set<SquareId> in_progress_;
     std::map<SquareId, Ready> ready_;
     std::uint64_t step_ = 0; // number of the current step, for Ready::last_wanted

@@ -40,9 +40,9 @@ struct ForestEdits {
     BranchColours colours = BranchColours::Natural;
     bool windy = false; // wind is on
     Wind wind;
-    std::optional<double> visibility; // km; empty: default_visibility()
-    SceneLight light;                 // values that replace the scene's
-    std::uint64_t max_triangles = 1'500'000;
+    std::optional<double> visibility;        // km; empty: default_visibility()
+    SceneLight light;                        // values that replace the scene's
+    std::uint64_t max_triangles = 1'500'000; // max triangles of branches in a picture
     SenseLook senses;
 
     friend bool operator==(const ForestEdits&, const ForestEdits&) = default;
@@ -121,6 +121,7 @@ public:
     /// Plays or pauses growth. If all years are shown, growth begins again at the first year.
     void play_or_pause();
     void set_years(std::uint32_t years);
+    /// Number of years to show: that of the user, else the default.
     [[nodiscard]] std::uint32_t years() const;
     /// Number of years that the scene grows, without edits of the user. For trees placed by stages,
     /// the number of stages; 0: the scene does not grow.
@@ -187,31 +188,36 @@ private:
     /// One step of undo() changes either settings or painted strokes.
     enum class StepKind : std::uint8_t { Settings, Painting };
 
-    void add_step(StepKind kind);
+    void add_step(StepKind kind); // a new step of undo()
     /// Undoes or repeats a step: moves the last step of `from` to `to`.
     bool move_step(std::vector<StepKind>& from, std::vector<StepKind>& to, bool redoes);
-    void take_outcome(ForestOutcome outcome);
-    void swap(ForestOutcome outcome);
-    void show_outline();
+    void take_outcome(ForestOutcome outcome); // unless it is of another scene
+    void swap(ForestOutcome outcome);         // shows the new forest in place of the old one
+    void show_outline();                      // of the tool, at pointed_
     void show_senses();
+    /// Displacements of environments since the shown forest grew.
     [[nodiscard]] SpeciesMoves new_moves() const;
     /// Shows and hides squares of a streamed forest for the camera of a frame.
     void stream(Frame& frame);
     /// Returns whether the forest is streamed. If so, shows a note that a streamed forest cannot be
     /// painted.
     bool refuses_painting();
-    [[nodiscard]] Result<void> save_season(const std::string& scene);
-    void show_colours();
+    [[nodiscard]] Result<void> save_season(const std::string& scene); // settings.edits.season
+    void show_colours(); // of branches, if the setting has changed
+    /// For notes: `what`, then counts of painted trees.
     [[nodiscard]] std::string painted_text(const char* what) const;
     void watch_files();
-    void grow();
+    void grow(); // requests the next moment of growth
     /// Whether growth can show moments between years.
     [[nodiscard]] bool plays_smoothly() const;
-    void grow_by_years();
-    void take_moment();
+    void grow_by_years(); // growth without moments between years
+    void take_moment();   // shows the trees that film_ has made
+    /// Ends growth and shows the forest after `years` years.
     void end_growth(std::uint32_t years);
-    void request_load();
+    void request_load(); // sends the settings to loader_
+    /// Called on the thread of watch_.
     void files_changed(const std::vector<std::string>& files, SteadyClock::time_point changed_at);
+    /// The ground below a place of the picture, in the units of hover().
     [[nodiscard]] std::optional<glm::dvec3> ground_at(const glm::vec2& place);
 
     std::shared_ptr<ForestDocument> document_;
@@ -221,38 +227,38 @@ private:
     std::vector<std::string> files_; // files that the last load has requested
     bool frame_next_ = true;         // the next swap moves the camera to show the forest
     bool plays_next_ = false;        // growth starts to play at the next swap
-    bool logs_next_frame_ = false;
+    bool logs_next_frame_ = false;   // logs the times of the first picture of this forest
     bool has_all_impostors_ = true;
     BranchColours shown_colours_ = BranchColours::Natural;
     std::vector<LegendEntry> legend_;
     std::optional<SceneOverrides> requested_; // edits of the last request to the loader
     EditHistory<ForestEdits> history_;
-    std::vector<StepKind> steps_;  // oldest first
-    std::vector<StepKind> undone_; // the step that was undone first comes first
-    std::uint32_t default_years_ = 0;
-    std::uint32_t unedited_years_ = 0;   // default number of years of the forest
-    bool is_other_placement_ = false;    // the placement differs from that of the scene file
-    SteadyClock::time_point changed_at_; // time of the change that led to the forest shown
-    SteadyClock::time_point last_growth_;
-    double growth_position_ = 0.0; // years
+    std::vector<StepKind> steps_;         // oldest first
+    std::vector<StepKind> undone_;        // the step that was undone first comes first
+    std::uint32_t default_years_ = 0;     // default_years()
+    std::uint32_t unedited_years_ = 0;    // default number of years of the forest
+    bool is_other_placement_ = false;     // the placement differs from that of the scene file
+    SteadyClock::time_point changed_at_;  // time of the change that led to the forest shown
+    SteadyClock::time_point last_growth_; // time of the last step of growth
+    double growth_position_ = 0.0;        // years
     std::optional<GrowthMoment> grown_;
     std::unique_ptr<ForestFilm> film_;                   // made when growth is first played
     SteadyClock::time_point start_ = SteadyClock::now(); // time 0 of the wind
-    std::optional<glm::vec2> pointed_; // last place of hover(), until update() shows it
-    bool has_outline_ = false;
+    std::optional<glm::vec2> pointed_;        // last place of hover(), until update() shows it
+    bool has_outline_ = false;                // the outline of the tool is shown
     std::optional<ShownSenses> shown_senses_; // empty: none are shown
     std::vector<Tree> sensing_trees_;         // trees of the drawing
-    std::optional<GrabbedObstacle> grabbed_;
-    bool begins_stroke_ = false; // begin a stroke at the next point on the ground
-    bool has_stroke_ = false;
-    bool used_tool_ = false; // a tool was applied since the last picture
-    bool is_slow_ = false;   // the last picture at full quality took longer than kSlowPicture
+    std::optional<GrabbedObstacle> grabbed_;  // while the mouse holds an obstacle
+    bool begins_stroke_ = false;              // begin a stroke at the next point on the ground
+    bool has_stroke_ = false;                 // a stroke has begun and not ended
+    bool used_tool_ = false;                  // a tool was applied since the last picture
+    bool is_slow_ = false; // the last picture at full quality took longer than kSlowPicture
     bool is_coarse_ = false;
     std::uint64_t max_coarse_triangles_ = 200'000; // max triangles while is_coarse_
     SteadyClock::time_point last_motion_;          // when the picture last changed by motion
     ForestViewStats stats_;
 
-    std::mutex saved_mutex_;
+    std::mutex saved_mutex_;     // guards saved_text_
     std::string saved_text_;     // text of the scene file as this view last wrote it
     ViewOptions shown_options_;  // options with which document_ was made
     SceneOverrides shown_edits_; // edits with which document_ was made

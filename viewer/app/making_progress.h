@@ -22,6 +22,7 @@ public:
     /// Makes `host` report to this object, which must outlive all calls with `host`. Forgets earlier
     /// reports.
     void follow(Host& host);
+    /// The step that is being made, as text.
     [[nodiscard]] MakingState state() const;
 
 private:
@@ -31,12 +32,12 @@ private:
     mutable std::mutex mutex_;
     LongStep step_ = LongStep::Read;
     // The members below describe LongStep::Derive.
-    std::uint32_t generation_ = 0; // 0: the derivation has not reported progress yet
-    std::uint32_t generations_ = 0;
-    std::uint64_t modules_ = 0;
-    double expected_ = 0.0;        // modules of all generations; 0: unknown
-    double expected_before_ = 0.0; // modules of generations before generation_
-    std::uint32_t summed_ = 0;     // number of generations that expected_before_ sums
+    std::uint32_t generation_ = 0;  // 0: the derivation has not reported progress yet
+    std::uint32_t generations_ = 0; // of the whole derivation
+    std::uint64_t modules_ = 0;     // of the word derived so far
+    double expected_ = 0.0;         // modules of all generations; 0: unknown
+    double expected_before_ = 0.0;  // modules of generations before generation_
+    std::uint32_t summed_ = 0;      // number of generations that expected_before_ sums
 };
 
 } // namespace lsys::view

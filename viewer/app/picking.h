@@ -33,8 +33,8 @@ struct PickedTriangle {
 
 /// A module in a word of a plant.
 struct PickedModule {
-    std::uint64_t position = 0; // in the word, from 0
-    std::uint32_t generation = 0;
+    std::uint64_t position = 0;   // in the word, from 0
+    std::uint32_t generation = 0; // of the word
 };
 
 struct Description {

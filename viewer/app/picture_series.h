@@ -19,13 +19,13 @@ namespace lsys::view {
 struct PictureSeries {
     // Times of each picture, ms.
     std::vector<double> prepare; // work of the caller before it draws
-    std::vector<double> draw;
-    std::vector<double> read; // reading the picture back from the GPU
-    std::vector<double> cpu;  // processor time of the drawing thread
-    std::vector<double> gpu;  // by timer queries
-    std::vector<double> write;
-    FrameStats drawn;         // statistics of the last picture
-    std::uint64_t digest = 0; // equal for runs with the same pictures
+    std::vector<double> draw;    // drawing
+    std::vector<double> read;    // reading the picture back from the GPU
+    std::vector<double> cpu;     // processor time of the drawing thread
+    std::vector<double> gpu;     // by timer queries
+    std::vector<double> write;   // writing the picture to a file
+    FrameStats drawn;            // statistics of the last picture
+    std::uint64_t digest = 0;    // equal for runs with the same pictures
 };
 
 /// The median of `values`; 0 if there are none.

@@ -15,9 +15,9 @@ namespace lsys::view {
 struct PlantDocument {
     Grammar grammar;
     Plant plant;
-    Mesh mesh;           // at rest
-    double height = 0.0; // m, height of the skeleton at rest
-    double load_seconds = 0.0;
+    Mesh mesh;                 // at rest
+    double height = 0.0;       // m, height of the skeleton at rest
+    double load_seconds = 0.0; // time to read and compile the grammar
     double mesh_seconds = 0.0;
 };
 

@@ -20,6 +20,7 @@ struct BentPlant {
     double seconds = 0.0; // s, time taken to make it
 };
 
+/// Forces and stiffness of a simulation.
 struct Bending {
     PhysicsOptions forces;
     float stiffness = 1.0F; // factor of the spring constants of all segments

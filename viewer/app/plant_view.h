@@ -28,10 +28,10 @@ namespace lsys::view {
 
 /// Values from which the plant of a file is made; a change makes a new plant.
 struct PlantSource {
-    std::vector<Definition> definitions; // replace constants of the grammar
-    std::vector<SettingText> set_values; // replace `#set` statements of the grammar
-    std::optional<std::uint32_t> generations;
-    std::optional<std::uint64_t> seed;
+    std::vector<Definition> definitions;      // replace constants of the grammar
+    std::vector<SettingText> set_values;      // replace `#set` statements of the grammar
+    std::optional<std::uint32_t> generations; // unset: default_generations()
+    std::optional<std::uint64_t> seed;        // unset: the value of #set seed
     MeshOptions mesh;
     std::vector<EnvironmentMove> moves; // displacements of obstacles; save() does not write them
 
@@ -75,16 +75,16 @@ struct PlantViewSettings : PlantEdits {
 
 /// Statistics of the plant that is shown.
 struct PlantViewStats {
-    double upload_seconds = 0.0;
-    double make_seconds = 0.0;  // all work of the loader
-    double swap_seconds = 0.0;  // from the change of a file to the swap
-    double shown_seconds = 0.0; // from the change to the first picture on screen
-    double draw_seconds = 0.0;  // time to draw the last picture
-    double bend_seconds = 0.0;  // time to make the last moment of the simulation
-    double bend_time = 0.0;     // s, simulated time
-    std::uint64_t moments = 0;  // count of moments of growth shown
-    FrameStats drawn;           // of the last picture
-    std::uint64_t swaps = 0;    // count of plants shown
+    double upload_seconds = 0.0; // time of the swap
+    double make_seconds = 0.0;   // all work of the loader
+    double swap_seconds = 0.0;   // from the change of a file to the swap
+    double shown_seconds = 0.0;  // from the change to the first picture on screen
+    double draw_seconds = 0.0;   // time to draw the last picture
+    double bend_seconds = 0.0;   // time to make the last moment of the simulation
+    double bend_time = 0.0;      // s, simulated time
+    std::uint64_t moments = 0;   // count of moments of growth shown
+    FrameStats drawn;            // of the last picture
+    std::uint64_t swaps = 0;     // count of plants shown
 };
 
 class PlantView final : public View {
@@ -141,6 +141,7 @@ public:
     /// Number of generations that the command line or the grammar sets, without the user's
     /// settings.
     [[nodiscard]] std::uint32_t default_generations() const;
+    /// Number of generations to show: that of the user, else the default.
     [[nodiscard]] std::uint32_t generations() const;
     /// What the plant that is shown has sensed; null if it senses nothing.
     [[nodiscard]] const SensedPlant* sensed() const;
@@ -167,30 +168,37 @@ private:
         glm::dvec3 place{};          // the grabbed point, relative to the eye, m
     };
 
-    void take_outcome(LoadOutcome outcome);
-    void swap(LoadOutcome outcome);
+    void take_outcome(LoadOutcome outcome); // unless it is of another file
+    void swap(LoadOutcome outcome);         // shows the new plant in place of the old one
     void show_lines();
     void show_senses();
+    /// Displacements of environments since the shown plant grew.
     [[nodiscard]] std::vector<EnvironmentMove> new_moves() const;
     void watch_files();
-    void start_growth();
-    void grow();
-    void take_moment();
-    void widen_film_ground();
+    void start_growth();      // from the generation shown
+    void grow();              // requests the next moment of growth
+    void take_moment();       // shows the moment that film_ has made
+    void widen_film_ground(); // never narrower than before
+    /// Starts, changes or stops the simulation, and shows its latest moment.
     void bend();
+    /// Adds a warning if the simulated plant falls under its weight. Returns whether messages
+    /// changed.
     [[nodiscard]] bool check_standing();
-    void drop_unknown_definitions();
+    void drop_unknown_definitions(); // drops values of constants that the file lacks
+    /// Undoes or repeats changes of files until they agree with PlantEdits::file_steps.
     void follow_file_steps();
-    [[nodiscard]] ViewOptions options_with_settings() const;
+    [[nodiscard]] ViewOptions options_with_settings() const; // options_ with the values of settings
+    /// The bytes of the file with these values. Error: the plant shown is not that of the file on
+    /// disk.
     [[nodiscard]] Result<std::string> text_with_values(const StatementValues& values) const;
 
     std::shared_ptr<const PlantDocument> document_;
-    LoadOutcome shown_outcome_;
+    LoadOutcome shown_outcome_;      // of the request whose plant is shown
     PlantSource saved_;              // values when the file was opened or last saved
     std::vector<std::string> files_; // files that the last load has requested
     bool frame_next_ = true;         // the next swap moves the camera to show the plant
     bool is_new_file_ = true;        // at the next swap, take the damping of the grammar
-    bool logs_next_frame_ = false;
+    bool logs_next_frame_ = false;   // logs the times of the first picture of this plant
     PlantViewStats stats_;
     Bounds rest_bounds_; // bounds of document_ at rest
 
@@ -200,18 +208,18 @@ private:
     LineKind shown_lines_ = LineKind::None;
     SenseLook shown_senses_;
     std::vector<EnvironmentMove> shown_moves_; // the shown PlantSource::moves
-    std::optional<GrabbedObstacle> grabbed_;
-    SteadyClock::time_point last_growth_;
-    double growth_position_ = 0.0; // generations
-    bool plays_next_ = false;      // growth starts to play at the next swap
-    bool shows_growth_ = false;    // `grown_` is shown
-    FilmMoment grown_;
-    glm::vec4 film_ground_{0.0F};     // Frame::ground_disc while growth is shown
-    std::unique_ptr<PlantFilm> film_; // made when growth is first played
-    BentPlant bent_;
-    MeshOptions bent_mesh_options_;  // options with which bent_ was meshed
-    std::optional<Bending> bending_; // settings of motion_
-    std::unique_ptr<PlantMotion> motion_;
+    std::optional<GrabbedObstacle> grabbed_;   // while the mouse holds an obstacle
+    SteadyClock::time_point last_growth_;      // time of the last step of growth
+    double growth_position_ = 0.0;             // generations
+    bool plays_next_ = false;                  // growth starts to play at the next swap
+    bool shows_growth_ = false;                // `grown_` is shown
+    FilmMoment grown_;                         // moment of growth, if shows_growth_
+    glm::vec4 film_ground_{0.0F};              // Frame::ground_disc while growth is shown
+    std::unique_ptr<PlantFilm> film_;          // made when growth is first played
+    BentPlant bent_;                           // latest moment of motion_
+    MeshOptions bent_mesh_options_;            // options with which bent_ was meshed
+    std::optional<Bending> bending_;           // settings of motion_
+    std::unique_ptr<PlantMotion> motion_;      // null: nothing is simulated
     /// The last input of the worker that checks whether the plant stands.
     std::optional<Bending> checked_bending_;
     bool warns_of_fall_ = false;                        // the messages warn that the plant falls

@@ -69,6 +69,7 @@ public:
     /// The text of the selected lines; empty if none is selected.
     [[nodiscard]] std::string selected_text() const;
 
+    /// Shows another file, without a selection.
     void select_file(std::size_t file);
     /// Selects a line; with `extends`, the other end of the selection stays.
     void select_line(std::uint32_t line, bool extends);
@@ -92,21 +93,22 @@ public:
     [[nodiscard]] std::optional<std::uint32_t> take_target();
 
 private:
+    /// Shows a new text; keeps file, selection and scrolling if it is the text of the same file.
     void take(std::shared_ptr<const SourceText> text, View& view);
 
     std::unique_ptr<SourceWorker> worker_;
-    std::string requested_file_;
+    std::string requested_file_;       // file of the last request
     std::uint64_t requested_load_ = 0; // View::taken_request_count() at the last request
     std::uint64_t followed_pick_ = 0;  // View::pick_count() when the pane last showed a pick
     std::string shown_file_;           // file of the view to which text_ belongs
     std::shared_ptr<const SourceText> text_;
     std::size_t file_index_ = 0;
-    std::string first_error_;    // first error of text_, with its place
-    std::uint32_t anchor_ = 0;   // number of the line where the selection began; 0: none
-    std::uint32_t selected_ = 0; // number of the selected line; 0: none
-    LineRange highlighted_;
-    std::optional<std::uint32_t> target_;
-    std::uint32_t columns_ = 0; // columns for which rows_ were made; 0: they must be made
+    std::string first_error_;             // first error of text_, with its place
+    std::uint32_t anchor_ = 0;            // number of the line where the selection began; 0: none
+    std::uint32_t selected_ = 0;          // number of the selected line; 0: none
+    LineRange highlighted_;               // highlighted()
+    std::optional<std::uint32_t> target_; // line to which the pane must scroll
+    std::uint32_t columns_ = 0;           // columns for which rows_ were made; 0: they must be made
     std::vector<SourceRow> rows_;
     std::vector<TextLine> texts_;
 };

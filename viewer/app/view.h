@@ -151,6 +151,7 @@ public:
     [[nodiscard]] const std::string& loaded_file() const { return loaded_file_; }
     /// Whether the last request failed.
     [[nodiscard]] bool failed() const { return failed_; }
+    /// Error of shaders when they were last loaded; empty: none.
     [[nodiscard]] const std::string& shader_message() const { return shader_message_; }
     /// Last note, for example "wrote plant-1.png"; empty if it is old.
     [[nodiscard]] const std::string& note() const { return note_; }
@@ -191,27 +192,27 @@ protected:
     std::string shader_message_;
     // Last picture.
     std::optional<Frame> frame_;
-    FrameStats drawn_;
+    FrameStats drawn_;               // statistics of the last picture
     float aspect_ = 1.0F;            // width / height
     std::optional<Quality> quality_; // the last quality passed to use_quality()
     bool changed_ = true;            // the next picture is drawn even if its frame equals frame_
 
 private:
-    std::string text_;
-    std::vector<ShownMessage> entries_;
+    std::string text_;                         // messages()
+    std::vector<ShownMessage> entries_;        // entries()
     std::shared_ptr<const Messages> messages_; // of the last request
     std::string loaded_file_;
     std::uint64_t taken_request_count_ = 0;
     std::string note_;
-    SteadyClock::time_point note_since_;
-    bool failed_ = false; // the last load
+    SteadyClock::time_point note_since_; // when note_ was set
+    bool failed_ = false;                // the last load
     std::atomic<bool> shaders_changed_{false};
-    bool take_trace();
+    bool take_trace(); // shows the trace that tracer_ has made
 
     Description picked_;
     std::uint64_t pick_count_ = 0;
-    TraceFunction trace_function_; // traces the part that was picked last
-    TraceScope trace_scope_ = TraceScope::Written;
+    TraceFunction trace_function_;                 // traces the part that was picked last
+    TraceScope trace_scope_ = TraceScope::Written; // scope of the next trace
     std::vector<TextLine> traced_;
     bool wants_trace_ = false;            // trace() was called, and the trace is still wanted
     std::unique_ptr<TraceWorker> tracer_; // made by the first trace

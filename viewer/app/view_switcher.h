@@ -50,17 +50,17 @@ public:
     [[nodiscard]] const std::string& last_scene() const { return last_scene_; }
 
 private:
-    void make(const ViewOptions& options);
-    void open_now(const std::string& file);
+    void make(const ViewOptions& options);  // replaces the current view
+    void open_now(const std::string& file); // open() without a look at unsaved changes
 
     ViewOptions options_;
     Console console_;
     Renderer* renderer_;
     std::function<void()> wake_;
-    std::string last_scene_;
+    std::string last_scene_; // last_scene()
     std::optional<Leaving> leaving_;
-    PlantView* plant_ = nullptr;
-    ForestView* forest_ = nullptr;
+    PlantView* plant_ = nullptr;   // null: another view is shown
+    ForestView* forest_ = nullptr; // null: another view is shown
     std::unique_ptr<View> current_;
 };
 

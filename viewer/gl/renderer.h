@@ -94,7 +94,7 @@ struct Frame {
 [[nodiscard]] glm::vec4 ground_disc_of(const Bounds& plant);
 
 struct FrameStats {
-    std::uint64_t draws = 0;
+    std::uint64_t draws = 0; // number of draw calls
     std::uint64_t triangles = 0;
     double gpu_milliseconds = 0.0; // for passes of a forest only, like FrameTimes::gpu
 };
@@ -133,9 +133,9 @@ struct ForestFrameStats {
     std::uint64_t blended_trees = 0;  // drawn in two levels of detail, mixed
     std::uint64_t occluded_trees = 0; // inside the frustum, but occluded by the ground
     std::uint64_t drawn_branches = 0;
-    std::uint32_t expanded_trees = 0;
-    std::uint32_t waiting_trees = 0; // near trees, drawn as impostors until they are expanded
-    float detail = 1.0F;             // factor of heights; below 1 to stay within max_triangles
+    std::uint32_t expanded_trees = 0; // whose branches were made for this picture
+    std::uint32_t waiting_trees = 0;  // near trees, drawn as impostors until they are expanded
+    float detail = 1.0F;              // factor of heights; below 1 to stay within max_triangles
     FrameStats branches;
     FrameStats impostors;
     FrameStats terrain;
@@ -146,21 +146,21 @@ struct ForestFrameStats {
     // counts of the last picture that the device has finished: after read() the last picture,
     // before read() an earlier one.
     bool is_culled_on_device = false;
-    double cull_gpu_milliseconds = 0.0;
+    double cull_gpu_milliseconds = 0.0; // time of the compute shaders
     /// Triangles that draw() does not count, because only the device knows their number.
     std::uint64_t device_triangles = 0;
 };
 
 /// Sizes of the forest that is shown.
 struct ForestSizes {
-    std::uint64_t trees = 0;
+    std::uint64_t trees = 0; // number of trees
     std::uint64_t tree_bytes = 0;
     std::uint64_t branch_bytes = 0;
     std::uint64_t culling_bytes = 0; // buffers of the compute shaders, with their branches
-    std::uint64_t mesh_bytes = 0;
+    std::uint64_t mesh_bytes = 0;    // meshes of branches
     std::uint64_t texture_bytes = 0;
     double upload_milliseconds = 0.0;
-    double impostor_milliseconds = 0.0;
+    double impostor_milliseconds = 0.0; // time to bake impostors
 };
 
 /// Kind of the part that a pixel of a picture shows. The values are those that

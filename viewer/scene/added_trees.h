@@ -76,11 +76,11 @@ private:
         LodTree lod_tree;
     };
 
-    [[nodiscard]] std::uint32_t cell_of(const glm::vec3& place) const;
+    [[nodiscard]] std::uint32_t cell_of(const glm::vec3& place) const; // of a place in region_
 
-    Region region_;
-    std::deque<Added> added_;
-    std::vector<Cell> cells_;
+    Region region_;                   // region of the forest
+    std::deque<Added> added_;         // by slot
+    std::vector<Cell> cells_;         // kSide by kSide
     std::vector<std::uint32_t> used_; // indices of cells that have had trees
 };
 

@@ -51,10 +51,11 @@ public:
     void begin_frame(std::uint32_t kept);
     /// Forgets a tree that was removed or replaced by another tree.
     void forget(std::uint32_t tree);
-    void clear();
+    void clear(); // forgets all trees
 
     [[nodiscard]] std::span<const PoolBranch> branches() const { return branches_; }
     [[nodiscard]] std::size_t tree_count() const { return trees_.size(); }
+    /// Number of branches in the pool.
     [[nodiscard]] std::uint64_t used_branches() const { return used_branches_; }
     /// Ranges that were written since the last call.
     [[nodiscard]] std::vector<PoolSpan> take_written();
@@ -69,18 +70,19 @@ private:
         std::uint64_t last_use = 0; // number of the frame
     };
 
-    void release(const PoolSpan& span);
+    void release(const PoolSpan& span); // makes a range free
+    /// Takes a free range of `count` branches; returns false if there is none.
     bool allocate(std::uint32_t count, std::uint32_t& first);
-    void forget_before(std::uint64_t frame);
+    void forget_before(std::uint64_t frame); // trees that were last used before `frame`
 
     std::uint32_t capacity_;
-    std::uint64_t frame_ = 0;
+    std::uint64_t frame_ = 0; // number of the current frame
     std::uint64_t used_branches_ = 0;
     std::vector<PoolBranch> branches_;
-    std::unordered_map<std::uint32_t, Entry> trees_;
+    std::unordered_map<std::uint32_t, Entry> trees_; // by number of the tree
     std::map<std::uint32_t, std::uint32_t>
-        free_; // free ranges: first and count; adjacent ones are merged
-    std::vector<PoolSpan> written_;
+        free_;                      // free ranges: first and count; adjacent ones are merged
+    std::vector<PoolSpan> written_; // for take_written()
 };
 
 } // namespace lsys::view

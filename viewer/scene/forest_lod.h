@@ -62,6 +62,7 @@ struct Sway {
         return height_factor * height + width_factor * width + flutter;
     }
 };
+/// The largest displacements in a wind.
 [[nodiscard]] Sway sway_in(const Wind& wind);
 
 /// Range [low, high) of dither thresholds: while an object blends with another object, it draws
@@ -291,16 +292,17 @@ private:
         friend auto operator<=>(const VisibleCell&, const VisibleCell&) = default;
     };
 
-    void sort_into_cells();
+    void sort_into_cells(); // makes cells_ and trees_ from the placed trees
     [[nodiscard]] const Tree& placed_tree(std::uint32_t number) const {
         const auto turned = turned_.empty() ? turned_.end() : turned_.find(number);
         return turned == turned_.end() ? model_.forest->trees[trees_[number].tree] : turned->second;
     }
+    /// Sets yaw and form of a tree in `cell` whose surroundings have changed.
     void replace_yaw_and_form(std::uint32_t number, const Tree& tree, ForestCell& cell);
-    [[nodiscard]] Tree streamed_tree(std::uint32_t number) const;
+    [[nodiscard]] Tree streamed_tree(std::uint32_t number) const; // from its square
     /// Finds a free range of `count` trees in trees_. Returns its first index.
     [[nodiscard]] std::uint32_t allocate_trees(std::uint32_t count);
-    void release_trees(std::uint32_t first, std::uint32_t count);
+    void release_trees(std::uint32_t first, std::uint32_t count); // makes a range of trees_ free
     /// Copies the trees and cells of a shown square, with places relative to origin_.
     void place_square(std::uint32_t index);
     void list_visible_cells(const Frustum& frustum);
@@ -312,7 +314,8 @@ private:
     [[nodiscard]] std::uint32_t first_added() const {
         return static_cast<std::uint32_t>(trees_.size());
     }
-    [[nodiscard]] std::uint64_t cell_of(const glm::vec3& place) const;
+    [[nodiscard]] std::uint64_t cell_of(const glm::vec3& place) const; // of a tree of the forest
+    /// `index`: LodTree::tree.
     [[nodiscard]] LodTree make_lod_tree(const Tree& tree, std::uint32_t index);
     /// Lists a tree. `weight`: weight of its impostor; the cluster of its cell has the weight 1 -
     /// `weight`.
@@ -338,7 +341,7 @@ private:
     [[nodiscard]] float sway_of(const LodTree& tree) const; // m, max displacement by wind
     /// Bounding box of the impostor of `tree` as seen from `eye`.
     [[nodiscard]] Bounds impostor_box(const LodTree& tree, const glm::vec3& eye) const;
-    [[nodiscard]] bool is_occluded(const Bounds& box, float sway) const;
+    [[nodiscard]] bool is_occluded(const Bounds& box, float sway) const; // by ground_
     /// The sphere around a part of a tree, enlarged by the max displacement by wind.
     [[nodiscard]] Sphere swaying(const Sphere& sphere, const LodTree& tree) const;
     /// Appends the branches of a tree that are in view to visible_branches_.
@@ -353,8 +356,9 @@ private:
     blend_steps(float pixels, std::uint32_t level, const LodOptions& options);
     /// Level of branches of a tree with a height in pixels; kTreeLevels: the tree is an impostor.
     [[nodiscard]] static std::uint32_t level_of(float pixels, const LodOptions& options);
+    /// The largest DrawLists::detail at which the branches stay within max_triangles.
     [[nodiscard]] float detail_in_budget(const LodOptions& options) const;
-    void list_branches(const Frustum& frustum, const LodOptions& options);
+    void list_branches(const Frustum& frustum, const LodOptions& options); // of all candidates_
 
     const ForestModel& model_;
     LargeVector<LodTree> trees_;
@@ -368,11 +372,11 @@ private:
     AddedTrees added_;
     std::uint64_t alive_count_ = 0;
     BranchPool pool_;
-    std::vector<TreeExpander> expanders_;   // by form
-    std::vector<std::uint32_t> first_mesh_; // by form: index of its first group in mesh_counts_
-    DrawLists lists_;
-    std::vector<BranchCandidate> candidates_;
-    std::vector<ImpostorEntry> far_; // impostors of trees that are too low for branches
+    std::vector<TreeExpander> expanders_;     // by form
+    std::vector<std::uint32_t> first_mesh_;   // by form: index of its first group in mesh_counts_
+    DrawLists lists_;                         // result of select()
+    std::vector<BranchCandidate> candidates_; // of the current select()
+    std::vector<ImpostorEntry> far_;          // impostors of trees that are too low for branches
     std::vector<BranchEntry> visible_branches_;
     std::vector<PoolBranch> made_branches_;  // branches of the tree that is being expanded
     std::vector<VisibleTree> visible_trees_; // trees of visible_branches_
@@ -386,9 +390,9 @@ private:
     std::vector<std::uint32_t> free_squares_;               // indices in squares_ for new squares
     std::map<std::uint32_t, std::uint32_t> square_of_tree_; // by first tree: index in squares_
     std::map<std::uint32_t, std::uint32_t>
-        free_trees_; // free ranges of trees_; adjacent ranges are merged
-    std::vector<TreeSpan> changed_trees_;
-    Bounds changed_box_;
+        free_trees_;                      // free ranges of trees_; adjacent ranges are merged
+    std::vector<TreeSpan> changed_trees_; // for take_changed_trees()
+    Bounds changed_box_;                  // for take_changed_box()
 };
 
 } // namespace lsys::view

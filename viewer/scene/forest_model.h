@@ -72,6 +72,7 @@ struct ForestModel {
     [[nodiscard]] std::uint32_t form_of(const Tree& tree) const {
         return first_form[tree.species] + forest->stage_of(tree);
     }
+    /// Bytes of the meshes of all forms.
     [[nodiscard]] std::uint64_t mesh_bytes() const;
 };
 

@@ -55,7 +55,7 @@ void GroundHorizon::set_viewpoint(const TerrainLod& ground, const glm::vec3& eye
     }
 }
 
-float GroundHorizon::min_between(std::uint32_t sector, float distance) const {
+float GroundHorizon::min_height_between(std::uint32_t sector, float distance) const {
     const float away = std::hypot(distance, ground_->eye_height());
     std::uint32_t level = 0;
     while (away >= TerrainLod::range(level)) {
@@ -93,7 +93,8 @@ const std::vector<float>& GroundHorizon::slopes_of(std::uint32_t index) {
         float steepest = -std::numeric_limits<float>::infinity();
         float distance = kFirst;
         for (std::uint32_t step = 0; step < steps_; ++step, distance *= kRatio) {
-            steepest = std::max(steepest, (min_between(index, distance) - eye_.y) / distance);
+            steepest =
+                std::max(steepest, (min_height_between(index, distance) - eye_.y) / distance);
             sector.slopes[step] = steepest;
         }
     }

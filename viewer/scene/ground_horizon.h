@@ -38,8 +38,10 @@ private:
         std::vector<float> slopes; // by number of the distance
     };
 
+    /// Computed on first use.
     [[nodiscard]] const std::vector<float>& slopes_of(std::uint32_t sector);
-    [[nodiscard]] float min_between(std::uint32_t sector, float distance) const;
+    /// Lowest height in m of the ground between the two directions of a sector, at a distance.
+    [[nodiscard]] float min_height_between(std::uint32_t sector, float distance) const;
 
     const TerrainLod* ground_ = nullptr; // null: occludes nothing
     glm::vec3 eye_{};

@@ -42,7 +42,8 @@ private:
         double end = 0.0;
     };
 
-    [[nodiscard]] double height_at(std::uint32_t column, std::uint32_t row) const;
+    [[nodiscard]] double height_at(std::uint32_t column, std::uint32_t row) const; // of a sample
+    /// The range of parameters of the ray over a square; nullopt if it passes beside or above it.
     [[nodiscard]] std::optional<Span>
     clip(const Ray& ray, std::uint32_t level, std::uint32_t column, std::uint32_t row) const;
     [[nodiscard]] std::optional<double>

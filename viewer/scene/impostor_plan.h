@@ -21,13 +21,13 @@ struct Cylinder {
 struct ImpostorLayer {
     std::uint32_t form = 0;
     std::uint32_t level = 0; // level of the branches
-    std::vector<Tree> trees;
+    std::vector<Tree> trees; // one tree, or the trees of a cluster
 };
 
 /// Size and layers of an impostor form. Lengths are those of trees of scale 1.
 struct ImpostorForm {
     Cylinder cylinder;
-    std::uint32_t first_layer = 0;
+    std::uint32_t first_layer = 0; // index in ImpostorPlan::layers
 };
 
 struct ImpostorPlan {
@@ -44,6 +44,7 @@ inline constexpr float kImpostorMargin = 1.04F;
 /// Min number of trees in a forest that is drawn with clusters.
 inline constexpr std::size_t kMinTreesForClusters = 2000;
 
+/// Plans the layers for the forms of a forest; with clusters if it has many trees.
 [[nodiscard]] ImpostorPlan plan_impostors(const ForestLod& lod);
 
 } // namespace lsys::view

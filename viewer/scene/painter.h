@@ -104,13 +104,15 @@ private:
     };
 
     [[nodiscard]] std::uint32_t cell_of(float x, float z) const;
-    void turn(std::uint32_t index, const Tree& tree);
+    void turn(std::uint32_t index, const Tree& tree); // replaces a tree by one with another yaw
+    /// Calls visit(index) for living trees near a place until it returns true; returns whether it
+    /// did.
     template <typename Visit>
     bool any_near(float x, float z, float radius, const Visit& visit) const;
-    void add(const PaintedTree& paint);
-    void set_alive(std::uint32_t index, bool alive);
-    void record(std::uint32_t index, bool alive);
-    void forget_undone();
+    void add(const PaintedTree& paint);              // a painted tree, which does not live yet
+    void set_alive(std::uint32_t index, bool alive); // without a record in the stroke
+    void record(std::uint32_t index, bool alive);    // set_alive() as a part of the stroke
+    void forget_undone();                            // undone strokes can no longer be redone
     [[nodiscard]] std::size_t end_of(std::size_t stroke) const {
         return stroke + 1 < strokes_.size() ? strokes_[stroke + 1].first : log_.size();
     }
@@ -118,12 +120,12 @@ private:
     std::span<const Tree> placed_;
     const Region region_;
     const Terrain* terrain_;
-    std::uint64_t key_;
+    std::uint64_t key_;                    // of the forest
     std::map<std::uint32_t, Tree> turned_; // placed trees whose surroundings have changed
     LargeVector<Tree> painted_;
-    std::vector<PaintedTree> paints_; // parallel to painted_
-    LargeVector<std::uint8_t> placed_alive_;
-    LargeVector<std::uint8_t> painted_alive_;
+    std::vector<PaintedTree> paints_;         // parallel to painted_
+    LargeVector<std::uint8_t> placed_alive_;  // by placed tree
+    LargeVector<std::uint8_t> painted_alive_; // by painted tree
     std::uint64_t alive_count_ = 0;
     float max_scale_ = 0.0F; // of all trees, including removed ones
     // Erased trees of the painting whose numbers no tree of `placed` has.
@@ -135,16 +137,16 @@ private:
     std::uint32_t columns_ = 1;
     std::uint32_t rows_ = 1;
     LargeVector<std::uint32_t> first_; // by square: index in items_
-    LargeVector<std::uint32_t> items_;
-    LargeVector<std::uint32_t> head_; // by square: index in painted_
-    LargeVector<std::uint32_t> next_; // by painted tree
+    LargeVector<std::uint32_t> items_; // indices of placed trees, by square
+    LargeVector<std::uint32_t> head_;  // by square: index in painted_
+    LargeVector<std::uint32_t> next_;  // by painted tree
 
     std::vector<TreeChange> log_; // changes of all strokes, undone ones included
     std::vector<Stroke> strokes_;
-    std::size_t done_ = 0;  // number of strokes that are not undone
-    std::size_t saved_ = 0; // done_ when last saved; kNone: that state cannot return
-    std::vector<TreeChange> last_changes_;
-    std::vector<std::uint32_t> sensed_; // result of sense_around()
+    std::size_t done_ = 0;                 // number of strokes that are not undone
+    std::size_t saved_ = 0;                // done_ when last saved; kNone: that state cannot return
+    std::vector<TreeChange> last_changes_; // result of the last change
+    std::vector<std::uint32_t> sensed_;    // result of sense_around()
 };
 
 } // namespace lsys::view

@@ -82,6 +82,7 @@ public:
     /// Distance in m from the eye at which vertices begin to morph to the next level; the morph
     /// ends at range().
     [[nodiscard]] static float morph_start(std::uint32_t level);
+    /// Side of a cell of a level in m.
     [[nodiscard]] static float cell(std::uint32_t level) {
         return kFinestCell * static_cast<float>(1U << level);
     }
@@ -95,22 +96,22 @@ private:
         std::int64_t z = 0;
         std::uint32_t level = 0;
     };
-    void make_grid(std::uint32_t level, const glm::vec3& eye);
+    void make_grid(std::uint32_t level, const glm::vec3& eye); // unless the grid is up to date
     /// Height in m of the terrain at a place of the world.
     [[nodiscard]] float height_at(double x, double z) const;
     /// Draws a node, or its children. Returns whether it was drawn.
     bool visit(const Node& node, const Frustum& frustum);
-    [[nodiscard]] float distance_to(const Node& node) const;
+    [[nodiscard]] float distance_to(const Node& node) const; // from the eye
     [[nodiscard]] bool
     is_visible(const TerrainPatch& at, std::int32_t cells, const Frustum& frustum) const;
 
     const Terrain& terrain_;
     GroundCover cover_;
     glm::dvec3 origin_{};
-    std::uint32_t levels_ = 1;
+    std::uint32_t levels_ = 1; // number of levels
     std::array<HeightGrid, kTerrainLevels> grids_;
     std::vector<TerrainPatch> patches_;
-    std::vector<std::uint32_t> changed_;
+    std::vector<std::uint32_t> changed_; // changed()
     glm::vec3 eye_{};
     float eye_height_ = 0.0F;
 };

@@ -14,7 +14,7 @@ const float kNearestRange = 34.0; // m
 const float kInfinity = uintBitsToFloat(0x7F800000u);
 
 // Min height of the drawn ground at a distance between two directions.
-float min_between(uint direction, float distance) {
+float min_height_between(uint direction, float distance) {
     float away = length(vec2(distance, culling.ground.y));
     uint level = 0u;
     while (level < culling.heights.x && away >= kNearestRange * float(1u << level)) {
@@ -46,7 +46,7 @@ void main() {
     float slope = -kInfinity;
     if (index < culling.heights.y) {
         float distance = rays[index];
-        slope = (min_between(direction, distance) - culling.eye_pixels.y) / distance;
+        slope = (min_height_between(direction, distance) - culling.eye_pixels.y) / distance;
     }
     steepest[index] = slope;
     memoryBarrierShared();

@@ -23,7 +23,7 @@ struct Block {
 };
 
 struct Answer {
-    Json head = Json::object();
+    Json head = Json::object(); // a JSON object; refers to blocks by index
     std::vector<Block> blocks;
 
     /// Adds the items of a container without a copy. Returns the index of the block.

@@ -42,8 +42,9 @@ public:
     std::unique_ptr<Growing> growing; // of the last request `begin-growth`; may be null
 
 private:
+    /// answer() without the handling of failures.
     [[nodiscard]] Outcome<void> run(std::string_view text, std::string_view files, Answer& answer);
-    void take_files(const Json& list, std::string_view bytes);
+    void take_files(const Json& list, std::string_view bytes); // sets files_
 
     std::map<std::string, std::string> files_; // by path
     Project project_;

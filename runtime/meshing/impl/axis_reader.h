@@ -71,6 +71,7 @@ class AxisReader {
 public:
     AxisReader(const Skeleton& skeleton, const Axes& axes, const MeshOptions& options);
 
+    /// Begins to read the axis whose first segment is `first_segment`.
     void start(std::uint32_t first_segment);
     /// Reads the next run of the axis, valid until the next call; false after the last one.
     [[nodiscard]] bool next(Run& run);
@@ -82,19 +83,28 @@ public:
     }
 
 private:
-    bool read(Run& run);
-    void add(const Segment& segment, float radius);
+    bool read(Run& run);                            // joints up to a gap; false if there are none
+    void add(const Segment& segment, float radius); // adds the joint at the base of the segment
+    /// Adds the last joint; false if the run is too short or too thin to draw.
     bool add_end(const glm::vec3& centre, float radius);
+    /// Fits the base into the tube of the parent segment; returns false if the base lies outside of
+    /// it.
     bool fit_into_parent(const Run& run, std::optional<CurveStart>& start);
+    /// The tangent at the tip of a segment of a smooth curve through the tip. `next`: the segment
+    /// that continues it.
     [[nodiscard]] glm::vec3 tip_tangent(const Segment& segment, std::uint32_t next) const;
+    /// Length of the collar along the first edge of the run.
     [[nodiscard]] float collar_length(const Segment& parent, float parent_radius) const;
+    /// Adds the collar: a cone by which the run widens towards its parent.
     void add_collar(const Segment& parent, float parent_radius);
+    /// Sets base_widening_ for `#set collar`; returns false if the branch has no such collar.
     bool set_wide_collar(const Segment& child, float parent_radius);
-    void widen_base(bool open);
-    void add_root_sides();
-    [[nodiscard]] bool is_shaped(const Segment& segment) const;
-    void subdivide();
-    void fit_sides();
+    void widen_base(bool open); // applies base_widening_
+    void add_root_sides();      // enough sides to show buttress roots
+    [[nodiscard]] bool is_shaped(const Segment& segment) const; // may have a collar or a shaped tip
+    void subdivide(); // cuts edges into pieces that noise can move
+    void fit_sides(); // reduces the sides to what MeshOptions::deviation needs
+    /// Sets Joint::rings by the bend, and widens joints that are too thin for their neighbours.
     void set_rings();
     [[nodiscard]] std::uint8_t sides_of(const Segment& segment) const {
         return sides_[segment.sides];

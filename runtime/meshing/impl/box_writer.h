@@ -57,6 +57,7 @@ public:
     /// Begins with an end at a distance from the base of the segment. `rim` below 1: the face of
     /// the end has an inner square of this size, which keeps the end flat when it is smoothed.
     void begin_root(float distance, float half, float rim);
+    /// Begins at a socket of a joint or of a divided side.
     void begin_at(const BoxSocket& socket);
     /// Adds a ring across `direction`, at a distance from the base of the segment, joined to the
     /// ring or socket before it.
@@ -89,25 +90,29 @@ private:
     };
     std::uint32_t add_vertex(const glm::vec3& position, float u, float v, float radius);
     void add_face(std::span<const std::uint32_t> corners);
+    /// Sets `ring` to a ring of new vertices across `direction`, without faces.
     void place_ring(float distance, const glm::vec3& direction, float half, BoxSocket& ring);
-    void join(const BoxSocket& from, const BoxSocket& to);
-    void fade_radii();
+    void join(const BoxSocket& from, const BoxSocket& to); // adds the faces between two rings
+    void fade_radii();                                     // ends the grooves at end_
+    /// Halves `tile` until each part contains at most one place; adds the parts to tiles_.
     void cut_tiles(const Tile& tile, std::span<const glm::vec2> places);
+    /// The vertex at a place within a side; added if it does not exist yet.
     std::uint32_t tile_corner(const BoxSocket& side, const glm::vec2& place);
+    /// The face between an edge of a side and its tiles.
     void add_border(const BoxSocket& side, std::size_t edge);
 
     PolygonMesh mesh_;
     const Segment* segment_ = nullptr;
     std::uint32_t number_ = kNoSegment; // number of segment_
-    BoxSocket end_;
-    float distance_ = 0.0F; // distance of end_ from the base of the segment
+    BoxSocket end_;                     // the ring or socket written last
+    float distance_ = 0.0F;             // distance of end_ from the base of the segment
     float v_per_length_ = 0.0F;
 
     std::vector<std::size_t> tile_order_; // indices of places, by tile
     std::vector<Tile> tiles_;
     std::vector<glm::vec2> tile_corners_;      // corners of the tiles of a side, each once
     std::vector<std::uint32_t> tile_vertices_; // vertex of each of these corners
-    std::vector<BoxSocket> sockets_;
+    std::vector<BoxSocket> sockets_;           // the result of divide()
 };
 
 } // namespace lsys

@@ -65,6 +65,7 @@ public:
             half = twins_[previous(half)];
         } while (half != first);
     }
+    /// The half-edges after and before a half-edge of the same face.
     [[nodiscard]] std::uint32_t next(std::uint32_t half) const;
     [[nodiscard]] std::uint32_t previous(std::uint32_t half) const;
 
@@ -77,8 +78,10 @@ private:
     }
     void find_twins();
     void place_vertices(PolygonMesh& to);
+    /// One step, for one attribute of the vertices.
     template <typename T>
     void smooth(const LargeVector<T>& from, LargeVector<T>& to);
+    /// Calls piece(0) to piece(count - 1), by all threads.
     template <typename Piece>
     void for_each(std::uint64_t count, const Piece& piece);
 

@@ -30,7 +30,7 @@ struct ContourRun {
 /// The columns of a ring: those of each run, so that corners and the seam have two columns.
 struct ContourLayout {
     std::vector<ContourRun> runs;
-    bool closed = false;
+    bool closed = false;         // the last column of a ring is the first one again
     bool seam_is_smooth = false; // closed, without a corner where it begins
 
     [[nodiscard]] std::uint32_t column_count() const;

@@ -74,10 +74,10 @@ private:
         return static_cast<std::size_t>(tile_side_) * static_cast<std::size_t>(tile_side_);
     }
 
-    int tile_side_;       // texels of a side of a picture, 16 to 128
-    int slabs_;           // cards of a direction
-    std::size_t columns_; // columns of pictures in the atlas
-    std::uint64_t triangles_;
+    int tile_side_;           // texels of a side of a picture, 16 to 128
+    int slabs_;               // cards of a direction
+    std::size_t columns_;     // columns of pictures in the atlas
+    std::uint64_t triangles_; // max number of triangles of all cards
     std::vector<View> views_;
 };
 

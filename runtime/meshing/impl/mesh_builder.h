@@ -67,6 +67,7 @@ struct MeshBlock {
     std::span<VertexSegments> segments;
     std::span<std::uint32_t> indices;
 
+    /// Writes a vertex into all arrays that the mesh has.
     void set(std::size_t vertex, const MeshVertex& value) const;
 };
 
@@ -132,14 +133,16 @@ private:
         std::vector<std::string> words = {}; // each once, in the order of drawing
     };
 
+    /// Adds `triangle_bytes` to the total. Sets stop_ and returns false if that, or so many more
+    /// vertices, would exceed a limit.
     bool claim(std::uint64_t vertices, std::uint64_t triangle_bytes);
-    void grow_vertices(MeshBlock& block, std::uint64_t count);
+    void grow_vertices(MeshBlock& block, std::uint64_t count); // makes room for `count` more
 
     const MeshOptions& options_;
     Mesh& mesh_;
     std::optional<Stop> stop_;
-    std::uint64_t vertices_ = 0;
-    std::uint64_t triangle_bytes_ = 0;
+    std::uint64_t vertices_ = 0;       // number of vertices so far
+    std::uint64_t triangle_bytes_ = 0; // bytes of the triangles of all parts
     std::vector<FilePictures> pictures_;
     std::vector<Part> parts_;     // first the parts of place_parts() or reserve_parts()
     std::size_t first_parts_ = 0; // number of the parts of place_parts() or reserve_parts()

@@ -54,8 +54,10 @@ inline constexpr double kMaxTaper = 0.06;
 
 [[nodiscard]] SolidShape
 make_cone(const glm::dvec3& base, double base_radius, const glm::dvec3& tip, double tip_radius);
+/// The shape of all balls of `radius` about a triangle.
 [[nodiscard]] SolidShape make_plate(const std::array<glm::dvec3, 3>& corners, double radius);
 
+/// Measures `shape` at `point`.
 [[nodiscard]] ShapeProbe probe(const SolidShape& shape, const glm::dvec3& point);
 
 } // namespace lsys

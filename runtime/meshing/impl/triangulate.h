@@ -36,18 +36,24 @@ private:
         std::uint32_t higher = kNone;
     };
 
-    [[nodiscard]] bool is_convex() const;
+    [[nodiscard]] bool is_convex() const; // of the whole ring
+    /// Twice the area of the triangle at a corner; > 0: convex.
     [[nodiscard]] double turn(std::uint32_t node) const;
+    /// Whether the corner `node` lies in the triangle of `ear`, so that this cannot be cut off.
     [[nodiscard]] bool is_blocked_by(std::uint32_t node, std::uint32_t ear) const;
-    [[nodiscard]] bool is_ear(std::uint32_t node) const;
+    [[nodiscard]] bool is_ear(std::uint32_t node) const; // may be cut off
+    /// Fills the ring with the corners, scaled to the unit square.
     void load(std::span<const glm::dvec2> corners);
-    void append_fan(std::vector<std::uint32_t>& triangles) const;
-    void index_nodes();
-    void remove(std::uint32_t node);
+    void append_fan(std::vector<std::uint32_t>& triangles) const; // triangles of a convex ring
+    void index_nodes();              // makes the list sorted by `order`
+    void remove(std::uint32_t node); // from the ring and the list
+    /// Cuts off small triangles where the edges before and after an edge cross.
     std::uint32_t cut_small_crossings(std::uint32_t start, std::vector<std::uint32_t>& out);
+    /// Cuts off the next convex corner of a ring without ears.
     std::uint32_t cut_convex_corner(std::uint32_t start, std::vector<std::uint32_t>& out);
+    /// Removes the node and adds its triangle, unless flat.
     void cut(std::uint32_t node, std::vector<std::uint32_t>& triangles);
-    void clip(std::vector<std::uint32_t>& triangles);
+    void clip(std::vector<std::uint32_t>& triangles); // cuts off corners until two are left
 
     std::vector<Node> nodes_;
     std::vector<std::uint32_t> sorted_; // nodes by ascending Node::order

@@ -39,20 +39,22 @@ public:
                   const ColourSlots& slots,
                   std::span<TriangleList> lists);
 
+    /// Appends the triangles of a run.
     void add(const Run& run);
 
     /// Count of the vertices of all runs so far.
     [[nodiscard]] std::uint64_t vertices() const { return vertices_; }
 
 private:
-    RingCorners add_ring(std::uint32_t sides);
+    RingCorners add_ring(std::uint32_t sides); // only counts its vertices
+    /// Adds a ring and the band between it and last_.
     void link(TriangleList& list, std::uint32_t sides);
 
     const ColourSlots& slots_;
     std::span<TriangleList> lists_;
-    bool seam_; // rings have a seam: one vertex more than sides
-    std::uint64_t vertices_ = 0;
-    RingCorners last_; // the ring added last
+    bool seam_;                  // rings have a seam: one vertex more than sides
+    std::uint64_t vertices_ = 0; // number of vertices of all runs so far
+    RingCorners last_;           // the ring added last
 };
 
 } // namespace lsys

@@ -42,7 +42,9 @@ public:
         std::uint32_t steps = 0;    // number of edges since the begin of the run
     };
 
+    /// Writes a whole run.
     void write(const Run& run);
+    /// The place at the begin of a run, where the vertices written so far end.
     [[nodiscard]] Place begin(const Run& run) const;
     /// Writes the rings before joint `end` and moves `place` there.
     void write(const Run& run, Place& place, std::size_t end);
@@ -67,17 +69,23 @@ private:
         ItemColour colour = 0;
     };
 
-    void advance(const Run& run, std::size_t end);
-    void set_straight(const glm::vec3& edge, Ring& ring) const;
+    void advance(const Run& run, std::size_t end);              // writes up to joint `end`
+    void set_straight(const glm::vec3& edge, Ring& ring) const; // sets a ring across `edge`
+    /// Sets a ring in the plane that halves the bend.
     void set_mitred(const glm::vec3& in, const glm::vec3& out, Ring& ring) const;
+    /// Rotates the normal of `place` by the shortest rotation from `in` to `out`.
     static void transport_normal(const glm::vec3& in, const glm::vec3& out, Place& place);
+    /// Writes the two or three rings of a sharp bend.
     void bend(const Joint& before, const Joint& joint, Ring& ring);
     void put_ring(const Ring& ring);
+    /// Writes the texture coordinates and tangents of a ring.
     void put_textured(const Ring& ring, std::uint64_t first);
-    void put_normal_map(const Ring& ring, std::uint64_t first);
+    void put_normal_map(const Ring& ring,
+                        std::uint64_t first); // writes a ring with noise or grooves
     void put_tip(const glm::vec3& position, const glm::vec3& normal, const Ring& ring);
-    void close(const Run& run, Ring& ring);
-    void put_break(const Run& run, Ring& ring);
+    void close(const Run& run, Ring& ring);     // closes the end of the run; `ring`: written last
+    void put_break(const Run& run, Ring& ring); // writes the two rings of a broken end
+    /// Whether bark noise, grooves or roots move the vertices of a ring.
     [[nodiscard]] bool has_normal_map(const Ring& ring) const;
     [[nodiscard]] float v_of(double arc) const { return static_cast<float>(-arc * v_scale_); }
 

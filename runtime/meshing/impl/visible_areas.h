@@ -52,8 +52,8 @@ private:
     std::vector<VisibleAreas>
     measure_views(const Mesh& wood, const Mesh& foliage, std::size_t count, std::size_t step);
 
-    Bounds frame_;
-    int size_; // pixels per side of a view
+    Bounds frame_; // shown by each view
+    int size_;     // pixels per side of a view
     Workers workers_;
     LinearTextures textures_;
 };

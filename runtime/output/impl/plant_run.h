@@ -28,8 +28,8 @@ struct PlantRun {
     const Grammar& grammar;
     const OutputContext& context;
     const Plant& plant;
-    ExportTiming timing = {};
-    Mesh mesh = {}; // mesh of the last frame, or of the finest level
+    ExportTiming timing = {}; // sums over the files written so far
+    Mesh mesh = {};           // mesh of the last frame, or of the finest level
     /// Levels of the plant; empty if only the finest is needed.
     DetailLevels levels = {};
     std::set<std::string> pictures = {};    // names of the written pictures, shared by all frames

@@ -12,12 +12,14 @@
 
 namespace lsys {
 
+/// The order in which threads work on the bodies of a plant, given by their depths.
 class Schedule {
 public:
     Schedule() = default;
     /// The bodies of depth d have the numbers level_ends[d - 1] to level_ends[d] - 1.
     explicit Schedule(std::span<const std::uint32_t> level_ends);
 
+    /// Number of pieces into which the bodies are divided.
     [[nodiscard]] std::uint32_t piece_count() const { return pieces_; }
 
     /// Calls `work(begin, end, piece)` for all bodies, parents before children. A body may depend
@@ -43,7 +45,7 @@ private:
     struct Run {
         std::uint32_t begin = 0; // bodies begin to end - 1
         std::uint32_t end = 0;
-        std::uint32_t first_piece = 0;
+        std::uint32_t first_piece = 0; // number of its first piece
         std::uint32_t piece_count = 1;
     };
     static constexpr std::uint32_t kWide = 256; // min bodies of a depth for several threads
@@ -64,7 +66,7 @@ private:
     }
 
     std::vector<Run> runs_;
-    std::uint32_t pieces_ = 0;
+    std::uint32_t pieces_ = 0; // number of pieces of all runs
 };
 
 inline Schedule::Schedule(std::span<const std::uint32_t> level_ends) {

@@ -24,6 +24,7 @@ public:
         : side_(side), place_bits_(place_bits),
           half_(std::int64_t{1} << ((32 - place_bits) / 2 - 1)) {}
 
+    /// Side of a cell in m.
     [[nodiscard]] double side() const { return side_; }
     [[nodiscard]] double x_of(const Cell& cell) const {
         return side_ * static_cast<double>(cell.column);
@@ -31,6 +32,7 @@ public:
     [[nodiscard]] double z_of(const Cell& cell) const {
         return side_ * static_cast<double>(cell.row);
     }
+    /// Whether the places of a cell have numbers: cells far from the origin have none.
     [[nodiscard]] bool has_number(const Cell& cell) const {
         return cell.column >= -half_ && cell.column < half_ && cell.row >= -half_ &&
                cell.row < half_;

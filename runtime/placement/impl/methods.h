@@ -9,6 +9,7 @@
 
 namespace lsys {
 
+/// The input of a placement method.
 struct PlacementJob {
     const PlacementOptions& options;
     const Terrain& terrain;

@@ -13,9 +13,9 @@
 namespace lsys::repair {
 
 struct StatementRepair {
-    DiagnosticCode code{};   // code of the mistake
-    std::string_view broken; // the statement before the repair
-    std::string_view repaired;
+    DiagnosticCode code{};      // code of the mistake
+    std::string_view broken;    // the statement before the repair
+    std::string_view repaired;  // the statement after it
     std::uint32_t place = 0;    // byte offset of the first edit in `broken`
     std::string_view file_text; // whole file; its `#set names` applies to the statement
     /// Whether the file has only one mistake of this code; the bracket may then be a mistyped digit

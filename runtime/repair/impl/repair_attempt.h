@@ -76,19 +76,26 @@ public:
 private:
     using Errors = std::set<std::pair<DiagnosticCode, std::string>>;
 
-    void read_files();
-    void read_syntax_errors();
-    void read_original_errors();
+    void read_files();           // adds files read for the first time to files_
+    void read_syntax_errors();   // sets with_syntax_errors_
+    void read_original_errors(); // sets original_errors_ and original_counts_
+    /// Edits the files and notes what was fixed.
     void apply(const ChosenFixes& chosen);
+    /// Whether scope, message levels and excluded statements allow a fix; notes files out of scope.
     [[nodiscard]] bool may_apply(const Diagnostic& diagnostic, const Fix& fix);
+    /// Statements that the span touches.
     [[nodiscard]] std::vector<StatementKey> statements_at(SourceSpan span) const;
     [[nodiscard]] std::vector<StatementKey> statements_of(const Fix& fix) const;
     [[nodiscard]] bool
     has_alternative(const StatementKey& key, const AppliedFix& fix, bool is_single) const;
-    [[nodiscard]] bool may_be_mistyped(const AppliedFix& fix) const;
+    [[nodiscard]] bool may_be_mistyped(const AppliedFix& fix) const; // the sign that the fix added
+    /// The codes of which the original has exactly one repaired mistake.
     [[nodiscard]] std::set<DiagnosticCode> codes_of_single_mistakes() const;
+    /// Compiles the repaired grammar with `text` in place of one file. Returns nullopt if that
+    /// gives more errors, more warnings or the same program.
     [[nodiscard]] std::optional<CompiledText> compile_other(const std::string& path,
                                                             std::string_view text) const;
+    /// The place of a statement now; nullopt if the fixes split or removed it.
     [[nodiscard]] std::optional<TextPlace> place_after_fixes(const StatementKey& key) const;
     [[nodiscard]] const SourceFile* find_source(const std::string& path) const;
 

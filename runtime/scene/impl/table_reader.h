@@ -54,6 +54,7 @@ public:
     /// Like pair(), but reports an error if the first number is above the second.
     [[nodiscard]] std::optional<std::array<double, 2>> ordered_pair(std::string_view key,
                                                                     const NumberRange& range);
+    /// The value, if it is a table.
     [[nodiscard]] const SceneValue* table(std::string_view key);
 
     /// Reads `value` as a number; `what` names the value in messages.

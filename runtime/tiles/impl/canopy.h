@@ -31,6 +31,7 @@ struct CrownSums {
     double volume = 0.0;    // m3, area times height
     glm::dvec3 colour{0.0}; // area times colour
 
+    /// Adds the sums of `other`, times `weight`.
     void add(const CrownSums& other, double weight);
 };
 /// The sums for one tree whose crown is `crown` with lengths multiplied by `scale`.

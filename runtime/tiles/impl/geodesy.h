@@ -40,7 +40,7 @@ public:
     [[nodiscard]] glm::dmat4 frame(double x, double z) const;
 
 private:
-    [[nodiscard]] GeoPlace geographic(double x, double z) const;
+    [[nodiscard]] GeoPlace geographic(double x, double z) const; // only with an origin
 
     std::optional<GeoPlace> origin_;
 };
@@ -57,6 +57,7 @@ public:
         glm::dvec3 foot{0.0}; // m, in the frame of the tile, of the point (x, 0, z)
         glm::dvec3 up{0.0};   // change of the place per m of altitude
     };
+    /// The place of the point (x, 0, z) of the scene.
     [[nodiscard]] Place at(double x, double z) const;
     /// The point (x, y, z) of the scene, in the frame of the tile.
     [[nodiscard]] glm::dvec3 place(double x, double y, double z) const;
@@ -64,8 +65,8 @@ public:
 private:
     static constexpr std::size_t kNodes = 3; // along each side
 
-    [[nodiscard]] glm::dvec3 exact(double x, double y, double z) const;
-    [[nodiscard]] Place exact_place(double x, double z) const;
+    [[nodiscard]] glm::dvec3 exact(double x, double y, double z) const; // not interpolated
+    [[nodiscard]] Place exact_place(double x, double z) const;          // not interpolated
 
     const GroundFrame& earth_;
     glm::dmat4 to_tile_;

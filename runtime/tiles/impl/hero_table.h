@@ -17,7 +17,7 @@ inline constexpr std::size_t kNoHero = ~std::size_t{0};
 /// The heroes with which an instance can be drawn. An instance without exits has only `whole`.
 struct InstanceHeroes {
     std::size_t whole = kNoHero; // the instance with stand-ins at its exits
-    std::size_t alone = kNoHero;
+    std::size_t alone = kNoHero; // the instance without stand-ins
 };
 
 class HeroTable {

@@ -25,9 +25,9 @@ inline constexpr std::size_t kNotShown = ~std::size_t{0};
 struct LevelNeeds {
     const Terrain& terrain;
     const TileGrid& grid;
-    const Forest& forest;         // its trees are not used
-    std::span<const Hero> heroes; // plants, then branches
-    const HeroTable& hero_table;
+    const Forest& forest;           // its trees are not used
+    std::span<const Hero> heroes;   // plants, then branches
+    const HeroTable& hero_table;    // finds heroes by instance
     std::vector<double> deviations; // m, by hero: TreeBounds::deviation, 0 if Hero::ends_at_exits
     std::span<const Tree> sample_trees; // the trees over which means are computed
     std::vector<double> max_scales;     // by species: largest scale of a tree
@@ -58,6 +58,7 @@ struct LevelPlan {
     }
 };
 
+/// Chooses the levels of the tiles and the levels of detail that they show.
 [[nodiscard]] LevelPlan plan_tile_levels(const LevelNeeds& needs);
 
 } // namespace lsys

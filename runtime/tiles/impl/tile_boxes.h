@@ -41,6 +41,7 @@ public:
               const TreeReach& reach,
               const std::vector<double>& skirts);
 
+    /// The frame at the middle of a tile, as a matrix to the coordinates of the tileset.
     [[nodiscard]] glm::dmat4 frame_of(const TileId& tile) const;
     /// The box, in the frame of the tile, of a tile that has ground.
     [[nodiscard]] TileBox box_of(const TileId& tile) const;

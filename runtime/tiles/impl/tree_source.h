@@ -30,6 +30,7 @@ public:
 /// Sorts trees by their place on the Z-order curve (Morton 1966) and then by number, so that the
 /// trees of each tile of each level are consecutive. Throws std::bad_alloc.
 void sort_by_tile(const TileGrid& grid, LargeVector<Tree>& trees);
+/// Whether the trees are in the order of sort_by_tile().
 [[nodiscard]] bool is_sorted_by_tile(const TileGrid& grid, std::span<const Tree> trees);
 
 /// Trees that have been placed and sorted by sort_by_tile(). `trees` and `grid` must outlive the

@@ -25,6 +25,7 @@ struct HalfAngle {
 /// Cosine and sine of half of `degrees`; exact for multiples of 180 degrees.
 [[nodiscard]] HalfAngle half_angle(double degrees);
 
+/// The command of the turtle for one module code.
 struct Action {
     QuickAction quick = QuickAction::None;
     TurtleOperation operation = TurtleOperation::Nothing;
@@ -41,12 +42,13 @@ struct Action {
     char character = '\0';                           // the name, if it is one character
 };
 
+/// The commands of all module codes, and the tables to which they refer.
 struct ActionTable {
     std::vector<Action> by_code;
     std::vector<std::string> mesh_files;                          // Skeleton::mesh_files
     std::shared_ptr<const std::vector<BytecodeContour>> contours; // null: none
-    bool reads_text = false; // parentheses may hold a parameter as text
-    bool draws_organs = false;
+    bool reads_text = false;   // parentheses may hold a parameter as text
+    bool draws_organs = false; // some code begins an organ
     std::map<std::uint32_t, std::uint32_t> numbered_contours; // contours named `contour1` ...
 
     /// The contour that a module with a number sets; kNoContour, a circle, for an unknown number.

@@ -24,7 +24,7 @@ struct OpenOrgan {
     PlacedObject object;
     Origin origin;              // of its SURFACE_BEGIN
     std::uint64_t position = 0; // of its SURFACE_BEGIN in the word
-    Code code = 0;
+    Code code = 0;              // of its SURFACE_BEGIN
 };
 
 struct OpenOrgans {

@@ -62,6 +62,7 @@ public:
     /// Corners of the polygon begun last: its vertices or, if it has none, the ends of its steps.
     /// Valid until the next change.
     [[nodiscard]] std::span<const glm::vec3> corners();
+    /// Ends the polygon begun last, and drops its corners.
     void close() {
         vertices_.resize(open_.back().first_vertex);
         path_.resize(open_.back().first_on_path);

@@ -68,9 +68,9 @@ void SensingTurtle::State::forward(double length, bool adds_corners) {
 }
 
 /// Moves along the second heading; the frame stays unchanged.
-void SensingTurtle::State::secondary(const Action& action,
-                                     std::uint8_t argument_count,
-                                     const float* arguments) {
+void SensingTurtle::State::move_secondary(const Action& action,
+                                          std::uint8_t argument_count,
+                                          const float* arguments) {
     const SensingPose before = now.pose;
     yaw_right(now.pose, inverse(turn_of(now.second_heading)));
     if (action.operation == TurtleOperation::SecondaryForward) {
@@ -139,14 +139,14 @@ bool SensingTurtle::State::save() {
         [&] { return stop(Stop::OutOfMemory); });
 }
 
-bool SensingTurtle::State::unbalanced() {
+bool SensingTurtle::State::stop_unbalanced() {
     error = unmatched_bracket(bytecode, code, position, age);
     return stop(Stop::Diagnosed);
 }
 
 bool SensingTurtle::State::restore() {
     if (stack.empty()) {
-        return unbalanced();
+        return stop_unbalanced();
     }
     now = stack.back();
     stack.pop_back();
@@ -158,7 +158,7 @@ bool SensingTurtle::State::restore() {
 
 bool SensingTurtle::State::close_polygon() {
     if (!polygons.any()) {
-        return unbalanced();
+        return stop_unbalanced();
     }
     const std::span<const SensingVector> corners = polygons.corners();
     if (options.organs && corners.size() >= 3) {
@@ -254,7 +254,7 @@ bool SensingTurtle::State::execute(const Action& action,
         return true;
     case TurtleOperation::SecondaryForward:
     case TurtleOperation::SecondaryMove:
-        secondary(action, argument_count, arguments);
+        move_secondary(action, argument_count, arguments);
         return true;
     case TurtleOperation::SecondaryLeft:
         now.second_heading += argument(0.0);

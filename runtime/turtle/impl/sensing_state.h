@@ -63,9 +63,11 @@ struct SensingTurtle::State {
 
     /// Puts the turtle at the start, without open branches and polygons.
     void begin();
-    std::optional<Stop> walk(const Word& word, std::uint32_t age);
+    std::optional<Stop> walk(const Word& word, std::uint32_t age); // executes a whole word
+    /// walk() of a program without productions of `#interpret`.
     template <typename C>
     std::optional<Stop> walk_plain(std::span<const C> codes, const float* parameters);
+    /// walk() of a program with productions of `#interpret`.
     template <typename C>
     std::optional<Stop> walk_interpreted(std::span<const C> codes, const Word& word);
     /// Executes modules. `origins`: for modules written by `#interpret`; Origin::place is then the
@@ -73,28 +75,32 @@ struct SensingTurtle::State {
     /// itself. Returns false after a Stop.
     template <typename C>
     bool run(std::span<const C> codes, const float* parameters, const Origin* origins);
+    /// run() for a word of L3D.
     template <typename C>
     bool run_text(std::span<const C> codes, const float* parameters, const Origin* origins);
     /// Executes an action for which run() has no case of its own (SensingStep::Other). Returns
     /// false after a Stop.
     bool execute(const Action& action, std::uint8_t argument_count, const float* arguments);
-    bool take_character(Code code, const float* arguments);
-    bool execute_pending();
+    bool take_character(Code code, const float* arguments); // reads a module of a word of L3D
+    bool execute_pending();                                 // executes the waiting command of L3D
 
     /// Reports the waiting sense modules up to index `index` of the piece.
     void report_up_to(std::uint64_t index);
-    void forward(double length, bool adds_corners);
-    void move(double length, bool adds_corners);
-    void secondary(const Action& action, std::uint8_t argument_count, const float* arguments);
-    void turn_by(std::uint8_t argument_count, const float* arguments);
+    void forward(double length, bool adds_corners); // draws a segment, which first bends
+    void move(double length, bool adds_corners);    // without a segment
+    /// Moves along the second heading; the frame stays unchanged.
+    void move_secondary(const Action& action, std::uint8_t argument_count, const float* arguments);
+    void turn_by(std::uint8_t argument_count, const float* arguments); // pitches, rolls and yaws
     void turn_left(double degrees);
+    /// Turns by half of a full turn, rounded down to whole steps of the current angle.
     void half_turn_snapped();
     void set_angle(double angle);
+    /// Reports an object at the place of the turtle to `sink`.
     void place(const Action& action, std::uint8_t argument_count, const float* arguments);
-    bool save();
-    bool restore();
+    bool save();    // `[`
+    bool restore(); // `]`
     bool close_polygon();
-    bool unbalanced();
+    bool stop_unbalanced(); // stops with the error of an unmatched bracket
     bool stop(Stop why) {
         stopped = why;
         return false;
@@ -113,7 +119,7 @@ struct SensingTurtle::State {
     std::size_t reported = 0;         // number of modules in `waiting` that have been reported
     PendingSensing pending;
     SenseSink* sink = nullptr;
-    std::uint32_t age = 0;
+    std::uint32_t age = 0; // of the word
     /// Index of the next module; after an error, index of the faulty module in the word.
     std::uint64_t position = 0;
     Code code = 0;                       // of the current module

@@ -107,10 +107,12 @@ struct Turtle::State {
         }
     }
 
+    /// Executes modules.
     template <typename C>
     std::optional<Stop> run(std::span<const C> codes,
                             std::span<const float> parameters,
                             std::span<const Origin> origins);
+    /// Executes modules after the productions of `#interpret` have rewritten them.
     template <typename C>
     std::optional<Stop> interpret(std::span<const C> codes,
                                   std::span<const float> parameters,
@@ -121,48 +123,59 @@ struct Turtle::State {
                              std::span<const Origin> origins) {
         return interprets ? interpret(codes, parameters, origins) : run(codes, parameters, origins);
     }
+    /// The loop of run() for all words but those of L3D.
     template <bool kOrigins, typename C>
     void run_some(std::span<const C> codes, const float*& parameters, const Origin* origins);
+    /// run() for a word of L3D.
     template <typename C>
     void run_text(std::span<const C> codes, const float*& parameters, const Origin* origins);
+    /// Reads a module of a word of L3D.
     bool take_character(const Action& action, Code character, const float* arguments);
-    bool execute_pending();
+    bool execute_pending(); // executes the waiting command of L3D
+    /// Stores the origin of the item that the current module has drawn, if any.
     bool add_origin(const Origin& origin);
     /// Executes one action. Returns false if the drawing has ended; `end.stop` is the reason.
     bool execute(const Action& action, const float* arguments);
     // `part`: factor of the length.
     bool forward(const Action& action, const float* arguments, float part);
     bool forward_with_tropisms(const Action& action, const float* arguments, float part);
-    bool move(double length, bool adds_corners);
+    bool move(double length, bool adds_corners); // without drawing
+    /// Arguments: length, base width, tip width.
     bool draw_tapered(const Action& action, const float* arguments);
     bool
     draw(double length, float base_width, float tip_width, const float* spring, const float* mass);
+    /// Adds a segment at `base`; the turtle does not move.
     Segment& put_segment(const Pose& base,
                          float length,
                          float base_width,
                          float tip_width,
                          float spring,
                          float mass);
+    /// Sets the cached mass and spring for this shape.
     void cache_shape(double length, float base_width, float tip_width);
     float mass_of(double length, float base_width, float tip_width);
     float spring_of(double length, float base_width, float tip_width);
     bool put_object(TurtleOperation kind, std::uint32_t mesh_file, const Pose& pose, float size);
-    bool place(const Action& action, const float* arguments);
-    bool place_centred(const Action& action, float diameter);
-    bool save();
-    bool restore();
+    bool place(const Action& action, const float* arguments); // puts an object at the pose
+    bool place_centred(const Action& action, float diameter); // the turtle does not move
+    bool save();                                              // `[`
+    bool restore();                                           // `]`
     /// Skips a module after a `%` or in a skipped branch. The `]` of that branch restores the
     /// turtle.
     bool skip(const Action& action);
+    /// Executes `[` of a branch and reports the branch to options.branches.
     bool save_branch(const Action& action, const float* arguments);
     [[nodiscard]] TurtlePlace current_place() const;
     [[nodiscard]] DrawnCounts drawn() const;
+    /// Draws a segment of the common case and moves `pose` to its tip. Returns false, without any
+    /// effect, in other cases.
     bool quick_forward(const Action& action, const float* arguments, Pose& pose);
-    bool close_polygon();
+    bool close_polygon(); // adds the polygon that was opened last
     bool begin_organ();
-    bool add_organ_point();
-    bool close_organ();
-    bool close_all_organs();
+    bool add_organ_point();  // adds the place of the turtle
+    bool close_organ();      // adds the open organ
+    bool close_all_organs(); // at the end of the word
+    /// Sets Brush::tangent_before and tangent_after.
     void set_tangents(const Action& action, const float* arguments);
     void set_width(float width);
     void set_sides(float sides);
@@ -170,12 +183,15 @@ struct Turtle::State {
     void set_rgb(const float* parts);
     void scale_angle(float factor);
     void turn_left(double degrees);
+    /// Turns by half of a full turn, rounded down to whole steps of the current angle.
     void half_turn_snapped();
-    void mirror();
+    void mirror(); // exchanges left and right
+    /// forward() with the parameters of Houdini: length, width, sections (ignored), sides.
     bool forward_with_width(const Action& action, const float* arguments, float part);
     void turn_by(const Action& action, const float* arguments);
+    /// Moves along the second heading.
     bool secondary_forward(const Action& action, const float* arguments);
-    void add_colour(float number, double sign);
+    void add_colour(float number, double sign); // to Brush::colour_index
 
     void note(TurtleFaultKind kind) { note_at(kind, position, code); }
     /// Notes a fault of the module with code `module` at index `place` of the word.

@@ -50,8 +50,9 @@ private:
         SensingVector up{0.0, 0.0, 1.0};
     };
 
-    void turn_heading(SensingPose& pose);
-    void twist(SensingPose& pose);
+    void turn_heading(SensingPose& pose); // by the tropisms of kind Before
+    void twist(SensingPose& pose);        // turns the up axis by the tropisms of kind Twist
+    /// Turns up and right with the heading, without twist.
     void untwist(SensingPose& pose) const;
     /// Stores heading and up axis as those at the end of the last segment.
     void keep(const SensingPose& pose);

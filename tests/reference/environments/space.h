@@ -19,9 +19,9 @@ struct Space {
     Vector size{1, 1, 1};
     Vector at{};
     std::uint32_t count = 0;
-    double radius = 0;
+    double radius = 0; // m, max distance at which a place sees a marker
     double angle = 90; // degrees
-    double kill = 0;
+    double kill = 0;   // m, markers nearer than this to a place vanish
 };
 
 // The markers of one derivation. Words are answered in the order of their ages.
@@ -37,8 +37,10 @@ public:
     [[nodiscard]] const std::vector<Vector>& places() const { return markers_; }
 
 private:
+    // The index of the nearest place that sees the marker; the number of places if none does.
     [[nodiscard]] std::size_t owner_of(const Vector& marker,
                                        const std::vector<Place>& places) const;
+    // Whether the marker is in reach and within the angle of the place.
     [[nodiscard]] bool sees(const Place& place, const Vector& marker) const;
 
     Space space_;

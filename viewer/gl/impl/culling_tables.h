@@ -17,7 +17,7 @@ namespace lsys::view {
 inline constexpr std::uint32_t kMaxWalkDepth = 64;
 
 struct CullingTables {
-    std::vector<std::uint32_t> words;
+    std::vector<std::uint32_t> words; // the tables as shaders/culling_tables.glsl reads them
     /// Keys number the branches: there is one key for each form, group (see kBranchGroups) and
     /// instance.
     std::vector<std::uint32_t> first_keys; // first key of each form

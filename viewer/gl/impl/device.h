@@ -35,7 +35,7 @@ public:
     void add_object() { ++live_; }
     void remove_object() { --live_; }
     void add_upload(std::uint64_t bytes) { uploaded_ += bytes; }
-    void report(std::string message);
+    void report(std::string message); // adds a message to errors()
 
     /// Call between passes. A software renderer stores the triangles of a pass until it draws them.
     /// end_pass() makes it draw them, and waits until it is at most one pass behind.
@@ -46,9 +46,9 @@ public:
 private:
     bool is_software_ = false;
     std::uint32_t quality_ = 0;
-    GLsync pass_end_ = nullptr; // end of the last pass
-    std::uint64_t live_ = 0;
-    std::uint64_t uploaded_ = 0;
+    GLsync pass_end_ = nullptr;  // end of the last pass
+    std::uint64_t live_ = 0;     // live_objects()
+    std::uint64_t uploaded_ = 0; // uploaded_bytes()
     std::vector<std::string> errors_;
 };
 

@@ -112,6 +112,7 @@ public:
     /// of draw calls.
     std::uint64_t
     draw_pictures(GLuint solid, GLuint cut_out, GLuint bumpy_cut_out, bool blends) const;
+    /// Binds the buffers that the shaders of branches and impostors read.
     void bind_storage() const;
     /// Rebinds storage so that in later draws the index of a tree means a cluster. Call it after
     /// bind_storage().
@@ -130,6 +131,7 @@ public:
     }
 
 private:
+    /// The indices of the triangles of an instance in a class.
     struct IndexRange {
         std::uint32_t first = 0;
         std::uint32_t count = 0;
@@ -148,20 +150,21 @@ private:
     };
 
     struct Commands {
-        Buffer buffer;
-        std::uint32_t count = 0;
+        Buffer buffer;           // of DrawCommand
+        std::uint32_t count = 0; // number of commands
     };
     /// The buffers of a BufferSet.
     struct DrawBuffers {
         Buffer trees;
         Buffer branches;
-        Buffer lists;
+        Buffer lists;                   // entries of branches
         std::vector<Commands> commands; // by class: unblended ones, then blended ones
     };
     [[nodiscard]] static DrawBuffers make_draw_buffers(Device& device);
     /// Makes textures of the pictures of all materials. Equal pictures share a texture; textures of
     /// the previous forest are reused.
     void upload_pictures(const ForestModel& model, const MaterialTextures& textures);
+    /// Class of the branches with this material.
     [[nodiscard]] std::size_t class_of(const Material& material) const;
     [[nodiscard]] static std::size_t command_index(std::size_t kind, bool blends) {
         return 2 * kind + (blends ? 1 : 0);
@@ -170,7 +173,7 @@ private:
     [[nodiscard]] const Commands& commands_of(std::size_t kind, bool blends) const {
         return current_->commands[command_index(kind, blends)];
     }
-    std::uint64_t draw(std::size_t kind, bool blends) const;
+    std::uint64_t draw(std::size_t kind, bool blends) const; // `kind`: index of a class
     [[nodiscard]] bool uses_device_draws() const {
         return device_draws_ != nullptr && current_ == &forest_;
     }
@@ -185,12 +188,12 @@ private:
     Buffer clusters_;
     DrawBuffers forest_;
     DrawBuffers impostor_;
-    DrawBuffers shadow_;
-    DrawBuffers* current_ = &forest_;
+    DrawBuffers shadow_;                        // for shadow maps near the eye
+    DrawBuffers* current_ = &forest_;           // the set chosen by use()
     std::vector<float> boxes_;                  // m, by form: half side of its vertices' box
     std::vector<std::uint64_t> mesh_digests_;   // by form
     std::vector<std::uint64_t> colour_digests_; // by form; 0: natural
-    std::vector<std::array<FormLevel, kTreeLevels>> form_levels_;
+    std::vector<std::array<FormLevel, kTreeLevels>> form_levels_; // by form
     std::vector<BranchPicture> pictures_;
     Device* device_;
     const DeviceDraws* device_draws_ = nullptr;

@@ -126,6 +126,7 @@ public:
     [[nodiscard]] std::uint64_t byte_count() const;
 
 private:
+    /// The programs of shaders/culling_*.comp.glsl.
     struct Programs {
         ProgramObject horizon;
         ProgramObject mark_cells;
@@ -147,19 +148,23 @@ private:
     };
     struct Block;
 
+    /// Uploads yaw and number of each tree.
     void upload_identities(const ForestLod& lod);
+    /// Makes room in the buffers for the lists of a forest with this many trees.
     void grow_lists(std::uint32_t trees);
-    void apply_changes(const ForestLod& lod);
+    void apply_changes(const ForestLod& lod); // uploads the trees of changed_
     /// Uploads the parameters, and binds all buffers.
     void begin(const ForestLod& lod, const ForestBuffers& buffers, Block& block);
+    /// Computes horizon_, unless eye and heights are those of the last picture.
     void make_horizon(const View& view);
-    void list_trees(std::uint32_t cells);
+    void list_trees(std::uint32_t cells); // of the first `cells` cells
+    /// Chooses levels for candidates, then lists and sorts their visible branches.
     void list_branches();
 
     Device* device_;
     Programs programs_;
-    MappedBuffer blocks_;
-    MappedBuffer states_;
+    MappedBuffer blocks_; // parameters of pictures
+    MappedBuffer states_; // CullingState of pictures, read back
     GpuTimer timer_;
     CullingTables table_layout_; // its member `words` is empty: tables_ has these words
     Buffer rays_;
@@ -185,11 +190,11 @@ private:
     TextureObject horizon_;
     std::vector<std::uint32_t> changed_; // numbers of trees for apply_changes()
     DeviceDraws draws_;
-    std::uint32_t command_count_ = 0;
-    std::uint32_t tree_capacity_ = 0;
-    std::uint32_t max_candidates_ = 0;
-    std::uint32_t max_branches_ = 0;
-    std::uint32_t sort_passes_ = 1;
+    std::uint32_t command_count_ = 0;  // number of draw commands of branches
+    std::uint32_t tree_capacity_ = 0;  // number of trees for which the buffers have room
+    std::uint32_t max_candidates_ = 0; // room in candidates_
+    std::uint32_t max_branches_ = 0;   // room in branches_
+    std::uint32_t sort_passes_ = 1;    // passes of the radix sort
     // Eye for which the slopes in horizon_ were computed.
     std::optional<glm::vec3> horizon_eye_;
     std::vector<glm::ivec2> horizon_origins_;

@@ -118,6 +118,7 @@ private:
         DrawLists lists;
     };
 
+    /// Sets `casters` to the trees in a shadow map, as branches of a level.
     void
     list_casters(const glm::mat4& shadow_from_world, std::uint32_t level, NearCasters& casters);
     /// Clears near_casters_ and crown_area_. Call it when trees have changed or moved.
@@ -140,13 +141,16 @@ private:
                                     bool clusters,
                                     std::uint32_t first,
                                     std::uint32_t count);
+    /// Binds the program, textures and buffers for impostors. `entries`: buffer of ImpostorEntry.
     void bind_quads(const ProgramObject& program, GLuint entries);
-    void draw_device_impostors(bool clusters, FrameStats& stats);
-    void draw_picked_impostors(const ForestPickPrograms& picks, bool clusters);
+    void draw_device_impostors(bool clusters, FrameStats& stats); // of compute shaders
+    void draw_picked_impostors(const ForestPickPrograms& picks, bool clusters); // for draw_picked()
     /// Makes compute shaders select the trees and branches of the prepared frame.
     void select_on_device();
+    /// Decides whether compute shaders choose the trees of the forest shown, and uploads it for
+    /// them.
     void show_on_device();
-    void set_stats(const DrawLists& lists, ForestFrameStats& stats) const;
+    void set_stats(const DrawLists& lists, ForestFrameStats& stats) const; // counts of `lists`
 
     Device* device_;
     std::array<ForestPrograms, 2> programs_; // without wind, with wind
@@ -156,26 +160,26 @@ private:
     };
     std::optional<PickPrograms> pick_programs_;
     BranchColours colours_ = BranchColours::Natural;
-    bool is_windy_ = false;
+    bool is_windy_ = false;       // the wind of the prepared frame moves trees
     bool has_one_sample_ = false; // whether the prepared frame has one sample per pixel
     Wind wind_;                   // wind of the prepared frame
     std::array<NearCasters, kNearMaps> near_casters_;
     // The members below belong to the map of crowns, which is made when it is first needed.
     ProgramObject crown_program_;
-    TextureObject crowns_;
-    Framebuffer crown_target_;
+    TextureObject crowns_;       // the map of crowns
+    Framebuffer crown_target_;   // with crowns_
     glm::vec4 crown_area_{0.0F}; // area of the crown map; 0: it must be drawn again
     ForestModel model_;
     std::unique_ptr<ForestLod> lod_;
     ForestBuffers buffers_;
     ImpostorAtlas impostors_;
     TerrainPass terrain_;
-    VertexArray quads_;
-    Buffer quad_trees_;
-    Frustum frustum_;
-    GroundHorizon horizon_;
-    const DrawLists* lists_ = nullptr;
-    bool has_clusters_ = false; // the atlas has layers of clusters
+    VertexArray quads_;                // attributes of ImpostorEntry
+    Buffer quad_trees_;                // entries of impostors that the processor has listed
+    Frustum frustum_;                  // of the prepared frame
+    GroundHorizon horizon_;            // occluder of the prepared frame
+    const DrawLists* lists_ = nullptr; // of the prepared frame; null: none
+    bool has_clusters_ = false;        // the atlas has layers of clusters
     // The impostors of clusters show the previous trees until all of them are baked again.
     bool has_old_clusters_ = false;
     GpuTimer branches_timer_;
@@ -183,10 +187,10 @@ private:
     GpuTimer terrain_timer_;
     GpuTimer shadow_timer_;
     std::array<float, 2> caster_altitudes_{}; // m, lowest and highest, in the last shadow_bounds()
-    double bake_seconds_ = 0.0;
+    double bake_seconds_ = 0.0;               // time to bake impostors of the forest
     double upload_seconds_ = 0.0;
-    double cull_seconds_ = 0.0;
-    double cull_cpu_seconds_ = 0.0;
+    double cull_seconds_ = 0.0;              // time to choose trees for the prepared frame
+    double cull_cpu_seconds_ = 0.0;          // processor time of this
     std::unique_ptr<ForestCulling> culling_; // null until the first cull_on_device(true)
     bool culls_on_device_ = false;           // compute shaders choose the trees of later forests
     bool is_culled_on_device_ = false;       // for the forest that is shown

@@ -120,11 +120,11 @@ Result<void> ImpostorAtlas::reload(const ShaderSource& shaders) {
     solid_ = std::move(solid.value());
     cut_out_ = std::move(cut_out.value());
     keys_.assign(keys_.size(), 0);
-    find_missing();
+    list_missing();
     return {};
 }
 
-void ImpostorAtlas::find_missing() {
+void ImpostorAtlas::list_missing() {
     bake_.reset();
     pending_.clear();
     for (std::uint32_t layer = layers_; layer-- > 0;) {
@@ -227,7 +227,7 @@ void ImpostorAtlas::upload_layer(std::uint32_t layer, ImpostorTexels picture) {
         dilate(picture, 2);
         const std::vector<std::uint8_t> scaled = with_coverage(picture);
         if (level == 0) {
-            find_boxes(layer, scaled);
+            set_boxes(layer, scaled);
         }
         const auto width = static_cast<GLsizei>(picture.width);
         const auto height = static_cast<GLsizei>(picture.height);
@@ -267,7 +267,7 @@ glm::vec3 ImpostorAtlas::mean_colour_from_above(std::span<const float> parts) co
     return weight > 0.0 ? glm::vec3(sum / weight) : glm::vec3(0.0F);
 }
 
-void ImpostorAtlas::find_boxes(std::uint32_t layer, std::span<const std::uint8_t> albedos) {
+void ImpostorAtlas::set_boxes(std::uint32_t layer, std::span<const std::uint8_t> albedos) {
     for (std::uint32_t e = 0; e < kElevations; ++e) {
         for (std::uint32_t y = 0; y < kYaws; ++y) {
             boxes_[layer][std::size_t{e} * kYaws + y] =
@@ -329,7 +329,7 @@ void ImpostorAtlas::begin(const ForestModel& model,
             key_of(impostor, cylinder_of(plan_, layer), model, buffers.mesh_digest(impostor.form)));
     }
     make_layers(target_keys_);
-    find_missing();
+    list_missing();
 }
 
 ImpostorAtlas::BakeState ImpostorAtlas::make_bake_state() const {

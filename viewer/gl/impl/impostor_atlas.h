@@ -23,9 +23,9 @@ namespace lsys::view {
 
 class ImpostorAtlas {
 public:
-    static constexpr std::uint32_t kYaws = 8;
-    static constexpr std::uint32_t kElevations = 3;
-    static constexpr std::uint32_t kTile = 128; // texels
+    static constexpr std::uint32_t kYaws = 8;       // directions around the tree
+    static constexpr std::uint32_t kElevations = 3; // of the camera, for each yaw
+    static constexpr std::uint32_t kTile = 128;     // texels
 
     explicit ImpostorAtlas(Device& device) : device_(&device), box_buffer_(device) {}
 
@@ -35,6 +35,7 @@ public:
     /// they or other layers of their form are baked. The first missing layer of each form is baked
     /// first.
     void begin(const ForestModel& model, ImpostorPlan plan, const ForestBuffers& buffers);
+    /// All layers are baked.
     [[nodiscard]] bool is_done() const { return pending_.empty(); }
     /// Whether each layer has a picture: its own or, until this is baked, that of another layer of
     /// its form.
@@ -51,6 +52,7 @@ public:
     /// Precondition: is_done().
     [[nodiscard]] glm::vec3 mean_colour_from_above(std::span<const float> parts) const;
     [[nodiscard]] std::uint64_t texture_bytes() const { return texture_bytes_; }
+    /// Number of layers.
     [[nodiscard]] std::uint32_t layers() const { return layers_; }
 
 private:
@@ -59,14 +61,15 @@ private:
         Framebuffer target;
         std::array<Renderbuffer, 3> storage; // albedos, normals, depths
         Buffer frame;
-        ImpostorTexels row;      // one elevation, supersampled
-        ImpostorTexels finished; // the baked elevations of the layer
-        std::uint32_t elevation = 0;
+        ImpostorTexels row;          // one elevation, supersampled
+        ImpostorTexels finished;     // the baked elevations of the layer
+        std::uint32_t elevation = 0; // the next to bake
     };
 
     using LayerBoxes = std::array<glm::vec4, std::size_t{kYaws} * kElevations>;
 
-    void find_missing();
+    void list_missing(); // sets pending_
+    /// Resizes the atlas; layers whose key is in `keys` keep their pictures.
     void make_layers(const std::vector<std::uint64_t>& keys);
     [[nodiscard]] BakeState make_bake_state() const;
     /// Sets up meshes and draw commands for a layer.
@@ -77,8 +80,10 @@ private:
                         const ForestBuffers& buffers,
                         MaterialTextures& textures,
                         Buffer& frame) const;
+    /// Uploads all mip levels of a layer, and sets its boxes.
     void upload_layer(std::uint32_t layer, ImpostorTexels picture);
-    void find_boxes(std::uint32_t layer, std::span<const std::uint8_t> albedos);
+    /// Sets boxes_ of the layer.
+    void set_boxes(std::uint32_t layer, std::span<const std::uint8_t> albedos);
     /// Copies a baked layer to the layers of its form that are empty.
     void stand_in(std::uint32_t layer);
     /// Whether two layers show trees of the same form, or clusters of the same form.
@@ -97,7 +102,7 @@ private:
     std::vector<std::uint8_t> filled_;       // by layer: whether it has a picture
     std::vector<std::uint32_t> pending_;     // layers to bake; the next is last
     std::optional<BakeState> bake_;
-    std::uint32_t layers_ = 0;
+    std::uint32_t layers_ = 0; // layers()
     std::uint64_t texture_bytes_ = 0;
 };
 

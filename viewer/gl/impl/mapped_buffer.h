@@ -14,7 +14,7 @@ namespace lsys::view {
 
 class MappedBuffer {
 public:
-    static constexpr std::size_t kParts = 4;
+    static constexpr std::size_t kParts = 4;          // used in turn
     enum class Access : std::uint8_t { Write, Read }; // access by the process
 
     /// `part_bytes`: size of a part, a multiple of 256.
@@ -37,6 +37,7 @@ public:
     [[nodiscard]] const std::byte* last_finished() const;
 
 private:
+    /// Waits at most `nanoseconds` for a fence.
     static bool is_finished(GLsync fence, GLuint64 nanoseconds);
 
     std::size_t part_bytes_;

@@ -22,6 +22,7 @@ public:
 
     /// Binds the framebuffer and clears it.
     void begin() const;
+    /// Reads the pixel back; waits for the device.
     [[nodiscard]] Content read() const;
 
 private:

@@ -36,7 +36,7 @@ private:
     std::vector<Material> materials_;
     std::vector<TextureObject> pictures_;    // pictures of files, by material
     std::vector<TextureObject> normal_maps_; // normal maps of files, by material
-    std::uint64_t triangles_ = 0;
+    std::uint64_t triangles_ = 0;            // number of triangles
     Bounds bounds_;
 };
 

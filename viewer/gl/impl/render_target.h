@@ -28,6 +28,7 @@ public:
     void present(const PixelArea& area, bool mean) const;
 
 private:
+    /// Name of the framebuffer with the picture or the mean.
     [[nodiscard]] GLuint source(bool mean) const {
         return (mean ? mean_ : resolved_ ? resolved_ : drawn_).name();
     }
@@ -38,10 +39,10 @@ private:
     std::uint32_t samples_ = 0;
     Renderbuffer colour_;
     Renderbuffer depth_;
-    Framebuffer drawn_;
+    Framebuffer drawn_; // with all samples of a pixel
     Renderbuffer resolved_colour_;
-    Framebuffer resolved_;
-    TextureObject last_; // copy of the last picture; made, like the mean, when first needed
+    Framebuffer resolved_; // empty: one sample per pixel
+    TextureObject last_;   // copy of the last picture; made, like the mean, when first needed
     Renderbuffer mean_colour_;
     Framebuffer mean_;
 };

@@ -35,8 +35,8 @@ private:
     TextureObject depth_;
     TextureObject depths_; // made when first needed
     Framebuffer framebuffer_;
-    glm::mat4 matrix_{0.0F};
-    bool stale_ = true;
+    glm::mat4 matrix_{0.0F}; // of the drawn map
+    bool stale_ = true;      // must be redrawn in any case
 };
 
 } // namespace lsys::view

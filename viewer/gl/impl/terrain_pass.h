@@ -48,7 +48,7 @@ public:
     [[nodiscard]] std::vector<float> read_heights(std::uint32_t level) const;
 
 private:
-    void set_noise() const;
+    void set_noise() const; // binds the noise texture and sets its shifts
     void draw_grass(FrameStats& stats) const;
 
     Device* device_;
@@ -58,7 +58,7 @@ private:
     std::array<ProgramObject, 4> programs_;
     ProgramObject grass_program_; // from QUALITY 1 on
     glm::vec3 eye_{0.0F};         // eye for which patches were selected
-    GroundPictures pictures_;
+    GroundPictures pictures_;     // of the ground shown
     TextureObject colour_;
     TextureObject normals_;
     glm::vec3 mean_{0.0F}; // linear RGB, mean of the ground's colour picture
@@ -70,9 +70,9 @@ private:
     TextureObject noise_;
     VertexArray array_;
     VertexArray grass_array_; // without attributes
-    Buffer corners_;
+    Buffer corners_;          // of a patch, in cells
     Buffer indices_;
-    Buffer patches_;
+    Buffer patches_; // the selected patches
 };
 
 } // namespace lsys::view
