@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 in vec2 from_trunk;
 flat in vec2 radii;
-out vec4 openness; // multiplies the map
+out vec4 openness; // multiplied into the map of openness_at(); x: crown, y: foot of the trunk
 void main() {
     float away = length(from_trunk);
     float foot = away / radii.y;

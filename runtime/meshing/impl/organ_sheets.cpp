@@ -25,7 +25,7 @@ std::uint32_t sides_of(std::span<const OrganPoint> points, std::uint32_t wanted)
     return usable_sides(sides);
 }
 
-/// Sets the flat columns, the circumference and `around` of a ring.
+/// Sets the contour points, the circumference and `around` of a ring.
 void set_columns(const std::vector<glm::dvec2>& a,
                  const std::vector<glm::dvec2>& b,
                  double part,
@@ -34,20 +34,20 @@ void set_columns(const std::vector<glm::dvec2>& a,
     std::vector<double> lengths;
     double length = 0.0;
     for (std::size_t i = 0; i < a.size(); ++i) {
-        ring.flat.push_back(a[i] + part * (b[i] - a[i]));
-        length += i == 0 ? 0.0 : glm::length(ring.flat[i] - ring.flat[i - 1]);
+        ring.contour_points.push_back(a[i] + part * (b[i] - a[i]));
+        length += i == 0 ? 0.0 : glm::length(ring.contour_points[i] - ring.contour_points[i - 1]);
         lengths.push_back(length);
     }
     for (std::size_t i = 0; i < a.size(); ++i) {
         ring.around.push_back(length > 0.0 ? lengths[i] / length : 0.0);
-        ring.flat[i] *= width;
+        ring.contour_points[i] *= width;
     }
     ring.circumference = length * width;
 }
 
 void place_columns(const AxisStation& station, OrganRing& ring) {
     ring.heading = station.heading;
-    for (const glm::dvec2& at : ring.flat) {
+    for (const glm::dvec2& at : ring.contour_points) {
         ring.positions.push_back(station.position + at.x * station.right + at.y * station.up);
     }
 }

@@ -18,12 +18,12 @@ namespace lsys {
 /// A ring of a sheet, with one element per column.
 struct OrganRing {
     std::vector<glm::dvec3> positions;
-    std::vector<double> around;   // texture coordinate u, 0 to 1
-    std::vector<glm::dvec2> flat; // the columns, scaled by the width
-    glm::dvec3 heading{};         // unit vector
-    double along = 0.0;           // texture coordinate: length in circumferences
-    double circumference = 0.0;   // m; of an open contour: its length
-    ItemColour colour = 0;        // of the strip that begins here
+    std::vector<double> around;             // texture coordinate u, 0 to 1
+    std::vector<glm::dvec2> contour_points; // m, scaled by the width; x: right, y: up
+    glm::dvec3 heading{};                   // unit vector
+    double along = 0.0;                     // texture coordinate: length in circumferences
+    double circumference = 0.0;             // m; of an open contour: its length
+    ItemColour colour = 0;                  // of the strip that begins here
     [[nodiscard]] bool is_point() const { return circumference == 0.0; }
 };
 
