@@ -194,7 +194,7 @@ public:
 
     /// Shows a plant in place of the previous plant or forest. `mesh` is copied to the device.
     virtual void show_plant(const Mesh& mesh) = 0;
-    /// Replaces the lines, which are drawn over the whole picture.
+    /// Replaces the lines, which are drawn on top of the picture.
     virtual void show_lines(std::span<const LineVertex> lines) = 0;
     /// Replaces what plants sense; in a forest, its places are relative to the forest's origin.
     virtual void show_senses(const SenseDrawing& drawing) = 0;

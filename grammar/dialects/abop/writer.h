@@ -91,7 +91,7 @@ private:
     std::set<std::string, std::less<>> long_names_;  // symbols of several characters
     std::map<std::string, SourceSpan> leaves_;       // surfaces `~X`
     std::map<std::string, SourceSpan> segments_;     // name and formals of symbols drawn as F or f
-    std::set<std::string> labels_;                   // names of productions, all taken
+    std::set<std::string> labels_;                   // names in use by productions
     std::set<std::string, std::less<>> formals_;     // formals of the rule that is being written
     std::map<std::size_t, Parentheses> parentheses_; // parentheses of expressions, by offset
     std::set<std::size_t> range_ends_;               // `)` of random numbers

@@ -468,7 +468,9 @@ void add_modules(const NameIndex& index, Completion& items) {
         const std::string name{'?', kTurtleSenses[i]};
         items.add_documented(name, ItemKind::Class, name + "(x, y, z)", turtle_sense_text(name));
     }
-    for (const NameUse& use : index.uses) { // adds the other names of each `#module`
+    // With `#set names letters` one `#module` may declare several modules; its outline, added above,
+    // has only the first name.
+    for (const NameUse& use : index.uses) {
         if (use.kind == NameKind::Module && use.is_definition) {
             items.add(use.name, ItemKind::Class, "");
         }

@@ -11,7 +11,8 @@ namespace lsys::reference {
 // section 2.4).
 double rounded_sum(const std::vector<double>& numbers);
 
-// n x y z for each place.
+// For each place: the number n of other places within the radius, and a direction x y z away from
+// them.
 Answers crowd_answers(double radius, const std::vector<Place>& places);
 
 } // namespace lsys::reference

@@ -23,7 +23,7 @@ struct GreyMap {
     double high = 1;
 };
 
-// v for each place.
+// For each place: the value v of the map.
 Answers map_answers(const GreyMap& map, const std::vector<Place>& places);
 
 } // namespace lsys::reference

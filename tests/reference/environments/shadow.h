@@ -15,7 +15,7 @@ struct Shadow {
     double ratio = 2;
 };
 
-// q x y z for each place.
+// For each place: exposure q to light, and the direction x y z of more light.
 Answers shadow_answers(const Shadow& shadow, const std::vector<Place>& places);
 
 } // namespace lsys::reference

@@ -14,7 +14,7 @@ struct Sky {
     int directions = 46;
 };
 
-// q for each place.
+// For each place: q, the part of the light of the sky that arrives.
 Answers
 sky_answers(const Sky& sky, const std::vector<Organ>& organs, const std::vector<Place>& places);
 

@@ -17,7 +17,7 @@ struct Solid {
     std::vector<Surface> meshes;
 };
 
-// d x y z for each place.
+// For each place: signed distance d to the mesh, and the direction x y z to its nearest point.
 Answers solid_answers(const Solid& solid, const std::vector<Place>& places);
 
 // The direction and the distance without its sign, as an answer, of the meshes alone.

@@ -30,7 +30,8 @@ public:
     // Draws the markers. `number`: index of the environment in the grammar.
     Markers(const Space& space, std::uint64_t seed, std::uint32_t number);
 
-    // n x y z for each place, after the markers that are too near have vanished.
+    // For each place: number n of its markers and their mean direction x y z, after markers nearer
+    // than `kill` have vanished.
     Answers answers(const std::vector<Place>& places);
 
     // The markers that are left.

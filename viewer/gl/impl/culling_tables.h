@@ -18,8 +18,8 @@ inline constexpr std::uint32_t kMaxWalkDepth = 64;
 
 struct CullingTables {
     std::vector<std::uint32_t> words; // the tables as shaders/culling_tables.glsl reads them
-    /// Keys number the branches: there is one key for each form, group (see kBranchGroups) and
-    /// instance.
+    /// Branches are sorted by key; each combination of form, group (see kBranchGroups) and instance
+    /// has a key.
     std::vector<std::uint32_t> first_keys; // first key of each form
     std::uint32_t key_count = 0;
     /// Max number of branches of a tree; at most 2^32 - 1.
