@@ -349,6 +349,9 @@ make_instances(const Forest& forest, const MeshOptions& mesh, const Project& pro
     const GrownForest& grown = forest.data().forest.grown;
     const auto work = [&]() -> ::lsys::Outcome<std::shared_ptr<Instances::Data>> {
         Step step(call.project());
+        if (std::string mistake = mistake_of(mesh); !mistake.empty()) {
+            return step.fail(std::move(mistake));
+        }
         if (mesh.method == MeshMethod::Solid) {
             return step.fail("a solid is for a single plant: the branches of a forest are "
                              "instances");

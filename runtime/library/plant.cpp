@@ -5,6 +5,9 @@
 #include "runtime/library/impl/call.h"
 #include "runtime/library/impl/data.h"
 #include "runtime/meshing/looks.h"
+#include "runtime/pipeline/step.h"
+
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cstddef>
@@ -118,6 +121,24 @@ const std::vector<std::string>& object_kinds() {
     return out;
 }
 
+std::string mistake_of(const MeshOptions& options) {
+    // The ranges are those of the options of lsc; NaN is in none of them.
+    if (options.sides != 0 && (options.sides < kMinSides || options.sides > kMaxSides)) {
+        return fmt::format("`sides` is {}, not 0 or a whole number from {} to {}", options.sides,
+                           kMinSides, kMaxSides);
+    }
+    const auto is_in = [](float value, float max) { return value >= 0.0F && value <= max; };
+    if (!is_in(options.deviation, kMaxDeviation)) {
+        return fmt::format("`deviation` is {}, not a number of metres from 0 to {}",
+                           options.deviation, kMaxDeviation);
+    }
+    if (!is_in(options.min_width, kMaxMinWidth)) {
+        return fmt::format("`min_width` is {}, not a number of metres from 0 to {}",
+                           options.min_width, kMaxMinWidth);
+    }
+    return {};
+}
+
 Plant::Plant(std::shared_ptr<const Data> data) noexcept : data_(std::move(data)) {}
 
 std::uint64_t Plant::modules() const {
@@ -174,11 +195,18 @@ Outcome<Plant> grow(const Grammar& grammar, const GrowOptions& options, const Pr
     inner.seed = options.seed;
     inner.height = options.height;
     inner.stream = options.stream;
-    return call.run<Plant>([&] { return grow_plant(inner, copy, call.project()); },
-                           [&](::lsys::Plant plant) {
-                               return Plant(std::make_shared<const Plant::Data>(
-                                   Plant::Data{std::move(plant), grammar, inner}));
-                           });
+    const auto work = [&]() -> ::lsys::Outcome<::lsys::Plant> {
+        if (inner.height && !(*inner.height >= kMinHeight && *inner.height <= kMaxHeight)) {
+            return Step(call.project())
+                .fail(fmt::format("`height` is {}, not a number of metres from {} to {}",
+                                  *inner.height, kMinHeight, kMaxHeight));
+        }
+        return grow_plant(inner, copy, call.project());
+    };
+    return call.run<Plant>(work, [&](::lsys::Plant plant) {
+        return Plant(
+            std::make_shared<const Plant::Data>(Plant::Data{std::move(plant), grammar, inner}));
+    });
 }
 
 Mesh::Mesh(std::shared_ptr<const Data> data) noexcept : data_(std::move(data)) {}
@@ -265,7 +293,10 @@ Outcome<Mesh> make_mesh(const Plant& plant, const MeshOptions& options, const Pr
     Call call(project);
     const ::lsys::Plant& drawn = plant.data().plant;
     return call.run<Mesh>(
-        [&] {
+        [&]() -> ::lsys::Outcome<::lsys::Mesh> {
+            if (std::string mistake = mistake_of(options); !mistake.empty()) {
+                return Step(call.project()).fail(std::move(mistake));
+            }
             return mesh_plant(drawn, drawn.skeleton, inner_mesh_options(options), call.project());
         },
         [&](::lsys::Mesh mesh) {

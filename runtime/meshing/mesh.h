@@ -90,6 +90,9 @@ enum class MeshMethod : std::uint8_t {
 inline constexpr std::uint32_t kSubdivisions = 2;
 inline constexpr std::uint32_t kGrooveSides = 32;
 inline constexpr std::uint32_t kGrooveSubdivisions = 3;
+// Largest values of MeshOptions::deviation and MeshOptions::min_width that users can ask for, in m.
+inline constexpr float kMaxDeviation = 1000.0F;
+inline constexpr float kMaxMinWidth = 1000.0F;
 
 struct MeshOptions {
     MeshMethod method = MeshMethod::Default;

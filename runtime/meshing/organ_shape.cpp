@@ -147,7 +147,7 @@ private:
         glm::dvec2 middle(0.0);
         glm::dvec3 centre(0.0);
         for (const std::uint32_t column : outline_of(sheet.layout)) {
-            const glm::dvec2& at = ring.flat[column];
+            const glm::dvec2& at = ring.contour_points[column];
             flat.push_back(begins ? at : glm::dvec2(at.y, at.x));
             middle += flat.back();
             centre += ring.positions[column];
@@ -258,7 +258,7 @@ private:
         std::vector<StepCorner> corners;
         for (const std::uint32_t column : outline_of(sheet.layout)) {
             corners.push_back(
-                {ring.positions[column], ring.flat[column] / std::max(ring.circumference, 1e-30)});
+                {ring.positions[column], ring.contour_points[column] / std::max(ring.circumference, 1e-30)});
         }
         return corners;
     }

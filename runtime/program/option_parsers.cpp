@@ -291,7 +291,6 @@ void add_mesh(CLI::App& app, MeshOptions& mesh) {
                "Level of detail: 0 is the finest, each further level halves the sides (default 0)")
         ->type_name("K")
         ->group("Mesh");
-    constexpr float kMaxDeviation = 1000.0F;
     add_parsed(
         app, "--deviation", mesh.deviation,
         [](const std::string& text) { return parse_number(text, 0.0F, kMaxDeviation); },
@@ -304,10 +303,9 @@ void add_mesh(CLI::App& app, MeshOptions& mesh) {
         ->type_name("N")
         ->group("Mesh");
     constexpr float kMinWidth = 1e-6F;
-    constexpr float kMaxWidth = 1000.0F;
     add_parsed(
         app, "--min-width", mesh.min_width,
-        [](const std::string& text) { return parse_number(text, kMinWidth, kMaxWidth); },
+        [](const std::string& text) { return parse_number(text, kMinWidth, kMaxMinWidth); },
         "Width of the thinnest branches and of leaves of `--method solid` (default: 1/150 of the "
         "largest extent)")
         ->type_name("METRES")

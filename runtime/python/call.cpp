@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "runtime/python/call.h"
 
+#include <limits>
+
 namespace lsys_python {
 
 namespace {
@@ -154,7 +156,11 @@ lsys::FileContents read_by(const py::function& read, const std::string& path) {
         if (!py::isinstance<py::bytes>(result) && !py::isinstance<py::str>(result)) {
             throw py::type_error("read_file returns bytes, text or None");
         }
-        return {true, result.cast<std::string>(), {}};
+        try {
+            return {true, result.cast<std::string>(), {}};
+        } catch (const py::cast_error&) { // a lone surrogate
+            throw py::value_error("read_file returns text that cannot be encoded in UTF-8");
+        }
     } catch (py::error_already_set& error) {
         if (!error.matches(PyExc_OSError)) {
             throw;
@@ -164,16 +170,35 @@ lsys::FileContents read_by(const py::function& read, const std::string& path) {
     }
 }
 
+namespace {
+
+/// A whole number that fits into T. Raises TypeError or ValueError, naming the argument.
+template <typename T>
+T whole_number(const std::string& name, const py::handle& value) {
+    try {
+        return value.cast<T>();
+    } catch (const py::cast_error&) {
+        const std::string text =
+            name + " is a whole number from 0 to " + std::to_string(std::numeric_limits<T>::max());
+        if (py::isinstance<py::int_>(value)) {
+            throw py::value_error(text);
+        }
+        throw py::type_error(text);
+    }
+}
+
+} // namespace
+
 CallOptions options_of(const py::kwargs& arguments) {
     CallOptions options;
     for (const auto& [key, value] : arguments) {
         const auto name = key.cast<std::string>();
         if (name == "threads") {
-            options.threads = value.cast<std::uint32_t>();
+            options.threads = whole_number<std::uint32_t>(name, value);
         } else if (name == "max_modules") {
-            options.max_modules = value.cast<std::uint64_t>();
+            options.max_modules = whole_number<std::uint64_t>(name, value);
         } else if (name == "max_bytes") {
-            options.max_bytes = value.cast<std::uint64_t>();
+            options.max_bytes = whole_number<std::uint64_t>(name, value);
         } else if (name == "progress") {
             options.progress = py::reinterpret_borrow<py::object>(value);
         } else if (name == "read_file") {

@@ -4,6 +4,28 @@
 #include "runtime/python/call.h"
 
 #include <lsys/api.h>
+#include <string>
+
+namespace {
+
+/// Lets `__new__` of classes without constructors raise TypeError: it would make objects without a
+/// value, which no function can use.
+void refuse_new(const pybind11::module_& module) {
+    for (const auto& [key, value] : pybind11::dict(module.attr("__dict__"))) {
+        const bool is_class = pybind11::isinstance<pybind11::type>(value);
+        if (!is_class || pybind11::dict(value.attr("__dict__")).contains("__init__")) {
+            continue;
+        }
+        const std::string text = pybind11::str(key).cast<std::string>() + " has no constructor";
+        value.attr("__new__") = pybind11::module_::import("builtins")
+                                    .attr("staticmethod")(pybind11::cpp_function(
+                                        [text](const pybind11::args&, const pybind11::kwargs&) {
+                                            throw pybind11::type_error(text);
+                                        }));
+    }
+}
+
+} // namespace
 
 PYBIND11_MODULE(_lsys, module) {
     module.doc() = "L-systems: compile grammars, derive words, draw and mesh plants and forests.";
@@ -13,4 +35,5 @@ PYBIND11_MODULE(_lsys, module) {
     lsys_python::bind_word(module);
     lsys_python::bind_plant(module);
     lsys_python::bind_forest(module);
+    refuse_new(module);
 }

@@ -164,6 +164,10 @@ class Forests(unittest.TestCase):
             lsys.Forest.from_places("tree.lsys", [1, 2, 3], read_file=read())
         with self.assertRaises(ValueError):
             lsys.Forest.from_places("tree.lsys", positions, scale=[1, 2], read_file=read())
+        for name, value in (("species", 65536), ("species", -1), ("species", 0.9), ("age", 70000), ("age", 1.5),
+                            ("key", -1), ("key", 2**32), ("key", float("nan"))):
+            with self.assertRaisesRegex(ValueError, f"{name} is a whole number"):
+                lsys.Forest.from_places("tree.lsys", positions, read_file=read(), **{name: value})
 
     def test_instances(self):
         forest = lsys.Forest("tree.lsys", count=200, heroes=2, read_file=read())

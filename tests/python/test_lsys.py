@@ -203,6 +203,28 @@ class Errors(unittest.TestCase):
         with self.assertRaises(lsys.LimitError):
             lsys.compile(text=RANDOM).derive(max_modules=1000)
 
+    def test_values_out_of_range(self):
+        grammar = lsys.compile(text=TREE)
+        for height in (-1, 0, 1e7, float("nan"), float("inf")):
+            with self.assertRaisesRegex(lsys.LsysError, "`height` is"):
+                grammar.grow(height=height)
+        plant = grammar.grow(1)
+        for options, name in (({"sides": 1}, "sides"), ({"sides": 65}, "sides"), ({"deviation": -1}, "deviation"),
+                              ({"deviation": float("nan")}, "deviation"), ({"min_width": -1}, "min_width"),
+                              ({"min_width": float("inf")}, "min_width")):
+            with self.assertRaisesRegex(lsys.LsysError, f"`{name}` is"):
+                plant.mesh(**options)
+        for options in ({"threads": -1}, {"max_modules": -1}, {"max_bytes": 2**64}):
+            with self.assertRaisesRegex(ValueError, f"{next(iter(options))} is a whole number"):
+                grammar.derive(**options)
+        with self.assertRaisesRegex(TypeError, "threads is a whole number"):
+            grammar.derive(threads=None)
+
+    def test_no_objects_without_values(self):
+        for name in ("Grammar", "Word", "Plant", "Mesh", "Instances"):
+            with self.assertRaisesRegex(TypeError, "has no constructor"):
+                getattr(lsys, name).__new__(getattr(lsys, name))
+
     def test_interrupt(self):
         grammar = lsys.compile(text=RANDOM)
         timer = threading.Timer(0.2, lambda: os.kill(os.getpid(), signal.SIGINT))

@@ -53,6 +53,8 @@ struct Mesh::Data {
 
 /// A mesh of the pipeline as a public one.
 [[nodiscard]] Mesh public_mesh(std::shared_ptr<const ::lsys::Mesh> mesh, std::uint32_t threads);
+/// What is wrong with mesh options: a value out of its range. Empty: nothing.
+[[nodiscard]] std::string mistake_of(const MeshOptions& options);
 [[nodiscard]] ::lsys::MeshOptions inner_mesh_options(const MeshOptions& options);
 [[nodiscard]] ::lsys::GrammarOptions inner_grammar_options(const GrammarOptions& options);
 

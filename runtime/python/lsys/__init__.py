@@ -252,6 +252,15 @@ def _forest_init(self, scene, *, defines=None, settings=None, generations=None, 
                  **calls)
 
 
+def _whole(name, values, most):
+    """Whole numbers from 0 to `most`; assigning others to an integer array would change them."""
+    values = np.asarray(values)
+    if values.dtype.kind not in "iufb" or not np.all((values >= 0) & (values <= most)) or not np.all(
+            values == np.floor(values)):
+        raise ValueError(f"{name} is a whole number from 0 to {most}")
+    return values
+
+
 def _from_places(grammars, positions, *, rotation=0.0, scale=1.0, key=None, species=0, age=0,
                  defines=None, settings=None, generations=None, **options):
     """Grows trees at places. Each argument of places is an array with an item for each tree, or a
@@ -268,9 +277,10 @@ def _from_places(grammars, positions, *, rotation=0.0, scale=1.0, key=None, spec
     places["position"] = positions
     places["yaw"] = rotation
     places["scale"] = scale
-    places["number"] = np.arange(len(positions)) if key is None else key
-    places["species"] = species
-    places["age"] = age
+    places["number"] = np.arange(len(positions)) if key is None else _whole(
+        "key", key, 2**32 - 1)
+    places["species"] = _whole("species", species, 2**16 - 1)
+    places["age"] = _whole("age", age, 2**16 - 1)
     files = [os.fspath(grammars)] if isinstance(grammars, (str, os.PathLike)) else [
         os.fspath(path) for path in grammars]
     calls, named = _arguments.split(options)
