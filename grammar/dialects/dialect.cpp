@@ -41,6 +41,19 @@ bool has_extension(std::string_view path, std::string_view extensions) {
     return false;
 }
 
+/// Whether a text has the axiom of a grammar of .lsys: `#w :`.
+bool has_lsys_axiom(std::string_view text) {
+    constexpr std::string_view kAxiom = "#w";
+    for (std::size_t at = text.find(kAxiom); at != std::string_view::npos;
+         at = text.find(kAxiom, at + 1)) {
+        const std::size_t next = text.find_first_not_of(" \t", at + kAxiom.size());
+        if (next != std::string_view::npos && text[next] == ':') {
+            return true;
+        }
+    }
+    return false;
+}
+
 } // namespace
 
 std::vector<std::string> no_system_names(std::string_view /*text*/) {
@@ -99,6 +112,9 @@ DetectedDialect detect_dialect(std::string_view path, std::string_view text) {
         if (has_extension(path, row.extensions)) {
             return {row.dialect, "its name"};
         }
+    }
+    if (has_lsys_axiom(text)) {
+        return {Dialect::Lsys, "its content"};
     }
     return {};
 }

@@ -63,6 +63,8 @@ TEST_CASE("the dialect of a text is recognised") {
         {"a.l", "one { axiom A }\n", Dialect::Fractint},
         {"a.txt", "3 90 5\nA\nA=FA\n@\n", Dialect::L3d},
         {"a.l++", "3 90 5\nA\nA=FA\n@\n", Dialect::Lplus},
+        {"a.txt", "#n = 1;\n#w : F;\n", Dialect::Lsys},
+        {"stdin", "#w: F;", Dialect::Lsys},
         {"a.lsys", "3 90 5\nA\nA=FA\n@\n", Dialect::Lsys},
     };
     for (const DialectCase& sample : texts) {
