@@ -122,7 +122,8 @@ ForeignId CpfgExpressions::number_node(double value, SourceSpan span) {
     const auto [end, error] = number_to_chars(buffer.data(), buffer.data() + buffer.size(),
                                               value == 0.0 ? 0.0 : value); // no -0
     LSYS_CHECK(error == std::errc());
-    return tree_.number(std::string_view(buffer.data(), end), span);
+    const auto length = static_cast<std::size_t>(end - buffer.data());
+    return tree_.number(std::string_view(buffer.data(), length), span);
 }
 
 /// Runs the block as often as cpfg would. The test must be known before the word is derived in each
