@@ -69,11 +69,12 @@ public:
     }
 
 private:
+    static constexpr std::size_t kPlaces = 1U << 8; // places per piece of work
+
     std::optional<EnvironmentFailure> answer_all(std::span<const SensePlace> places,
                                                  std::vector<float>& answers) const {
         // Places near each other are answered one after the other, because their searches visit the
         // same nodes of the trees.
-        constexpr std::size_t kPlaces = 1U << 8; // places per piece of work
         const std::size_t count = places.size();
         const std::uint64_t bytes = tree_bytes_ + count * kSpaceOrderBytes;
         if (bytes > context_.max_bytes) {
@@ -92,9 +93,13 @@ private:
             for (std::size_t i = begin; i < end; ++i) {
                 positions[i - begin] = places[order[i]].position;
             }
-            std::vector<std::uint32_t> hints(trees_.size(), 0);
+            std::array<NearestPoint, kPlaces> nearest;
+            for (const std::unique_ptr<TriangleTree>& tree : trees_) {
+                tree->find_nearest({positions.data(), end - begin}, nearest);
+            }
             for (std::size_t i = begin; i < end; ++i) {
-                answer_one(positions[i - begin], hints, answers.data() + std::size_t{order[i]} * 4);
+                answer_one(positions[i - begin], nearest[i - begin],
+                           answers.data() + std::size_t{order[i]} * 4);
             }
         });
         if (is_cancelled(context_.cancelled)) {
@@ -135,7 +140,8 @@ private:
         return std::nullopt;
     }
 
-    void answer_one(const Vector3& place, std::vector<std::uint32_t>& hints, float* answer) const {
+    /// `nearest`: the nearest point of all meshes.
+    void answer_one(const Vector3& place, const NearestPoint& nearest, float* answer) const {
         double distance = std::numeric_limits<double>::infinity();
         Vector3 direction{};
         bool inside = false;
@@ -151,10 +157,8 @@ private:
                 }
             }
         }
-        NearestPoint nearest;
-        for (std::size_t i = 0; i < trees_.size(); ++i) {
-            trees_[i]->find_nearest(place, nearest, hints[i]);
-            inside = inside || trees_[i]->is_inside(place);
+        for (const std::unique_ptr<TriangleTree>& tree : trees_) {
+            inside = inside || tree->is_inside(place);
         }
         if (const double from_mesh = std::sqrt(nearest.squared); from_mesh < distance) {
             distance = from_mesh;

@@ -39,47 +39,76 @@ struct NearestPoint {
 /// whose foot is inexact. Because q is in the box, the distance to a box around the triangle,
 /// computed by the same operations, is never greater, so a bounding volume hierarchy never skips
 /// the nearest triangle.
-[[nodiscard]] inline NearestPoint nearest_point(const Triangle& triangle, const Vector3& place) {
+[[nodiscard]] inline NearestPoint
+nearest_point(const Triangle& triangle, const Vector3& place, double limit) {
+    // Two numbers at once: the sides a b and b c in `first`, the side c a and the foot in `second`.
+    using Pair = double __attribute__((vector_size(16)));
+    const auto less = [](Pair x, Pair y) { return x < y ? x : y; }; // y for NaN
+    const auto more = [](Pair x, Pair y) { return x > y ? x : y; };
     const auto& [a, b, c] = triangle;
-    Vector3 low;
-    Vector3 high;
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-        low[axis] = std::min(std::min(a[axis], b[axis]), c[axis]);
-        high[axis] = std::max(std::max(a[axis], b[axis]), c[axis]);
-    }
-    NearestPoint nearest;
-    const auto consider = [&](const Vector3& point) {
-        Vector3 away;
-        for (std::size_t axis = 0; axis < 3; ++axis) {
-            away[axis] = std::max(std::min(point[axis], high[axis]), low[axis]) - place[axis];
-        }
-        const double squared = squared_length(away);
-        if (squared < nearest.squared) {
-            nearest = {away, squared};
-        }
-    };
     const Vector3 u = minus(b, a);
     const Vector3 v = minus(c, a);
     const Vector3 normal = cross(u, v);
     const double area_squared = squared_length(normal);
-    if (area_squared > 0.0) {
-        const Vector3 w = minus(place, a);
-        const double beta = dot(cross(w, v), normal) / area_squared;
-        const double gamma = dot(cross(u, w), normal) / area_squared;
-        if (beta >= 0.0 && gamma >= 0.0 && beta + gamma <= 1.0) {
-            consider(plus(plus(a, times(u, beta)), times(v, gamma)));
-        }
+    const Vector3 w = minus(place, a);
+    // beta and gamma; NaN or infinite without an area
+    const Pair shares = Pair{dot(cross(w, v), normal), dot(cross(u, w), normal)} / area_squared;
+    const auto [beta, gamma] = std::array<double, 2>{shares[0], shares[1]};
+    const bool has_foot =
+        (area_squared > 0.0) & (beta >= 0.0) & (gamma >= 0.0) & (beta + gamma <= 1.0);
+    const Vector3 foot = plus(plus(a, times(u, beta)), times(v, gamma));
+
+    std::array<Pair, 3> first_side;
+    std::array<Pair, 3> second_side;
+    std::array<Pair, 3> first_way; // vector from the start of the side to the place
+    std::array<Pair, 3> second_way;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        first_side[axis] = Pair{b[axis], c[axis]} - Pair{a[axis], b[axis]};
+        second_side[axis] = Pair{a[axis], a[axis]} - Pair{c[axis], a[axis]};
+        first_way[axis] = place[axis] - Pair{a[axis], b[axis]};
+        second_way[axis] = place[axis] - Pair{c[axis], a[axis]};
     }
-    const auto consider_side = [&](const Vector3& from, const Vector3& to) {
-        const Vector3 side = minus(to, from);
-        const double length_squared = squared_length(side);
-        const double along =
-            length_squared > 0.0 ? dot(minus(place, from), side) / length_squared : 0.0;
-        consider(plus(from, times(side, std::min(std::max(along, 0.0), 1.0))));
+    const auto dots = [](const std::array<Pair, 3>& x, const std::array<Pair, 3>& y) {
+        return (x[0] * y[0] + x[1] * y[1]) + x[2] * y[2];
     };
-    consider_side(a, b);
-    consider_side(b, c);
-    consider_side(c, a);
+    const auto along = [&](const std::array<Pair, 3>& side, const std::array<Pair, 3>& way) {
+        const Pair length_squared = dots(side, side);
+        const Pair part = dots(way, side) / length_squared;
+        return less(Pair{1.0, 1.0}, more(Pair{}, length_squared > 0.0 ? part : Pair{}));
+    };
+    const Pair first_along = along(first_side, first_way);
+    const Pair second_along = along(second_side, second_way);
+    std::array<Pair, 3> first_away;
+    std::array<Pair, 3> second_away;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        const double low = std::min(std::min(a[axis], b[axis]), c[axis]);
+        const double high = std::max(std::max(a[axis], b[axis]), c[axis]);
+        const Pair first = Pair{a[axis], b[axis]} + first_side[axis] * first_along;
+        const Pair side = Pair{c[axis], a[axis]} + second_side[axis] * second_along;
+        const Pair second{side[0], foot[axis]};
+        const auto moved = [&](Pair point) {
+            return more(Pair{low, low}, less(Pair{high, high}, point)) - place[axis];
+        };
+        first_away[axis] = moved(first);
+        second_away[axis] = moved(second);
+    }
+    const Pair first_squared = dots(first_away, first_away);
+    Pair second_squared = dots(second_away, second_away);
+    second_squared[1] = has_foot ? second_squared[1] : std::numeric_limits<double>::infinity();
+    const auto is_near = (first_squared <= limit) | (second_squared <= limit);
+    NearestPoint nearest;
+    if ((is_near[0] | is_near[1]) == 0) {
+        return nearest;
+    }
+    const auto consider = [&](const std::array<Pair, 3>& away, Pair squared, std::size_t lane) {
+        if (squared[lane] < nearest.squared) {
+            nearest = {{away[0][lane], away[1][lane], away[2][lane]}, squared[lane]};
+        }
+    };
+    consider(second_away, second_squared, 1);
+    consider(first_away, first_squared, 0);
+    consider(first_away, first_squared, 1);
+    consider(second_away, second_squared, 0);
     return nearest;
 }
 
