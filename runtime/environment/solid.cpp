@@ -8,7 +8,9 @@
 // of the least squared distance to a triangle with an area (impl/triangle_distance.h); the unit
 // vector is the vector to the nearest point, each component divided by the distance. Of surfaces at
 // equal distances the first is taken, planes before meshes. Triangles, of one mesh or of several,
-// are compared by squared distances.
+// are compared by squared distances. A distance to a mesh of at most 2^-48 times the greatest
+// magnitude of a coordinate, of the place or of a corner of a triangle, is 0: the nearest point has
+// rounding errors of that order, so that places on a face would not be on the surface.
 #include "grammar/base/contract.h"
 #include "runtime/environment/environment.h"
 #include "runtime/environment/impl/input_checks.h"
@@ -23,6 +25,13 @@
 namespace lsys {
 
 namespace {
+
+/// Max distance to a mesh of places on its surface, over the greatest magnitude of a coordinate.
+constexpr double kOnSurface = 0x1p-48;
+
+double magnitude_of(const Vector3& point) {
+    return std::max({std::abs(point[0]), std::abs(point[1]), std::abs(point[2])});
+}
 
 struct SolidPlane {
     Vector3 normal{};    // a, b, c
@@ -125,7 +134,13 @@ private:
             return beyond_memory(bytes);
         }
         std::vector<std::unique_ptr<TriangleTree>> trees;
+        double magnitude = 0.0;
         for (const EnvironmentMesh& mesh : files_.meshes) {
+            for (const std::array<std::uint32_t, 3>& corners : mesh.triangles) {
+                for (const std::uint32_t corner : corners) {
+                    magnitude = std::max(magnitude, magnitude_of(mesh.vertices[corner]));
+                }
+            }
             trees.push_back(std::make_unique<TriangleTree>(mesh, context_));
             if (is_cancelled(context_.cancelled)) {
                 return stopped(Stop::Cancelled);
@@ -136,6 +151,7 @@ private:
             }
         }
         trees_ = std::move(trees);
+        magnitude_ = magnitude;
         tree_bytes_ = bytes;
         return std::nullopt;
     }
@@ -160,7 +176,11 @@ private:
         for (const std::unique_ptr<TriangleTree>& tree : trees_) {
             inside = inside || tree->is_inside(place);
         }
-        if (const double from_mesh = std::sqrt(nearest.squared); from_mesh < distance) {
+        double from_mesh = std::sqrt(nearest.squared);
+        if (from_mesh <= kOnSurface * std::max(magnitude_, magnitude_of(place))) {
+            from_mesh = 0.0;
+        }
+        if (from_mesh < distance) {
             distance = from_mesh;
             direction = normalised(nearest.away);
         }
@@ -175,6 +195,7 @@ private:
     std::vector<SolidPlane> planes_;
     std::vector<std::unique_ptr<TriangleTree>> trees_; // one for each mesh, after begin()
     std::uint64_t tree_bytes_ = 0;                     // bytes of `trees_`
+    double magnitude_ = 0.0; // m, greatest magnitude of a coordinate of the meshes
 };
 
 } // namespace

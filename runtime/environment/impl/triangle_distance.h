@@ -38,7 +38,7 @@ struct NearestPoint {
 /// one in binary64, in the order of vectors.h. The sides make the result right also for slivers,
 /// whose foot is inexact. Because q is in the box, the distance to a box around the triangle,
 /// computed by the same operations, is never greater, so a bounding volume hierarchy never skips
-/// the nearest triangle.
+/// the nearest triangle. Beyond the squared distance `limit` the result is at infinity.
 [[nodiscard]] inline NearestPoint
 nearest_point(const Triangle& triangle, const Vector3& place, double limit) {
     // Two numbers at once: the sides a b and b c in `first`, the side c a and the foot in `second`.
