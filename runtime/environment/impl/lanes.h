@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Four numbers in binary32 at once, for bounds of distances. Every operation is rounded as that of
-// one number, so all machines have the same bits.
+// Four numbers in binary32 at once, for bounds of distances, and two in binary64. Every operation is
+// rounded as that of one number, so all machines have the same bits.
 #pragma once
 
 #include <array>
@@ -18,6 +18,7 @@ namespace lsys {
 
 inline constexpr std::size_t kLanes = 4;
 using Lanes = float __attribute__((vector_size(4 * kLanes)));
+using Pair = double __attribute__((vector_size(16)));
 using LaneMask = std::int32_t __attribute__((vector_size(4 * kLanes))); // -1 or 0
 
 /// Square roots are rounded correctly everywhere.
@@ -35,6 +36,14 @@ using LaneMask = std::int32_t __attribute__((vector_size(4 * kLanes))); // -1 or
 /// The greater of two numbers; `b` for NaN.
 [[nodiscard]] inline Lanes greater(Lanes a, Lanes b) {
     return a > b ? a : b;
+}
+
+[[nodiscard]] inline Pair greater(Pair a, Pair b) {
+    return a > b ? a : b;
+}
+/// The lesser of two numbers; `b` for NaN.
+[[nodiscard]] inline Pair lesser(Pair a, Pair b) {
+    return a < b ? a : b;
 }
 
 /// 0 for negative numbers and NaN.

@@ -3,9 +3,11 @@
 // Solid).
 #pragma once
 
+#include "runtime/environment/impl/lanes.h"
 #include "runtime/environment/impl/vectors.h"
 
 #include <algorithm>
+#include <array>
 #include <limits>
 
 namespace lsys {
@@ -26,6 +28,42 @@ struct NearestPoint {
     return cross(minus(triangle.b, triangle.a), minus(triangle.c, triangle.a));
 }
 
+/// Two vectors.
+using PairVector = std::array<Pair, 3>;
+
+[[nodiscard]] inline Pair dot(const PairVector& a, const PairVector& b) {
+    return (a[0] * b[0] + a[1] * b[1]) + a[2] * b[2];
+}
+
+/// t of candidates 2 to 4 of nearest_point(). `way`: vector from the start of the side to the place.
+[[nodiscard]] inline Pair part_of_side(const PairVector& side, const PairVector& way) {
+    const Pair length_squared = dot(side, side);
+    const Pair part = dot(way, side) / length_squared;
+    return lesser(Pair{1.0, 1.0}, greater(Pair{}, length_squared > 0.0 ? part : Pair{}));
+}
+
+/// The foot of a place on the plane of a triangle.
+struct Foot {
+    Vector3 point{};
+    bool is_within = false; // in the triangle
+};
+
+/// Candidate 1 of nearest_point().
+[[nodiscard]] inline Foot foot_of(const Triangle& triangle, const Vector3& place) {
+    const Vector3 u = minus(triangle.b, triangle.a);
+    const Vector3 v = minus(triangle.c, triangle.a);
+    const Vector3 normal = cross(u, v);
+    const double area_squared = squared_length(normal);
+    const Vector3 w = minus(place, triangle.a);
+    // beta and gamma; NaN or infinite without an area
+    const Pair shares = Pair{dot(cross(w, v), normal), dot(cross(u, w), normal)} / area_squared;
+    const double beta = shares[0];
+    const double gamma = shares[1];
+    const bool is_within =
+        (area_squared > 0.0) & (beta >= 0.0) & (gamma >= 0.0) & (beta + gamma <= 1.0);
+    return {plus(plus(triangle.a, times(u, beta)), times(v, gamma)), is_within};
+}
+
 /// Up to four candidates, of which the first with the least squared distance is the nearest point:
 ///   1. the foot of the place on the plane. With u = b - a, v = c - a, w = p - a, n = u x v,
 ///      s = n . n, beta = ((w x v) . n) / s and gamma = ((u x w) . n) / s, it is a candidate if
@@ -41,66 +79,44 @@ struct NearestPoint {
 /// the nearest triangle. Beyond the squared distance `limit` the result is at infinity.
 [[nodiscard]] inline NearestPoint
 nearest_point(const Triangle& triangle, const Vector3& place, double limit) {
-    // Two numbers at once: the sides a b and b c in `first`, the side c a and the foot in `second`.
-    using Pair = double __attribute__((vector_size(16)));
-    const auto less = [](Pair x, Pair y) { return x < y ? x : y; }; // y for NaN
-    const auto more = [](Pair x, Pair y) { return x > y ? x : y; };
+    // Two candidates at once: the sides a b and b c in `first`, the side c a and the foot in
+    // `second`.
     const auto& [a, b, c] = triangle;
-    const Vector3 u = minus(b, a);
-    const Vector3 v = minus(c, a);
-    const Vector3 normal = cross(u, v);
-    const double area_squared = squared_length(normal);
-    const Vector3 w = minus(place, a);
-    // beta and gamma; NaN or infinite without an area
-    const Pair shares = Pair{dot(cross(w, v), normal), dot(cross(u, w), normal)} / area_squared;
-    const auto [beta, gamma] = std::array<double, 2>{shares[0], shares[1]};
-    const bool has_foot =
-        (area_squared > 0.0) & (beta >= 0.0) & (gamma >= 0.0) & (beta + gamma <= 1.0);
-    const Vector3 foot = plus(plus(a, times(u, beta)), times(v, gamma));
-
-    std::array<Pair, 3> first_side;
-    std::array<Pair, 3> second_side;
-    std::array<Pair, 3> first_way; // vector from the start of the side to the place
-    std::array<Pair, 3> second_way;
+    const Foot foot = foot_of(triangle, place);
+    PairVector first_side;
+    PairVector second_side;
+    PairVector first_way;
+    PairVector second_way;
     for (std::size_t axis = 0; axis < 3; ++axis) {
         first_side[axis] = Pair{b[axis], c[axis]} - Pair{a[axis], b[axis]};
         second_side[axis] = Pair{a[axis], a[axis]} - Pair{c[axis], a[axis]};
         first_way[axis] = place[axis] - Pair{a[axis], b[axis]};
         second_way[axis] = place[axis] - Pair{c[axis], a[axis]};
     }
-    const auto dots = [](const std::array<Pair, 3>& x, const std::array<Pair, 3>& y) {
-        return (x[0] * y[0] + x[1] * y[1]) + x[2] * y[2];
-    };
-    const auto along = [&](const std::array<Pair, 3>& side, const std::array<Pair, 3>& way) {
-        const Pair length_squared = dots(side, side);
-        const Pair part = dots(way, side) / length_squared;
-        return less(Pair{1.0, 1.0}, more(Pair{}, length_squared > 0.0 ? part : Pair{}));
-    };
-    const Pair first_along = along(first_side, first_way);
-    const Pair second_along = along(second_side, second_way);
-    std::array<Pair, 3> first_away;
-    std::array<Pair, 3> second_away;
+    const Pair first_part = part_of_side(first_side, first_way);
+    const Pair second_part = part_of_side(second_side, second_way);
+    PairVector first_away;
+    PairVector second_away;
     for (std::size_t axis = 0; axis < 3; ++axis) {
         const double low = std::min(std::min(a[axis], b[axis]), c[axis]);
         const double high = std::max(std::max(a[axis], b[axis]), c[axis]);
-        const Pair first = Pair{a[axis], b[axis]} + first_side[axis] * first_along;
-        const Pair side = Pair{c[axis], a[axis]} + second_side[axis] * second_along;
-        const Pair second{side[0], foot[axis]};
-        const auto moved = [&](Pair point) {
-            return more(Pair{low, low}, less(Pair{high, high}, point)) - place[axis];
+        const auto away = [&](Pair point) {
+            return greater(Pair{low, low}, lesser(Pair{high, high}, point)) - place[axis];
         };
-        first_away[axis] = moved(first);
-        second_away[axis] = moved(second);
+        const Pair side = Pair{c[axis], a[axis]} + second_side[axis] * second_part;
+        first_away[axis] = away(Pair{a[axis], b[axis]} + first_side[axis] * first_part);
+        second_away[axis] = away(Pair{side[0], foot.point[axis]});
     }
-    const Pair first_squared = dots(first_away, first_away);
-    Pair second_squared = dots(second_away, second_away);
-    second_squared[1] = has_foot ? second_squared[1] : std::numeric_limits<double>::infinity();
+    const Pair first_squared = dot(first_away, first_away);
+    Pair second_squared = dot(second_away, second_away);
+    second_squared[1] =
+        foot.is_within ? second_squared[1] : std::numeric_limits<double>::infinity();
     const auto is_near = (first_squared <= limit) | (second_squared <= limit);
     NearestPoint nearest;
     if ((is_near[0] | is_near[1]) == 0) {
         return nearest;
     }
-    const auto consider = [&](const std::array<Pair, 3>& away, Pair squared, std::size_t lane) {
+    const auto consider = [&](const PairVector& away, Pair squared, std::size_t lane) {
         if (squared[lane] < nearest.squared) {
             nearest = {{away[0][lane], away[1][lane], away[2][lane]}, squared[lane]};
         }

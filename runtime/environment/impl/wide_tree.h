@@ -61,7 +61,6 @@ using OpenNodes = std::array<OpenNode, 3 * kMaxSplitDepth / 2 + 4 + kLanes>;
 [[nodiscard]] inline std::size_t
 push_children(OpenNodes& open, std::size_t count, const WideNode& node, Lanes least, float limit) {
     using Halves = std::uint32_t __attribute__((vector_size(16)));
-    using Pair = double __attribute__((vector_size(16)));
     const LaneMask numbers{0, 1, 2, 3};
     const LaneMask mask = ~(least > limit) & (numbers < static_cast<std::int32_t>(node.count));
     // Entries of the four children, 0 for those that are left out.
@@ -70,15 +69,15 @@ push_children(OpenNodes& open, std::size_t count, const WideNode& node, Lanes le
     const auto first = std::bit_cast<Pair>(__builtin_shufflevector(children, bounds, 0, 4, 1, 5));
     const auto second = std::bit_cast<Pair>(__builtin_shufflevector(children, bounds, 2, 6, 3, 7));
     // A sorting network puts them into descending order.
-    const Pair high = first > second ? first : second;
-    const Pair low = first < second ? first : second;
+    const Pair high = greater(first, second);
+    const Pair low = lesser(first, second);
     const Pair left = __builtin_shufflevector(high, low, 0, 2);
     const Pair right = __builtin_shufflevector(high, low, 1, 3);
-    const Pair greatest = left > right ? left : right;
-    const Pair smallest = left < right ? left : right;
+    const Pair greatest = greater(left, right);
+    const Pair smallest = lesser(left, right);
     const Pair middle = __builtin_shufflevector(greatest, greatest, 1, 1);
-    const Pair second_greatest = smallest > middle ? smallest : middle;
-    const Pair second_smallest = smallest < middle ? smallest : middle;
+    const Pair second_greatest = greater(smallest, middle);
+    const Pair second_smallest = lesser(smallest, middle);
     OpenNode* const end = open.data() + count;
     end[0] = OpenNode(greatest[0]);
     end[1] = OpenNode(second_greatest[0]);
