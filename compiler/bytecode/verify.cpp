@@ -2,7 +2,8 @@
 #include "compiler/bytecode/verify.h"
 
 #include "compiler/bytecode/impl/bytecode_contents.h"
-#include "compiler/bytecode/impl/verify_senses.h"
+#include "compiler/bytecode/impl/verify_code.h"
+#include "compiler/bytecode/impl/verify_parts.h"
 #include "compiler/bytecode/instructions.h"
 
 #include <fmt/format.h>
@@ -17,37 +18,21 @@ namespace lsys {
 
 namespace {
 
-/// A stream for describe_settings() that finds invalid enumerators and numbers that are not finite.
-struct RangeCheck : IgnoringStream {
-    bool all_enumerators = true;
-    bool all_finite = true;
-
-    RangeCheck& outside_digest() { return *this; }
-    template <typename Enum>
-    void tag(const Enum& value) {
-        all_enumerators = all_enumerators && is_enumerator(value);
-    }
-    void real(const float& value) { all_finite = all_finite && std::isfinite(value); }
-};
-
 std::uint32_t number(SymbolId id) {
     return static_cast<std::uint32_t>(id);
 }
-
-/// The place in which a piece of code is used, which decides the instructions that the code may
-/// have.
-enum class CodePlace : std::uint8_t { Global, Axiom, Condition, Locals, Successor };
 
 /// Verifies bytecode in one pass over the tables in the order that bytecode.h describes. A check
 /// that fails calls fail(), which stores the message, and returns false.
 class Verifier {
 public:
-    explicit Verifier(const Bytecode& bytecode) : bytecode_(bytecode) {}
+    explicit Verifier(const Bytecode& bytecode) : bytecode_(bytecode), code_(bytecode) {}
 
     std::optional<std::string> run() {
-        if (settings() && curves() && contours() && symbols() && folded() && sites() &&
-            materials() && environments() && places() && globals() && axioms() && productions() &&
-            ends()) {
+        if (has_no(settings_problem(bytecode_)) && has_no(curves_problem(bytecode_)) &&
+            has_no(contours_problem(bytecode_)) && symbols() && folded() && sites() &&
+            has_no(materials_problem(bytecode_)) && has_no(environments_problem(bytecode_)) &&
+            places() && globals() && axioms() && productions() && ends()) {
             return std::nullopt;
         }
         return std::move(problem_);
@@ -60,86 +45,10 @@ private:
         return false;
     }
 
-    bool settings() {
-        const Settings& s = bytecode_.settings;
-        RangeCheck ranges;
-        describe_settings(ranges, s);
-        if (!ranges.all_enumerators) {
-            return fail("a setting has a value that does not exist");
-        }
-        if (!ranges.all_finite) {
-            return fail("a setting is not finite");
-        }
-#define LSYS_COUNT(field, initial, effect, group, min, max, wanted, misfit)                        \
-    if (static_cast<std::int64_t>(s.field) < (min) || s.field > (max)) {                           \
-        return fail(misfit, s.field);                                                              \
-    }
-#include "compiler/bytecode/settings.def"
-        if (s.height != 0.0F && !(s.height >= kMinHeight && s.height <= kMaxHeight)) {
-            return fail("a plant {} m high", s.height);
-        }
-        const bool is_exponent =
-            s.pipe.exponent >= kMinPipeExponent && s.pipe.exponent <= kMaxPipeExponent;
-        if (s.pipe != Pipe{} && !(is_exponent && s.pipe.tip_width >= 0.0F)) {
-            return fail("a pipe model of exponent {} and width {}", s.pipe.exponent,
-                        s.pipe.tip_width);
-        }
-        if (!(s.pipe.taper >= 0.0F && s.pipe.taper <= 1.0F)) {
-            return fail("a pipe model of taper {}", s.pipe.taper);
-        }
-        const auto& [factor, height, roots] = s.flare;
-        if (s.flare != Flare{} && !(factor >= 1.0F && factor <= kMaxFlare && height > 0.0F &&
-                                    (roots == 0 || (roots >= kMinRoots && roots <= kMaxRoots)))) {
-            return fail("a flare of factor {}, height {} and {} roots", factor, height, roots);
-        }
-        bool ended = false;
-        for (const StepTropism& tropism : s.tropisms) {
-            const bool is_used = tropism.kind != TropismKind::None;
-            if (is_used ? ended : tropism != StepTropism{}) {
-                return fail("a tropism behind the last one");
-            }
-            ended = !is_used;
-        }
-        if (!(s.collar >= 0.0F)) {
-            return fail("a collar of factor {}", s.collar);
-        }
-        if (bytecode_.generations && *bytecode_.generations == kNone) {
-            return fail("more generations than there can be");
-        }
-        return true;
-    }
-
-    bool curves() {
-        for (std::size_t i = 0; i < bytecode_.curves.size(); ++i) {
-            const std::vector<CurveKnot>& points = bytecode_.curves[i].points;
-            if (points.size() < 2 || !is_printable(bytecode_.curves[i].name)) {
-                return fail("curve {} has {} points", i, points.size());
-            }
-            for (std::size_t k = 0; k < points.size(); ++k) {
-                if (!std::isfinite(points[k].x) || !std::isfinite(points[k].y) ||
-                    (k > 0 && !(points[k - 1].x < points[k].x))) {
-                    return fail("point {} of curve {} is out of place", k, i);
-                }
-            }
-        }
-        return true;
-    }
-
-    bool contours() {
-        for (std::size_t i = 0; i < bytecode_.contours.size(); ++i) {
-            const BytecodeContour& contour = bytecode_.contours[i];
-            if (contour.points.size() < kMinContourPoints ||
-                contour.points.size() > kMaxContourPoints || contour.name.empty() ||
-                !is_printable(contour.name)) {
-                return fail("contour {} has {} points", i, contour.points.size());
-            }
-            for (const ContourPoint& point : contour.points) {
-                if (!std::isfinite(point.x) || !std::isfinite(point.y)) {
-                    return fail("a point of contour {} is not finite", i);
-                }
-            }
-        }
-        return true;
+    /// Stores the problem if there is one.
+    bool has_no(std::optional<std::string> problem) {
+        problem_ = std::move(problem).value_or("");
+        return problem_.empty();
     }
 
     /// Whether the symbol sets a contour that does not exist.
@@ -234,33 +143,6 @@ private:
         return true;
     }
 
-    bool materials() {
-        const auto in_unit = [](float value) { return value >= 0.0F && value <= 1.0F; };
-        const auto is_picture = [&](const BytecodePicture& picture) {
-            return is_printable(picture.path) && site(picture.site);
-        };
-        std::uint64_t next = 0;
-        for (const BytecodeMaterial& material : bytecode_.materials) {
-            if (material.index < next || material.index > kMaxColourIndex) {
-                return fail("a material of colour index {} is out of place", material.index);
-            }
-            next = std::uint64_t{material.index} + 1;
-            if (!std::all_of(material.colour.begin(), material.colour.end(), in_unit) ||
-                !in_unit(material.roughness) || !in_unit(material.translucency)) {
-                return fail("a number of material {} is not from 0 to 1", material.index);
-            }
-            if (!is_picture(material.picture) || !is_picture(material.normal)) {
-                return fail("a picture of material {} has no place", material.index);
-            }
-        }
-        return true;
-    }
-
-    bool environments() {
-        problem_ = environments_problem(bytecode_).value_or("");
-        return problem_.empty();
-    }
-
     /// Checks each row of template_places; has_places() checks that each word begins a run.
     bool places() {
         const std::vector<PlaceRun>& runs = bytecode_.template_places;
@@ -297,9 +179,7 @@ private:
         return site != kNone && run != runs.end() && run->first == word.codes.first;
     }
 
-    bool site(std::uint32_t index) const {
-        return is_site(bytecode_, index);
-    }
+    bool site(std::uint32_t index) const { return is_site(bytecode_, index); }
 
     bool globals() {
         if (bytecode_.globals.size() > kMaxOperand) {
@@ -314,7 +194,7 @@ private:
                 global.minimum > global.maximum) {
                 return fail("global {} has invalid bounds", i);
             }
-            begin_piece();
+            code_.begin_piece();
             if (!code(CodePlace::Global, global.instruction,
                       {.globals = static_cast<std::uint32_t>(i), .draws = global.draw_count})) {
                 return false;
@@ -383,12 +263,12 @@ private:
                 !rule_or_group(i, p.group, group_example, true)) {
                 return false;
             }
-            begin_piece();
+            code_.begin_piece();
             if (p.condition != kNone &&
                 !code(CodePlace::Condition, p.condition, {.formals = p.formal_count})) {
                 return false;
             }
-            begin_piece();
+            code_.begin_piece();
             if (p.weight_code != kNone &&
                 !code(CodePlace::Condition, p.weight_code, {.formals = p.formal_count})) {
                 return false;
@@ -527,7 +407,7 @@ private:
         if (stored != word.parameter_count || (stored == 0) != (word.arguments == kNone)) {
             return fail("a successor stores {} parameters, not {}", stored, word.parameter_count);
         }
-        begin_piece();
+        code_.begin_piece();
         if (word.locals != kNone &&
             (place != CodePlace::Successor ||
              !code(CodePlace::Locals, word.locals,
@@ -542,172 +422,14 @@ private:
                     {.formals = formals, .draws = word.draw_count, .emits = word.parameter_count});
     }
 
-    /// Limits of the operands of a piece of code, and the number of values that it must produce.
-    struct CodeBounds {
-        std::uint32_t formals = 0;
-        std::uint32_t globals = kNone; // kNone: no limit
-        std::uint32_t draws = 0;
-        std::uint32_t emits = 1;
-    };
-
-    /// Verifies one piece of code, which may also read the slots that earlier code of the same word
-    /// has set.
     bool code(CodePlace place, std::uint32_t first, const CodeBounds& bounds) {
-        const std::vector<std::uint32_t>& instructions = bytecode_.instructions;
-        if (first != next_instruction_) {
-            return fail("the code at {} does not follow the code before it", first);
-        }
-        const bool numbered_by_pass =
-            (place == CodePlace::Successor || place == CodePlace::Locals) &&
-            bytecode_.settings.rewriting == RewritingMode::Sequential;
-        if (bounds.draws > (numbered_by_pass ? kMaxSequentialDraws : kMaxOperand)) {
-            return fail("the code at {} draws {} times", first, bounds.draws);
-        }
-        std::uint32_t depth = 0;
-        std::uint32_t taken_count = 0; // number of values that Emit or Test took
-        choices_.clear();
-        while (next_instruction_ < instructions.size()) {
-            const std::uint64_t at = next_instruction_++;
-            const std::uint32_t operand = instructions[at] >> 8;
-            if ((instructions[at] & 0xFF) >= kOpcodeCount) {
-                return fail("instruction {} does not exist", at);
-            }
-            const auto opcode = static_cast<Opcode>(instructions[at] & 0xFF);
-            const OpcodeInfo& row = info(opcode);
-            bool fits = false;
-            switch (row.operand) {
-            case OperandKind::None:
-                fits = operand == 0;
-                break;
-            case OperandKind::Literal:
-                fits = operand == 0 && next_instruction_++ < instructions.size();
-                break;
-            case OperandKind::Formal:
-                fits = operand < bounds.formals;
-                break;
-            case OperandKind::Global:
-                fits = operand < bytecode_.globals.size() && operand < bounds.globals;
-                break;
-            case OperandKind::Draw:
-                fits = operand < bounds.draws && record_draw(operand);
-                break;
-            case OperandKind::Branch:
-                fits = true;
-                break;
-            case OperandKind::Local:
-                fits = operand < bytecode_.local_count && slot(opcode, operand);
-                break;
-            case OperandKind::Curve:
-                fits = operand < bytecode_.curves.size();
-                break;
-            case OperandKind::Skip:
-                fits = true; // choice() checks the operand
-                break;
-            }
-            if (!fits || !allowed(place, opcode)) {
-                return fail("instruction {} ({}) is not allowed there", at, row.mnemonic);
-            }
-            if (row.pops > depth) {
-                return fail("instruction {} ({}) lacks values", at, row.mnemonic);
-            }
-            depth = depth - row.pops + row.pushes;
-            if (!choice(opcode, at, operand, depth)) {
-                return fail("instruction {} ({}) does not fit its choice", at, row.mnemonic);
-            }
-            if (opcode == Opcode::Emit || opcode == Opcode::Test) {
-                ++taken_count;
-            }
-            if (opcode == Opcode::End) {
-                return (depth == 0 && taken_count == bounds.emits && choices_.empty()) ||
-                       fail("the code at {} leaves a wrong number of values", first);
-            }
-        }
-        return fail("the code at {} has no end", first);
-    }
-
-    /// Records the use of draw `number`. Returns false if this word or constant has used it
-    /// already. Numbers of draws that constant folding removed stay unused.
-    bool record_draw(std::uint32_t number) {
-        draw_is_seen_.resize(std::max<std::size_t>(draw_is_seen_.size(), std::size_t{number} + 1));
-        const bool is_first = !draw_is_seen_[number];
-        draw_is_seen_[number] = true;
-        return is_first;
-    }
-
-    /// Begins a word, constant or condition, which shares neither slots nor draws with others.
-    void begin_piece() {
-        end_slots(0);
-        draw_is_seen_.clear();
-    }
-
-    /// Sets the slot if `opcode` is SetLocal; returns whether the slot has a value. Values set in
-    /// one side of a choice are lost at the end of that side.
-    bool slot(Opcode opcode, std::uint32_t index) {
-        is_set_.resize(std::max<std::size_t>(is_set_.size(), std::size_t{index} + 1));
-        if (opcode == Opcode::SetLocal && !is_set_[index]) {
-            is_set_[index] = true;
-            set_slots_.push_back(index);
-        }
-        return is_set_[index];
-    }
-
-    /// Clears all slots but the `count` that were set first.
-    void end_slots(std::size_t count) {
-        for (; set_slots_.size() > count; set_slots_.pop_back()) {
-            is_set_[set_slots_.back()] = false;
-        }
-    }
-
-    /// Whether an instruction fits the open choices: If skips to the instruction after its Else,
-    /// Else to the one after its EndIf, each side leaves one value, and Emit and Test are outside
-    /// of choices. `depth`: stack depth after the instruction.
-    bool choice(Opcode opcode, std::uint64_t at, std::uint32_t operand, std::uint32_t depth) {
-        if (opcode == Opcode::If) {
-            choices_.push_back({at + operand + 1, depth, set_slots_.size(), false});
-            return true;
-        }
-        if (opcode != Opcode::Else && opcode != Opcode::EndIf) {
-            return (opcode != Opcode::Emit && opcode != Opcode::Test) || choices_.empty();
-        }
-        if (choices_.empty()) {
-            return false;
-        }
-        Choice& open = choices_.back();
-        end_slots(open.slots);
-        if (opcode == Opcode::Else) {
-            const bool fits = !open.has_else && open.next == at + 1 && depth == open.depth + 1;
-            open.has_else = true;
-            open.next = at + operand + 1;
-            return fits;
-        }
-        const bool fits = open.has_else && open.next == at + 1 && depth == open.depth;
-        choices_.pop_back();
-        return fits;
-    }
-
-    bool allowed(CodePlace place, Opcode opcode) const {
-        const bool in_production = place == CodePlace::Condition || place == CodePlace::Locals ||
-                                   place == CodePlace::Successor;
-        switch (opcode) {
-        case Opcode::Step:
-            return in_production;
-        case Opcode::BranchDraw:
-            return place == CodePlace::Successor;
-        case Opcode::Steps:
-            return bytecode_.uses_steps && in_production;
-        case Opcode::Emit:
-            return place != CodePlace::Condition && place != CodePlace::Locals;
-        case Opcode::Test:
-            return place == CodePlace::Condition;
-        default:
-            return true;
-        }
+        return has_no(code_.problem(place, first, bounds));
     }
 
     bool ends() {
         if (next_pattern_ != bytecode_.patterns.size() ||
             next_code_ != bytecode_.template_codes.size() ||
-            next_instruction_ != bytecode_.instructions.size()) {
+            code_.next() != bytecode_.instructions.size()) {
             return fail("a table holds more than the productions use");
         }
         const CodeNeeds needs = needs_of(bytecode_.instructions);
@@ -720,21 +442,10 @@ private:
     const Bytecode& bytecode_;
     std::vector<std::uint32_t> parameters_; // per symbol: number of parameters
     std::string problem_;
-    /// A choice whose EndIf has not been read yet.
-    struct Choice {
-        std::uint64_t next = 0;  // target of the skip of its If or Else
-        std::uint32_t depth = 0; // stack depth, condition included
-        std::size_t slots = 0;   // number of slots set before the choice
-        bool has_else = false;
-    };
-    std::vector<Choice> choices_;
-    std::vector<std::uint32_t> set_slots_; // slots with a value, in the order of setting
-    std::vector<bool> is_set_;             // by slot: whether it has a value
-    std::vector<bool> draw_is_seen_;       // per random draw of the current word or constant
     // The first elements of the tables that no part of the program so far has.
     std::uint64_t next_pattern_ = 0;
     std::uint64_t next_code_ = 0;
-    std::uint64_t next_instruction_ = 0;
+    CodeVerifier code_;
 };
 
 } // namespace

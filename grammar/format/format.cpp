@@ -3,6 +3,7 @@
 
 #include "grammar/base/utf8.h"
 #include "grammar/format/impl/columns.h"
+#include "grammar/format/impl/conditions.h"
 #include "grammar/format/impl/lexemes.h"
 #include "grammar/format/impl/lines.h"
 #include "grammar/format/impl/pieces.h"
@@ -128,9 +129,13 @@ private:
         PieceReader reader(text_, row.begin);
         LineWriter writer(out, row.column);
         const bool breaks_head = row.head > kColumns;
+        const ConditionLines condition =
+            breaks_head ? ConditionLines(text_, row.begin, row.column) : ConditionLines();
         std::size_t cell = 0;
+        std::size_t index = 0;
         bool in_head = true;
-        for (Piece piece; reader.next(piece);) {
+        for (Piece piece; reader.next(piece); ++index) {
+            condition.place(index, piece);
             std::uint32_t blanks = piece.has_blank_before ? 1 : 0;
             if (piece.begins_cell && cell + 1 < kCells) {
                 blanks += row.cells[cell];

@@ -147,7 +147,7 @@ private:
             if (is_cancelled(context_.cancelled)) {
                 return;
             }
-            const std::size_t end = std::min(crowd.size(), (piece + 1) * kPiece);
+            const std::size_t end = std::min<std::size_t>(crowd.size(), (piece + 1) * kPiece);
             for (std::size_t at = piece * kPiece; at < end; ++at) {
                 crowd.answer(at, radius * radius,
                              answers.data() + std::size_t{crowd.position(at)} * 4);

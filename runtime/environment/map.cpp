@@ -29,7 +29,7 @@ public:
         constexpr std::size_t kPiece = 1U << 14; // places of one piece of work
         const std::size_t count = word.places.size();
         context_.workers->for_each((count + kPiece - 1) / kPiece, [&](std::uint64_t piece) {
-            const std::size_t end = std::min(count, (piece + 1) * kPiece);
+            const std::size_t end = std::min<std::size_t>(count, (piece + 1) * kPiece);
             for (std::size_t i = piece * kPiece; i < end; ++i) {
                 const Vector3& place = word.places[i].position;
                 answers[i] = static_cast<float>(value(place[0], place[2])) + 0.0F; // -0 becomes 0

@@ -118,7 +118,7 @@ private:
         const std::size_t pieces = (places.size() + kPiece - 1) / kPiece;
         std::atomic<std::size_t> first_beyond{kNone};
         context_.workers->for_each(pieces, [&](std::uint64_t piece) {
-            const std::size_t end = std::min(places.size(), (piece + 1) * kPiece);
+            const std::size_t end = std::min<std::size_t>(places.size(), (piece + 1) * kPiece);
             for (std::size_t i = piece * kPiece; i < end && !is_cancelled(); ++i) {
                 const Vector3& place = places[i].position;
                 const std::optional<CellIndex> own = cell_of(place, cell_);

@@ -8,7 +8,9 @@
 // of the least squared distance to a triangle with an area (impl/triangle_distance.h); the unit
 // vector is the vector to the nearest point, each component divided by the distance. Of surfaces at
 // equal distances the first is taken, planes before meshes. Triangles, of one mesh or of several,
-// are compared by squared distances.
+// are compared by squared distances. A distance to a mesh of at most 2^-48 times the greatest
+// magnitude of a coordinate, of the place or of a corner of a triangle, is 0: the nearest point has
+// rounding errors of that order, so that places on a face would not be on the surface.
 #include "grammar/base/contract.h"
 #include "runtime/environment/environment.h"
 #include "runtime/environment/impl/input_checks.h"
@@ -23,6 +25,13 @@
 namespace lsys {
 
 namespace {
+
+/// Max distance to a mesh of places on its surface, over the greatest magnitude of a coordinate.
+constexpr double kOnSurface = 0x1p-48;
+
+double magnitude_of(const Vector3& point) {
+    return std::max({std::abs(point[0]), std::abs(point[1]), std::abs(point[2])});
+}
 
 struct SolidPlane {
     Vector3 normal{};    // a, b, c
@@ -69,11 +78,12 @@ public:
     }
 
 private:
+    static constexpr std::size_t kPlaces = 1U << 8; // places per piece of work
+
     std::optional<EnvironmentFailure> answer_all(std::span<const SensePlace> places,
                                                  std::vector<float>& answers) const {
         // Places near each other are answered one after the other, because their searches visit the
         // same nodes of the trees.
-        constexpr std::size_t kPlaces = 1U << 8; // places per piece of work
         const std::size_t count = places.size();
         const std::uint64_t bytes = tree_bytes_ + count * kSpaceOrderBytes;
         if (bytes > context_.max_bytes) {
@@ -92,9 +102,13 @@ private:
             for (std::size_t i = begin; i < end; ++i) {
                 positions[i - begin] = places[order[i]].position;
             }
-            std::vector<std::uint32_t> hints(trees_.size(), 0);
+            std::array<NearestPoint, kPlaces> nearest;
+            for (const std::unique_ptr<TriangleTree>& tree : trees_) {
+                tree->find_nearest({positions.data(), end - begin}, nearest);
+            }
             for (std::size_t i = begin; i < end; ++i) {
-                answer_one(positions[i - begin], hints, answers.data() + std::size_t{order[i]} * 4);
+                answer_one(positions[i - begin], nearest[i - begin],
+                           answers.data() + std::size_t{order[i]} * 4);
             }
         });
         if (is_cancelled(context_.cancelled)) {
@@ -120,7 +134,13 @@ private:
             return beyond_memory(bytes);
         }
         std::vector<std::unique_ptr<TriangleTree>> trees;
+        double magnitude = 0.0;
         for (const EnvironmentMesh& mesh : files_.meshes) {
+            for (const std::array<std::uint32_t, 3>& corners : mesh.triangles) {
+                for (const std::uint32_t corner : corners) {
+                    magnitude = std::max(magnitude, magnitude_of(mesh.vertices[corner]));
+                }
+            }
             trees.push_back(std::make_unique<TriangleTree>(mesh, context_));
             if (is_cancelled(context_.cancelled)) {
                 return stopped(Stop::Cancelled);
@@ -131,11 +151,13 @@ private:
             }
         }
         trees_ = std::move(trees);
+        magnitude_ = magnitude;
         tree_bytes_ = bytes;
         return std::nullopt;
     }
 
-    void answer_one(const Vector3& place, std::vector<std::uint32_t>& hints, float* answer) const {
+    /// `nearest`: the nearest point of all meshes.
+    void answer_one(const Vector3& place, const NearestPoint& nearest, float* answer) const {
         double distance = std::numeric_limits<double>::infinity();
         Vector3 direction{};
         bool inside = false;
@@ -151,12 +173,14 @@ private:
                 }
             }
         }
-        NearestPoint nearest;
-        for (std::size_t i = 0; i < trees_.size(); ++i) {
-            trees_[i]->find_nearest(place, nearest, hints[i]);
-            inside = inside || trees_[i]->is_inside(place);
+        for (const std::unique_ptr<TriangleTree>& tree : trees_) {
+            inside = inside || tree->is_inside(place);
         }
-        if (const double from_mesh = std::sqrt(nearest.squared); from_mesh < distance) {
+        double from_mesh = std::sqrt(nearest.squared);
+        if (from_mesh <= kOnSurface * std::max(magnitude_, magnitude_of(place))) {
+            from_mesh = 0.0;
+        }
+        if (from_mesh < distance) {
             distance = from_mesh;
             direction = normalised(nearest.away);
         }
@@ -171,6 +195,7 @@ private:
     std::vector<SolidPlane> planes_;
     std::vector<std::unique_ptr<TriangleTree>> trees_; // one for each mesh, after begin()
     std::uint64_t tree_bytes_ = 0;                     // bytes of `trees_`
+    double magnitude_ = 0.0; // m, greatest magnitude of a coordinate of the meshes
 };
 
 } // namespace

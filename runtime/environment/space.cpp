@@ -17,6 +17,7 @@
 #include "runtime/environment/impl/markers.h"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
 #include <iterator>
@@ -26,7 +27,7 @@ namespace lsys {
 
 namespace {
 
-constexpr std::size_t kMarkersPerPiece = 1U << 11;
+constexpr std::size_t kMarkersPerPiece = 1U << 9;
 
 class SpaceEnvironment : public Environment {
 public:
@@ -170,12 +171,19 @@ LargeVector<std::uint32_t> SpaceEnvironment::take_markers(const MarkerSearch& se
         if (is_cancelled(context_.cancelled)) {
             return;
         }
-        const std::size_t end = std::min(markers_.size(), (piece + 1) * kMarkersPerPiece);
+        const std::size_t begin = piece * kMarkersPerPiece;
+        const std::size_t end = std::min(markers_.size(), begin + kMarkersPerPiece);
+        // Read all positions in one loop, so that the processor waits for several reads at the
+        // same time.
+        std::array<Vector3, kMarkersPerPiece> positions;
+        for (std::size_t at = begin; at < end; ++at) {
+            positions[at - begin] = shape_->position(markers_[order[at]].units);
+        }
         std::uint32_t hint = kNoPlace;
-        for (std::size_t at = piece * kMarkersPerPiece; at < end; ++at) {
-            const std::uint32_t i = order[at];
-            owners[i] = search.find(shape_->position(markers_[i].units), hint);
-            hint = owners[i] < kKilled ? owners[i] : hint;
+        for (std::size_t at = begin; at < end; ++at) {
+            const std::uint32_t owner = search.find(positions[at - begin], hint);
+            owners[order[at]] = owner;
+            hint = owner < kKilled ? owner : hint;
         }
     });
     std::size_t left = 0;
@@ -212,7 +220,7 @@ void SpaceEnvironment::write_answers(std::span<const SensePlace> places,
     constexpr std::size_t kPlacesPerPiece = 1U << 9;
     const std::uint64_t pieces = (places.size() + kPlacesPerPiece - 1) / kPlacesPerPiece;
     context_.workers->for_each(pieces, [&](std::uint64_t piece) {
-        const std::size_t end = std::min(places.size(), (piece + 1) * kPlacesPerPiece);
+        const std::size_t end = std::min<std::size_t>(places.size(), (piece + 1) * kPlacesPerPiece);
         for (std::size_t i = piece * kPlacesPerPiece; i < end; ++i) {
             const std::uint32_t first = i == 0 ? 0 : ends[i - 1];
             write_one(places[i], {sorted.data() + first, ends[i] - first}, answers.data() + i * 4);

@@ -153,7 +153,7 @@ struct UserMesh {
     std::shared_ptr<const Texture> picture;         // picture of the whole mesh; may be null
     std::shared_ptr<const Texture> normal_map;      // normals of the whole mesh; may be null
     std::vector<std::string> files;                 // files tried to find the picture
-    [[nodiscard]] float length() const;             // max y, at least 0
+    [[nodiscard]] float length() const;             // max y - min y
     [[nodiscard]] std::uint64_t byte_count() const; // in memory, without the picture
 };
 

@@ -44,9 +44,10 @@ public:
 
 private:
     ShapePart& part_of(ItemColour colour, bool closed) {
-        const auto found = std::ranges::find_if(shape_.parts, [&](const OrganPart& part) {
-            return part.colour == colour && part.shape.material.two_sided == !closed;
-        });
+        const auto found =
+            std::find_if(shape_.parts.begin(), shape_.parts.end(), [&](const OrganPart& part) {
+                return part.colour == colour && part.shape.material.two_sided == !closed;
+            });
         if (found != shape_.parts.end()) {
             return found->shape;
         }
@@ -55,16 +56,6 @@ private:
         part.shape.material = wood_material(colour);
         part.shape.material.two_sided = !closed;
         return part.shape;
-    }
-
-    static std::uint32_t append(ShapePart& part,
-                                const glm::dvec3& position,
-                                const glm::dvec3& normal,
-                                const glm::dvec2& texture) {
-        part.positions.emplace_back(position);
-        part.normals.emplace_back(normal);
-        part.texture_coordinates.emplace_back(texture);
-        return static_cast<std::uint32_t>(part.positions.size() - 1);
     }
 
     /// Appends a triangle unless two corners are at one place.
@@ -95,8 +86,8 @@ private:
             for (std::size_t r = row; r <= last; ++r) {
                 const OrganRing& ring = sheet.rings[r];
                 for (std::uint32_t c = 0; c < columns; ++c) {
-                    append(part, ring.positions[c], normals[r * columns + c],
-                           {ring.around[c], -ring.along});
+                    append_vertex(part, ring.positions[c], normals[r * columns + c],
+                                  {ring.around[c], -ring.along});
                 }
             }
             for (std::size_t r = row; r < last; ++r) {
@@ -151,7 +142,7 @@ private:
             flat.push_back(begins ? at : glm::dvec2(at.y, at.x));
             middle += flat.back();
             centre += ring.positions[column];
-            append(part, ring.positions[column], normal, scale * at);
+            append_vertex(part, ring.positions[column], normal, scale * at);
         }
         const auto count = static_cast<std::uint32_t>(flat.size());
         middle /= static_cast<double>(count);
@@ -159,14 +150,15 @@ private:
         const bool turned = signed_area(flat) < 0.0;
         if (is_star(flat, middle, turned)) {
             const glm::dvec2 texture = begins ? middle : glm::dvec2(middle.y, middle.x);
-            const std::uint32_t centre_vertex = append(part, centre, normal, scale * texture);
+            const std::uint32_t centre_vertex =
+                append_vertex(part, centre, normal, scale * texture);
             for (std::uint32_t i = 0; i < count; ++i) {
                 append_triangle(part, {centre_vertex, first + i, first + (i + 1) % count}, turned);
             }
             return;
         }
         if (turned) {
-            std::ranges::reverse(flat);
+            std::reverse(flat.begin(), flat.end());
         }
         std::vector<std::uint32_t> triangles;
         Triangulator().append(flat, triangles);
@@ -198,10 +190,14 @@ private:
         std::vector<StepCorner> from = corners_of(low, low.rings.back());
         std::vector<StepCorner> to = corners_of(high, high.rings.front());
         // The rings begin at different places; the step begins at the nearest pair.
-        const auto nearest = std::ranges::min_element(to, {}, [&](const StepCorner& corner) {
+        const auto distance = [&](const StepCorner& corner) {
             return glm::length(corner.position - from.front().position);
-        });
-        std::ranges::rotate(to, nearest);
+        };
+        const auto nearest =
+            std::min_element(to.begin(), to.end(), [&](const StepCorner& a, const StepCorner& b) {
+                return distance(a) < distance(b);
+            });
+        std::rotate(to.begin(), nearest, to.end());
         const glm::dvec3 heading = high.rings.front().heading;
         // Triangles that face ahead, and triangles that face back, which have vertices of their own.
         std::array<std::vector<std::array<const StepCorner*, 3>>, 2> sides;
@@ -239,8 +235,9 @@ private:
                 for (std::size_t i = 0; i < corners.size(); ++i) {
                     const auto [found, is_new] = vertices.try_emplace(corners[i], 0);
                     if (is_new) {
-                        found->second = append(part, corners[i]->position,
-                                               side == 0 ? heading : -heading, corners[i]->texture);
+                        found->second =
+                            append_vertex(part, corners[i]->position,
+                                          side == 0 ? heading : -heading, corners[i]->texture);
                     }
                     triangle[i] = found->second;
                 }

@@ -475,11 +475,13 @@ private:
 } // namespace
 
 float UserMesh::length() const {
-    float height = 0.0F;
-    for (const glm::vec3& position : positions) {
-        height = std::max(height, position.y);
+    if (positions.empty()) {
+        return 0.0F;
     }
-    return height;
+    const auto [lowest, highest] =
+        std::minmax_element(positions.begin(), positions.end(),
+                            [](const glm::vec3& a, const glm::vec3& b) { return a.y < b.y; });
+    return highest->y - lowest->y;
 }
 
 std::uint64_t UserMesh::byte_count() const {

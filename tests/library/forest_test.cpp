@@ -278,6 +278,32 @@ TEST_CASE("matrices of instances are those of their places, in a buffer with a s
     }
 }
 
+TEST_CASE("trees at places sense their surroundings if the option says so") {
+    // A mast with two arms, which stop in the shade of another mast.
+    const std::string star =
+        "#n = 6; #sense light shadow cell 1 levels 20 strength 0.1 ratio 1;"
+        "#w : F(3) [ +(90) ?light(1,0,0,0,0) ] [ -(90) ?light(1,0,0,0,0) ] ?light(1,0,0,0);"
+        "#arm : ?light(q,x,y,z,k) : k < 2 || q > 0.85 : F(1) ?light(0,0,0,0,k+1);"
+        "#mast : ?light(q,x,y,z) : * : F(1) ?light(0,0,0,0);";
+    lsys::Project project;
+    project.host.read_file = [&star](const std::string&) {
+        return lsys::FileContents{true, star, {}};
+    };
+    std::vector<lsys::Tree> places(3);
+    places[1].position.x = 6.0F;
+    places[2].position.x = 100.0F;
+    lsys::ForestOptions options;
+    options.scene = {{"rho", "0"}, {"heroes", "1"}};
+    const auto ignored = lsys::forest_of_places({"star.lsys"}, places, options, project);
+    options.scene.emplace_back("surroundings", "sensed");
+    const auto sensed = lsys::forest_of_places({"star.lsys"}, places, options, project);
+    REQUIRE(ignored);
+    REQUIRE(sensed);
+    CHECK(ignored->species()[0].generations.size() == 1);
+    CHECK(sensed->species()[0].generations.size() == 6);
+    CHECK(sensed->count().segments < ignored->count().segments);
+}
+
 TEST_CASE("invalid places are refused") {
     const auto text_of = [](const lsys::Tree& place) {
         const auto forest = lsys::forest_of_places({"tree.lsys"}, {&place, 1}, {}, tree_project());

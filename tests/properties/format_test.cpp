@@ -127,6 +127,52 @@ private:
     std::uint64_t state_;
 };
 
+/// Writes random productions with long conditions.
+class ConditionWriter {
+public:
+    explicit ConditionWriter(std::uint64_t seed) : state_(seed * 2 + 1) {}
+
+    std::string production(const std::string& name) {
+        std::string text = "#" + name + " : A(length, width, age) : " + condition(3);
+        text += next(3) == 0 ? " ~ 0.25" : "";
+        if (next(2) == 0) {
+            text += " : let a = " + sum() + ", b = " + sum();
+        }
+        return text + (next(5) == 0 ? " : ;\n" : " : F(length) [ +(30) A(length, width, age) ];\n");
+    }
+
+private:
+    std::string condition(int depth) {
+        std::string text;
+        const std::uint64_t operands = 1 + next(5);
+        for (std::uint64_t i = 0; i < operands; ++i) {
+            text += i == 0 ? "" : next(2) == 0 ? " || " : " && ";
+            text += depth > 0 && next(6) == 0
+                        ? (next(2) == 0 ? "!(" : "(") + condition(depth - 1) + ")"
+                        : sum() + (next(2) == 0 ? " > " : " <= ") + sum();
+        }
+        return text;
+    }
+
+    std::string sum() {
+        static const char* const terms[] = {"length", "width",       "age",         "0.25*length^2",
+                                            "-width", "min(age, 3)", "step()/12.5", "100"};
+        std::string text;
+        const std::uint64_t count = 1 + next(3);
+        for (std::uint64_t i = 0; i < count; ++i) {
+            text += (i == 0 ? "" : " + ") + std::string(terms[next(std::size(terms))]);
+        }
+        return text;
+    }
+
+    std::uint64_t next(std::uint64_t count) {
+        state_ = state_ * 6364136223846793005U + 1442695040888963407U;
+        return (state_ >> 33) % count;
+    }
+
+    std::uint64_t state_;
+};
+
 /// A message about the first property that does not hold; empty if all hold.
 std::string mistake_in_layout_of(const std::string& text) {
     const std::optional<std::string> before = tree_of(text);
@@ -191,4 +237,19 @@ TEST_CASE("formatting random grammars keeps their meaning, and formatting again 
         }
     }
     CHECK(tried >= 3000);
+}
+
+TEST_CASE(
+    "formatting random conditions keeps their meaning, and formatting again changes nothing") {
+    std::size_t long_count = 0;
+    for (std::uint64_t seed = 0; seed < 1000; ++seed) {
+        ConditionWriter writer(seed);
+        std::string text = "#n = 1;\n#w : A(1, 2, 3);\n";
+        for (const char* const name : {"p", "q", "r"}) {
+            text += writer.production(name);
+        }
+        check_layouts_of(text, seed);
+        long_count += format_text(text).find("\n        ") != std::string::npos ? 1U : 0U;
+    }
+    CHECK(long_count > 500); // otherwise few conditions were laid out
 }

@@ -169,6 +169,24 @@ class Forests(unittest.TestCase):
             with self.assertRaisesRegex(ValueError, f"{name} is a whole number"):
                 lsys.Forest.from_places("tree.lsys", positions, read_file=read(), **{name: value})
 
+    def test_surroundings(self):
+        """Arms of a tree stop in the shade of its neighbour only if its species senses it."""
+        star = ("#n = 6; #sense light shadow cell 1 levels 20 strength 0.1 ratio 1;"
+                "#w : F(3) [ +(90) ?light(1, 0, 0, 0, 0) ] [ -(90) ?light(1, 0, 0, 0, 0) ] ?light(1, 0, 0, 0);"
+                "#arm : ?light(q, x, y, z, k) : k < 2 || q > 0.85 : F(1) ?light(0, 0, 0, 0, k + 1);"
+                "#mast : ?light(q, x, y, z) : * : F(1) ?light(0, 0, 0, 0);")
+        positions = [[0, 0, 0], [6, 0, 0], [100, 0, 0]]
+        segments = {}
+        for surroundings in ("ignored", "sensed"):
+            forest = lsys.Forest.from_places("star.lsys", positions, surroundings=surroundings, rho=0, heroes=1,
+                                             read_file={"star.lsys": star}.get)
+            stages = len(forest.species[0].generations)
+            self.assertEqual(stages, 6 if surroundings == "sensed" else 1)
+            segments[surroundings] = forest.count().segments
+        self.assertGreater(segments["ignored"], segments["sensed"])
+        with self.assertRaises(lsys.LsysError):
+            lsys.Forest("star.lsys", surroundings="seen", read_file={"star.lsys": star}.get)
+
     def test_instances(self):
         forest = lsys.Forest("tree.lsys", count=200, heroes=2, read_file=read())
         instances = forest.instances

@@ -51,11 +51,13 @@ double half_area(const MeshFile& mesh) {
 }
 
 double length_of_object(const MeshFile& mesh) {
-    float top = 0;
+    float bottom = mesh.vertices.front()[1];
+    float top = bottom;
     for (const std::array<float, 3>& vertex : mesh.vertices) {
+        bottom = std::min(bottom, vertex[1]);
         top = std::max(top, vertex[1]);
     }
-    return static_cast<double>(top);
+    return static_cast<double>(top - bottom);
 }
 
 GreyPicture grey_of(const PictureFile& picture) {

@@ -17,7 +17,7 @@ const PictureFile& picture_of(const Grammar& grammar, const std::string& path);
 Surface surface_of(const MeshFile& mesh);
 // Half the area of the triangles, of an object at scale 1.
 double half_area(const MeshFile& mesh);
-// The greatest y, at least 0.
+// The greatest y minus the least y.
 double length_of_object(const MeshFile& mesh);
 
 // The grey values of a picture, 0 to 1: 0.2126 R + 0.7152 G + 0.0722 B as stored, over 255 or

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "compiler/bytecode/impl/verify_senses.h"
+#include "compiler/bytecode/impl/verify_parts.h"
 
 #include <fmt/format.h>
 

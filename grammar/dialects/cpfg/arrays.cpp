@@ -119,7 +119,8 @@ ForeignId CpfgExpressions::number_node(double value, SourceSpan span) {
     const auto [end, error] = number_to_chars(buffer.data(), buffer.data() + buffer.size(),
                                               value == 0.0 ? 0.0 : value); // no -0
     LSYS_CHECK(error == std::errc());
-    return tree_.number(std::string_view(buffer.data(), end), span);
+    const auto length = static_cast<std::size_t>(end - buffer.data());
+    return tree_.number(std::string_view(buffer.data(), length), span);
 }
 
 void CpfgExpressions::loop(const CpfgStatement& statement) {

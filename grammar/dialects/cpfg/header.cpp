@@ -139,7 +139,7 @@ void CpfgWriter::write_organs() {
                      header_);
         }
     }
-    if (std::ranges::none_of(used_, is_organ_command)) {
+    if (!std::ranges::any_of(used_, is_organ_command)) {
         return;
     }
     if (organs_.sides != 0) {

@@ -12,11 +12,11 @@ constexpr std::uint32_t kMaxIndentLevel = 4;
 /// Lines are not broken left of this column if they can be broken right of it.
 constexpr std::uint32_t kShortLine = 40;
 
-std::uint32_t indent_of(std::uint32_t depth) {
+} // namespace
+
+std::uint32_t line_indent(std::uint32_t depth) {
     return kIndent * (1 + std::min(depth, kMaxIndentLevel));
 }
-
-} // namespace
 
 void LineWriter::add(const Piece& piece, std::uint32_t blanks, bool may_break) {
     if (piece.begins_line) {
@@ -56,7 +56,7 @@ void LineWriter::finish() {
 void LineWriter::new_line(std::uint32_t depth) {
     out_ += line_;
     out_ += '\n';
-    column_ = indent_of(depth);
+    column_ = line_indent(depth);
     line_.assign(column_, ' ');
     breaks_.clear();
     at_begin_ = true;
@@ -90,7 +90,7 @@ std::size_t LineWriter::best_break() const {
 void LineWriter::break_line() {
     const std::size_t index = best_break();
     const LineBreak chosen = breaks_[index];
-    const std::uint32_t indent = indent_of(chosen.depth);
+    const std::uint32_t indent = line_indent(chosen.depth);
     out_.append(line_, 0, chosen.end);
     out_ += '\n';
     line_.replace(0, chosen.begin, indent, ' ');

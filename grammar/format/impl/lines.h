@@ -14,6 +14,9 @@ namespace lsys {
 
 inline constexpr std::uint32_t kColumns = 100;
 
+/// Columns of indentation of a line that continues a statement, at that many levels.
+[[nodiscard]] std::uint32_t line_indent(std::uint32_t depth);
+
 class LineWriter {
 public:
     /// Appends to `out`, whose last line already has `column` columns.

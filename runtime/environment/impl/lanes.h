@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
-// Four numbers in binary32 at once, for bounds of distances. Every operation is rounded as that of
-// one number, so all machines have the same bits.
+// Four numbers in binary32 at once, for bounds of distances, and two in binary64. Every operation is
+// rounded as that of one number, so all machines have the same bits.
 #pragma once
 
+#include <array>
 #include <bit>
 #include <cmath>
 #include <cstddef>
@@ -17,6 +18,7 @@ namespace lsys {
 
 inline constexpr std::size_t kLanes = 4;
 using Lanes = float __attribute__((vector_size(4 * kLanes)));
+using Pair = double __attribute__((vector_size(16)));
 using LaneMask = std::int32_t __attribute__((vector_size(4 * kLanes))); // -1 or 0
 
 /// Square roots are rounded correctly everywhere.
@@ -31,14 +33,32 @@ using LaneMask = std::int32_t __attribute__((vector_size(4 * kLanes))); // -1 or
 #endif
 }
 
-/// 0 for negative numbers and NaN.
-[[nodiscard]] inline Lanes not_negative(Lanes numbers) {
-    return numbers > 0.0F ? numbers : Lanes{};
-}
-
 /// The greater of two numbers; `b` for NaN.
 [[nodiscard]] inline Lanes greater(Lanes a, Lanes b) {
     return a > b ? a : b;
+}
+
+[[nodiscard]] inline Pair greater(Pair a, Pair b) {
+    return a > b ? a : b;
+}
+/// The lesser of two numbers; `b` for NaN.
+[[nodiscard]] inline Pair lesser(Pair a, Pair b) {
+    return a < b ? a : b;
+}
+
+/// 0 for negative numbers and NaN.
+[[nodiscard]] inline Lanes not_negative(Lanes numbers) {
+    return greater(numbers, Lanes{});
+}
+
+/// Absolute values.
+[[nodiscard]] inline Lanes magnitudes(Lanes numbers) {
+    return std::bit_cast<Lanes>(std::bit_cast<LaneMask>(numbers) & 0x7FFFFFFF);
+}
+
+/// Each coordinate in all four lanes.
+[[nodiscard]] inline std::array<Lanes, 3> in_all_lanes(const std::array<float, 3>& point) {
+    return {Lanes{} + point[0], Lanes{} + point[1], Lanes{} + point[2]};
 }
 
 /// Bit i is set if lane i is -1.

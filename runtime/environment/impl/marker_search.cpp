@@ -19,7 +19,8 @@ MarkerReach marker_reach(const BytecodeEnvironment& declared) {
 MarkerSearch::MarkerSearch(std::span<const SensePlace> places,
                            const MarkerReach& reach,
                            const EnvironmentContext& context)
-    : places_(places), reach_(reach), compares_headings_(!reach.sees_all) {
+    : places_(places), reach_(reach), radius_(std::sqrt(reach.radius_squared)),
+      kill_(std::sqrt(reach.kill_squared)), compares_headings_(!reach.sees_all) {
     if (places.empty()) {
         return;
     }
@@ -36,7 +37,7 @@ MarkerSearch::MarkerSearch(std::span<const SensePlace> places,
         // 2.
         compares_headings_ = compares_headings_ && squared_length(place.heading) < 4.0;
     }
-    frame_ = Frame(box, std::sqrt(reach.radius_squared));
+    frame_ = Frame(box, radius_);
     const LargeVector<WideChild> children = make_wide_nodes(split, nodes_);
     for (Node& node : nodes_) {
         if (node.is_leaf) {
@@ -85,9 +86,9 @@ class MarkerSearch::Query {
 public:
     Query(const MarkerSearch& search, const Vector3& marker)
         : search_(search), marker_(marker), framed_(search.frame_.framed_place(marker)),
-          nearest_(search.reach_.radius_squared), limit_(limit_of(nearest_)),
-          kill_limit_(search.reach_.kill_squared > 0.0 ? limit_of(search.reach_.kill_squared)
-                                                       : -1.0F) {
+          at_(in_all_lanes(framed_.at)), nearest_(search.reach_.radius_squared),
+          limit_(limit_of(search.radius_)),
+          kill_limit_(search.kill_ > 0.0 ? limit_of(search.kill_) : -1.0F) {
         if (search.compares_headings_ && framed_.is_bounded) {
             cosine_ = static_cast<float>(search.reach_.cosine);
             // With u and s of Frame::framed_place(), the dot product of heading and `way` has an
@@ -100,18 +101,18 @@ public:
         if (hint < kKilled && consider(hint)) {
             return kKilled;
         }
-        std::array<OpenNode, kMaxOpenNodes> open;
+        OpenNodes open;
         std::size_t count = 0;
-        open[count++] = {0, 0.0F};
+        open[count++] = OpenNode::root();
         while (count > 0) {
             const OpenNode next = open[--count];
             const float limit = std::max(limit_, kill_limit_);
-            if (next.least > limit) {
+            if (next.least() > limit) {
                 continue;
             }
-            const Node& node = search_.nodes_[next.node];
-            const std::uint32_t used = (1U << node.count) - 1;
+            const Node& node = search_.nodes_[next.index()];
             if (node.is_leaf) {
+                const std::uint32_t used = (1U << node.count) - 1;
                 for (std::uint32_t bits = candidates(node) & used; bits != 0; bits &= bits - 1) {
                     if (consider(node.children[lowest_lane(bits)])) {
                         return kKilled;
@@ -119,20 +120,15 @@ public:
                 }
                 continue;
             }
-            const Lanes least = least_squared(node);
-            const std::size_t bottom = count;
-            for (std::uint32_t bits = ~lane_bits(least > limit) & used; bits != 0;
-                 bits &= bits - 1) {
-                const std::size_t lane = lowest_lane(bits);
-                open_sorted(open, bottom, count, {node.children[lane], least[lane]});
-            }
+            count = push_children(open, count, node, least_squared(node), limit);
         }
         return found_;
     }
 
 private:
-    [[nodiscard]] float limit_of(double squared) const {
-        const double distance = std::sqrt(squared) * search_.frame_.scale() + framed_.margin;
+    /// The squared distance in the frame, with its margin, of a distance in metres.
+    [[nodiscard]] float limit_of(double metres) const {
+        const double distance = metres * search_.frame_.scale() + framed_.margin;
         return framed_.is_bounded ? upper_float(distance * distance)
                                   : std::numeric_limits<float>::infinity();
     }
@@ -140,8 +136,8 @@ private:
     [[nodiscard]] Lanes least_squared(const Node& node) const {
         Lanes sum{};
         for (std::size_t axis = 0; axis < 3; ++axis) {
-            const Lanes apart = not_negative(
-                greater(node.low[axis] - framed_.at[axis], framed_.at[axis] - node.high[axis]));
+            const Lanes apart =
+                not_negative(greater(node.low[axis] - at_[axis], at_[axis] - node.high[axis]));
             sum += apart * apart;
         }
         return sum;
@@ -153,7 +149,7 @@ private:
         Lanes squared{};
         Lanes towards{}; // dot product of heading and `way`
         for (std::size_t axis = 0; axis < 3; ++axis) {
-            const Lanes way = framed_.at[axis] - node.low[axis];
+            const Lanes way = at_[axis] - node.low[axis];
             squared += way * way;
             towards += way * node.high[axis];
         }
@@ -174,7 +170,7 @@ private:
             search_.sees(position, way, squared)) {
             nearest_ = squared;
             found_ = position;
-            limit_ = limit_of(squared);
+            limit_ = limit_of(std::sqrt(squared));
         }
         return false;
     }
@@ -182,6 +178,7 @@ private:
     const MarkerSearch& search_;
     const Vector3& marker_;
     FramedPlace framed_;
+    std::array<Lanes, 3> at_;        // `framed_.at`
     double nearest_;                 // squared, m^2
     std::uint32_t found_ = kNoPlace; // the nearest place so far that sees the marker
     float limit_;          // squared distance in the frame above which a place cannot be nearest

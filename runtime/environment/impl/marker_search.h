@@ -64,6 +64,8 @@ private:
 
     std::span<const SensePlace> places_;
     MarkerReach reach_;
+    double radius_ = 0.0; // m, square root of reach_.radius_squared
+    double kill_ = 0.0;   // m, likewise
     Frame frame_;
     bool compares_headings_ = false; // whether the angle is tested in binary32
     LargeVector<Node> nodes_;        // the root first

@@ -15,15 +15,20 @@ namespace {
 constexpr std::uint32_t kMarkerGeneration = 0xFFFFFFFDu;
 constexpr std::uint32_t kCellBits = 5; // a grid has 32 cells along each axis
 
+/// Moves bit i of five bits to bit 3 i.
+std::uint32_t spread_bits(std::uint32_t bits) {
+    bits = (bits | bits << 8) & 0x100F;
+    bits = (bits | bits << 4) & 0x10C3;
+    return (bits | bits << 2) & 0x1249;
+}
+
 /// Morton code of the grid cell of a marker: interleaves the bits of the three cell indexes.
 std::uint32_t cell_of(const Marker& marker) {
     std::uint32_t cell = 0;
     for (std::uint32_t axis = 0; axis < 3; ++axis) {
         const auto index = static_cast<std::uint32_t>(
             marker.units[axis] * static_cast<float>(std::uint32_t{1} << kCellBits));
-        for (std::uint32_t bit = 0; bit < kCellBits; ++bit) {
-            cell |= (index >> bit & 1) << (3 * bit + axis);
-        }
+        cell |= spread_bits(index) << axis;
     }
     return cell;
 }

@@ -29,7 +29,7 @@ void NearestTriangle::build(std::span<const LeafTriangle> triangles,
     find_frame();
     const LargeVector<WideChild> children = make_wide_nodes(split, nodes_);
     workers.for_each((children.size() + kPieces - 1) / kPieces, [&](std::uint64_t number) {
-        const std::size_t end = std::min(children.size(), (number + 1) * kPieces);
+        const std::size_t end = std::min<std::size_t>(children.size(), (number + 1) * kPieces);
         for (std::size_t i = number * kPieces; i < end; ++i) {
             fill_cylinder(children[i]);
         }
@@ -139,7 +139,7 @@ void NearestTriangle::fill_cylinder(const WideChild& child) {
     node.radius[lane] = upper_float(std::sqrt(radius_squared) + cylinder_margin_);
 }
 
-inline Lanes NearestTriangle::least_squared(const Node& node, const std::array<float, 3>& at) {
+inline Lanes NearestTriangle::least_squared(const Node& node, const std::array<Lanes, 3>& at) {
     const Lanes x = at[0] - node.middle[0];
     const Lanes y = at[1] - node.middle[1];
     const Lanes z = at[2] - node.middle[2];
@@ -149,56 +149,108 @@ inline Lanes NearestTriangle::least_squared(const Node& node, const std::array<f
     const Lanes beside_z = z - along * node.axis[2];
     const Lanes beside =
         square_roots(beside_x * beside_x + beside_y * beside_y + beside_z * beside_z);
-    const Lanes above = not_negative((along < 0.0F ? -along : along) - node.half_length);
+    const Lanes above = not_negative(magnitudes(along) - node.half_length);
     const Lanes outside = not_negative(beside - node.radius);
     return above * above + outside * outside;
 }
 
-void NearestTriangle::find(const Vector3& place, NearestPoint& nearest, std::uint32_t& hint) const {
-    const FramedPlace framed = frame_.framed_place(place);
-    const bool is_bounded = framed.is_bounded && cylinder_margin_ < 1.0;
-    float limit = 0.0F;           // squared distance in the frame above which nodes are skipped
-    std::uint32_t next_index = 0; // 1 + index of the nearest; 0: in another mesh
-    const auto set_limit = [&] {
-        const double distance = std::sqrt(nearest.squared) * frame_.scale() + framed.margin;
-        limit =
-            is_bounded ? upper_float(distance * distance) : std::numeric_limits<float>::infinity();
-    };
-    const auto consider = [&](std::uint32_t at) {
+/// The search for one place, in steps.
+class NearestTriangle::Search {
+public:
+    explicit Search(const NearestTriangle& tree) : tree_(tree) {}
+
+    [[nodiscard]] bool is_done() const { return count_ == 0; }
+
+    /// Begins with the triangle `hint`. `place` and `nearest` outlive the search.
+    void start(const Vector3& place, NearestPoint& nearest, std::uint32_t hint) {
+        place_ = &place;
+        nearest_ = &nearest;
+        const FramedPlace framed = tree_.frame_.framed_place(place);
+        is_bounded_ = framed.is_bounded && tree_.cylinder_margin_ < 1.0;
+        margin_ = framed.margin;
+        at_ = in_all_lanes(framed.at);
+        next_index_ = 0;
+        first_ = hint;
+        found_ = hint;
+        set_limit();
+        consider(hint);
+        open_[0] = OpenNode::root();
+        count_ = 1;
+    }
+
+    /// Visits one node.
+    void step() {
+        const OpenNode next = open_[--count_];
+        if (next.least() > limit_) {
+            return;
+        }
+        const Node& node = tree_.nodes_[next.index()];
+        const std::size_t bottom = count_;
+        count_ = push_children(open_, bottom, node, least_squared(node, at_), limit_);
+        while (node.is_leaf && count_ > bottom) {
+            const OpenNode child = open_[--count_];
+            if (!(child.least() > limit_) && child.index() != first_) {
+                consider(child.index());
+            }
+        }
+    }
+
+    /// The nearest triangle, or the one that the search began with if another mesh is nearer.
+    [[nodiscard]] std::uint32_t found() const { return found_; }
+
+private:
+    void set_limit() {
+        const double distance = std::sqrt(nearest_->squared) * tree_.frame_.scale() + margin_;
+        limit_ =
+            is_bounded_ ? upper_float(distance * distance) : std::numeric_limits<float>::infinity();
+    }
+
+    void consider(std::uint32_t at) {
+        const LeafTriangle& triangle = tree_.triangles_[at];
         const NearestPoint point =
-            nearest_point(corners_.empty() ? corners_of(triangles_[at]) : corners_[at], place);
-        const std::uint32_t index = triangles_[at].index + 1;
-        if (point.squared < nearest.squared ||
-            (point.squared == nearest.squared && index < next_index)) {
-            nearest = point;
-            next_index = index;
-            hint = at;
+            nearest_point(tree_.corners_.empty() ? tree_.corners_of(triangle) : tree_.corners_[at],
+                          *place_, nearest_->squared);
+        const std::uint32_t index = triangle.index + 1;
+        if (point.squared < nearest_->squared ||
+            (point.squared == nearest_->squared && index < next_index_)) {
+            *nearest_ = point;
+            next_index_ = index;
+            found_ = at;
             set_limit();
         }
-    };
-    set_limit();
-    const std::uint32_t first = hint;
-    consider(first);
-    std::array<OpenNode, kMaxOpenNodes> open;
-    std::size_t open_count = 0;
-    open[open_count++] = {0, 0.0F};
-    while (open_count > 0) {
-        const OpenNode next = open[--open_count];
-        if (next.least > limit) {
-            continue;
-        }
-        const Node& node = nodes_[next.node];
-        const Lanes least = least_squared(node, framed.at);
-        const std::size_t bottom = open_count;
-        for (std::uint32_t bits = ~lane_bits(least > limit) & ((1U << node.count) - 1); bits != 0;
-             bits &= bits - 1) {
-            const std::size_t lane = lowest_lane(bits); // the nearest child is the last one
-            open_sorted(open, bottom, open_count, {node.children[lane], least[lane]});
-        }
-        while (node.is_leaf && open_count > bottom) {
-            const OpenNode child = open[--open_count];
-            if (!(child.least > limit) && child.node != first) {
-                consider(child.node);
+    }
+
+    const NearestTriangle& tree_;
+    const Vector3* place_ = nullptr;
+    NearestPoint* nearest_ = nullptr;
+    std::array<Lanes, 3> at_{};    // the place in the frame
+    double margin_ = 0.0;          // FramedPlace::margin
+    float limit_ = 0.0F;           // squared distance in the frame above which nodes are skipped
+    bool is_bounded_ = false;      // whether the bounds of nodes are used
+    std::uint32_t next_index_ = 0; // 1 + index of the nearest; 0: in another mesh
+    std::uint32_t first_ = 0;
+    std::uint32_t found_ = 0;
+    std::size_t count_ = 0; // entries of `open_`
+    OpenNodes open_;
+};
+
+void NearestTriangle::find(std::span<const Vector3> places, std::span<NearestPoint> nearest) const {
+    // Two searches take turns. The steps of one search depend on each other, so a processor works
+    // on both at the same time.
+    std::array<Search, 2> searches{Search(*this), Search(*this)};
+    std::uint32_t hint = 0;
+    std::size_t next = 0;
+    for (bool is_busy = true; is_busy;) {
+        is_busy = false;
+        for (Search& search : searches) {
+            if (search.is_done() && next < places.size()) {
+                hint = next < searches.size() ? hint : search.found();
+                search.start(places[next], nearest[next], hint);
+                ++next;
+            }
+            if (!search.is_done()) {
+                search.step();
+                is_busy = true;
             }
         }
     }

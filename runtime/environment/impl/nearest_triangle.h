@@ -43,7 +43,7 @@ public:
                Workers& workers);
 
     /// Implements TriangleTree::find_nearest(). Precondition: build() was called.
-    void find(const Vector3& place, NearestPoint& nearest, std::uint32_t& hint) const;
+    void find(std::span<const Vector3> places, std::span<NearestPoint> nearest) const;
 
     /// Max bytes of the tree of `triangles` triangles.
     [[nodiscard]] static std::uint64_t bytes(std::size_t triangles);
@@ -56,6 +56,8 @@ private:
         Lanes half_length{};
         Lanes radius{};
     };
+
+    class Search;
 
     /// Sets frame_ and cylinder_margin_.
     void find_frame();
@@ -75,7 +77,7 @@ private:
     [[nodiscard]] Vector3 middle_of(const WideChild& child, const Vector3& axis) const;
     /// Lower bounds of the squared distances to the children, except for errors within
     /// FramedPlace::margin.
-    [[nodiscard]] static Lanes least_squared(const Node& node, const std::array<float, 3>& at);
+    [[nodiscard]] static Lanes least_squared(const Node& node, const std::array<Lanes, 3>& at);
 
     const std::vector<Vector3>& vertices_;
     std::span<const LeafTriangle> triangles_;

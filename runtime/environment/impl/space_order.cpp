@@ -50,7 +50,7 @@ LargeVector<std::uint32_t> order_in_space(std::span<const SensePlace> places,
     SortRecords records(places.size());
     const auto for_each_piece = [&](const auto& work) {
         context.workers->for_each((places.size() + kPiece - 1) / kPiece, [&](std::uint64_t piece) {
-            const std::size_t end = std::min(places.size(), (piece + 1) * kPiece);
+            const std::size_t end = std::min<std::size_t>(places.size(), (piece + 1) * kPiece);
             for (std::size_t i = piece * kPiece; i < end; ++i) {
                 work(i);
             }

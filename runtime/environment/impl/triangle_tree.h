@@ -12,6 +12,7 @@
 
 #include <array>
 #include <cstdint>
+#include <span>
 
 namespace lsys {
 
@@ -23,11 +24,12 @@ public:
     /// Whether no triangle has an area, or the construction was cancelled.
     [[nodiscard]] bool empty() const { return nodes_.empty(); }
     [[nodiscard]] bool closed() const { return closure_.closed; }
-    /// Replaces `nearest` by the nearest point of the mesh if that is strictly nearer. Among
-    /// triangles at the same squared distance the first of the file counts. `hint` is a triangle to
-    /// begin with, 0 at first, and becomes the nearest: places near each other are found quickly.
-    void find_nearest(const Vector3& place, NearestPoint& nearest, std::uint32_t& hint) const {
-        nearest_triangle_.find(place, nearest, hint);
+    /// Replaces each element of `nearest` by the nearest point of the mesh if that is strictly
+    /// nearer to the place of the same index. Among triangles at the same squared distance the
+    /// first of the file counts. Places near each other should follow each other: the search for a
+    /// place begins with the triangle of a place before it.
+    void find_nearest(std::span<const Vector3> places, std::span<NearestPoint> nearest) const {
+        nearest_triangle_.find(places, nearest);
     }
     /// Whether the winding number of a closed mesh around `place` is not 0. The sign is exact for
     /// places that are not on the surface. Open meshes have no inside.

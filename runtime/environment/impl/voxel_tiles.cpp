@@ -115,7 +115,7 @@ void VoxelTiles::make_keys() {
     // own.
     key_step_ = (extent(2) >> edge_bits_) + 3;
     workers_.for_each(piece_count(records_.size()), [&](std::uint64_t piece) {
-        const std::size_t end = std::min(records_.size(), (piece + 1) * kPiece);
+        const std::size_t end = std::min<std::size_t>(records_.size(), (piece + 1) * kPiece);
         for (std::size_t i = piece * kPiece; i < end; ++i) {
             const VoxelIndex voxel = index_of(records_[i]);
             const auto x = static_cast<std::uint64_t>(voxel[0] - low_[0]);

@@ -99,7 +99,8 @@ void Call::add_environment(const std::string& name, EnvironmentFunction function
 }
 
 void Call::check_environments(const Bytecode& bytecode) {
-    for (const auto& [name, function] : inner_.host.environments) {
+    for (const auto& given : inner_.host.environments) {
+        const std::string& name = given.first; // clang 14 captures no structured bindings
         const bool is_declared = std::any_of(
             bytecode.environments.begin(), bytecode.environments.end(), [&](const auto& each) {
                 return each.name == name && each.kind == EnvironmentKind::Program;

@@ -20,6 +20,13 @@ glm::vec3 around(float radius, float y, float turns) {
     return {radius * s, y, radius * c};
 }
 
+glm::vec3 any_orthogonal(const glm::vec3& normal) {
+    const glm::vec3 axis = std::abs(normal.x) < 0.6F ? glm::vec3(1, 0, 0) : glm::vec3(0, 0, 1);
+    return glm::normalize(glm::cross(glm::cross(normal, axis), normal));
+}
+
+} // namespace
+
 std::uint32_t append_vertex(ShapePart& part,
                             const glm::vec3& position,
                             const glm::vec3& normal,
@@ -29,13 +36,6 @@ std::uint32_t append_vertex(ShapePart& part,
     part.texture_coordinates.push_back(texture_coordinate);
     return static_cast<std::uint32_t>(part.positions.size() - 1);
 }
-
-glm::vec3 any_orthogonal(const glm::vec3& normal) {
-    const glm::vec3 axis = std::abs(normal.x) < 0.6F ? glm::vec3(1, 0, 0) : glm::vec3(0, 0, 1);
-    return glm::normalize(glm::cross(glm::cross(normal, axis), normal));
-}
-
-} // namespace
 
 void smooth_normals(std::span<ProfilePoint> profile) {
     std::vector<glm::vec2> pieces;

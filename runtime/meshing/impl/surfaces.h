@@ -5,6 +5,7 @@
 #include "runtime/meshing/shapes.h"
 
 #include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
 
 #include <cstdint>
 #include <span>
@@ -18,6 +19,11 @@ struct ProfilePoint {
     glm::vec2 normal{};
 };
 
+/// Appends a vertex; returns its index.
+std::uint32_t append_vertex(ShapePart& part,
+                            const glm::vec3& position,
+                            const glm::vec3& normal,
+                            const glm::vec2& texture_coordinate);
 /// Smooth normals of a rising profile.
 void smooth_normals(std::span<ProfilePoint> profile);
 /// Appends the surface that a rising profile makes when it turns about +Y. A point of radius 0 is a

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "tests/reference/environments/solid.h"
 
+#include <cmath>
 #include <limits>
 
 namespace lsys::reference {
@@ -36,8 +37,18 @@ std::vector<double> nearest_of_planes(const std::vector<Plane>& planes, const Ve
 std::vector<double> nearest_of_meshes(const std::vector<Surface>& meshes, const Vector& place) {
     Vector nearest{};
     double least = std::numeric_limits<double>::infinity();
+    double greatest = 0; // magnitude of a coordinate
+    const auto see = [&greatest](const Vector& point) {
+        for (const double coordinate : point) {
+            greatest = std::fmax(greatest, std::fabs(coordinate));
+        }
+    };
+    see(place);
     for (const Surface& mesh : meshes) {
         for (const Triangle& triangle : mesh) {
+            for (const Vector& corner : triangle) {
+                see(corner);
+            }
             const Vector way = way_to(triangle, place);
             if (has_area(triangle) && dot(way, way) < least) {
                 nearest = way;
@@ -45,7 +56,10 @@ std::vector<double> nearest_of_meshes(const std::vector<Surface>& meshes, const 
             }
         }
     }
-    const double distance = std::sqrt(least);
+    double distance = std::sqrt(least);
+    if (distance <= std::ldexp(greatest, -48)) { // "a place on the mesh"
+        distance = 0;
+    }
     std::vector<double> answer = {distance};
     for (const double component : nearest) {
         answer.push_back(distance > 0 ? component / distance : 0.0);

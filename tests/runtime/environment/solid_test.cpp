@@ -294,6 +294,47 @@ TEST_CASE("the sign is right in line with vertices and edges, and next to the su
     }
 }
 
+TEST_CASE("a place on a face has the distance 0 and no direction") {
+    TestRandom random(5);
+    for (const double size : {1e-3, 1.0, 1e3}) {
+        for (const EnvironmentMesh& mesh : {cube_mesh({0.1 * size, 0.3 * size, -0.7 * size}, size),
+                                            sphere_mesh({0.1 * size, 0.0, 0.0}, size, 16)}) {
+            Solid solid(1);
+            solid.add_mesh(mesh);
+            std::vector<SensePlace> places;
+            for (const std::array<std::uint32_t, 3>& corners : mesh.triangles) {
+                const Vector3& a = mesh.vertices[corners[0]];
+                const Vector3 u = difference(mesh.vertices[corners[1]], a);
+                const Vector3 v = difference(mesh.vertices[corners[2]], a);
+                for (int i = 0; i < 20; ++i) {
+                    const double s = static_cast<double>(random.below(1000)) / 1000.0;
+                    const double t = (1.0 - s) * static_cast<double>(random.below(1000)) / 1000.0;
+                    SensePlace& place = places.emplace_back();
+                    for (std::size_t axis = 0; axis < 3; ++axis) {
+                        place.position[axis] = a[axis] + s * u[axis] + t * v[axis];
+                    }
+                }
+            }
+            CAPTURE(size, mesh.triangles.size());
+            const std::vector<float> answers = solid.answers(places);
+            CHECK(std::count(answers.begin(), answers.end(), 0.0F) ==
+                  static_cast<std::ptrdiff_t>(answers.size()));
+            // Places near the surface are not on it.
+            for (SensePlace& place : places) {
+                for (double& coordinate : place.position) {
+                    coordinate += 1e-11 * size;
+                }
+            }
+            const std::vector<float> moved = solid.answers(places);
+            std::size_t zero_count = 0;
+            for (std::size_t i = 0; i < moved.size(); i += 4) {
+                zero_count += moved[i] == 0.0F ? 1U : 0U;
+            }
+            CHECK(zero_count < places.size() / 10);
+        }
+    }
+}
+
 TEST_CASE("corners at one place are one vertex") {
     EnvironmentMesh mesh;
     const EnvironmentMesh cube = cube_mesh({0.0, 0.0, 0.0}, 1.0);

@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <functional>
 #include <string>
+#include <utility>
 #include <vector>
 
 using namespace lsys;
@@ -50,6 +51,18 @@ TEST_CASE("an OBJ quad becomes a fan with normals") {
         CHECK(normal == glm::vec3(0, 0, 1));
     }
     CHECK(mesh.length() == 1.0F);
+}
+
+TEST_CASE("the length of a mesh is its extent along y, wherever its origin is") {
+    for (const auto& [low, high] :
+         {std::pair(-0.25, 0.75), std::pair(-3.0, -2.0), std::pair(5.0, 6.0)}) {
+        CAPTURE(low, high);
+        const std::string bottom = std::to_string(low);
+        const UserMesh mesh = read("v 0 " + bottom + " 0\nv 1 " + bottom + " 0\nv 1 " +
+                                   std::to_string(high) + " 0\nf 1 2 3\n");
+        CHECK(mesh.length() == 1.0F);
+    }
+    CHECK(read("v 0 2 0\nv 1 2 0\nv 1 2 1\nf 1 2 3\n").length() == 0.0F);
 }
 
 TEST_CASE("every notation of an index of an OBJ face") {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Checks of verify() for plants that sense: environments and sweeps.
+// Checks of verify() for parts of the bytecode that do not refer to its code. Each function ending
+// in `_problem` returns the first mistake of its part, or nothing.
 #pragma once
 
 #include "compiler/bytecode/bytecode.h"
@@ -24,7 +25,11 @@ namespace lsys {
     return index == kNone || index < bytecode.sites.size();
 }
 
-/// The first mistake in Bytecode::environments, or nothing.
+/// Settings, tropisms among them, and the number of generations.
+[[nodiscard]] std::optional<std::string> settings_problem(const Bytecode& bytecode);
+[[nodiscard]] std::optional<std::string> curves_problem(const Bytecode& bytecode);
+[[nodiscard]] std::optional<std::string> contours_problem(const Bytecode& bytecode);
+[[nodiscard]] std::optional<std::string> materials_problem(const Bytecode& bytecode);
 [[nodiscard]] std::optional<std::string> environments_problem(const Bytecode& bytecode);
 
 /// Whether the successor of a production of a sweep is one module of the predecessor's name and
