@@ -27,7 +27,7 @@ GrammarOptions options_of(const std::string& path,
                           const Console& console) {
     GrammarOptions options = command.grammar;
     options.part = command.part;
-    if (command.part || text.dialect != Dialect::Lsys || shown_path(path).ends_with("<stdin>") ||
+    if (command.part || command.run.files.is_untrusted || text.dialect != Dialect::Lsys || shown_path(path).ends_with("<stdin>") ||
         text.bytes.find("#w") != std::string::npos) {
         return options;
     }

@@ -183,6 +183,7 @@ struct ImportCommand {
 
 struct FormatCommand {
     MessageOptions messages;
+    RunOptions run;
     std::string dialect;
     std::vector<std::string> files;
     bool check = false;
@@ -190,6 +191,7 @@ struct FormatCommand {
 
 struct LspCommand {
     MessageOptions messages;
+    RunOptions run;
     bool stdio = false; // no effect: the streams are always used
 };
 

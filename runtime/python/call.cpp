@@ -174,6 +174,14 @@ CallOptions options_of(const py::kwargs& arguments) {
             options.max_modules = value.cast<std::uint64_t>();
         } else if (name == "max_bytes") {
             options.max_bytes = value.cast<std::uint64_t>();
+        } else if (name == "untrusted") {
+            options.policy.untrusted = value.cast<bool>();
+        } else if (name == "root") {
+            options.policy.root = py::str(py::module_::import("os").attr("fspath")(value));
+        } else if (name == "max_seconds") {
+            options.policy.max_seconds = value.cast<double>();
+        } else if (name == "max_output") {
+            options.policy.max_output = value.cast<std::uint64_t>();
         } else if (name == "progress") {
             options.progress = py::reinterpret_borrow<py::object>(value);
         } else if (name == "read_file") {
