@@ -28,8 +28,7 @@ ExitStatus load_in_time(const ServeCommand& command,
     const Deadline deadline(seconds, io.interrupted, end_process(io, late));
     io.interrupted = deadline.stop();
     const Console limited(io, command.messages);
-    const ExitStatus status =
-        load_tile_forest(command, TilePlacements::OnGrids, limited, forest);
+    const ExitStatus status = load_tile_forest(command, TilePlacements::OnGrids, limited, forest);
     if (!deadline.has_passed()) {
         return status;
     }

@@ -3,6 +3,7 @@
 #include "compiler/growth/growth.h"
 #include "runtime/library/impl/call.h"
 #include "runtime/library/impl/data.h"
+#include "runtime/pipeline/portable_files.h"
 
 #include <cmath>
 #include <limits>
@@ -104,7 +105,9 @@ const std::string& Grammar::translation() const {
 }
 
 std::string Grammar::bytecode() const {
-    return write_module_file(data_->grammar.bytecode);
+    Bytecode bytecode = data_->grammar.bytecode;
+    remove_machine_paths(bytecode);
+    return write_module_file(bytecode);
 }
 
 std::vector<PredictedSize> Grammar::predict(std::uint32_t generations) const {

@@ -148,8 +148,8 @@ Result<Terrain> make_terrain(const SceneTerrain& terrain,
     case TerrainKind::HeightMap:
         break;
     }
-    Result<GreyMap> map = read_map(terrain.map, folder, terrain.map_columns, terrain.map_rows, step,
-                                   budget);
+    Result<GreyMap> map =
+        read_map(terrain.map, folder, terrain.map_columns, terrain.map_rows, step, budget);
     if (!map) {
         return map.error();
     }
@@ -536,8 +536,7 @@ grow_species(const LoadedScene& loaded, const Project& project, const PreviousFo
     }
     grown.terrain.emplace(std::move(terrain.value()));
     if (!scene.density_map.path.empty()) {
-        Result<GreyMap> map =
-            read_map(scene.density_map, loaded.folder, 0, 0, step, budget);
+        Result<GreyMap> map = read_map(scene.density_map, loaded.folder, 0, 0, step, budget);
         if (!map) {
             return fail_at(scene.density_map.span, map.error(), loaded, step);
         }
@@ -673,8 +672,8 @@ Outcome<std::vector<BranchOrigin>> origins_of_branches(const SceneSpecies& speci
     FileBudget budget{project.limits.max_bytes};
     NotedAxioms noted;
     Outcome<GrownStage> grown =
-        grow_stage(species, path_in(folder, species.grammar.path, project), generations, false, noted,
-                   project, budget, stage % cases);
+        grow_stage(species, path_in(folder, species.grammar.path, project), generations, false,
+                   noted, project, budget, stage % cases);
     if (!grown) { // warnings of a success were shown when the forest was grown
         step.messages.append(grown.messages());
         return step.end(grown.stop());

@@ -76,7 +76,8 @@ void FileBoundary::add_folder(std::string path) {
 
 bool FileBoundary::is_named(const std::string& path) const {
     return std::any_of(policy_.named.begin(), policy_.named.end(), [&](const std::string& file) {
-        return file == path || (file != "-" && is_absolute_path(path) && absolute_text(file) == path);
+        return file == path ||
+               (file != "-" && is_absolute_path(path) && absolute_text(file) == path);
     });
 }
 

@@ -22,9 +22,8 @@ public:
     [[nodiscard]] bool is_named(const std::string& path) const;
     /// The bytes of a regular file within the folders of the policy. The Error is the reason
     /// without the name of the file.
-    [[nodiscard]] Result<std::string> read(const std::string& path,
-                                           const ReadLimit& limit,
-                                           const std::atomic<bool>* cancelled) const;
+    [[nodiscard]] Result<std::string>
+    read(const std::string& path, const ReadLimit& limit, const std::atomic<bool>* cancelled) const;
     [[nodiscard]] bool exists(const std::string& path) const;
     /// Names of the regular files in a folder; none if it lies outside.
     [[nodiscard]] std::vector<std::string> list(const std::string& path,

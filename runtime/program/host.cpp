@@ -61,8 +61,8 @@ Host make_file_host(const std::atomic<bool>* cancelled, const FilePolicy& policy
     }
     const auto boundary = std::make_shared<const FileBoundary>(policy);
     const auto confined = [boundary, cancelled](auto read_named) {
-        return [boundary, cancelled, read_named = std::move(read_named)](
-                   const std::string& path, const ReadLimit& limit) {
+        return [boundary, cancelled, read_named = std::move(read_named)](const std::string& path,
+                                                                         const ReadLimit& limit) {
             return boundary->is_named(path) ? read_named(path, limit)
                                             : boundary->read(path, limit, cancelled);
         };
@@ -96,8 +96,12 @@ Host make_host(const Console& console,
 Project make_project(const Console& console, const RunOptions& run) {
     const std::string input =
         run.stdin_name.empty() ? standard_input_in(run.base) : standard_input_as(run.stdin_name);
-    return {make_host(console, input, run.files), run.limits,       run.threads,
-            console.options().levels,             run.environments, run.files};
+    return {make_host(console, input, run.files),
+            run.limits,
+            run.threads,
+            console.options().levels,
+            run.environments,
+            run.files};
 }
 
 FileLoader make_include_loader(const Project& project) {

@@ -326,9 +326,8 @@ ParsedOptions parse_options(std::span<const std::string> arguments) {
         return *mistake;
     }
     std::vector<std::string> named = options.files;
-    named.insert(named.end(),
-                 {options.grammar.view, options.overrides.density_map,
-                  options.overrides.ground_picture, options.overrides.ground_normals});
+    named.insert(named.end(), {options.grammar.view, options.overrides.density_map,
+                               options.overrides.ground_picture, options.overrides.ground_normals});
     if (const auto mistake = apply_policy(app, std::move(named), options.run)) {
         return *mistake;
     }

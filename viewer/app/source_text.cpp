@@ -43,12 +43,9 @@ void add_remark(const char* kind,
 class Maker {
 public:
     Maker(const LoadedSources& loaded, const std::atomic<bool>& cancelled)
-        : loaded_(loaded), project_{file_host(cancelled),
-                                    loaded.run.limits,
-                                    loaded.run.threads,
-                                    {},
-                                    loaded.run.environments,
-                                    loaded.run.files},
+        : loaded_(loaded), project_{file_host(cancelled),    loaded.run.limits,
+                                    loaded.run.threads,      {},
+                                    loaded.run.environments, loaded.run.files},
           made_(std::make_shared<SourceText>()) {}
 
     std::shared_ptr<const SourceText> run() {

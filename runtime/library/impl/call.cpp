@@ -88,10 +88,9 @@ Call::Call(const Project& project, std::vector<std::string> named, const Policy&
                            name);
     };
     inner_.limits.max_modules = project.limits.max_modules;
-    inner_.limits.max_bytes =
-        project.limits.max_bytes != 0 ? project.limits.max_bytes
-        : policy_.untrusted           ? std::min(half_of_memory(), kUntrustedBytes)
-                                      : half_of_memory();
+    inner_.limits.max_bytes = project.limits.max_bytes != 0 ? project.limits.max_bytes
+                              : policy_.untrusted ? std::min(half_of_memory(), kUntrustedBytes)
+                                                  : half_of_memory();
     inner_.threads = project.threads;
     const auto set_levels = [&](const std::vector<std::string>& codes, MessageLevel level) {
         for (const std::string& code : codes) {

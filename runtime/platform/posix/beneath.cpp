@@ -25,7 +25,8 @@ constexpr int kFolderFlags = O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC;
 class Walk {
 public:
     Reason begin(const std::string& folder) {
-        File root(::open(folder.empty() ? "." : folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
+        File root(
+            ::open(folder.empty() ? "." : folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
         if (!root.is_open()) {
             return errno;
         }
@@ -127,7 +128,7 @@ private:
         return 0;
     }
 
-    std::vector<File> folders_; // from the root of the walk to the folder that it has reached
+    std::vector<File> folders_;     // from the root of the walk to the folder that it has reached
     std::vector<std::string> left_; // names that are left, last name first
     int links_ = 0;
 };

@@ -19,8 +19,8 @@ namespace {
 
 std::wstring final_path(HANDLE handle) {
     std::array<wchar_t, 32768> path{}; // the max length of a path of NT
-    const DWORD size = ::GetFinalPathNameByHandleW(handle, path.data(),
-                                                   static_cast<DWORD>(path.size()), VOLUME_NAME_DOS);
+    const DWORD size = ::GetFinalPathNameByHandleW(
+        handle, path.data(), static_cast<DWORD>(path.size()), VOLUME_NAME_DOS);
     return size == 0 || size >= path.size() ? std::wstring() : std::wstring(path.data(), size);
 }
 

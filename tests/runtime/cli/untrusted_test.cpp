@@ -5,9 +5,13 @@
 
 #include <catch2/catch.hpp>
 
+#include <array>
+#include <atomic>
+#include <cerrno>
 #include <filesystem>
 #include <string>
 #include <sys/stat.h>
+#include <thread>
 #include <unistd.h>
 #include <vector>
 
@@ -115,12 +119,75 @@ TEST_CASE("an untrusted grammar includes files of its folder only") {
     CHECK(read_text(site.folder / "secret") == kSecret);
 }
 
+TEST_CASE("links that change during a run lead nowhere") {
+    const Site site;
+    const std::string home = site.folder / "home";
+    std::atomic<bool> ends{false};
+    // A name that is a file, a link out and a folder in turn, in a folder that is a link in turn.
+    std::thread changer([&] {
+        const std::string name = home + "/parts/swap";
+        const std::string folder = home + "/turn";
+        while (!ends) {
+            static_cast<void>(::symlink("../../secret", name.c_str()));
+            static_cast<void>(::symlink("..", folder.c_str()));
+            ::unlink(name.c_str());
+            ::unlink(folder.c_str());
+            write_text(name, "#w : F;\n");
+            ::mkdir(folder.c_str(), 0700);
+            ::unlink(name.c_str());
+            ::rmdir(folder.c_str());
+        }
+    });
+    std::size_t opened = 0;
+    bool is_secret = false;
+    for (int i = 0; i < 20'000; ++i) {
+        for (const char* const path : {"parts/swap", "turn/secret"}) {
+            lsys::platform::File file;
+            std::array<char, 64> bytes{};
+            if (lsys::platform::open_beneath(home, path, file) == 0) {
+                ++opened;
+                const auto read = lsys::platform::read_some(file, bytes.data(), bytes.size());
+                is_secret = is_secret || std::string(bytes.data(), read.count) == kSecret;
+            }
+        }
+    }
+    ends = true;
+    changer.join();
+    CHECK(!is_secret);
+    INFO(opened);
+}
+
+TEST_CASE("a compiled grammar contains no folder of the machine") {
+    const Site site;
+    const std::string file = site.add("a.lsys", "#n = 1;\n#include \"parts/part.lsys\";\n");
+    const std::string output = site.folder / "other/a.lsb";
+    REQUIRE(run_lsc({"compile", file, "-o", output}, "").status == 0);
+    const std::string bytes = read_text(output);
+    CHECK(bytes.find(site.folder.path().string()) == std::string::npos);
+    CHECK(bytes.find("parts/part.lsys") != std::string::npos);
+    CHECK(run_lsc({"dump", output}, "").out == "F\n");
+}
+
+TEST_CASE("a run waits for no pipe that a scene names") {
+    const Site site;
+    const auto checked = [&](const std::string& text) {
+        return run_lsc({"forest", site.add("a.toml", text), "-o", site.folder / "a.json"}, "");
+    };
+    const std::string species = "[[species]]\ngrammar = \"parts/part.lsys\"\n";
+    const std::string refusal = "it is not a regular file";
+    CHECK(checked("[[species]]\ngrammar = \"pipe\"\ndialect = \"lsys\"\n").err.find(refusal) !=
+          std::string::npos);
+    CHECK(checked("[terrain]\nkind = \"height-map\"\nmap = \"pipe\"\nsize = 100\n" + species)
+              .err.find(refusal) != std::string::npos);
+}
+
 TEST_CASE("the answer is the same whether an outside file exists") {
     const Site site;
     const auto answer = [&](const std::string& path) {
         const std::string file =
             site.add("a.lsys", "#n = 1;\n#include \"" + path + "\";\n#w : F;\n");
-        std::string err = run_lsc({"check", file, "--untrusted", "--message-format", "short"}, "").err;
+        std::string err =
+            run_lsc({"check", file, "--untrusted", "--message-format", "short"}, "").err;
         for (std::size_t at = err.find(path); at != std::string::npos; at = err.find(path)) {
             err.replace(at, path.size(), "X");
         }
@@ -134,9 +201,8 @@ TEST_CASE("the answer is the same whether an outside file exists") {
 TEST_CASE("meshes, pictures, maps and views of an untrusted grammar lie in its folder") {
     const Site site;
     write_text(site.folder / "home/lib.obj", std::string("mtllib ../secret\n") + kLeaf);
-    write_text(site.folder / "home/map.obj",
-               std::string("mtllib map.mtl\nvt 0 0\nusemtl m\n") +
-                   "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1/1 2/1 3/1\n");
+    write_text(site.folder / "home/map.obj", std::string("mtllib map.mtl\nvt 0 0\nusemtl m\n") +
+                                                 "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1/1 2/1 3/1\n");
     write_text(site.folder / "home/map.mtl", "newmtl m\nmap_Kd ../secret\n");
     const auto exported = [&](const std::string& statements) {
         const std::string file = site.add("a.lsys", "#n = 1;\n#w : F Q;\n" + statements);
@@ -170,19 +236,38 @@ TEST_CASE("an untrusted scene names files of its folder only, or of --root") {
     const Site site;
     write_text(site.folder / "other/tree.lsys", "#n = 1;\n#w : F;\n");
     const auto checked = [&](const std::string& grammar, std::vector<std::string> options) {
-        const std::string file = site.add("a.toml", "[[species]]\ngrammar = \"" + grammar +
-                                                        "\"\ndialect = \"lsys\"\n");
+        const std::string file =
+            site.add("a.toml", "[[species]]\ngrammar = \"" + grammar + "\"\ndialect = \"lsys\"\n");
         options.insert(options.begin(), {"forest", file, "--check", "--untrusted"});
         return run_lsc(options, "");
     };
-    for (const char* const path : {"../other/tree.lsys", "../secret", "out", "/etc/passwd", "pipe"}) {
+    for (const char* const path :
+         {"../other/tree.lsys", "../secret", "out", "/etc/passwd", "pipe"}) {
         INFO(path);
         const LscRun run = checked(path, {});
         CHECK(run.status != 0);
         CHECK(!tells_secret(run));
     }
     CHECK(checked("../other/tree.lsys", {"--root", site.folder.path().string()}).status == 0);
-    CHECK(run_lsc({"forest", site.folder / "home/a.toml", "--check", "--root", "."}, "").status == 2);
+    CHECK(run_lsc({"forest", site.folder / "home/a.toml", "--check", "--root", "."}, "").status ==
+          2);
+}
+
+TEST_CASE("lsc serve does not trust its scene, unless an option says so") {
+    const Site site;
+    write_text(site.folder / "other/tree.lsys", "#n = 1;\n#w : F;\n");
+    const std::string scene = site.add("a.toml", "[placement]\nmethod = \"poisson\"\ncount = 3\n"
+                                                 "[[species]]\ngrammar = \"../other/tree.lsys\"\n");
+    const auto served = [&](std::vector<std::string> options) {
+        options.insert(options.begin(), {"serve", scene, "--listen", "0"});
+        return run_lsc(options, "");
+    };
+    // With the grammar read, the server refuses a placement that does not go tile by tile.
+    const std::string next = "cannot be placed tile by tile";
+    CHECK(served({}).err.find("only files in") != std::string::npos);
+    CHECK(served({"--trusted"}).err.find(next) != std::string::npos);
+    CHECK(served({"--root", site.folder.path().string()}).err.find(next) != std::string::npos);
+    CHECK(served({"--trusted", "--untrusted"}).status == 2);
 }
 
 TEST_CASE("an untrusted grammar from standard input reads no file") {
@@ -196,8 +281,8 @@ TEST_CASE("an untrusted grammar from standard input reads no file") {
 
 TEST_CASE("an untrusted grammar starts no program") {
     const Site site;
-    const std::string file = site.add(
-        "a.lsys", "#n = 1;\n#sense P program;\n#w : A ?P(0);\n#p : A : * : F;\n");
+    const std::string file =
+        site.add("a.lsys", "#n = 1;\n#sense P program;\n#w : A ?P(0);\n#p : A : * : F;\n");
     CHECK(run_lsc({"dump", file, "--untrusted"}, "").status != 0);
     const LscRun run = run_lsc({"dump", file, "--untrusted", "--environment", "P=touch x"}, "");
     CHECK(run.status == 2);
