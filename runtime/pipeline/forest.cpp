@@ -49,6 +49,17 @@ std::string path_in(const std::string& folder, const std::string& path, const Pr
                                                                : path_text(whole);
 }
 
+/// The reason why a file does not exist for the host.
+std::string reason_of_absence(const std::string& path, const Project& project) {
+    if (project.files.is_untrusted) {
+        const Result<std::string> read = project.host.read_referenced_file(path, {0});
+        if (!read) {
+            return read.error().message;
+        }
+    }
+    return "no such file or directory";
+}
+
 /// Axioms whose NoVariety note has been given: path of the file and offset of the axiom.
 using NotedAxioms = std::set<std::pair<std::string, std::uint32_t>>;
 
@@ -553,9 +564,10 @@ grow_species(const LoadedScene& loaded, const Project& project, const PreviousFo
     for (const SceneSpecies& species : scene.species) {
         const std::string path = path_in(loaded.folder, species.grammar.path, project);
         if (!project.host.file_exists(path)) {
-            return fail_at(species.grammar.span,
-                           Error{fmt::format("cannot read `{}`: no such file or directory", path)},
-                           loaded, step);
+            return fail_at(
+                species.grammar.span,
+                Error{fmt::format("cannot read `{}`: {}", path, reason_of_absence(path, project))},
+                loaded, step);
         }
         if (!species.dialect.text.empty() && !find_dialect(species.dialect.text)) {
             return fail_at(species.dialect.span,

@@ -92,11 +92,13 @@ std::string late_message(double max_seconds) {
                        max_seconds);
 }
 
-std::function<void()> end_process(const Io& io, std::string message) {
+std::function<void()> end_process(const Io& io, const std::string& message) {
     if (io.end_at_limit == nullptr) {
         return {};
     }
-    return [end = io.end_at_limit, message = std::move(message)] { end(message.c_str()); };
+    return [end = io.end_at_limit, line = fmt::format("{}: error: {}\n", io.program, message)] {
+        end(line.c_str());
+    };
 }
 
 } // namespace lsys

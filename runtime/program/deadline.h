@@ -33,6 +33,6 @@ private:
 /// The error of a command that has taken longer than `--max-time`.
 [[nodiscard]] std::string late_message(double max_seconds);
 /// A function that ends the process with `message`, for Deadline; empty in tests.
-[[nodiscard]] std::function<void()> end_process(const Io& io, std::string message);
+[[nodiscard]] std::function<void()> end_process(const Io& io, const std::string& message);
 
 } // namespace lsys

@@ -78,6 +78,9 @@ Host make_file_host(const std::atomic<bool>* cancelled, const FilePolicy& policy
         return names;
     };
     host.start_program = nullptr;
+    host.environment_help = [](const std::string& /*name*/) {
+        return std::string("grammars that are not trusted start no programs");
+    };
     return host;
 }
 

@@ -24,9 +24,9 @@ struct Io {
     const char* revision = "unknown";
     /// The limit of `--max-output`; null: none.
     OutputBudget* output_budget = nullptr;
-    /// Ends the process at once with status 3 and this message; temporary files are removed. Null
+    /// Prints a line and ends the process at once with status 3; temporary files are removed. Null
     /// in tests, where it would end them.
-    void (*end_at_limit)(const char* message) = nullptr;
+    void (*end_at_limit)(const char* line) = nullptr;
 };
 
 } // namespace lsys

@@ -16,13 +16,11 @@ namespace lsys {
 
 namespace {
 
-const char* program_name = "lsc";
-
 /// Ends the process although other threads still work, so no stream may be used or destroyed.
-void end_at_limit(const char* message) {
+void end_at_limit(const char* line) {
     remove_temporaries();
     platform::end_shell_programs();
-    std::fputs((std::string(program_name) + ": error: " + message + '\n').c_str(), stderr);
+    std::fputs(line, stderr);
     std::_Exit(static_cast<int>(ExitStatus::Limit));
 }
 
@@ -46,7 +44,6 @@ int run_process(int argc,
           &platform::end_requested(),
           program,
           revision};
-    program_name = program;
     io.end_at_limit = end_at_limit;
     const int status =
         catch_out_of_memory([&] { return run(platform::process_arguments(argc, argv), io); },

@@ -284,6 +284,9 @@ void add_all(CLI::App& app, ViewOptions& options) {
     add_run_limits(app, options.run);
     add_environments(app, options.run);
     add_file_policy(app, options.run, Trust::Trusted);
+    app.get_option("--untrusted")
+        ->description("Grammars and scenes are not trusted: they name only files of their own "
+                      "folder, start no programs, and use at most 1 GiB of memory");
     add_messages(app, options.messages);
     app.set_version_flag("--version", "lsview " LSC_VERSION, "Print the version and exit");
     app.footer(

@@ -227,7 +227,8 @@ TEST_CASE("meshes, pictures, maps and views of an untrusted grammar lie in its f
                                      "#material 1 colour 1 1 1 picture \"../secret\";\n");
     CHECK(material.err.find("only files in") != std::string::npos);
     const std::string sensing = site.add(
-        "s.lsys", "#n = 1;\n#sense P map \"../secret\" size 1;\n#w : A ?P(0);\n#p : A : * : F;\n");
+        "s.lsys",
+        "#n = 1;\n#sense M map size 1 1 file \"../secret\";\n#w : A ?M(0);\n#p : A : * : F;\n");
     CHECK(!tells_secret(run_lsc({"dump", sensing, "--untrusted"}, "")));
     CHECK(run_lsc({"dump", sensing, "--untrusted"}, "").status != 0);
 }
@@ -245,7 +246,9 @@ TEST_CASE("an untrusted scene names files of its folder only, or of --root") {
          {"../other/tree.lsys", "../secret", "out", "/etc/passwd", "pipe"}) {
         INFO(path);
         const LscRun run = checked(path, {});
-        CHECK(run.status != 0);
+        CHECK(run.status == 2);
+        CHECK((run.err.find("only files in") != std::string::npos ||
+               run.err.find("not a regular file") != std::string::npos));
         CHECK(!tells_secret(run));
     }
     CHECK(checked("../other/tree.lsys", {"--root", site.folder.path().string()}).status == 0);
@@ -256,8 +259,7 @@ TEST_CASE("an untrusted scene names files of its folder only, or of --root") {
 TEST_CASE("lsc serve does not trust its scene, unless an option says so") {
     const Site site;
     write_text(site.folder / "other/tree.lsys", "#n = 1;\n#w : F;\n");
-    const std::string scene = site.add("a.toml", "[placement]\nmethod = \"poisson\"\ncount = 3\n"
-                                                 "[[species]]\ngrammar = \"../other/tree.lsys\"\n");
+    const std::string scene = site.add("a.toml", "[[species]]\ngrammar = \"../other/tree.lsys\"\n");
     const auto served = [&](std::vector<std::string> options) {
         options.insert(options.begin(), {"serve", scene, "--listen", "0"});
         return run_lsc(options, "");
@@ -282,9 +284,9 @@ TEST_CASE("an untrusted grammar from standard input reads no file") {
 TEST_CASE("an untrusted grammar starts no program") {
     const Site site;
     const std::string file =
-        site.add("a.lsys", "#n = 1;\n#sense P program;\n#w : A ?P(0);\n#p : A : * : F;\n");
+        site.add("a.lsys", "#n = 1;\n#sense E program;\n#w : A ?E(0);\n#p : A : * : F;\n");
     CHECK(run_lsc({"dump", file, "--untrusted"}, "").status != 0);
-    const LscRun run = run_lsc({"dump", file, "--untrusted", "--environment", "P=touch x"}, "");
+    const LscRun run = run_lsc({"dump", file, "--untrusted", "--environment", "E=touch x"}, "");
     CHECK(run.status == 2);
     CHECK(run.err.find("--environment starts a program") != std::string::npos);
 }
