@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
+#include "runtime/base/deadline.h"
 #include "runtime/cli/commands.h"
 #include "runtime/cli/load_tile_forest.h"
-#include "runtime/program/deadline.h"
+#include "runtime/program/time_limit.h"
 #include "runtime/serve/http_server.h"
 #include "runtime/serve/tile_service.h"
 

@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: MIT
 #include "runtime/cli/lsc.h"
 
+#include "runtime/base/deadline.h"
 #include "runtime/base/out_of_memory.h"
 #include "runtime/cli/command_line.h"
 #include "runtime/cli/commands.h"
 #include "runtime/program/build_info.h"
-#include "runtime/program/deadline.h"
 #include "runtime/program/output_budget.h"
 #include "runtime/program/process.h"
+#include "runtime/program/time_limit.h"
 
 #include <cmath>
 #include <optional>

@@ -5,9 +5,9 @@
 
 #include "compiler/bytecode/bytecode.h"
 #include "grammar/base/outcome.h"
+#include "runtime/base/deadline.h"
 #include "runtime/base/out_of_memory.h"
 #include "runtime/pipeline/project.h"
-#include "runtime/program/deadline.h"
 #include "runtime/program/output_budget.h"
 
 #include <atomic>

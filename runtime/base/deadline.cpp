@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "runtime/program/deadline.h"
-
-#include <fmt/format.h>
+#include "runtime/base/deadline.h"
 
 #include <algorithm>
 #include <chrono>
@@ -67,7 +65,9 @@ Deadline::Deadline(double seconds,
                    const std::atomic<bool>* cancelled,
                    std::function<void()> end_late)
     : state_(std::make_unique<State>(seconds, cancelled, std::move(end_late))) {
+#ifdef LSYS_THREADS // without threads, as on the web, the caller ends a run that takes too long
     state_->thread = std::thread([state = state_.get()] { state->watch(); });
+#endif
 }
 
 Deadline::~Deadline() {
@@ -76,7 +76,9 @@ Deadline::~Deadline() {
         state_->is_over = true;
     }
     state_->changed.notify_all();
-    state_->thread.join();
+    if (state_->thread.joinable()) {
+        state_->thread.join();
+    }
 }
 
 const std::atomic<bool>* Deadline::stop() const {
@@ -85,20 +87,6 @@ const std::atomic<bool>* Deadline::stop() const {
 
 bool Deadline::has_passed() const {
     return state_->passed;
-}
-
-std::string late_message(double max_seconds) {
-    return fmt::format("the command takes longer than {:g} s, the limit of `--max-time`",
-                       max_seconds);
-}
-
-std::function<void()> end_process(const Io& io, const std::string& message) {
-    if (io.end_at_limit == nullptr) {
-        return {};
-    }
-    return [end = io.end_at_limit, line = fmt::format("{}: error: {}\n", io.program, message)] {
-        end(line.c_str());
-    };
 }
 
 } // namespace lsys

@@ -2,12 +2,9 @@
 // Deadline: stops a run after a time, by the flag that the pipeline checks for cancellation.
 #pragma once
 
-#include "runtime/program/io.h"
-
 #include <atomic>
 #include <functional>
 #include <memory>
-#include <string>
 
 namespace lsys {
 
@@ -29,10 +26,5 @@ private:
     struct State;
     std::unique_ptr<State> state_;
 };
-
-/// The error of a command that has taken longer than `--max-time`.
-[[nodiscard]] std::string late_message(double max_seconds);
-/// A function that ends the process with `message`, for Deadline; empty in tests.
-[[nodiscard]] std::function<void()> end_process(const Io& io, const std::string& message);
 
 } // namespace lsys
