@@ -65,7 +65,7 @@ Deadline::Deadline(double seconds,
                    const std::atomic<bool>* cancelled,
                    std::function<void()> end_late)
     : state_(std::make_unique<State>(seconds, cancelled, std::move(end_late))) {
-#ifdef LSYS_THREADS // without threads, as on the web, the caller ends a run that takes too long
+#if LSYS_THREADS // without threads, as on the web, the caller ends a run that takes too long
     state_->thread = std::thread([state = state_.get()] { state->watch(); });
 #endif
 }
