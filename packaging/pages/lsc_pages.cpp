@@ -10,7 +10,9 @@ int main(int argc, char** argv) {
         {"0", "success"},
         {"1", "errors in a grammar"},
         {"2", "a mistake in the command line, or a file that cannot be read or written"},
-        {"3", "a limit: `--max-modules`, `--max-memory`, or one of the file format"},
+        {"3", "a limit: `--max-modules`, `--max-memory`, `--max-time`, `--max-output`, or one of "
+              "the file "
+              "format"},
         {"130", "interrupted"}};
     const ProgramText program = describe_lsc();
     info.see_also.push_back("lsc");

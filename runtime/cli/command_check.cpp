@@ -27,8 +27,8 @@ GrammarOptions options_of(const std::string& path,
                           const Console& console) {
     GrammarOptions options = command.grammar;
     options.part = command.part;
-    if (command.part || text.dialect != Dialect::Lsys || shown_path(path).ends_with("<stdin>") ||
-        text.bytes.find("#w") != std::string::npos) {
+    if (command.part || command.run.files.is_untrusted || text.dialect != Dialect::Lsys ||
+        shown_path(path).ends_with("<stdin>") || text.bytes.find("#w") != std::string::npos) {
         return options;
     }
     if (const auto grammar = find_including_grammar(shown_path(path))) {

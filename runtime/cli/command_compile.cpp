@@ -2,6 +2,7 @@
 #include "compiler/bytecode/module_file.h"
 #include "runtime/cli/commands.h"
 #include "runtime/pipeline/grammar.h"
+#include "runtime/pipeline/portable_files.h"
 #include "runtime/program/files.h"
 #include "runtime/program/host.h"
 
@@ -28,6 +29,7 @@ ExitStatus run_command(const CompileCommand& command, const Console& console) {
         bytecode.settings.has_seed = true;
         bytecode.settings.seed = *command.seed;
     }
+    remove_machine_paths(bytecode);
     const std::string bytes = write_module_file(bytecode);
     if (const Result<void> written = write_file(command.output, bytes, console); !written) {
         return report_error(written.error(), console);

@@ -16,7 +16,7 @@ namespace {
 
 ExitStatus
 format_file(const std::string& path, const FormatCommand& command, const Console& console) {
-    const Project project = make_project(console, {});
+    const Project project = make_project(console, command.run);
     GrammarText grammar;
     if (const ExitStatus read = console.take(read_grammar(path, command.dialect, project), grammar);
         read != ExitStatus::Ok) {

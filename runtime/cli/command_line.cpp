@@ -2,6 +2,7 @@
 #include "runtime/cli/command_line.h"
 
 #include "grammar/base/diagnostic.h"
+#include "grammar/base/paths.h"
 #include "grammar/dialects/dialect.h"
 #include "runtime/cli/tile_options.h"
 #include "runtime/meshing/detail_levels.h"
@@ -10,6 +11,7 @@
 #include "runtime/program/arguments.h"
 #include "runtime/program/memory_size.h"
 #include "runtime/program/option_parsers.h"
+#include "runtime/program/policy_options.h"
 #include "runtime/scene/scene.h"
 #include "runtime/turtle/turtle.h"
 
@@ -17,10 +19,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <functional>
 #include <limits>
 #include <optional>
 #include <string_view>
+#include <system_error>
 #include <type_traits>
 #include <utility>
 #include <variant>
@@ -31,6 +35,11 @@ namespace lsys::lsc {
 namespace {
 
 constexpr const char* kListHint = "`lsc --help` lists the commands";
+
+void add_policy(CLI::App& app, RunOptions& run) {
+    add_file_policy(app, run, Trust::Trusted);
+    add_run_policy(app, run);
+}
 
 void add_check(CLI::App& app, CheckCommand& command) {
     app.add_option("FILE", command.files, "Grammars; `-` is standard input")->required();
@@ -51,6 +60,7 @@ void add_check(CLI::App& app, CheckCommand& command) {
                  "includes it)");
     add_grammar(app, command.grammar, command.run);
     add_base_option(app, command.run);
+    add_policy(app, command.run);
     add_message_options(app, command.messages);
     add_levels(app, command.messages);
     app.footer(
@@ -74,6 +84,7 @@ void add_compile(CLI::App& app, CompileCommand& command) {
     add_grammar(app, command.grammar, command.run);
     add_base_option(app, command.run);
     add_seed(app, command.seed);
+    add_policy(app, command.run);
     add_message_options(app, command.messages);
     add_levels(app, command.messages);
     app.footer("-n, --seed and --set replace #n, `#set seed` and other #set in the output.\n"
@@ -166,6 +177,7 @@ void add_dump(CLI::App& app, DumpCommand& command) {
     app.add_option("--from", command.from, "Continue from a saved state")
         ->type_name("FILE")
         ->group("Saved states");
+    add_policy(app, command.run);
     add_message_options(app, command.messages);
     add_levels(app, command.messages);
     app.footer("Examples: lsc dump -n 3 tree.lsys\n"
@@ -231,6 +243,7 @@ void add_export(CLI::App& app, ExportCommand& command) {
     add_height(app, command.height);
     add_run_limits(app, command.run);
     add_environments(app, command.run);
+    add_policy(app, command.run);
     add_message_options(app, command.messages);
     add_levels(app, command.messages);
     app.footer(
@@ -274,6 +287,7 @@ void add_forest(CLI::App& app, ForestCommand& command) {
     add_seed(app, command.overrides.seed);
     add_run_limits(app, command.run);
     add_environments(app, command.run);
+    add_policy(app, command.run);
     add_message_options(app, command.messages);
     add_levels(app, command.messages);
     app.footer(
@@ -303,6 +317,7 @@ void add_import(CLI::App& app, ImportCommand& command) {
                  "status is 2");
     add_grammar(app, command.grammar, command.run);
     add_base_option(app, command.run);
+    add_policy(app, command.run);
     add_message_options(app, command.messages);
     add_levels(app, command.messages);
     app.footer("The output derives the same word as the input; -n becomes its #n, -D the values of "
@@ -323,6 +338,7 @@ void add_stats(CLI::App& app, StatsCommand& command) {
     add_grammar(app, command.grammar, command.run);
     add_base_option(app, command.run);
     add_height(app, command.height);
+    add_policy(app, command.run);
     add_message_options(app, command.messages);
     add_levels(app, command.messages);
     app.footer("Sizes are predicted from the growth matrix; grammars with `#decompose` or `%` are "
@@ -362,6 +378,7 @@ void add_trace(CLI::App& app, TraceCommand& command) {
     add_seed(app, command.seed);
     add_run_limits(app, command.run);
     add_environments(app, command.run);
+    add_policy(app, command.run);
     add_message_options(app, command.messages);
     add_levels(app, command.messages);
     app.footer(
@@ -383,6 +400,7 @@ void add_format(CLI::App& app, FormatCommand& command) {
     app.add_flag("--check", command.check,
                  "Write nothing; list unformatted files and exit with status 1");
     add_dialect(app, command.dialect);
+    add_policy(app, command.run);
     add_message_options(app, command.messages);
     app.footer("Aligns statements of a kind in columns and breaks long lines; keeps comments, the "
                "line ends\n"
@@ -393,6 +411,7 @@ void add_format(CLI::App& app, FormatCommand& command) {
 void add_lsp(CLI::App& app, LspCommand& command) {
     // Clients of other servers pass this option; standard input and output are used anyway.
     app.add_flag("--stdio", command.stdio, "Use standard input and output, as always");
+    add_file_policy(app, command.run, Trust::Trusted);
     app.footer("Reads and writes messages of the Language Server Protocol 3.17. Editors start it "
                "themselves: it answers with\n"
                "messages, repairs, completion, hints, predicted lengths, definitions and renaming, "
@@ -407,6 +426,61 @@ void add_explain(CLI::App& app, ExplainCommand& command) {
     add_message_options(app, command.messages);
     app.footer("Example: lsc explain look-alike");
 }
+
+/// The files that the user names in a command line.
+template <typename Command>
+std::vector<std::string> named_files(const Command& command) {
+    std::vector<std::string> files;
+    if constexpr (requires { command.files; }) {
+        files = command.files;
+    } else if constexpr (requires { command.file; }) {
+        files = {command.file};
+    }
+    if constexpr (requires { command.overrides; }) {
+        const SceneOverrides& scene = command.overrides;
+        files.insert(files.end(), {scene.density_map, scene.ground_picture, scene.ground_normals,
+                                   scene.grammar.view});
+    } else if constexpr (requires { command.grammar; }) {
+        files.push_back(command.grammar.view);
+    }
+    return files;
+}
+
+/// Completes the options of a command, apart from those of presets. Returns a mistake.
+struct Complete {
+    const CLI::App& app;
+
+    template <typename Command>
+    std::optional<UsageError> operator()(Command& given) const {
+        std::optional<UsageError> mistake;
+        if constexpr (std::is_same_v<Command, CheckCommand>) {
+            mistake = apply_base(given.run, given.files);
+        } else if constexpr (requires {
+                                 given.file;
+                                 given.run;
+                             }) {
+            mistake = apply_base(given.run, {&given.file, 1});
+        }
+        if constexpr (requires { given.run; }) {
+            FilePolicy& files = given.run.files;
+            if constexpr (std::is_same_v<Command, ImportCommand>) {
+                if (files.is_untrusted && files.root.empty()) {
+                    files.root = given.folder; // of --all
+                }
+            }
+            if constexpr (std::is_same_v<Command, LspCommand>) {
+                if (files.is_untrusted) { // editors name all files by absolute paths
+                    std::error_code ignored;
+                    files.root = path_text(std::filesystem::absolute(
+                        path_of(files.root.empty() ? "." : files.root), ignored));
+                }
+            }
+            return mistake ? mistake : apply_policy(app, named_files(given), given.run);
+        } else {
+            return mistake;
+        }
+    }
+};
 
 /// The command named `name`; null if there is none.
 const CLI::App* find_command(const CLI::App& app, const std::string& name) {
@@ -648,20 +722,7 @@ CommandLine parse_arguments(std::span<const std::string> arguments,
     if (command->get_name() == "help") {
         return help_on(program_options.topic);
     }
-    const std::optional<UsageError> mistake = std::visit(
-        []<typename Command>(Command& given) -> std::optional<UsageError> {
-            if constexpr (std::is_same_v<Command, CheckCommand>) {
-                return apply_base(given.run, given.files);
-            } else if constexpr (requires {
-                                     given.file;
-                                     given.run;
-                                 }) {
-                return apply_base(given.run, {&given.file, 1});
-            } else {
-                return std::nullopt;
-            }
-        },
-        parsed);
+    const std::optional<UsageError> mistake = std::visit(Complete{*command}, parsed);
     if (mistake) {
         return *mistake;
     }

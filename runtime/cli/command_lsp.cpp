@@ -85,9 +85,9 @@ std::string explanations_file() {
 
 } // namespace
 
-ExitStatus run_command(const LspCommand& /*command*/, const Console& console) {
+ExitStatus run_command(const LspCommand& command, const Console& console) {
     LanguageServerHost host;
-    host.project = make_project(console, {});
+    host.project = make_project(console, command.run);
     host.version = LSC_VERSION;
     host.grammars_below = grammars_below;
     host.explain = explain_as_markdown;

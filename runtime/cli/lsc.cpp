@@ -1,14 +1,20 @@
 // SPDX-License-Identifier: MIT
 #include "runtime/cli/lsc.h"
 
+#include "runtime/base/deadline.h"
 #include "runtime/base/out_of_memory.h"
 #include "runtime/cli/command_line.h"
 #include "runtime/cli/commands.h"
 #include "runtime/program/build_info.h"
+#include "runtime/program/output_budget.h"
 #include "runtime/program/process.h"
+#include "runtime/program/time_limit.h"
 
+#include <cmath>
+#include <optional>
 #include <ostream>
 #include <string>
+#include <type_traits>
 #include <variant>
 
 namespace lsys::lsc {
@@ -34,11 +40,37 @@ public:
     }
     template <typename Command>
     ExitStatus operator()(const Command& command) const {
-        const Console console(io_, command.messages);
-        return console.finish(run_command(command, console));
+        if constexpr (requires { command.run; }) {
+            return run_within_limits(command);
+        } else {
+            const Console console(io_, command.messages);
+            return console.finish(run_command(command, console));
+        }
     }
 
 private:
+    /// Runs a command within `--max-time` and `--max-output`.
+    template <typename Command>
+    ExitStatus run_within_limits(const Command& command) const {
+        Io io = io_;
+        OutputBudget budget(command.run.max_output);
+        io.output_budget = &budget;
+        const std::string late = late_message(command.run.max_seconds);
+        std::optional<Deadline> deadline;
+        constexpr bool kIsServer = std::is_same_v<Command, ServeCommand>; // has its own deadline
+        if (!kIsServer && std::isfinite(command.run.max_seconds)) {
+            deadline.emplace(command.run.max_seconds, io_.interrupted, end_process(io_, late));
+            io.interrupted = deadline->stop();
+        }
+        const Console console(io, command.messages);
+        const ExitStatus status = console.finish(run_command(command, console));
+        if (deadline && deadline->has_passed()) {
+            console.error(late);
+            return ExitStatus::Limit;
+        }
+        return budget.is_exceeded() ? ExitStatus::Limit : status;
+    }
+
     const Io& io_;
 };
 

@@ -185,6 +185,7 @@ struct ImportCommand {
 
 struct FormatCommand {
     MessageOptions messages;
+    RunOptions run;
     std::string dialect;
     std::vector<std::string> files;
     bool check = false; // list the files that are not formatted, write no file
@@ -192,6 +193,7 @@ struct FormatCommand {
 
 struct LspCommand {
     MessageOptions messages;
+    RunOptions run;
     bool stdio = false; // no effect: the streams are always used
 };
 

@@ -4,6 +4,7 @@
 #include "grammar/base/number_chars.h"
 #include "runtime/program/arguments.h"
 #include "runtime/program/option_parsers.h"
+#include "runtime/program/policy_options.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -115,7 +116,8 @@ void add_files(CLI::App& app, SceneCommand& command) {
         ->required();
 }
 /// Adds the options of the scene and of its trees, for `place`, `tiles` and `serve`.
-void add_scene(CLI::App& app, SceneCommand& command) {
+/// `trust`: Untrusted for a server.
+void add_scene(CLI::App& app, SceneCommand& command, Trust trust) {
     add_choice<TileInstances>(
         app, "--instances", command.instance_kind,
         {{"trees", TileInstances::Trees}, {"branches", TileInstances::Branches}},
@@ -127,6 +129,12 @@ void add_scene(CLI::App& app, SceneCommand& command) {
     add_seed(app, command.overrides.seed);
     add_run_limits(app, command.run);
     add_environments(app, command.run);
+    add_file_policy(app, command.run, trust);
+    if (trust == Trust::Trusted) {
+        add_run_policy(app, command.run);
+    } else {
+        add_time_limit(app, command.run, "Maximum time until the server listens (default: none)");
+    }
     add_message_options(app, command.messages);
     add_levels(app, command.messages);
 }
@@ -144,7 +152,7 @@ void add_place(CLI::App& app, PlaceCommand& command) {
         ->required()
         ->type_name("FILE");
     app.add_flag("--stats", command.stats, "Print the numbers of trees");
-    add_scene(app, command);
+    add_scene(app, command, Trust::Trusted);
     app.footer("Writes the trees of a scene, sorted by tile, for --trees of `lsc tiles` and `lsc "
                "serve`: a forest\n"
                "that cannot be placed tile by tile is placed once, and any number of processes "
@@ -169,7 +177,7 @@ void add_tiles(CLI::App& app, TilesCommand& command) {
     add_tile_options(app, command);
     app.add_flag("--stats", command.stats, "Print the levels of the tileset and their errors");
     add_mesh(app, command.tiles.mesh);
-    add_scene(app, command);
+    add_scene(app, command, Trust::Trusted);
     app.footer("Writes 3D Tiles 1.1: tileset.json, which is written last, tilesets of four levels "
                "each, GLB tiles,\n"
                "and the meshes and pictures that the tiles share. Each tree is one of the --heroes "
@@ -208,7 +216,7 @@ void add_serve(CLI::App& app, ServeCommand& command) {
         ->type_name("N");
     add_tile_options(app, command);
     add_mesh(app, command.tiles.mesh);
-    add_scene(app, command);
+    add_scene(app, command, Trust::Untrusted);
     app.footer(
         "Serves the files of `lsc tiles` without writing them: each tile is made when it is "
         "asked for.\n"
@@ -216,9 +224,12 @@ void add_serve(CLI::App& app, ServeCommand& command) {
         "poisson-cells or\n"
         "density-cells, without painted trees; other scenes need --trees. Ctrl-C or SIGTERM "
         "ends the server.\n"
+        "The scene is not trusted: it reads only files of its own folder, unless --root or "
+        "--trusted allow more.\n"
         "/tileset.json is the tileset, / a page that shows it, /health and /metrics are for "
         "monitoring.\n"
         "Examples: lsc serve wood.toml\n"
+        "          lsc serve --root samples samples/scenes/endless-forest/endless-forest.toml\n"
         "          lsc serve oak.lsys --placement jittered --spacing 10 --size 300000 "
         "--listen 8000\n"
         "          lsc place wood.toml -o wood.trees; lsc serve wood.toml --trees wood.trees");

@@ -85,7 +85,8 @@ Outcome<std::vector<std::string>> write_plant_to(const Plant& plant,
                                                  const FileReceiver* receive,
                                                  const Options& options,
                                                  const Project& project) {
-    Call call(project);
+    const Grammar::Data& read = plant.data().grammar.data();
+    Call call(project, {read.file}, read.policy);
     const auto write = [&](const OutputContext& context) {
         const Result<PlantFileOptions> parsed = parse_plant_files(path, options);
         if (!parsed) {
@@ -132,7 +133,8 @@ Outcome<std::uint64_t> export_plant(const Plant& plant,
                                     const std::function<bool(std::string_view piece)>& write,
                                     const ExportOptions& options,
                                     const Project& project) {
-    Call call(project);
+    const Grammar::Data& read = plant.data().grammar.data();
+    Call call(project, {read.file}, read.policy);
     const ::lsys::Plant& drawn = plant.data().plant;
     std::uint64_t bytes = 0;
     const auto work = [&]() -> ::lsys::Outcome<std::uint64_t> {

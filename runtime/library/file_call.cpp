@@ -20,7 +20,9 @@ write_files(Call& call,
     ::lsys::Messages messages;
     MessageOptions options;
     options.levels = call.project().levels;
-    const Console console({in, out, out, false, call.cancel_flag(), "lsys"}, options, messages);
+    Io io{in, out, out, false, call.cancel_flag(), "lsys"};
+    io.output_budget = &call.output_budget();
+    const Console console(io, options, messages);
     std::vector<std::string> paths;
     ::lsys::FileReceiver receiver;
     if (receive != nullptr) {

@@ -136,7 +136,8 @@ std::vector<Species> species_of(const LoadedForest& forest) {
 }
 
 Outcome<Forest> grow(ForestSource source, const ForestOptions& options, const Project& project) {
-    Call call(project);
+    Call call(project, source.files, {});
+    source.policy = call.policy();
     const auto work = [&]() -> ::lsys::Outcome<LoadedForest> {
         Step step(call.project());
         if (source.files.empty()) {
@@ -248,7 +249,8 @@ Outcome<std::vector<std::string>> write_forest_to(const Forest& forest,
                                                   const FileReceiver* receive,
                                                   const Options& options,
                                                   const Project& project) {
-    Call call(project);
+    const ForestSource& read = forest.data().source;
+    Call call(project, read.files, read.policy);
     const auto write = [&](const OutputContext& context) {
         const Result<ForestFileOptions> parsed = parse_forest_files(path, options);
         if (!parsed) {
@@ -345,7 +347,8 @@ void Instances::read_matrices(std::uint64_t first,
 
 Outcome<Instances>
 make_instances(const Forest& forest, const MeshOptions& mesh, const Project& project) {
-    Call call(project);
+    const ForestSource& read = forest.data().source;
+    Call call(project, read.files, read.policy);
     const GrownForest& grown = forest.data().forest.grown;
     const auto work = [&]() -> ::lsys::Outcome<std::shared_ptr<Instances::Data>> {
         Step step(call.project());
@@ -392,7 +395,8 @@ make_instances(const Forest& forest, const MeshOptions& mesh, const Project& pro
 }
 
 Outcome<Mesh> make_ground(const Forest& forest, const Project& project) {
-    Call call(project);
+    const ForestSource& read = forest.data().source;
+    Call call(project, read.files, read.policy);
     std::optional<::lsys::Mesh> ground;
     const auto write = [&](const OutputContext& context) {
         return ::lsys::make_ground({}, forest.data().forest.grown, context, ground);

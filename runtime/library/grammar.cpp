@@ -3,6 +3,7 @@
 #include "compiler/growth/growth.h"
 #include "runtime/library/impl/call.h"
 #include "runtime/library/impl/data.h"
+#include "runtime/pipeline/portable_files.h"
 
 #include <cmath>
 #include <limits>
@@ -27,12 +28,17 @@ std::vector<Constant> constants_of(const ::lsys::Grammar& grammar) {
     return constants;
 }
 
-Outcome<Grammar> compile(Call& call, const std::string& name, const GrammarOptions& options) {
+Outcome<Grammar> compile(Call& call,
+                         const std::string& name,
+                         const std::string& file,
+                         const GrammarOptions& options) {
     return call.run<Grammar>(
         [&] { return load_grammar(name, inner_grammar_options(options), call.project()); },
         [&](::lsys::Grammar grammar) {
             auto data = std::make_shared<Grammar::Data>();
             data->name = name;
+            data->file = file;
+            data->policy = call.policy();
             data->constants = constants_of(grammar);
             grammar.program.reset(); // the bytecode is complete
             if (options.generations) {
@@ -99,7 +105,9 @@ const std::string& Grammar::translation() const {
 }
 
 std::string Grammar::bytecode() const {
-    return write_module_file(data_->grammar.bytecode);
+    Bytecode bytecode = data_->grammar.bytecode;
+    remove_machine_paths(bytecode);
+    return write_module_file(bytecode);
 }
 
 std::vector<PredictedSize> Grammar::predict(std::uint32_t generations) const {
@@ -122,20 +130,20 @@ std::vector<PredictedSize> Grammar::predict(std::uint32_t generations) const {
 
 Outcome<Grammar>
 compile_file(const std::string& path, const GrammarOptions& options, const Project& project) {
-    Call call(project);
-    return compile(call, path, options);
+    Call call(project, {path}, {});
+    return compile(call, path, path, options);
 }
 
 Outcome<Grammar> compile_text(std::string text,
                               const std::string& name,
                               const GrammarOptions& options,
                               const Project& project) {
-    Call call(project);
+    Call call(project, {"-"}, {});
     call.project().host.read_file = [&, read = std::move(call.project().host.read_file)](
                                         const std::string& path, const ReadLimit& limit) {
         return path == name ? Result<std::string>(text) : read(path, limit);
     };
-    return compile(call, name, options);
+    return compile(call, name, "-", options);
 }
 
 } // namespace lsys::v0

@@ -186,7 +186,7 @@ PlantSize Plant::measure() const {
 }
 
 Outcome<Plant> grow(const Grammar& grammar, const GrowOptions& options, const Project& project) {
-    Call call(project);
+    Call call(project, {grammar.data().file}, grammar.data().policy);
     call.check_environments(grammar.data().grammar.bytecode);
     ::lsys::Grammar copy = copy_of(grammar.data().grammar);
     PlantOptions inner;
@@ -290,7 +290,8 @@ Mesh public_mesh(std::shared_ptr<const ::lsys::Mesh> mesh, std::uint32_t threads
 }
 
 Outcome<Mesh> make_mesh(const Plant& plant, const MeshOptions& options, const Project& project) {
-    Call call(project);
+    const Grammar::Data& read = plant.data().grammar.data();
+    Call call(project, {read.file}, read.policy);
     const ::lsys::Plant& drawn = plant.data().plant;
     return call.run<Mesh>(
         [&]() -> ::lsys::Outcome<::lsys::Mesh> {

@@ -96,7 +96,7 @@ std::string Word::text() const {
 }
 
 Outcome<Word> derive(const Grammar& grammar, const DeriveOptions& options, const Project& project) {
-    Call call(project);
+    Call call(project, {grammar.data().file}, grammar.data().policy);
     call.check_environments(grammar.data().grammar.bytecode);
     PlantOptions inner;
     inner.file = grammar.name();

@@ -30,7 +30,11 @@ CLI::App& add_options(CLI::App& app, bool& verbose, lsc::TilesCommand& command) 
         "tiles", "Write a forest as 3D Tiles for Cesium and other viewers, with the processes of "
                  "an MPI job");
     lsc::add_tiles(tiles, command);
-    tiles.remove_option(tiles.get_option("--part"));
+    // The limits of --untrusted are those of one process.
+    for (const char* const option :
+         {"--part", "--untrusted", "--root", "--max-time", "--max-output"}) {
+        tiles.remove_option(tiles.get_option(option));
+    }
     tiles.get_option("--threads")
         ->description("Number of threads of each process; does not change the result (default: the "
                       "cores of a machine divided by the processes there, and at most the cores to "

@@ -36,13 +36,28 @@ constexpr double kDefaultSize = 100.0; // m
 constexpr std::uint64_t kDefaultCount = 1000;
 
 /// Joins `folder` and a path relative to it. Removes `..`, unless a symbolic link makes the shorter
-/// path another file.
-std::string path_in(const std::string& folder, const std::string& path) {
+/// path another file. An untrusted path stays as it is: a shorter one in a message would tell that
+/// the file exists.
+std::string path_in(const std::string& folder, const std::string& path, const Project& project) {
     const std::filesystem::path whole = path_of(folder) / path_of(path);
+    if (project.files.is_untrusted) {
+        return path_text(whole);
+    }
     const std::filesystem::path normal = whole.lexically_normal();
     std::error_code missing;
     return std::filesystem::equivalent(whole, normal, missing) ? path_text(normal)
                                                                : path_text(whole);
+}
+
+/// The reason why a file does not exist for the host.
+std::string reason_of_absence(const std::string& path, const Project& project) {
+    if (project.files.is_untrusted) {
+        const Result<std::string> read = project.host.read_referenced_file(path, {0});
+        if (!read) {
+            return read.error().message;
+        }
+    }
+    return "no such file or directory";
 }
 
 /// Axioms whose NoVariety note has been given: path of the file and offset of the axiom.
@@ -101,12 +116,23 @@ Step::Ended fail_at(SourceSpan place, const Error& error, const LoadedScene& loa
     return step.end(is_limit ? Stop::Limit : Stop::Failed);
 }
 
-Result<GreyMap> read_map(const std::string& path,
+/// Reads a file of a scene. Only a file that the user names on a command line may be a pipe.
+Result<std::string> read_scene_file(const SceneFile& file,
+                                    const std::string& path,
+                                    const ReadLimit& limit,
+                                    const Step& step) {
+    return file.span.file == kNoFile ? step.read(path, limit) : step.read_referenced(path, limit);
+}
+
+Result<GreyMap> read_map(const SceneFile& file,
+                         const std::string& folder,
                          std::uint32_t columns,
                          std::uint32_t rows,
                          const Step& step,
                          FileBudget& budget) {
-    const Result<std::string> bytes = step.read(path, {~std::uint64_t{0}, budget.left});
+    const std::string path = path_in(folder, file.path, step.project());
+    const Result<std::string> bytes =
+        read_scene_file(file, path, {~std::uint64_t{0}, budget.left}, step);
     if (!bytes) {
         return bytes.error();
     }
@@ -133,8 +159,8 @@ Result<Terrain> make_terrain(const SceneTerrain& terrain,
     case TerrainKind::HeightMap:
         break;
     }
-    Result<GreyMap> map = read_map(path_in(folder, terrain.map.path), terrain.map_columns,
-                                   terrain.map_rows, step, budget);
+    Result<GreyMap> map =
+        read_map(terrain.map, folder, terrain.map_columns, terrain.map_rows, step, budget);
     if (!map) {
         return map.error();
     }
@@ -147,8 +173,9 @@ Result<std::shared_ptr<const Texture>> read_ground_picture(const SceneFile& file
                                                            const Step& step,
                                                            FileBudget& budget) {
     constexpr std::uint64_t kMaxPictureBytes = std::uint64_t{1} << 30;
-    const std::string path = path_in(folder, file.path);
-    const Result<std::string> bytes = step.read(path, {kMaxPictureBytes, budget.left});
+    const std::string path = path_in(folder, file.path, step.project());
+    const Result<std::string> bytes =
+        read_scene_file(file, path, {kMaxPictureBytes, budget.left}, step);
     if (!bytes) {
         return bytes.error();
     }
@@ -260,7 +287,11 @@ Outcome<GrownStage> grow_stage(const SceneSpecies& species,
         options.settings.push_back({key, values});
     }
     Grammar grammar;
-    if (!step.take(load_grammar(path, options, project), grammar)) {
+    Project reading = project;
+    if (species.grammar.span.file != kNoFile) { // only a file of a command line may be a pipe
+        reading.host.read_file = project.host.read_referenced_file;
+    }
+    if (!step.take(load_grammar(path, options, reading), grammar)) {
         return step.end();
     }
     project.begin(LongStep::GrowHeroes);
@@ -516,8 +547,7 @@ grow_species(const LoadedScene& loaded, const Project& project, const PreviousFo
     }
     grown.terrain.emplace(std::move(terrain.value()));
     if (!scene.density_map.path.empty()) {
-        Result<GreyMap> map =
-            read_map(path_in(loaded.folder, scene.density_map.path), 0, 0, step, budget);
+        Result<GreyMap> map = read_map(scene.density_map, loaded.folder, 0, 0, step, budget);
         if (!map) {
             return fail_at(scene.density_map.span, map.error(), loaded, step);
         }
@@ -532,11 +562,12 @@ grow_species(const LoadedScene& loaded, const Project& project, const PreviousFo
     std::set<const Texture*> known_pictures; // already counted in the budget
     std::vector<std::string> programs;       // names of environments of kind Program
     for (const SceneSpecies& species : scene.species) {
-        const std::string path = path_in(loaded.folder, species.grammar.path);
+        const std::string path = path_in(loaded.folder, species.grammar.path, project);
         if (!project.host.file_exists(path)) {
-            return fail_at(species.grammar.span,
-                           Error{fmt::format("cannot read `{}`: no such file or directory", path)},
-                           loaded, step);
+            return fail_at(
+                species.grammar.span,
+                Error{fmt::format("cannot read `{}`: {}", path, reason_of_absence(path, project))},
+                loaded, step);
         }
         if (!species.dialect.text.empty() && !find_dialect(species.dialect.text)) {
             return fail_at(species.dialect.span,
@@ -653,8 +684,8 @@ Outcome<std::vector<BranchOrigin>> origins_of_branches(const SceneSpecies& speci
     FileBudget budget{project.limits.max_bytes};
     NotedAxioms noted;
     Outcome<GrownStage> grown =
-        grow_stage(species, path_in(folder, species.grammar.path), generations, false, noted,
-                   project, budget, stage % cases);
+        grow_stage(species, path_in(folder, species.grammar.path, project), generations, false,
+                   noted, project, budget, stage % cases);
     if (!grown) { // warnings of a success were shown when the forest was grown
         step.messages.append(grown.messages());
         return step.end(grown.stop());

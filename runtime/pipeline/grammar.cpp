@@ -177,13 +177,30 @@ bool is_standard_input(const std::string& path) {
 }
 
 FileLoader make_loader(const Project& project, std::uint64_t max_bytes) {
+    const FilePolicy& files = project.files;
     return [read = project.host.read_referenced_file, list = project.host.list_folder,
-            left = max_bytes](const std::string& path) mutable {
+            left = max_bytes, policy_left = files.max_included_bytes,
+            max_policy_bytes = files.max_included_bytes, max_files = files.max_included_files,
+            count = std::uint64_t{0}](const std::string& path) mutable -> Result<std::string> {
         if (list && path.ends_with('/')) {
-            return Result<std::string>(fmt::format("{}", fmt::join(list(path), "\n")));
+            return fmt::format("{}", fmt::join(list(path), "\n"));
+        }
+        if (++count > max_files) {
+            return Error{fmt::format("more than {} files are included, the maximum for grammars "
+                                     "that are not trusted",
+                                     max_files),
+                         ErrorKind::Limit};
         }
         Result<std::string> bytes = read(path, {kMaxSourceBytes, left});
-        left -= bytes ? bytes.value().size() : 0;
+        const std::uint64_t size = bytes ? bytes.value().size() : 0;
+        if (size > policy_left) {
+            return Error{fmt::format("the included files are larger than {} bytes together, the "
+                                     "maximum for grammars that are not trusted",
+                                     max_policy_bytes),
+                         ErrorKind::Limit};
+        }
+        left -= size;
+        policy_left -= size;
         return bytes;
     };
 }

@@ -8,6 +8,7 @@
 #include "grammar/base/result.h"
 #include "runtime/base/limits.h"
 #include "runtime/environment/program.h"
+#include "runtime/pipeline/file_policy.h"
 
 #include <atomic>
 #include <cstdint>
@@ -85,6 +86,7 @@ struct Project {
     std::uint32_t threads = 0; // 0: as many as the machine has
     MessageLevels levels;      // levels of diagnostics, from --allow, --warn and --deny
     std::vector<EnvironmentCommand> environments{};
+    FilePolicy files{};           // the host refuses files that it forbids
     double answer_seconds = 60.0; // max time of an answer of a program of `environments`
 
     [[nodiscard]] bool is_cancelled() const {

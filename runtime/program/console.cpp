@@ -3,7 +3,9 @@
 
 #include "grammar/rendering/render_diagnostic.h"
 #include "runtime/program/files.h"
+#include "runtime/program/output_budget.h"
 
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
@@ -220,7 +222,18 @@ ExitStatus Console::show(Diagnostics& diagnostics, const SourceMap& sources) con
     return diagnostics.has_errors() ? ExitStatus::AuthorErrors : ExitStatus::Ok;
 }
 
+Result<void> Console::take_output(std::size_t bytes) const {
+    if (io_.output_budget == nullptr || io_.output_budget->take(bytes)) {
+        return {};
+    }
+    return Error{fmt::format("the output is larger than {} bytes, the limit of `--max-output`",
+                             io_.output_budget->max_bytes())};
+}
+
 Result<void> Console::write(std::string_view text) const {
+    if (Result<void> taken = take_output(text.size()); !taken) {
+        return taken;
+    }
     errno = 0;
     io_.out.write(text.data(), static_cast<std::streamsize>(text.size()));
     return output_result(io_.out);

@@ -11,6 +11,7 @@
 #include "runtime/program/io.h"
 #include "runtime/program/message_options.h"
 
+#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <string_view>
@@ -69,6 +70,8 @@ public:
     [[nodiscard]] ExitStatus show(Diagnostics& diagnostics, const SourceMap& sources) const;
     [[nodiscard]] RenderOptions render_options() const;
 
+    /// Counts bytes to be written against Io::output_budget. An Error if they exceed it.
+    [[nodiscard]] Result<void> take_output(std::size_t bytes) const;
     /// Writes a result to standard output.
     [[nodiscard]] Result<void> write(std::string_view text) const;
     /// Flushes standard output.

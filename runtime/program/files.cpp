@@ -160,14 +160,21 @@ Result<std::string> read_bytes(const std::string& path,
     // For FileKind::Regular a pipe opens without waiting for its writer, and refusal_reason() then
     // refuses the pipe.
     platform::File file;
-    FileFacts facts;
-    Reason reason = platform::open_to_read(path, kind == FileKind::Named, file);
-    if (reason == 0) {
-        reason = platform::facts_of(file, facts);
-    }
-    if (reason != 0) {
+    if (const Reason reason = platform::open_to_read(path, kind == FileKind::Named, file);
+        reason != 0) {
         return Error{reason == EISDIR ? std::string(refusal_reason(FileType::Directory, kind))
                                       : errno_text(reason)};
+    }
+    return read_opened(file, kind, limit, cancelled);
+}
+
+Result<std::string> read_opened(const platform::File& file,
+                                FileKind kind,
+                                const ReadLimit& limit,
+                                const std::atomic<bool>* cancelled) {
+    FileFacts facts;
+    if (const Reason reason = platform::facts_of(file, facts); reason != 0) {
+        return Error{errno_text(reason)};
     }
     if (const std::string_view refusal = refusal_reason(facts.type, kind); !refusal.empty()) {
         return Error{std::string(refusal)};
@@ -290,6 +297,9 @@ Result<Output> Output::create(const std::string& path, const Console& console) {
 Result<void> Output::write(std::string_view text) {
     if (!file_.is_open()) {
         return console_->write(text);
+    }
+    if (Result<void> taken = console_->take_output(text.size()); !taken) {
+        return taken;
     }
     while (!text.empty()) {
         const auto [count, reason] = platform::write_some(file_, text.data(), text.size());

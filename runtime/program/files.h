@@ -33,6 +33,11 @@ enum class FileKind : std::uint8_t {
                                              FileKind kind,
                                              const ReadLimit& limit,
                                              const std::atomic<bool>* cancelled);
+/// The bytes of an open file; otherwise as read_bytes().
+[[nodiscard]] Result<std::string> read_opened(const platform::File& file,
+                                              FileKind kind,
+                                              const ReadLimit& limit,
+                                              const std::atomic<bool>* cancelled);
 /// The bytes of standard input. The Error is the reason without a name.
 [[nodiscard]] Result<std::string> read_standard_input(const ReadLimit& limit,
                                                       const Console& console);

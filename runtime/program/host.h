@@ -14,9 +14,12 @@ namespace lsys {
 
 /// A host that reads files on disk. `cancelled` may be null.
 [[nodiscard]] Host make_file_host(const std::atomic<bool>* cancelled);
+/// A host that reads the files on disk that `policy` allows.
+[[nodiscard]] Host make_file_host(const std::atomic<bool>* cancelled, const FilePolicy& policy);
 /// A host that reads files on disk, and standard input for the paths `-` and `standard_input`.
 /// `console` must outlive the host.
-[[nodiscard]] Host make_host(const Console& console, const std::string& standard_input);
+[[nodiscard]] Host
+make_host(const Console& console, const std::string& standard_input, const FilePolicy& policy);
 
 /// A project with make_host(), without progress.
 [[nodiscard]] Project make_project(const Console& console, const RunOptions& run);

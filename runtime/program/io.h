@@ -7,6 +7,8 @@
 
 namespace lsys {
 
+class OutputBudget;
+
 /// The streams of a run. Standard output is for results only.
 struct Io {
     std::istream& in;
@@ -20,6 +22,11 @@ struct Io {
     /// The commit of the sources, for `--version --verbose`. Set by main(): libraries and tests
     /// that contained it would be linked anew for each commit.
     const char* revision = "unknown";
+    /// The limit of `--max-output`; null: none.
+    OutputBudget* output_budget = nullptr;
+    /// Prints a line and ends the process at once with status 3; temporary files are removed. Null
+    /// in tests, where it would end them.
+    void (*end_at_limit)(const char* line) = nullptr;
 };
 
 } // namespace lsys

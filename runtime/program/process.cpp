@@ -3,14 +3,28 @@
 
 #include "runtime/base/out_of_memory.h"
 #include "runtime/platform/process.h"
+#include "runtime/platform/shell_program.h"
 #include "runtime/program/console.h"
 #include "runtime/program/temporaries.h"
 
+#include <cstdio>
 #include <cstdlib>
 #include <iostream>
 #include <string>
 
 namespace lsys {
+
+namespace {
+
+/// Ends the process although other threads still work, so no stream may be used or destroyed.
+void end_at_limit(const char* line) {
+    remove_temporaries();
+    platform::end_shell_programs();
+    std::fputs(line, stderr);
+    std::_Exit(static_cast<int>(ExitStatus::Limit));
+}
+
+} // namespace
 
 int run_process(int argc,
                 char** argv,
@@ -23,13 +37,14 @@ int run_process(int argc,
     platform::handle_end_requests(remove_temporaries);
     std::ios::sync_with_stdio(false);
     std::cin.tie(nullptr);
-    const Io io{std::cin,
-                std::cout,
-                std::cerr,
-                platform::error_stream_is_terminal(),
-                &platform::end_requested(),
-                program,
-                revision};
+    Io io{std::cin,
+          std::cout,
+          std::cerr,
+          platform::error_stream_is_terminal(),
+          &platform::end_requested(),
+          program,
+          revision};
+    io.end_at_limit = end_at_limit;
     const int status =
         catch_out_of_memory([&] { return run(platform::process_arguments(argc, argv), io); },
                             [&] { return report_out_of_memory(io); });

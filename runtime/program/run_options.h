@@ -6,6 +6,7 @@
 #include "runtime/pipeline/project.h"
 
 #include <cstdint>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -21,6 +22,12 @@ struct RunOptions {
     std::string stdin_name;
 
     std::vector<EnvironmentCommand> environments; // values of --environment
+
+    FilePolicy files; // from --untrusted and --root
+    /// Max duration of the command in seconds; infinite without a limit.
+    double max_seconds = std::numeric_limits<double>::infinity();
+    /// Max bytes of all written files and standard output together.
+    std::uint64_t max_output = std::numeric_limits<std::uint64_t>::max();
 
     friend bool operator==(const RunOptions&, const RunOptions&) = default;
 };

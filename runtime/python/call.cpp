@@ -199,6 +199,14 @@ CallOptions options_of(const py::kwargs& arguments) {
             options.max_modules = whole_number<std::uint64_t>(name, value);
         } else if (name == "max_bytes") {
             options.max_bytes = whole_number<std::uint64_t>(name, value);
+        } else if (name == "untrusted") {
+            options.policy.untrusted = value.cast<bool>();
+        } else if (name == "root") {
+            options.policy.root = py::str(py::module_::import("os").attr("fspath")(value));
+        } else if (name == "max_seconds") {
+            options.policy.max_seconds = value.cast<double>();
+        } else if (name == "max_output") {
+            options.policy.max_output = whole_number<std::uint64_t>(name, value);
         } else if (name == "progress") {
             options.progress = py::reinterpret_borrow<py::object>(value);
         } else if (name == "read_file") {

@@ -34,7 +34,8 @@ using namespace pybind11::literals;
 struct CallOptions {
     std::uint32_t threads = 0; // 0: as many as the machine has
     std::uint64_t max_modules = lsys::Limits{}.max_modules;
-    std::uint64_t max_bytes = 0;       // 0: half of the memory of the machine
+    std::uint64_t max_bytes = 0; // 0: half of the memory of the machine
+    lsys::Policy policy;
     py::object progress = py::none();  // callable(generation, generations, modules)
     py::object read_file = py::none(); // callable(path) -> bytes, str or None
     py::dict environment; // name to callable(generation, positions, headings, ups, parameters)
@@ -158,6 +159,7 @@ auto run(const CallOptions& options, const Work& work) {
     project.threads = options.threads;
     project.limits.max_modules = options.max_modules;
     project.limits.max_bytes = options.max_bytes;
+    project.policy = options.policy;
     project.host.cancelled = &cancelled;
     if (!options.read_file.is_none()) {
         const auto read = options.read_file.cast<py::function>();

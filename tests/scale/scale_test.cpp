@@ -116,6 +116,7 @@ struct Case {
     std::string message; // must occur in standard error; may be empty
     const char* out = "/dev/null";
     std::string stray{}; // must occur in the command line of no process afterwards; empty: no check
+    double max_seconds = kMaxSeconds; // processor time
 };
 
 /// Writes a flat grid of `side` * `side` squares, 1 m wide, around the origin.
@@ -137,6 +138,59 @@ void write_grid(const std::string& path, std::uint64_t side) {
         }
         file << faces;
     }
+}
+
+/// A condition of `count` comparisons with different numbers.
+std::string long_condition(const std::string& before, const std::string& after, int count) {
+    std::string text;
+    for (int i = 0; i < count; ++i) {
+        text += (i == 0 ? "" : after) + before + std::to_string(i);
+    }
+    return text;
+}
+
+/// Small grammars made to use much time or to read what they must not: each ends within two seconds
+/// of processor time or at a limit.
+void add_hostile_cases(std::map<std::string, Case>& all) {
+    const auto text = [](const std::string& grammar) {
+        return [=](const std::string& path) { write_repeated(path, grammar, " ", 1, ""); };
+    };
+    const auto add = [&](const char* name, const std::string& grammar,
+                         const std::vector<std::string>& command, int status,
+                         const std::string& message) {
+        Case& added = all[std::string("hostile-") + name];
+        added = {text(grammar), command, status, message};
+        added.max_seconds = 2.5;
+    };
+    constexpr int kTerms = 30'000;
+    const std::string head = "#n = 1;\n#w : A(1);\n#p : A(x) : ";
+    const std::vector<std::string> check{"check", "%"};
+    add("and", head + long_condition("x > -", " && ", kTerms) + " : A(x + 1);\n", check, 0, "");
+    add("or", head + long_condition("x == ", " || ", kTerms) + " : A(x + 1);\n", check, 0, "");
+    add("houdini-condition", "A(1)\nA(x):" + long_condition("x>-", "&", kTerms) + "=A(x+1)\n",
+        {"check", "--dialect", "houdini", "-n", "1", "%"}, 0, "");
+    std::string modules;
+    for (int i = 0; i < 10'000; ++i) {
+        modules += "A ";
+    }
+    add("context", "#n = 1;\n#w : " + modules + modules + ";\n#p : " + modules + "< A : * : B;\n",
+        {"dump", "--count", "%"}, 0, "");
+    const std::vector<std::string> one_second{"dump", "--count", "--max-time", "1", "%"};
+    const std::string late = "the limit of `--max-time`";
+    add("endless", "#n = 4294967294;\n#w : A;\n#p : A : * : A;\n", {"dump", "--max-time", "1", "%"},
+        3, late);
+    add("decompose",
+        "#set decompose_depth 100000;\n#set at_depth stop;\n#n = 2;\n#w : A A A A;\n"
+        "#decompose d : A : * : B A;\n",
+        one_second, 3, late);
+    add("interpret",
+        "#n = 1;\n#set interpret_depth 100000;\n#set at_depth stop;\n#w : A(1);\n"
+        "#interpret d : A(x) : * : F(1) A(x+1) A(x+2);\n",
+        {"export", "--max-time", "1", "%", "-o", "/dev/null", "--format", "obj"}, 3, late);
+    add("device", "#n = 0;\n#w : Q;\n#object Q \"/dev/zero\";\n",
+        {"export", "--untrusted", "%", "-o", "/dev/null", "--format", "stl"}, 2, "only files in");
+    add("include-device", "#n = 0;\n#w : Q;\n#include \"/dev/zero\";\n",
+        {"check", "--untrusted", "%"}, 1, "only files in");
 }
 
 /// Plants that sense: enormous meshes, tiny cells, many markers, programs that misbehave.
@@ -369,6 +423,7 @@ std::map<std::string, Case> cases() {
         0,
         ""};
     add_sensing_cases(all);
+    add_hostile_cases(all);
     return all;
 }
 
@@ -406,6 +461,7 @@ int main(int argc, char** argv) {
     expect(result.errors.find(wanted.message) != std::string::npos, wanted.message.c_str());
     expect(kInstrumented || result.peak_kib <= kMaxKib, "peak memory");
     expect(wanted.stray.empty() || !is_running(wanted.stray), "a process is left");
-    expect(result.seconds <= kMaxSeconds * (kInstrumented ? kInstrumentedFactor : 1.0), "time");
+    expect(result.seconds <= wanted.max_seconds * (kInstrumented ? kInstrumentedFactor : 1.0),
+           "time");
     return fine ? 0 : 1;
 }

@@ -43,11 +43,12 @@ bool draw_plants(const SheetRequest& request, const std::atomic<bool>& cancelled
     for (std::size_t i = 0; i < kSheetCells && !cancelled; ++i) {
         options.grammar.optional_definitions = request.edits.at(i).definitions;
         options.seed = request.edits.at(i).seed;
-        const Project project{make_file_host(&cancelled),
+        const Project project{make_file_host(&cancelled, options.run.files),
                               options.run.limits,
                               options.run.threads,
                               {},
-                              options.run.environments};
+                              options.run.environments,
+                              options.run.files};
         const Outcome<std::shared_ptr<const PlantDocument>> plant =
             make_plant_document(options, project);
         if (cancelled) {

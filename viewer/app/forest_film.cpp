@@ -52,11 +52,12 @@ ForestFilmMoment make_moment(FilmState& state,
     ForestFilmMoment film_moment;
     film_moment.document = request.document;
     film_moment.moment = request.moment;
-    const Project project{make_file_host(&cancelled),
+    const Project project{make_file_host(&cancelled, request.run.files),
                           request.run.limits,
                           request.run.threads,
                           {},
-                          request.run.environments};
+                          request.run.environments,
+                          request.run.files};
     const auto work = [&] {
         Outcome<void> outcome = state.make(request, project, film_moment.trees);
         film_moment.messages = std::move(outcome.messages());

@@ -22,11 +22,13 @@ ForestOutcome make_forest(const ForestRequest& request,
     if (known != nullptr) {
         outcome.files = known->files;
     }
-    Project project{record_files(make_file_host(&cancelled), outcome.files),
-                    request.options.run.limits,
-                    request.options.run.threads,
-                    {},
-                    request.options.run.environments};
+    Project project{
+        record_files(make_file_host(&cancelled, request.options.run.files), outcome.files),
+        request.options.run.limits,
+        request.options.run.threads,
+        {},
+        request.options.run.environments,
+        request.options.run.files};
     progress.follow(project.host);
     const Stopwatch making;
     const auto work = [&] {

@@ -4,6 +4,7 @@
 #include "runtime/pipeline/forest.h"
 #include "runtime/program/arguments.h"
 #include "runtime/program/option_parsers.h"
+#include "runtime/program/policy_options.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -282,6 +283,10 @@ void add_all(CLI::App& app, ViewOptions& options) {
     add_mesh(app, options.mesh);
     add_run_limits(app, options.run);
     add_environments(app, options.run);
+    add_file_policy(app, options.run, Trust::Trusted);
+    app.get_option("--untrusted")
+        ->description("Grammars and scenes are not trusted: they name only files of their own "
+                      "folder, start no programs, and use at most 1 GiB of memory");
     add_messages(app, options.messages);
     app.set_version_flag("--version", "lsview " LSC_VERSION, "Print the version and exit");
     app.footer(
@@ -321,6 +326,12 @@ ParsedOptions parse_options(std::span<const std::string> arguments) {
         return to_usage_error(error, app, "lsview");
     }
     if (const auto mistake = apply_base(options.run, options.files)) {
+        return *mistake;
+    }
+    std::vector<std::string> named = options.files;
+    named.insert(named.end(), {options.grammar.view, options.overrides.density_map,
+                               options.overrides.ground_picture, options.overrides.ground_normals});
+    if (const auto mistake = apply_policy(app, std::move(named), options.run)) {
         return *mistake;
     }
     if (options.files.empty()) {
@@ -429,6 +440,9 @@ ParsedOptions parse_options(std::span<const std::string> arguments) {
 void use_other_file(ViewOptions& options, const std::string& file) {
     options.file = file;
     options.files = {file};
+    if (options.run.files.is_untrusted) {
+        options.run.files.named = {file};
+    }
     options.is_forest = is_scene(file);
     options.overrides = {};
     options.grammar = {};

@@ -218,7 +218,12 @@ Outcome<Description> describe(const Picked& picked,
 namespace {
 
 Project worker_project(const RunOptions& run, const std::atomic<bool>& cancelled) {
-    return {make_file_host(&cancelled), run.limits, run.threads, {}, run.environments};
+    return {make_file_host(&cancelled, run.files),
+            run.limits,
+            run.threads,
+            {},
+            run.environments,
+            run.files};
 }
 
 std::string text_of(const Messages& messages) {

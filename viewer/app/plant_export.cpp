@@ -74,9 +74,12 @@ std::string export_plant(const ExportRequest& request, const std::atomic<bool>& 
     std::ostringstream out;
     std::ostringstream err;
     const Console console({in, out, err, false, &cancelled, "lsview"}, request.options.messages);
-    const Project project{make_file_host(&cancelled), request.options.run.limits,
-                          request.options.run.threads, console.options().levels,
-                          request.options.run.environments};
+    const Project project{make_file_host(&cancelled, request.options.run.files),
+                          request.options.run.limits,
+                          request.options.run.threads,
+                          console.options().levels,
+                          request.options.run.environments,
+                          request.options.run.files};
     const OutputContext context{console, project, "lsview " LSC_VERSION, nullptr, nullptr};
     ExitStatus status = ExitStatus::Limit;
     const auto work = [&] {

@@ -67,11 +67,12 @@ make_moment(FilmState& state, const FilmRequest& request, const std::atomic<bool
     FilmMoment film_moment;
     film_moment.moment = request.moment;
     film_moment.mesh_options = request.options.mesh;
-    const Project project{make_file_host(&cancelled),
+    const Project project{make_file_host(&cancelled, request.options.run.files),
                           request.options.run.limits,
                           request.options.run.threads,
                           {},
-                          request.options.run.environments};
+                          request.options.run.environments,
+                          request.options.run.files};
     const auto work = [&] {
         Outcome<void> outcome = state.make(request, project, film_moment);
         film_moment.messages = std::move(outcome.messages());

@@ -19,11 +19,13 @@ make(const LoadRequest& request, const std::atomic<bool>& cancelled, MakingProgr
     outcome.options = request.options;
     outcome.changed_at = request.changed_at;
     outcome.files = {request.options.file};
-    Project project{record_files(make_file_host(&cancelled), outcome.files),
-                    request.options.run.limits,
-                    request.options.run.threads,
-                    {},
-                    request.options.run.environments};
+    Project project{
+        record_files(make_file_host(&cancelled, request.options.run.files), outcome.files),
+        request.options.run.limits,
+        request.options.run.threads,
+        {},
+        request.options.run.environments,
+        request.options.run.files};
     progress.follow(project.host);
     const Stopwatch making;
     const auto work = [&] {

@@ -481,11 +481,12 @@ Result<std::string> PlantView::text_with_values(const StatementValues& values) c
     if (shown.text() != read.text() || shown.has_byte_order_mark() != read.has_byte_order_mark()) {
         return Error{fmt::format("`{}` has changed on disk since it was read", file)};
     }
-    const Project project{make_file_host(nullptr),
+    const Project project{make_file_host(nullptr, options_.run.files),
                           options_.run.limits,
                           options_.run.threads,
                           {},
-                          options_.run.environments};
+                          options_.run.environments,
+                          options_.run.files};
     return with_values(file, bytes.value(), values, make_loader(project, project.limits.max_bytes));
 }
 

@@ -43,11 +43,9 @@ void add_remark(const char* kind,
 class Maker {
 public:
     Maker(const LoadedSources& loaded, const std::atomic<bool>& cancelled)
-        : loaded_(loaded), project_{file_host(cancelled),
-                                    loaded.run.limits,
-                                    loaded.run.threads,
-                                    {},
-                                    loaded.run.environments},
+        : loaded_(loaded), project_{file_host(cancelled),    loaded.run.limits,
+                                    loaded.run.threads,      {},
+                                    loaded.run.environments, loaded.run.files},
           made_(std::make_shared<SourceText>()) {}
 
     std::shared_ptr<const SourceText> run() {
@@ -72,7 +70,7 @@ public:
 private:
     /// A Host that reads the shown files from memory and other files from disk.
     Host file_host(const std::atomic<bool>& cancelled) {
-        Host host = make_file_host(&cancelled);
+        Host host = make_file_host(&cancelled, loaded_.run.files);
         const auto shown_first = [this](auto read) {
             return [this, read](const std::string& path, const ReadLimit& limit) {
                 const std::optional<std::size_t> shown = made_->find(path);

@@ -51,6 +51,9 @@ Session::Session(std::function<void(const DerivationProgress&)> progress) {
     };
     project_.limits.max_bytes = half_of_memory();
     project_.threads = 1;
+    // A grammar may come from a link. It reads only files of the page.
+    project_.files.max_included_files = kUntrustedIncludedFiles;
+    project_.files.max_included_bytes = kUntrustedIncludedBytes;
 }
 
 void Session::take_files(const Json& list, std::string_view bytes) {

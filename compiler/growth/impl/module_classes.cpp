@@ -384,6 +384,9 @@ ModuleClasses::Matches ModuleClasses::match_everywhere(SymbolId symbol,
     std::vector<KnownValue> point(parameters.begin(), parameters.end());
     Matches all;
     for (std::uint64_t i = 0; i < grid->point_count(); ++i) {
+        if (exhausted()) {
+            return match(symbol, parameters, parameters);
+        }
         grid->set_parameters(i, point);
         Matches here = match(symbol, point, parameters);
         if (i == 0) {

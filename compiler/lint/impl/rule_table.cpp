@@ -15,6 +15,9 @@ namespace {
 
 constexpr std::uint64_t kMaxEntries = 1'000'000; // max number of productions times points
 constexpr std::uint64_t kMaxPoints = 65'536;     // of the grid
+// Max instructions run per table, about 0.1 s: a condition of n comparisons has n points and n
+// instructions at each of them.
+constexpr std::uint64_t kMaxWork = 16'000'000;
 
 } // namespace
 
@@ -57,7 +60,7 @@ std::optional<RuleTable> make_rule_table(const Bytecode& bytecode,
                 table.grid.set_parameters(point, std::span(values).subspan(first));
                 const analysis::KnownValue value =
                     evaluator.run(bytecode.instructions, condition, {values, {}, {}});
-                if (!value.known) {
+                if (!value.known || evaluator.work() > kMaxWork) {
                     return std::nullopt;
                 }
                 holds = value.value != 0.0F;

@@ -79,6 +79,8 @@ inline api::Project project_of(const lsys_project* given) {
         project.limits.max_modules = given->max_modules;
     }
     project.limits.max_bytes = given->max_bytes;
+    project.policy = {given->untrusted != 0, text_or(given->root, ""), given->max_seconds,
+                      given->max_output};
     const lsys_project host = *given;
     if (host.read_file != nullptr) {
         project.host.read_file = [host](const std::string& path) -> api::FileContents {

@@ -10,7 +10,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <limits>
 #include <memory>
+#include <utility>
 
 namespace lsys::v0 {
 
@@ -31,13 +33,32 @@ Result<std::string> checked(FileContents contents, const ReadLimit& limit) {
     return std::move(contents.bytes);
 }
 
+constexpr std::uint64_t kUntrustedBytes = std::uint64_t{1} << 30U; // of memory, and of files
+constexpr double kUntrustedSeconds = 60.0;
+
+Policy combined(Policy policy, const Policy& inherited) {
+    if (inherited.untrusted) {
+        policy.untrusted = true;
+        policy.root = policy.root.empty() ? inherited.root : policy.root;
+    }
+    return policy;
+}
+
+std::uint64_t max_output_of(const Policy& policy) {
+    if (policy.max_output != 0) {
+        return policy.max_output;
+    }
+    return policy.untrusted ? kUntrustedBytes : std::numeric_limits<std::uint64_t>::max();
+}
+
 } // namespace
 
-Call::Call(const Project& project) {
+Call::Call(const Project& project, std::vector<std::string> named, const Policy& inherited)
+    : policy_(combined(project.policy, inherited)), output_budget_(max_output_of(policy_)) {
     if (project.host.cancelled != nullptr) {
         cancel_flag_ = project.host.cancelled;
     }
-    inner_.host = make_file_host(cancel_flag_);
+    apply_policy(std::move(named));
     if (project.host.read_file) {
         inner_.host.read_file =
             [this, read = project.host.read_file](const std::string& path,
@@ -67,8 +88,9 @@ Call::Call(const Project& project) {
                            name);
     };
     inner_.limits.max_modules = project.limits.max_modules;
-    inner_.limits.max_bytes =
-        project.limits.max_bytes != 0 ? project.limits.max_bytes : half_of_memory();
+    inner_.limits.max_bytes = project.limits.max_bytes != 0 ? project.limits.max_bytes
+                              : policy_.untrusted ? std::min(half_of_memory(), kUntrustedBytes)
+                                                  : half_of_memory();
     inner_.threads = project.threads;
     const auto set_levels = [&](const std::vector<std::string>& codes, MessageLevel level) {
         for (const std::string& code : codes) {
@@ -79,6 +101,38 @@ Call::Call(const Project& project) {
     };
     set_levels(project.allow, MessageLevel::Allow);
     set_levels(project.deny, MessageLevel::Deny);
+}
+
+void Call::apply_policy(std::vector<std::string> named) {
+    const Policy& policy = policy_;
+    max_seconds_ = policy.max_seconds > 0.0 ? policy.max_seconds
+                   : policy.untrusted       ? kUntrustedSeconds
+                                            : 0.0;
+    if (max_seconds_ > 0.0) {
+        deadline_.emplace(max_seconds_, cancel_flag_, std::function<void()>());
+    }
+    FilePolicy& files = inner_.files;
+    if (policy.untrusted) {
+        files.is_untrusted = true;
+        files.root = policy.root;
+        files.named = std::move(named);
+        files.root_option = "root";
+        files.max_included_files = kUntrustedIncludedFiles;
+        files.max_included_bytes = kUntrustedIncludedBytes;
+    }
+    inner_.host = make_file_host(cancel_flag(), files);
+}
+
+bool Call::reached_limit() const {
+    return output_budget_.is_exceeded() || (deadline_ && deadline_->has_passed());
+}
+
+std::string Call::limit_text() const {
+    return output_budget_.is_exceeded()
+               ? fmt::format("the files are larger than {} bytes, the limit `max_output`",
+                             output_budget_.max_bytes())
+               : fmt::format("the call takes longer than {:g} s, the limit `max_seconds`",
+                             max_seconds_);
 }
 
 void Call::add_environment(const std::string& name, EnvironmentFunction function) {

@@ -5,8 +5,10 @@
 
 #include "compiler/bytecode/bytecode.h"
 #include "grammar/base/outcome.h"
+#include "runtime/base/deadline.h"
 #include "runtime/base/out_of_memory.h"
 #include "runtime/pipeline/project.h"
+#include "runtime/program/output_budget.h"
 
 #include <atomic>
 #include <exception>
@@ -16,19 +18,27 @@
 #include <optional>
 #include <string>
 #include <utility>
+#include <vector>
 
 namespace lsys::v0 {
 
 class Call {
 public:
-    explicit Call(const Project& project);
+    /// `named`: the files that the caller names, see FilePolicy. `inherited`: the policy with which
+    /// the grammar or forest of the call was read: what was not trusted then is not trusted now.
+    Call(const Project& project, std::vector<std::string> named, const Policy& inherited);
     ~Call() = default;
     Call(const Call&) = delete;
     Call& operator=(const Call&) = delete;
 
     [[nodiscard]] ::lsys::Project& project() { return inner_; }
     /// The flag that is set to true to end the call.
-    [[nodiscard]] const std::atomic<bool>* cancel_flag() const { return cancel_flag_; }
+    [[nodiscard]] const std::atomic<bool>* cancel_flag() const {
+        return deadline_ ? deadline_->stop() : cancel_flag_;
+    }
+    [[nodiscard]] const Policy& policy() const { return policy_; }
+    /// The bytes that the call may still write into files.
+    [[nodiscard]] OutputBudget& output_budget() { return output_budget_; }
 
     /// Makes a public outcome. `work` returns an outcome of the pipeline, and `make` converts its
     /// value to a public value. Rethrows an exception that a function of the host has thrown.
@@ -40,7 +50,14 @@ public:
             }
             auto outcome = work();
             throw_caught();
+            const bool is_over = !outcome && reached_limit();
+            if (is_over) {
+                outcome.messages().add_error(limit_text());
+            }
             Messages messages = public_messages(std::move(outcome.messages()));
+            if (is_over) {
+                return {Status::Limit, std::move(messages)};
+            }
             if (!outcome) {
                 return {public_status(outcome.stop()), std::move(messages)};
             }
@@ -65,8 +82,12 @@ public:
     void check_environments(const Bytecode& bytecode);
 
 private:
+    void apply_policy(std::vector<std::string> named);
     /// Makes a function of the host answer for an environment.
     void add_environment(const std::string& name, EnvironmentFunction function);
+    /// Whether a limit of Policy has ended the call.
+    [[nodiscard]] bool reached_limit() const;
+    [[nodiscard]] std::string limit_text() const;
     [[nodiscard]] static Messages error(std::string text);
     [[nodiscard]] static Messages public_messages(::lsys::Messages messages);
     [[nodiscard]] static Status public_status(Stop stop);
@@ -96,6 +117,10 @@ private:
     std::atomic<bool> own_cancel_flag_{false};
     std::atomic<bool>* cancel_flag_ = &own_cancel_flag_; // or Host::cancelled
     std::exception_ptr caught_;                          // thrown by a function of the host
+    Policy policy_;                                      // of the project, with `inherited`
+    double max_seconds_ = 0.0;
+    OutputBudget output_budget_;
+    std::optional<Deadline> deadline_; // declared last: it reads the flags above
 };
 
 } // namespace lsys::v0

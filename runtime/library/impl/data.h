@@ -10,6 +10,7 @@
 #include <cstdint>
 #include <lsys/grammar.h>
 #include <lsys/plant.h>
+#include <lsys/project.h>
 #include <lsys/word.h>
 #include <memory>
 #include <string>
@@ -19,6 +20,8 @@ namespace lsys::v0 {
 
 struct Grammar::Data {
     std::string name;
+    std::string file;        // FilePolicy::named: the name, or "-" for a text of the caller
+    Policy policy;           // with which it was read
     ::lsys::Grammar grammar; // not folded; calls work on copies
     std::vector<Constant> constants;
 };

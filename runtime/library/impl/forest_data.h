@@ -20,6 +20,7 @@ struct ForestSource {
     std::vector<std::string> files;
     SceneOverrides overrides;
     std::optional<std::vector<Tree>> placed_trees; // unset: the scene places its trees
+    Policy policy{};                               // with which the files were read
 };
 
 struct LoadedForest {

@@ -36,7 +36,7 @@ typedef enum lsys_status {
     LSYS_OK = 0,
     LSYS_DIAGNOSED = 1,     /* mistakes in the grammar */
     LSYS_FAILED = 2,        /* a file cannot be read, an option does not fit */
-    LSYS_LIMIT = 3,         /* max_modules or max_bytes is exceeded */
+    LSYS_LIMIT = 3,         /* max_modules or another limit is exceeded */
     LSYS_OUT_OF_MEMORY = 4, /* a failed allocation */
     LSYS_CANCELLED = 5      /* a function of the caller ended the call */
 } lsys_status;
@@ -93,9 +93,15 @@ typedef struct lsys_project {
     void* user;
     const lsys_environment* environments; /* may be null */
     size_t environment_count;
+    /* Not 0: grammars and scenes are not trusted. They name only files in `root` or below; limits
+     * that are 0 become 1 GiB for max_bytes and max_output, and 60 for max_seconds. */
+    int untrusted;
+    const char* root;    /* null: the folder of the grammar or scene, no folder for a text */
+    double max_seconds;  /* of each call; 0: no limit */
+    uint64_t max_output; /* bytes of the files of a call; 0: no limit */
 } lsys_project;
 #define LSYS_PROJECT_DEFAULTS                                                                      \
-    { 0, 0, 0, NULL, NULL, NULL, NULL, 0 }
+    { 0, 0, 0, NULL, NULL, NULL, NULL, 0, 0, NULL, 0.0, 0 }
 
 /* The version of the linked library: "0.1.0". */
 LSYS_C_API const char* lsys_version(void);

@@ -62,7 +62,8 @@ def compile(path=None, *, text=None, name="grammar.lsys", defines=None, settings
     settings: values of `#set` by key: numbers, texts, or sequences of numbers.
     generations: replaces `#n`.
     dialect: "lsys", "cpfg" ...; empty: recognised by the contents and the name.
-    options: threads, max_modules, max_bytes, progress, read_file, environment, as for all calls.
+    options: threads, max_modules, max_bytes, untrusted, root, max_seconds, max_output, progress,
+        read_file, environment, as for all calls.
 
     Raises GrammarError with the mistakes, LsysError if a file cannot be read.
     """

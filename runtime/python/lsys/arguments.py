@@ -3,7 +3,18 @@
 
 import os
 
-CALL_OPTIONS = ("threads", "max_modules", "max_bytes", "progress", "read_file", "environment")
+CALL_OPTIONS = (
+    "threads",
+    "max_modules",
+    "max_bytes",
+    "untrusted",
+    "root",
+    "max_seconds",
+    "max_output",
+    "progress",
+    "read_file",
+    "environment",
+)
 
 
 def split(arguments):

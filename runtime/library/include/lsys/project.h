@@ -79,12 +79,25 @@ struct Limits {
     std::uint64_t max_bytes = 0;
 };
 
+/// Restrictions for grammars and scenes that are not trusted.
+struct Policy {
+    /// Grammars and scenes name only files in `root` or below: no absolute path, `..` or symbolic
+    /// link leads out, and only regular files are read. Limits that are not set become those of the
+    /// next two members, and 1 GiB for Limits::max_bytes. Host::read_file is not restricted.
+    bool untrusted = false;
+    /// The folder of the files; empty: the folder of the grammar or scene, none for a text.
+    std::string root;
+    double max_seconds = 0.0;     // max duration of each call; 0: none, or 60 if untrusted
+    std::uint64_t max_output = 0; // max bytes of the files of a call; 0: none, or 2^30 if untrusted
+};
+
 struct Project {
     Host host;
     Limits limits;
     std::uint32_t threads = 0;      // 0: as many as the machine has
     std::vector<std::string> deny;  // codes of warnings that count as errors; "warnings": all
     std::vector<std::string> allow; // codes that are not reported
+    Policy policy{};
 };
 
 } // namespace lsys::LSYS_INTERFACE
