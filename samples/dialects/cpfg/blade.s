@@ -1,0 +1,16 @@
+-1.2 1.2   0 3   0 0.6
+PRECISION S: 6 T: 8
+CONTACT POINT  X: 0.00 Y: 0.00 Z: 0.00
+END POINT  X: 0.00 Y: 3.00 Z: 0.00
+HEADING  X: 0.00 Y: 1.00 Z: 0.00
+UP  X: 0.00 Y: 0.00 Z: 1.00
+SIZE: 1.00
+blade
+TOP COLOR: 0 DIFFUSE: 0.00 BOTTOM COLOR: 0 DIFFUSE: 0.00
+AL: ~ A: ~ AR: ~
+L: ~ R: ~
+BL: ~ B: ~ BR: ~
+0 3 0.1  0 3 0.1  0 3 0.1  0 3 0.1
+-1.5 1.9 0.7  -0.4 2 0.4  0.4 2 0.4  1.5 1.9 0.7
+-1.3 0.6 0.6  -0.3 0.5 0.3  0.3 0.5 0.3  1.3 0.6 0.6
+0 0 0  0 0 0  0 0 0  0 0 0

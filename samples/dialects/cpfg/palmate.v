@@ -1,0 +1,3 @@
+angle increment: 45
+line style: cylinder
+surface: l blade.s 1
