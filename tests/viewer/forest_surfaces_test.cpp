@@ -461,6 +461,51 @@ TEST_CASE("meshes and polygons of a forest show their pictures, with holes") {
     CHECK(mtl.substr(opacity, mtl.find('\n', opacity) - opacity).ends_with("_opacity.png"));
 }
 
+TEST_CASE("pictures of many materials need one draw call, and each repeats as if it were alone") {
+    // Cards whose pictures repeat three times; the first one is the same in all scenes.
+    const auto scene = [](const std::string& pictures) {
+        std::string grammar = "#n = 1;\n#object L \"a.obj\";\n#object M \"b.obj\";\n"
+                              "#object N \"c.obj\";\n#w : L(1)";
+        return grammar + pictures + ";\n";
+    };
+    const auto look = [&](const std::string& others, int& draws) {
+        const SurfaceScene files("", scene(others));
+        for (const char* const name : {"a", "b", "c"}) {
+            write_text(files.folder / (std::string(name) + ".obj"),
+                       std::string("mtllib ") + name + ".mtl\nusemtl card\nv -1 0 0\nv 1 0 0\n" +
+                           "v 1 2 0\nv -1 2 0\nvt 0 0\nvt 3 0\nvt 3 3\nvt 0 3\n" +
+                           "f 1/1 2/2 3/3 4/4\n");
+        }
+        write_text(files.folder / "blue.png", encode_png(halves(kNothing, kBlue)));
+        write_text(files.folder / "a.mtl", "newmtl card\nmap_Kd holes.png\n");
+        write_text(files.folder / "b.mtl", "newmtl card\nmap_Kd blue.png\n");
+        write_text(files.folder / "c.mtl", "newmtl card\nmap_Kd other.png\n");
+        write_text(files.folder / "other.png", encode_png(halves(kBlue, kNothing)));
+        const std::string stats = files.folder / "stats.json";
+        const Picture seen =
+            files.picture("eye 20,1,25 target 20,1,20 fov 30",
+                          {"--no-shadows", "--triangles", "30000", "--stats", stats}, "320x320");
+        draws = nlohmann::json::parse(read_text(stats))["passes"]["branches"]["draws"].get<int>();
+        return seen;
+    };
+    int alone = 0;
+    int together = 0;
+    const Picture one = look("", alone);
+    // The other cards stand behind the first one, to the right.
+    const Picture three = look("[ +(90) f(2.5) -(90) M(1) ][ +(90) f(5) -(90) N(1) ]", together);
+    CHECK(alone == 1);
+    CHECK(together == 1);
+    int red = 0;
+    int differing = 0; // at edges, because the crown of more cards is larger and darker
+    for (std::uint32_t x = 40; x < 240; ++x) {
+        const bool is_seen = is_red(texel(one, x, 160));
+        red += is_seen ? 1 : 0;
+        differing += is_seen != is_red(texel(three, x, 160)) ? 1 : 0;
+    }
+    CHECK(differing <= 4);
+    CHECK(red > 70); // three stripes
+}
+
 TEST_CASE("impostors show pictures of meshes") {
     const SurfaceScene files("", "#n = 1;\n#object L \"red.png\";\n#w : L(2);\n");
     write_text(files.folder / "red.png", encode_png(halves(kRed, kRed)));

@@ -201,8 +201,8 @@ void ImpostorAtlas::draw_elevation(const Cylinder& form,
         glViewport(static_cast<GLint>(y * kTile * kSupersampling), 0,
                    static_cast<GLsizei>(kTile * kSupersampling),
                    static_cast<GLsizei>(kTile * kSupersampling));
-        glBindTextureUnit(1, textures.base_colour(MaterialKind::Bark));
-        glBindTextureUnit(2, textures.base_colour(MaterialKind::Leaf));
+        glBindTextureUnit(1, textures.base_colour_array(MaterialKind::Bark));
+        glBindTextureUnit(2, textures.base_colour_array(MaterialKind::Leaf));
         for (const ProgramObject* program : {&solid_, &cut_out_}) {
             glUseProgram(program->name());
             glUniform4f(kCentre, middle.x, middle.y, middle.z, deep);
@@ -217,7 +217,7 @@ void ImpostorAtlas::draw_elevation(const Cylinder& form,
                 buffers.draw(BranchClass::Plain);
             }
         }
-        buffers.draw_pictures(solid_.name(), cut_out_.name(), cut_out_.name(), false);
+        buffers.draw_pictures(solid_.name(), cut_out_.name(), cut_out_.name(), textures, false);
         device_->end_pass();
     }
 }
@@ -418,6 +418,7 @@ void ImpostorAtlas::step(const ForestModel& model,
         return;
     }
     bake.elevation = 0;
+    shade_hollows(bake.finished, kTile);
     upload_layer(layer, std::move(bake.finished));
     keys_[layer] = target_keys_[layer];
     filled_[layer] = 1;

@@ -15,7 +15,15 @@ public:
     explicit RenderTarget(Device& device) : device_(&device) {}
 
     /// Resizes the framebuffer if needed, binds it, and clears colour and depth.
-    void begin(std::uint32_t width, std::uint32_t height, std::uint32_t samples);
+    /// `moves`: programs also write motions, to the second output.
+    void begin(std::uint32_t width, std::uint32_t height, std::uint32_t samples, bool moves);
+    /// Ends the writing of motions.
+    void end_motions() const;
+    /// Copies colours, motions if they were written, and depths of the last picture to another
+    /// framebuffer of its size.
+    void copy_parts(GLuint framebuffer, bool moves) const;
+    /// Takes the last picture from another framebuffer of its size, until the next begin().
+    void show(GLuint framebuffer) { shown_ = framebuffer; }
     /// Resolves the samples of the last picture; required before the functions below.
     void resolve();
     /// Mixes the last picture into a mean with weight `weight`, up to 1; 1 begins a new mean.
@@ -30,7 +38,11 @@ public:
 private:
     /// Name of the framebuffer with the picture or the mean.
     [[nodiscard]] GLuint source(bool mean) const {
-        return (mean ? mean_ : resolved_ ? resolved_ : drawn_).name();
+        return !mean && shown_ != 0 ? shown_
+                                    : (mean        ? mean_
+                                       : resolved_ ? resolved_
+                                                   : drawn_)
+                                          .name();
     }
 
     Device* device_;
@@ -39,7 +51,9 @@ private:
     std::uint32_t samples_ = 0;
     Renderbuffer colour_;
     Renderbuffer depth_;
-    Framebuffer drawn_; // with all samples of a pixel
+    Renderbuffer motions_; // made when first needed
+    GLuint shown_ = 0;     // framebuffer with the last picture; 0: drawn_ or resolved_
+    Framebuffer drawn_;    // with all samples of a pixel
     Renderbuffer resolved_colour_;
     Framebuffer resolved_; // empty: one sample per pixel
     TextureObject last_;   // copy of the last picture; made, like the mean, when first needed
