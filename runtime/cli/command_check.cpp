@@ -87,7 +87,7 @@ Result<void> write_fixed(const std::string& path,
     const std::string root = shown_path(path);
     std::vector<Output> outputs;
     const auto put = [&](const std::string& to, const std::string& text) {
-        Result<Output> output = Output::open(to, console);
+        Result<Output> output = Output::reopen(to, console);
         if (!output) {
             return Result<void>(output.error());
         }

@@ -50,7 +50,7 @@ format_file(const std::string& path, const FormatCommand& command, const Console
     if (path != "-" && *text == before) {
         return ExitStatus::Ok;
     }
-    if (Result<void> written = write_file(path, *text, console); !written) {
+    if (Result<void> written = rewrite_file(path, *text, console); !written) {
         return report_error(written.error(), console);
     }
     if (path != "-") {

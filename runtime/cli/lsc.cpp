@@ -8,6 +8,7 @@
 #include "runtime/program/build_info.h"
 #include "runtime/program/output_budget.h"
 #include "runtime/program/process.h"
+#include "runtime/program/run_files.h"
 #include "runtime/program/time_limit.h"
 
 #include <cmath>
@@ -43,7 +44,10 @@ public:
         if constexpr (requires { command.run; }) {
             return run_within_limits(command);
         } else {
-            const Console console(io_, command.messages);
+            RunFiles files;
+            Io io = io_;
+            io.files = &files;
+            const Console console(io, command.messages);
             return console.finish(run_command(command, console));
         }
     }
@@ -55,6 +59,8 @@ private:
         Io io = io_;
         OutputBudget budget(command.run.max_output);
         io.output_budget = &budget;
+        RunFiles files;
+        io.files = &files;
         const std::string late = late_message(command.run.max_seconds);
         std::optional<Deadline> deadline;
         constexpr bool kIsServer = std::is_same_v<Command, ServeCommand>; // has its own deadline

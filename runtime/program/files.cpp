@@ -5,6 +5,7 @@
 #include "runtime/base/size_text.h"
 #include "runtime/pipeline/grammar.h"
 #include "runtime/platform/file.h"
+#include "runtime/program/run_files.h"
 
 #include <fmt/format.h>
 
@@ -187,6 +188,9 @@ Result<std::string> read_opened(const platform::File& file,
 
 Result<std::string>
 read_file(const std::string& path, const ReadLimit& limit, const Console& console) {
+    if (path != "-" && console.io().files != nullptr) {
+        console.io().files->note_read(path);
+    }
     Result<std::string> bytes =
         path == "-" ? read_standard_input(limit, console)
                     : read_bytes(path, FileKind::Named, limit, console.io().interrupted);
@@ -250,6 +254,18 @@ Result<void> Output::make_temporary(bool exists, unsigned permissions) {
 }
 
 Result<Output> Output::open(const std::string& path, const Console& console) {
+    if (path != "-" && console.io().files != nullptr) {
+        const FileType type = platform::facts_of(path).type;
+        const bool is_file = type == FileType::Regular || type == FileType::Missing;
+        const std::string_view refusal = is_file ? console.io().files->begin_write(path) : "";
+        if (!refusal.empty()) {
+            return Error{fmt::format("cannot write `{}`: {}", path, refusal)};
+        }
+    }
+    return reopen(path, console);
+}
+
+Result<Output> Output::reopen(const std::string& path, const Console& console) {
     Output output(console, path);
     if (path == "-") {
         return output;
@@ -392,11 +408,9 @@ Result<void> commit_all(std::vector<Output>& outputs) {
     return {};
 }
 
-Result<void> write_file(const std::string& path,
-                        std::string_view text,
-                        const Console& console,
-                        Storing storing) {
-    Result<Output> output = Output::open(path, console);
+namespace {
+
+Result<void> write_all(Result<Output> output, std::string_view text, Storing storing) {
     if (!output) {
         return output.error();
     }
@@ -404,6 +418,19 @@ Result<void> write_file(const std::string& path,
         return written;
     }
     return output.value().commit(storing);
+}
+
+} // namespace
+
+Result<void> write_file(const std::string& path,
+                        std::string_view text,
+                        const Console& console,
+                        Storing storing) {
+    return write_all(Output::open(path, console), text, storing);
+}
+
+Result<void> rewrite_file(const std::string& path, std::string_view text, const Console& console) {
+    return write_all(Output::reopen(path, console), text, Storing::BeforeNaming);
 }
 
 } // namespace lsys

@@ -69,8 +69,11 @@ public:
     Output& operator=(Output&&) = delete;
     ~Output();
 
-    /// Opens `path`; `-` is standard output.
+    /// Opens `path`; `-` is standard output. An Error for a file that the run has read, or has
+    /// opened before (Io::files).
     [[nodiscard]] static Result<Output> open(const std::string& path, const Console& console);
+    /// Opens a file to replace it, even if the run has read it.
+    [[nodiscard]] static Result<Output> reopen(const std::string& path, const Console& console);
     /// Opens a file that must not exist, not even as a dangling link: an Error here or at commit().
     [[nodiscard]] static Result<Output> create(const std::string& path, const Console& console);
     [[nodiscard]] Result<void> write(std::string_view text);
@@ -120,5 +123,9 @@ private:
                                       std::string_view text,
                                       const Console& console,
                                       Storing storing = Storing::BeforeNaming);
+
+/// Replaces a file that the run has read.
+[[nodiscard]] Result<void>
+rewrite_file(const std::string& path, std::string_view text, const Console& console);
 
 } // namespace lsys

@@ -6,6 +6,7 @@
 #include "runtime/program/file_boundary.h"
 #include "runtime/program/files.h"
 #include "runtime/program/memory_size.h"
+#include "runtime/program/run_files.h"
 
 #include <algorithm>
 #include <cstddef>
@@ -88,6 +89,15 @@ Host make_host(const Console& console,
                const std::string& standard_input,
                const FilePolicy& policy) {
     Host host = make_file_host(console.io().interrupted, policy);
+    if (RunFiles* const files = console.io().files; files != nullptr) {
+        for (auto* const read : {&host.read_file, &host.read_referenced_file}) {
+            *read = [files, read_named = std::move(*read)](const std::string& path,
+                                                           const ReadLimit& limit) {
+                files->note_read(path);
+                return read_named(path, limit);
+            };
+        }
+    }
     host.read_file = [&console, standard_input, read = std::move(host.read_file)](
                          const std::string& path, const ReadLimit& limit) {
         return path == "-" || path == standard_input ? read_standard_input(limit, console)

@@ -8,6 +8,7 @@
 namespace lsys {
 
 class OutputBudget;
+class RunFiles;
 
 /// The streams of a run. Standard output is for results only.
 struct Io {
@@ -24,6 +25,8 @@ struct Io {
     const char* revision = "unknown";
     /// The limit of `--max-output`; null: none.
     OutputBudget* output_budget = nullptr;
+    /// The files of the run: outputs replace none of them. Null: they may.
+    RunFiles* files = nullptr;
     /// Prints a line and ends the process at once with status 3; temporary files are removed. Null
     /// in tests, where it would end them.
     void (*end_at_limit)(const char* line) = nullptr;

@@ -384,7 +384,7 @@ ModuleClasses::Matches ModuleClasses::match_everywhere(SymbolId symbol,
     std::vector<KnownValue> point(parameters.begin(), parameters.end());
     Matches all;
     for (std::uint64_t i = 0; i < grid->point_count(); ++i) {
-        if (exhausted()) {
+        if (is_work_exhausted()) {
             return match(symbol, parameters, parameters);
         }
         grid->set_parameters(i, point);

@@ -23,7 +23,9 @@
 
 namespace {
 
+using lsys::tests::LscRun;
 using lsys::tests::read_text;
+using lsys::tests::run_lsc;
 using lsys::tests::ScratchFolder;
 using lsys::tests::write_text;
 
@@ -61,6 +63,43 @@ TEST_CASE("an interrupted run ends with status 130 and leaves no file") {
         CHECK(err.str().ends_with("lsc: interrupted\n"));
     }
     CHECK(folder.file_count() == 0);
+}
+
+TEST_CASE("no output replaces an input or another output") {
+    const ScratchFolder folder;
+    const std::string grammar = folder / "a.lsys";
+    const std::string part = folder / "part.lsys";
+    const std::string picture = folder / "a.bark.png";
+    const std::string text = "#include \"part.lsys\";\n#material 0 colour 1 0 0 picture "
+                             "\"a.bark.png\";\n#n = 1; #w : F;\n";
+    write_text(grammar, text);
+    write_text(part, "#define c 1;\n");
+    std::filesystem::copy_file(
+        std::filesystem::path(LSYS_SOURCE_DIR) / "samples/scenes/park/lawn.png", picture);
+    const std::string bytes = read_text(picture);
+    for (const std::vector<std::string>& options :
+         {std::vector<std::string>{"dump", grammar, "-o", grammar},
+          {"dump", grammar, "-o", part},
+          {"dump", grammar, "--save-state", grammar, "--steps", "1"},
+          {"dump", grammar, "-o",
+           folder / "." + "/../" + folder.path().filename().string() + "/a.lsys"},
+          {"compile", grammar, "-o", grammar},
+          {"export", grammar, "-o", grammar, "--format", "stl"},
+          {"export", grammar, "-o", folder / "a.obj"}}) {
+        INFO(options[0] << ' ' << options[3]);
+        const LscRun refused = run_lsc(options, "");
+        CHECK(refused.status == 2);
+        CHECK(refused.err.find("it is an input of this command") != std::string::npos);
+        CHECK(read_text(grammar) == text);
+        CHECK(read_text(part) == "#define c 1;\n");
+        CHECK(read_text(picture) == bytes);
+    }
+    CHECK(folder.file_count() == 3);
+    const std::string both = folder / "both";
+    const LscRun twice =
+        run_lsc({"dump", grammar, "--steps", "1", "--save-state", both, "-o", both}, "");
+    CHECK(twice.status == 2);
+    CHECK(twice.err.find("it is another output of this command") != std::string::npos);
 }
 
 TEST_CASE("an error of standard output ends with status 2") {

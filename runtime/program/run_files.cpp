@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: MIT
+#include "runtime/program/run_files.h"
+
+#include "grammar/base/paths.h"
+
+#include <filesystem>
+#include <system_error>
+#include <utility>
+
+namespace lsys {
+
+namespace {
+
+std::string resolved(const std::string& path) {
+    std::error_code failed;
+    const std::filesystem::path whole = std::filesystem::weakly_canonical(path_of(path), failed);
+    return failed ? path : path_text(whole);
+}
+
+} // namespace
+
+void RunFiles::note_read(const std::string& path) {
+    std::string whole = resolved(path);
+    const std::lock_guard<std::mutex> lock(mutex_);
+    read_.insert(std::move(whole));
+}
+
+std::string_view RunFiles::begin_write(const std::string& path) {
+    std::string whole = resolved(path);
+    const std::lock_guard<std::mutex> lock(mutex_);
+    if (read_.count(whole) != 0) {
+        return "it is an input of this command";
+    }
+    return written_.insert(std::move(whole)).second ? "" : "it is another output of this command";
+}
+
+} // namespace lsys
