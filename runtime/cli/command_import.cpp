@@ -59,6 +59,14 @@ std::string first_error(const Messages& messages) {
 }
 
 /// Prints an error and keeps it as the reason.
+/// The name of a file for a comment that ends with its line.
+std::string comment_text(const std::filesystem::path& name) {
+    std::string text = path_text(name);
+    const auto is_control = [](char c) { return static_cast<unsigned char>(c) < 0x20; };
+    std::replace_if(text.begin(), text.end(), is_control, '?');
+    return text;
+}
+
 ExitStatus fail(const Error& error, const Console& console, Imported& imported) {
     imported.reason = error.message;
     return report_error(error, console);
@@ -109,7 +117,7 @@ ExitStatus import_text(const std::string& path,
             return fail(changed.error(), console, imported);
         }
         imported.text = fmt::format(
-            "// Imported from `{}`, {}{}.\n{}", path_text(path_of(shown_path(path)).filename()),
+            "// Imported from `{}`, {}{}.\n{}", comment_text(path_of(shown_path(path)).filename()),
             row_of(imported.dialect).title,
             options.system.empty() ? std::string() : fmt::format(": {}", options.system),
             format_text(changed.value()));

@@ -367,10 +367,14 @@ Diagnostic too_deep(const RuntimeError& error, const Bytecode& bytecode) {
         }
     }
     const std::string key = draws ? "interpret_depth" : "decompose_depth";
+    const std::string raise = depth < kMaxDepth
+                                  ? fmt::format(", raise the number of passes with `#set {} {};`,",
+                                                key, std::min(depth * 10, kMaxDepth))
+                                  : std::string();
     diagnostic.help.push_back(
-        fmt::format("let its productions end, raise the number of passes with `#set {} {};`, or "
-                    "keep the remaining modules unchanged with `#set at_depth stop;`",
-                    key, std::min(depth * 10, kMaxDepth)));
+        fmt::format("let its productions end{} or keep the remaining modules unchanged with "
+                    "`#set at_depth stop;`",
+                    raise));
     return diagnostic;
 }
 

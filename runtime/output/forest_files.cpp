@@ -126,7 +126,11 @@ ExitStatus write_baked(const ForestOutput& run,
         }
         if (status == ExitStatus::Ok && format.has_mtl) {
             const std::filesystem::path library = path_of(path).replace_extension(".mtl");
-            info.mtl_name = path_text(library.filename());
+            Result<std::string> name = mtl_name(library);
+            if (!name) {
+                return report_error(name.error(), run.context.console);
+            }
+            info.mtl_name = std::move(name.value());
             status = outputs.add(path_text(library),
                                  [&](const ByteSink& sink) { return write_mtl(mesh, info, sink); });
         }

@@ -20,6 +20,16 @@ bool OutputContext::can_write_beside(const std::string& path) const {
                            kind == std::filesystem::file_type::regular);
 }
 
+Result<std::string> mtl_name(const std::filesystem::path& path) {
+    std::string name = path_text(path.filename());
+    if (name.find_first_of("\r\n") != std::string::npos) {
+        return Error{
+            "the name of an OBJ file has no line ends, because the file names its .mtl file "
+            "in a line"};
+    }
+    return name;
+}
+
 ExitStatus OutputSet::add(const std::string& path,
                           const std::function<Outcome<void>(const ByteSink&)>& write) {
     if (context_.paths != nullptr) {

@@ -8,6 +8,7 @@
 #include "runtime/program/files.h"
 
 #include <cstdint>
+#include <filesystem>
 #include <functional>
 #include <string>
 #include <string_view>
@@ -36,6 +37,10 @@ struct OutputContext {
     /// receiver takes the files.
     [[nodiscard]] bool can_write_beside(const std::string& path) const;
 };
+
+/// The name of a `.mtl` file as an OBJ file writes it, in a line of its own. An Error for a name
+/// with line ends.
+[[nodiscard]] Result<std::string> mtl_name(const std::filesystem::path& path);
 
 class OutputSet {
 public:

@@ -62,7 +62,11 @@ ExitStatus add_side_files(PlantRun& run,
         return ExitStatus::Ok;
     }
     const std::filesystem::path library = std::filesystem::path(path).replace_extension(".mtl");
-    info.mtl_name = path_text(library.filename());
+    Result<std::string> name = mtl_name(library);
+    if (!name) {
+        return report_error(name.error(), run.context.console);
+    }
+    info.mtl_name = std::move(name.value());
     return files.add(path_text(library),
                      [&](const ByteSink& sink) { return write_mtl(run.mesh, info, sink); });
 }

@@ -95,6 +95,15 @@ TEST_CASE("a stored and a streamed word give the same file, with any number of t
     }
 }
 
+TEST_CASE("an OBJ file whose name has a line end is refused") {
+    const ScratchFolder folder;
+    write_text(folder / "a.lsys", "#n = 0; #w : F;");
+    const LscRun run = run_lsc({"export", folder / "a.lsys", "-o", folder / "new\nline.obj"}, "");
+    CHECK(run.status == 2);
+    CHECK(run.err.find("has no line ends") != std::string::npos);
+    CHECK(folder.file_count() == 1);
+}
+
 TEST_CASE("a plant that draws nothing is reported and gives no file") {
     const ScratchFolder folder;
     const LscRun run =
