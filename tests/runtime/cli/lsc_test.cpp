@@ -102,6 +102,16 @@ TEST_CASE("no output replaces an input or another output") {
     CHECK(twice.err.find("it is another output of this command") != std::string::npos);
 }
 
+TEST_CASE("a file name is no part of an imported grammar") {
+    const ScratchFolder folder;
+    const std::string path = folder / "a\n#w : X;.sys";
+    write_text(path, "LSYSTEM\n1\nF\nF F[>F]F 1\n");
+    const LscRun imported = run_lsc({"import", path}, "");
+    CHECK(imported.status == 0);
+    CHECK(imported.out.starts_with("// Imported from `a?#w : X;.sys`"));
+    CHECK(run_lsc({"check", "-"}, imported.out).status == 0);
+}
+
 TEST_CASE("an error of standard output ends with status 2") {
     for (const std::vector<std::string>& options : {std::vector<std::string>{"dump", "-"},
                                                     {"dump", "-", "--all"},
