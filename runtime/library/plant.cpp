@@ -6,6 +6,7 @@
 #include "runtime/library/impl/data.h"
 #include "runtime/meshing/looks.h"
 #include "runtime/pipeline/step.h"
+#include "runtime/turtle/turtle.h"
 
 #include <fmt/format.h>
 
