@@ -186,7 +186,7 @@ void add_hostile_cases(std::map<std::string, Case>& all) {
     add("interpret",
         "#n = 1;\n#set interpret_depth 100000;\n#set at_depth stop;\n#w : A(1);\n"
         "#interpret d : A(x) : * : F(1) A(x+1) A(x+2);\n",
-        {"export", "--max-time", "1", "%", "-o", "/dev/null", "--format", "obj"}, 3, late);
+        {"export", "--max-time", "1", "%", "-o", "/dev/null", "--format", "stl"}, 3, late);
     add("device", "#n = 0;\n#w : Q;\n#object Q \"/dev/zero\";\n",
         {"export", "--untrusted", "%", "-o", "/dev/null", "--format", "stl"}, 2, "only files in");
     add("include-device", "#n = 0;\n#w : Q;\n#include \"/dev/zero\";\n",
