@@ -23,6 +23,8 @@ public:
     [[nodiscard]] SourceSpan key(SourceSpan text);
     /// Writes an axiom or a right side.
     void write(SourceSpan text);
+    /// Whether to leave out warnings: those about the axiom, if it may be a broken rule.
+    void set_quiet(bool is_quiet) { is_quiet_ = is_quiet; }
     /// Writes a left side without warnings.
     void write_key(SourceSpan text);
 
@@ -34,6 +36,7 @@ private:
     std::uint32_t put_character(std::uint32_t at, std::uint32_t end);
     void put_characters(std::uint32_t at, std::uint32_t end);
     void warn(std::uint32_t begin, std::uint32_t end, const std::string& message);
+    void warn_unclosed(std::uint32_t at);
     void check_parameter(char command, Parameter parameter);
     void check_command(char command, std::uint32_t at);
 
@@ -41,6 +44,7 @@ private:
     Translation& translation_;
     FileId file_ = kNoFile;
     std::string_view source_;
+    bool is_quiet_ = false;
     bool has_warned_half_turn_ = false;
     bool has_warned_digit_ = false;
 };
