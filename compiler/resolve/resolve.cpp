@@ -264,7 +264,8 @@ private:
                 DiagnosticCode::MissingGenerations, end_of_text(),
                 "the grammar does not say how many generations to derive");
             warning.notes.emplace_back("without it the word is the axiom");
-            warning.help.emplace_back("add `#n = 5;`, or give `-n 5` on the command line");
+            warning.help.emplace_back("add `#n = 5;`");
+            warning.help.emplace_back("give `-n 5` on the command line");
         }
     }
 

@@ -6,6 +6,7 @@
 #include "grammar/base/message_levels.h"
 #include "grammar/base/paths.h"
 #include "grammar/dialects/other_language.h"
+#include "grammar/dialects/repeated_messages.h"
 #include "grammar/lsys/parse_with_names.h"
 #include "runtime/pipeline/impl/moved_environments.h"
 #include "runtime/pipeline/setting_options.h"
@@ -253,6 +254,9 @@ Result<CompiledText> compile_text(const std::string& path,
     Ast ast = names.empty() ? parse_dialect(root, text.dialect, context, &grammar.translation)
                             : parse_lsys_with_names(root, names, context);
     apply_levels({}, *grammar.sources, compiled.diagnostics); // `/* lsc: allow CODE */`
+    if (foreign) {
+        merge_repeated_messages(compiled.diagnostics, 0);
+    }
     compiled.syntax_diagnostic_count = compiled.diagnostics.all().size();
     const std::vector<Diagnostic>& found = compiled.diagnostics.all();
     const bool is_no_grammar =
@@ -283,6 +287,8 @@ Result<CompiledText> compile_text(const std::string& path,
                static_cast<std::uint32_t>(diagnostic.span.file) >= first_option;
     });
     if (foreign) {
+        drop_follow_ups(compiled.diagnostics);
+        merge_repeated_messages(compiled.diagnostics, compiled.syntax_diagnostic_count);
         compiled.diagnostics.drop_repairs("`#"); // they propose .lsys text, invalid in the dialect
     }
     grammar.program = std::move(outcome.program);

@@ -345,13 +345,13 @@ void check_characters(Census& census, std::uint64_t first, std::uint64_t end) {
 } // namespace
 
 TEST_CASE("a repaired grammar equals the original") {
-    // Test every kOneOf-th mutant, the same ones in every run.
-    constexpr std::uint64_t kOneOf = 16;
+    // Test one of kMutantsPerTested mutants, the same ones in every run.
+    constexpr std::uint64_t kMutantsPerTested = 16;
     Census census(false);
     std::uint64_t number = 0;
     for (const RightGrammar& grammar : right_grammars()) {
         for (const Mutant& mutant : Mutants(grammar.text).all()) {
-            if (++number % kOneOf == 0) {
+            if (++number % kMutantsPerTested == 0) {
                 census.run(grammar, mutant);
             }
         }

@@ -3,15 +3,21 @@
 #include "compiler/lint/impl/module_use.h"
 #include "compiler/lint/impl/places.h"
 #include "grammar/base/synonyms.h"
+#include "grammar/base/utf8.h"
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <string>
 #include <string_view>
+#include <utility>
+#include <vector>
 
 namespace lsys {
 
 namespace {
+
+constexpr const char* kIdleLabel = "stays in the word and does nothing";
 
 /// Names of modules that are rewritten or drawn, in order of appearance.
 std::vector<std::string_view> working_names(const CheckInput& input, const ModuleUse& use) {
@@ -39,6 +45,164 @@ std::string formals_text(std::uint32_t count) {
         text += (i == 0 ? "(" : ", ") + name;
     }
     return count == 0 ? text : text + ")";
+}
+
+bool is_houdini_object(const CheckInput& input, std::string_view name) {
+    return name.size() == 1 && std::string_view("JKM").find(name[0]) != std::string_view::npos &&
+           input.program.settings.turtle != TurtleProfile::Houdini;
+}
+
+/// Whether the name is one character that no other program explains.
+bool is_unexplained_letter(const CheckInput& input, SymbolId symbol) {
+    const std::string_view name = input.name(symbol);
+    return decode_utf8(name).length == name.size() &&
+           find_synonym(SynonymKind::Module, name) == nullptr && !is_houdini_object(input, name);
+}
+
+std::string declaration_help(const CheckInput& input, SymbolId symbol, SourceSpan span) {
+    return fmt::format("draw it with `#object {0} SPHERE;`, or, if it is to do nothing, declare it "
+                       "with `#module {0}{1};`",
+                       input.sources.text(span),
+                       formals_text(input.program.symbol(symbol).parameter_count));
+}
+
+void report_idle_name(const CheckInput& input,
+                      const ModuleUse& use,
+                      SymbolId symbol,
+                      const std::vector<std::string_view>& candidates,
+                      Diagnostics& diagnostics) {
+    const std::string_view name = input.name(symbol);
+    const ModuleMention place = use.first_place[static_cast<std::size_t>(symbol)];
+    const SourceSpan span = module_name_span(input, *place.word, place.index);
+    Diagnostic& diagnostic =
+        diagnostics.add(DiagnosticCode::IdleModule, span,
+                        fmt::format("module {} is never rewritten and never drawn", quoted(name)));
+    diagnostic.label = kIdleLabel;
+    const Synonym* const synonym = find_synonym(SynonymKind::Module, name);
+    if (synonym != nullptr) {
+        diagnostic.help.push_back(help_for(*synonym, name));
+        add_fix(diagnostic, fmt::format("write `{}`", synonym->spelling), span,
+                std::string(synonym->spelling), false);
+    } else if (is_houdini_object(input, name)) {
+        diagnostic.help.push_back(
+            fmt::format("{} of Houdini draws an object with `#set turtle houdini;` alone; "
+                        "otherwise bind one: `#object {} {};`",
+                        quoted(name), name, name == "J" ? "LEAF" : "SPHERE"));
+    } else {
+        if (const auto nearest = nearest_name(name, candidates)) {
+            Fix fix;
+            fix.title = fmt::format("did you mean {}?", quoted(*nearest));
+            fix.edits = {{span, std::string(*nearest)}};
+            fix.machine_applicable = false;
+            diagnostic.fixes.push_back(std::move(fix));
+        }
+        diagnostic.help.push_back(declaration_help(input, symbol, span));
+        return;
+    }
+    diagnostic.help.push_back(fmt::format(
+        "if it is to do nothing, declare it with `#module {}{};`", input.sources.text(span),
+        formals_text(input.program.symbol(symbol).parameter_count)));
+}
+
+/// "modules `a`, `b` and 7 more are"
+std::string letters_text(const CheckInput& input, const std::vector<SymbolId>& symbols) {
+    if (symbols.size() == 1) {
+        return fmt::format("module {} is", quoted(input.name(symbols.front())));
+    }
+    constexpr std::size_t kMaxNamed = 5;
+    const std::size_t named = symbols.size() > kMaxNamed + 1 ? kMaxNamed : symbols.size();
+    std::string text = "modules ";
+    for (std::size_t i = 0; i < named; ++i) {
+        if (i != 0) {
+            text += i + 1 == symbols.size() ? " and " : ", ";
+        }
+        text += quoted(input.name(symbols[i]));
+    }
+    return named == symbols.size()
+               ? text + " are"
+               : fmt::format("{} and {} more are", text, symbols.size() - named);
+}
+
+/// Labels at the places; places that touch get one label.
+std::vector<Label> neighbours_joined(const std::vector<SourceSpan>& spans) {
+    std::vector<Label> labels;
+    for (const SourceSpan& span : spans) {
+        if (!labels.empty() && labels.back().span.file == span.file &&
+            labels.back().span.end == span.begin) {
+            labels.back().span.end = span.end;
+        } else {
+            labels.push_back({span, ""});
+        }
+    }
+    return labels;
+}
+
+/// Reports idle modules of one character, and longer ones beside them, in one message: each letter
+/// of a misspelt keyword is a module in the formats of many programs.
+void report_idle_letters(const CheckInput& input,
+                         const ModuleUse& use,
+                         const std::vector<SymbolId>& symbols,
+                         Diagnostics& diagnostics) {
+    std::vector<SourceSpan> spans;
+    for (const SymbolId symbol : symbols) {
+        const ModuleMention place = use.first_place[static_cast<std::size_t>(symbol)];
+        spans.push_back(module_name_span(input, *place.word, place.index));
+    }
+    std::vector<Label> labels = neighbours_joined(spans);
+    Diagnostic& diagnostic = diagnostics.add(
+        DiagnosticCode::IdleModule, labels.front().span,
+        fmt::format("{} never rewritten and never drawn", letters_text(input, symbols)));
+    labels.erase(labels.begin());
+    diagnostic.labels = std::move(labels);
+    if (spans.size() == 1) {
+        diagnostic.label = kIdleLabel;
+        diagnostic.help.push_back(declaration_help(input, symbols.front(), spans.front()));
+    } else {
+        diagnostic.help.emplace_back("draw a module with `#object`, or declare modules that are to "
+                                     "do nothing with `#module`");
+    }
+}
+
+/// The modules to report, those of one character in `letters`.
+struct IdleModules {
+    std::vector<SymbolId> letters;
+    std::vector<SymbolId> names;
+};
+
+IdleModules find_idle_modules(const CheckInput& input, ModuleUse& use) {
+    IdleModules idle;
+    std::vector<const ProgramWord*> words; // with letters
+    for (std::uint32_t s = 0; s < input.program.symbols.size(); ++s) {
+        const auto symbol = SymbolId{s};
+        if (!is_idle(input, use, symbol) || use.reported[s]) {
+            continue;
+        }
+        for (const SymbolId other : use.same_name(input.program, symbol)) {
+            use.reported[static_cast<std::size_t>(other)] = true;
+        }
+        const ModuleMention place = use.first_place[s];
+        if (!is_unexplained_letter(input, symbol)) {
+            idle.names.push_back(symbol);
+        } else if (!input.sources.allows(module_name_span(input, *place.word, place.index),
+                                         info(DiagnosticCode::IdleModule).name)) {
+            idle.letters.push_back(symbol);
+            words.push_back(place.word);
+        }
+    }
+    if (idle.letters.size() > 1) { // a longer name beside several letters is one of them
+        std::erase_if(idle.names, [&](SymbolId symbol) {
+            const ModuleMention place = use.first_place[static_cast<std::size_t>(symbol)];
+            const bool is_letter =
+                find_synonym(SynonymKind::Module, input.name(symbol)) == nullptr &&
+                std::ranges::find(words, place.word) != words.end();
+            if (is_letter) {
+                idle.letters.push_back(symbol);
+            }
+            return is_letter;
+        });
+        std::ranges::sort(idle.letters);
+    }
+    return idle;
 }
 
 } // namespace
@@ -98,6 +262,11 @@ void check_unused_objects(const CheckInput& input, ModuleUse& use, Diagnostics& 
                 "write {} in a successor or in the axiom, or remove the statement", quoted(name)));
         }
         diagnostics.add(std::move(diagnostic));
+        if (named != use.by_name.end()) { // a production of the module gives no second message
+            for (const SymbolId symbol : named->second) {
+                use.reported[static_cast<std::size_t>(symbol)] = true;
+            }
+        }
     }
 }
 
@@ -106,54 +275,14 @@ void check_idle_modules(const CheckInput& input, ModuleUse& use, Diagnostics& di
     if (!use.draws) {
         return;
     }
-    std::vector<std::string_view> candidates;
-    for (std::uint32_t s = 0; s < input.program.symbols.size(); ++s) {
-        const auto symbol = SymbolId{s};
-        if (!is_idle(input, use, symbol) || use.reported[s]) {
-            continue;
-        }
-        if (candidates.empty()) {
-            candidates = working_names(input, use);
-        }
-        const std::string_view name = input.name(symbol);
-        const ModuleMention place = use.first_place[s];
-        const SourceSpan span = module_name_span(input, *place.word, place.index);
-        Diagnostic& diagnostic = diagnostics.add(
-            DiagnosticCode::IdleModule, span,
-            fmt::format("module {} is never rewritten and never drawn", quoted(name)));
-        diagnostic.label = "stays in the word and does nothing";
-        const Synonym* const synonym = find_synonym(SynonymKind::Module, name);
-        const bool is_houdini_object =
-            name.size() == 1 && std::string_view("JKM").find(name[0]) != std::string_view::npos &&
-            input.program.settings.turtle != TurtleProfile::Houdini;
-        if (synonym != nullptr) {
-            diagnostic.help.push_back(help_for(*synonym, name));
-            add_fix(diagnostic, fmt::format("write `{}`", synonym->spelling), span,
-                    std::string(synonym->spelling), false);
-        } else if (is_houdini_object) {
-            diagnostic.help.push_back(
-                fmt::format("{} of Houdini draws an object with `#set turtle houdini;` alone; "
-                            "otherwise bind one: `#object {} {};`",
-                            quoted(name), name, name == "J" ? "LEAF" : "SPHERE"));
-        } else if (const auto nearest = nearest_name(name, candidates)) {
-            Fix fix;
-            fix.title = fmt::format("did you mean {}?", quoted(*nearest));
-            fix.edits = {{span, std::string(*nearest)}};
-            fix.machine_applicable = false;
-            diagnostic.fixes.push_back(std::move(fix));
-        }
-        const std::string_view text = input.sources.text(span);
-        const std::string formals = formals_text(input.program.symbols[s].parameter_count);
-        const bool is_explained = synonym != nullptr || is_houdini_object;
-        diagnostic.help.push_back(
-            is_explained ? fmt::format("if it is to do nothing, declare it with `#module {}{};`",
-                                       text, formals)
-                         : fmt::format("draw it with `#object {0} SPHERE;`, or, if it is to do "
-                                       "nothing, declare it with `#module {0}{1};`",
-                                       text, formals));
-        for (const SymbolId other : use.same_name(input.program, symbol)) {
-            use.reported[static_cast<std::size_t>(other)] = true;
-        }
+    const IdleModules idle = find_idle_modules(input, use);
+    const std::vector<std::string_view> candidates =
+        idle.names.empty() ? std::vector<std::string_view>() : working_names(input, use);
+    for (const SymbolId symbol : idle.names) {
+        report_idle_name(input, use, symbol, candidates, diagnostics);
+    }
+    if (!idle.letters.empty()) {
+        report_idle_letters(input, use, idle.letters, diagnostics);
     }
 }
 

@@ -3,6 +3,7 @@
 // polygon, and a polygon has at least three vertices. In profile `carey` polygons do not nest.
 #include "compiler/lint/impl/lints.h"
 #include "compiler/lint/impl/places.h"
+#include "grammar/base/characters.h"
 
 #include <fmt/format.h>
 
@@ -196,7 +197,8 @@ private:
                 inner.may_grow =
                     inner.may_grow || !rewriters_[static_cast<std::size_t>(id)].empty();
             } else if (symbol.turtle == TurtleOperation::PolygonVertex && !may_be_inside &&
-                       !std::exchange(stray_reported_, true)) {
+                       !stray_reported_ && !is_decimal_point(word, i)) {
+                stray_reported_ = true;
                 Diagnostic& diagnostic =
                     add(DiagnosticCode::StrayVertex, word, i, "a vertex outside of any polygon");
                 diagnostic.help.emplace_back(
@@ -209,6 +211,15 @@ private:
             report_imbalance(word, where, opened > closed ? open.back().begin : *first_end,
                              opened > closed);
         }
+    }
+
+    /// Whether a digit follows the `.` at `index`: a number that was read as modules.
+    [[nodiscard]] bool is_decimal_point(const ProgramWord& word, std::size_t index) const {
+        if (index + 1 == std::size_t{word.first_module} + word.module_count) {
+            return false;
+        }
+        const std::string_view name = input_.name(program_.modules[index + 1].symbol);
+        return name.size() == 1 && is_digit(name[0]);
     }
 
     /// Reports a `{` within a polygon, which profile `carey` does not allow. Returns whether it

@@ -34,6 +34,9 @@ ForeignId CpfgExpressions::element(const ForeignNode& node) {
         return unsupported(node.span, "`" + shown(node.text) + "` is not an array");
     }
     Array& array = found->second;
+    if (array.is_broken) {
+        return tree_.number("0", node.token);
+    }
     if (array.sizes.size() != node.parts.size()) {
         return unsupported(node.span, "`" + shown(node.text) + "` has " +
                                           std::to_string(array.sizes.size()) + " dimensions");
@@ -78,6 +81,7 @@ ForeignId CpfgExpressions::element(const ForeignNode& node) {
 void CpfgExpressions::define_array(const CpfgStatement& statement) {
     constexpr int kMaxElements = 256;
     const ForeignNode target = tree_[statement.target];
+    arrays_[target.text].is_broken = true; // until the definition has been read
     Array array;
     int count = 1;
     for (const ForeignId part : target.parts) {
@@ -143,7 +147,11 @@ void CpfgExpressions::loop(const CpfgStatement& statement) {
                 unsupported(statement.span, "loops of more than 100000 statements in all"));
             break;
         }
+        const std::uint64_t errors = session_.context.diagnostics.count(Severity::Error);
         run(statement.block);
+        if (session_.context.diagnostics.count(Severity::Error) != errors) {
+            break; // each round would repeat them
+        }
     }
     --loops_;
 }
@@ -155,6 +163,9 @@ void CpfgExpressions::assign_element(const CpfgStatement& statement) {
 /// Sets an element of an array. Elements change only in `Start:`, at indices that are known.
 void CpfgExpressions::set_element(const ForeignNode& target, ForeignId value, SourceSpan span) {
     const auto found = arrays_.find(target.text);
+    if (found != arrays_.end() && found->second.is_broken) {
+        return;
+    }
     if (!in_header_ || in_step_ || found == arrays_.end() ||
         found->second.sizes.size() != target.parts.size()) {
         static_cast<void>(

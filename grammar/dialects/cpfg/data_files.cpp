@@ -88,7 +88,17 @@ void CpfgExpressions::read_numbers(const ForeignNode& call) {
     if (file == files_.end() || wanted == 0 || tree_[call.parts[1]].kind != ForeignKind::Text ||
         numbers_of(without_quotes(tree_[call.parts[1]].text)) != wanted || !in_header_ ||
         in_step_) {
-        static_cast<void>(unsupported(call.span, "`fscanf` of anything but numbers, in `Start:`"));
+        if (file != files_.end() || !session_.context.diagnostics.has_errors()) {
+            static_cast<void>(
+                unsupported(call.span, "`fscanf` of anything but numbers, in `Start:`"));
+        }
+        for (std::size_t i = 2; i < call.parts.size(); ++i) {
+            const ForeignNode address = tree_[call.parts[i]]; // its uses need a value
+            if (address.kind == ForeignKind::Address &&
+                tree_[address.parts[0]].kind == ForeignKind::Name) {
+                assign(tree_[address.parts[0]].text, number_node(0.0, address.span), address.span);
+            }
+        }
         return;
     }
     for (std::size_t i = 2; i < call.parts.size(); ++i) {

@@ -63,7 +63,8 @@ private:
     struct Array {
         std::vector<int> sizes;
         std::vector<ForeignId> values;
-        std::string name; // name of the curve in .lsys; empty while nothing reads the array
+        std::string name;       // name of the curve in .lsys; empty while nothing reads the array
+        bool is_broken = false; // an error in its definition has been reported
     };
 
     /// The equivalent of a name: a variable, a formal or `Q`.

@@ -333,12 +333,26 @@ void CpfgWriter::name_local_values() {
     }
 }
 
+/// Appends the name of a parameter; of an expression, which is an error, all names, so that their
+/// uses give no messages of their own.
+void CpfgWriter::append_names(ForeignId argument, std::vector<std::string>& names) const {
+    std::vector<ForeignId> work{argument};
+    while (!work.empty()) {
+        const ForeignNode& node = expression(work.back());
+        work.pop_back();
+        if (node.kind == ForeignKind::Name || node.parts.empty()) {
+            names.push_back(node.text);
+        }
+        work.insert(work.end(), node.parts.begin(), node.parts.end());
+    }
+}
+
 std::vector<std::string> CpfgWriter::formals_of(const CpfgProduction& production) const {
     std::vector<std::string> names;
     for (const auto* list : {&production.left, &production.predecessor, &production.right}) {
         for (const CpfgModule& module : *list) {
             for (const ForeignId argument : module.arguments) {
-                names.push_back(expression(argument).text);
+                append_names(argument, names);
             }
         }
     }
@@ -561,7 +575,14 @@ void CpfgWriter::warn_weight(const CpfgProduction& production) {
             expression(production.weight).span, "weight",
             "without `seed:` the first matching production is taken, so this weight is ignored");
     }
-    if (is_random_choice(production) && (!production.left.empty() || !production.right.empty())) {
+    const auto is_valid = [&](const CpfgModule& module) { // write_pattern() reports others
+        return std::ranges::all_of(module.arguments, [&](ForeignId argument) {
+            return expression(argument).kind == ForeignKind::Name;
+        });
+    };
+    if (is_random_choice(production) && (!production.left.empty() || !production.right.empty()) &&
+        std::ranges::all_of(production.left, is_valid) &&
+        std::ranges::all_of(production.right, is_valid)) {
         expressions_.warn_left_out(production.span, "choice " + key_of(production),
                                    "the choice is among productions with the same contexts; cpfg "
                                    "chooses among all that match");

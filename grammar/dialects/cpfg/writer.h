@@ -133,6 +133,7 @@ private:
     void write_parameters(const std::vector<std::string>& names,
                           const std::vector<std::string>& draws,
                           SourceSpan span);
+    void append_names(ForeignId argument, std::vector<std::string>& names) const;
     [[nodiscard]] std::vector<std::string> formals_of(const CpfgProduction& production) const;
     /// Names of the parameters with the random numbers of a group.
     [[nodiscard]] static std::vector<std::string>

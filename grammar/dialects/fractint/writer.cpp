@@ -8,6 +8,7 @@
 #include "grammar/dialects/impl/letter_modules.h"
 #include "grammar/dialects/impl/syntax_message.h"
 #include "grammar/dialects/impl/text.h"
+#include "grammar/dialects/repeated_messages.h"
 
 #include <array>
 #include <charconv>
@@ -72,11 +73,12 @@ void FractintWriter::write(std::string_view turtle) {
             continue;
         }
         const FractintLine*& last_line = line.kind == FractintLineKind::Angle ? angle : axiom;
-        if (last_line != nullptr) {
-            warn_quirk(last_line->key,
-                       line.kind == FractintLineKind::Angle
-                           ? "there is another `Angle` below, which Fractint takes"
-                           : "there is another `Axiom` below, which Fractint takes");
+        if (last_line != nullptr && !std::exchange(has_repeated_key_, true)) {
+            mark_lost_statement(context_.diagnostics.add(
+                DiagnosticCode::ForeignQuirk, last_line->key,
+                line.kind == FractintLineKind::Angle
+                    ? "there is another `Angle` below, which Fractint takes"
+                    : "there is another `Axiom` below, which Fractint takes"));
         }
         last_line = &line;
     }
@@ -122,8 +124,7 @@ void FractintWriter::write_angle(const FractintLine& line) {
     if (end != text.data() + text.size() || line.texts.size() > first + 1) {
         warn_quirk(place, "Fractint reads the angle " + std::to_string(parts) +
                               " and rejects the text after it");
-    }
-    if (parts < kMinAngle || parts > kMaxAngle) {
+    } else if (parts < kMinAngle || parts > kMaxAngle) {
         warn_quirk(place, "Fractint takes angles from " + std::to_string(kMinAngle) + " to " +
                               std::to_string(kMaxAngle) + " only");
     }

@@ -55,7 +55,8 @@ private:
     SourceSpan name_; // of the system
     const ParseContext& context_;
     Translation& translation_;
-    bool has_unknown_key_ = false; // a line begins with a word that is not a key
+    bool has_repeated_key_ = false; // a second `Angle` or `Axiom` has been reported
+    bool has_unknown_key_ = false;  // a line begins with a word that is not a key
 };
 
 } // namespace lsys

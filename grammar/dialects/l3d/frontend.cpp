@@ -10,6 +10,7 @@
 #include "grammar/dialects/l3d/reader.h"
 #include "grammar/dialects/l3d/rule_order.h"
 #include "grammar/dialects/l3d/writer.h"
+#include "grammar/dialects/repeated_messages.h"
 
 #include <algorithm>
 #include <cmath>
@@ -60,10 +61,11 @@ write_header(const L3dFile& file, const ParseContext& context, Translation& tran
 std::optional<SourceSpan> take_axiom(L3dFile& file, const ParseContext& context) {
     Diagnostics& diagnostics = context.diagnostics;
     for (std::size_t i = 0; i + 1 < file.axioms.size(); ++i) {
-        diagnostics
-            .add(DiagnosticCode::ForeignQuirk, file.axioms[i],
-                 "this is not the axiom: a later line without `=` replaces it")
-            .labels.push_back({file.axioms.back(), "the axiom"});
+        Diagnostic& diagnostic =
+            diagnostics.add(DiagnosticCode::ForeignQuirk, file.axioms[i],
+                            "this is not the axiom: a later line without `=` replaces it");
+        diagnostic.labels.push_back({file.axioms.back(), "the axiom"});
+        mark_lost_statement(diagnostic);
     }
     if (!file.axioms.empty()) {
         return file.axioms.back();
@@ -89,10 +91,10 @@ void report_missing_mark(FileId root, const ParseContext& context) {
     }
     const auto end = static_cast<std::uint32_t>(text.size());
     const bool error = context.bug_compatible;
-    context.diagnostics.add(
+    mark_lost_statement(context.diagnostics.add(
         error ? DiagnosticCode::ForeignSyntax : DiagnosticCode::ForeignQuirk, {root, end, end},
         ends_line ? "a line `@` is missing at the end, without which L3D never stops reading"
-                  : "a line `@` is missing at the end: the file may be cut off");
+                  : "a line `@` is missing at the end: the file may be cut off"));
 }
 
 void write_rules(const std::vector<L3dRule>& rules,
@@ -176,9 +178,11 @@ void translate_l3d(const DialectRow& row, const ParseContext& context, Translati
         translation.put(context.bug_compatible ? "#set random glibc;\n" : "");
     }
     const std::uint32_t generations = write_header(file, context, translation);
-    if (!file.has_end_mark) {
+    const bool is_replaced = file.axioms.size() > 1; // by a line that may be a broken rule
+    if (!file.has_end_mark && (!is_replaced || context.bug_compatible)) {
         report_missing_mark(root, context);
     }
+    writer.set_quiet(is_replaced && !context.bug_compatible);
     if (axiom) {
         axiom = writer.line(*axiom);
     }
@@ -190,6 +194,7 @@ void translate_l3d(const DialectRow& row, const ParseContext& context, Translati
     }
     translation.put("\n#w : ", *axiom);
     writer.write(*axiom);
+    writer.set_quiet(false);
     translation.put(";\n\n");
     write_rules(rules, alternatives, context, writer, translation);
     if (!context.bug_compatible && !context.diagnostics.has_errors()) {

@@ -6,6 +6,7 @@
 #include "grammar/base/utf8.h"
 #include "grammar/dialects/impl/text.h"
 #include "grammar/dialects/l3d/reader.h"
+#include "grammar/dialects/repeated_messages.h"
 
 #include <algorithm>
 #include <string>
@@ -42,7 +43,19 @@ bool is_one(std::string_view text) {
 } // namespace
 
 void L3dWriter::warn(std::uint32_t begin, std::uint32_t end, const std::string& message) {
-    context_.diagnostics.add(DiagnosticCode::ForeignQuirk, {file_, begin, end}, message);
+    if (!is_quiet_) {
+        context_.diagnostics.add(DiagnosticCode::ForeignQuirk, {file_, begin, end}, message);
+    }
+}
+
+/// Reports a parameter that reaches to the end of its text, which may be a mistake there.
+void L3dWriter::warn_unclosed(std::uint32_t at) {
+    if (!is_quiet_) {
+        has_warned_digit_ = true; // the digits of this parameter
+        mark_lost_statement(context_.diagnostics.add(DiagnosticCode::ForeignQuirk,
+                                                     {file_, at, at + 1},
+                                                     "this parameter has no `)` in its text"));
+    }
 }
 
 SourceSpan L3dWriter::line(SourceSpan text) {
@@ -123,6 +136,9 @@ void L3dWriter::check_parameter(char command, Parameter parameter) {
 }
 
 void L3dWriter::check_command(char command, std::uint32_t at) {
+    if (is_quiet_) {
+        return;
+    }
     if (command == '|' && !has_warned_half_turn_ && !context_.bug_compatible) {
         has_warned_half_turn_ = true;
         warn(at, at + 1, "L3D turns by pi degrees (3.14) here; lsc turns by 180 degrees");
@@ -168,7 +184,7 @@ void L3dWriter::write(SourceSpan text) {
             if (is_closed) {
                 check_parameter(command, {at, end});
             } else {
-                warn(at, at + 1, "this parameter has no `)` in its text");
+                warn_unclosed(at);
             }
             put_characters(at, end);
             at = end;

@@ -23,6 +23,8 @@ public:
     [[nodiscard]] SourceSpan key(SourceSpan text);
     /// Writes an axiom or a right side.
     void write(SourceSpan text);
+    /// Whether to leave out warnings: those about the axiom, if it may be a broken rule.
+    void set_quiet(bool is_quiet) { is_quiet_ = is_quiet; }
     /// Writes a left side without warnings.
     void write_key(SourceSpan text);
 
@@ -36,6 +38,7 @@ private:
     void put_characters(std::uint32_t at, std::uint32_t end);
     /// Warns that L3D reads the bytes [begin, end) in an unexpected way.
     void warn(std::uint32_t begin, std::uint32_t end, const std::string& message);
+    void warn_unclosed(std::uint32_t at);
     /// Warns of a parameter whose written value L3D does not use.
     void check_parameter(char command, Parameter parameter);
     /// Warns, once each, of a half turn and of a digit, which L3D treats in its own way.
@@ -45,6 +48,7 @@ private:
     Translation& translation_;
     FileId file_ = kNoFile;
     std::string_view source_;
+    bool is_quiet_ = false;
     bool has_warned_half_turn_ = false;
     bool has_warned_digit_ = false;
 };

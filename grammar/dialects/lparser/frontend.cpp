@@ -12,6 +12,7 @@
 #include "grammar/dialects/impl/letter_modules.h"
 #include "grammar/dialects/impl/text.h"
 #include "grammar/dialects/lparser/reader.h"
+#include "grammar/dialects/repeated_messages.h"
 
 #include <algorithm>
 #include <array>
@@ -110,8 +111,9 @@ public:
             ++index;
             if (rewritten_.at(static_cast<unsigned char>(text(rule.left)[0])).begin !=
                 rule.left.begin) {
-                context_.diagnostics.add(DiagnosticCode::ForeignQuirk, rule.left,
-                                         "Lparser takes the first of two rules for a symbol");
+                mark_lost_statement(
+                    context_.diagnostics.add(DiagnosticCode::ForeignQuirk, rule.left,
+                                             "Lparser takes the first of two rules for a symbol"));
                 continue;
             }
             const bool has_parameter = with_parameter_.contains(text(rule.left)[0]);

@@ -66,6 +66,9 @@ std::vector<std::string_view> lines_of(std::string_view text) {
     return lines;
 }
 
+/// Lines of a file without keywords before the axiom: depth, angle, thickness.
+constexpr std::size_t kHeaderLines = 3;
+
 class LparserReader {
 public:
     LparserReader(FileId root, const ParseContext& context)
@@ -76,6 +79,9 @@ public:
         const bool has_keywords = !lines.empty() && find_keyword(lines.front()) != nullptr;
         for (std::size_t i = 0; i < lines.size(); ++i) {
             has_keywords ? read_keyword(lines[i]) : read_plain(lines[i], i);
+            if (!has_keywords && i < kHeaderLines && context_.diagnostics.has_errors()) {
+                break; // a lost line: all lines after it have moved
+            }
         }
         if (!file_.axiom && !context_.diagnostics.has_errors()) {
             context_.diagnostics.add(DiagnosticCode::ForeignSyntax, {root_, 0, 0},
