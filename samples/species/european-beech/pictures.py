@@ -58,10 +58,11 @@ for name, leaves in (("spray.png", True), ("twig.png", False)):
     leafy(card, (0, 0), 0, 0.82, 4, leaves)
     card.save(name, levels=16)
 
+# Smooth bark: wide patches of little contrast without a direction, a fine grain, and grey-green lichen. Bands that lie
+# across the trunk would look like stripes from afar.
 size = 512
-tone = 0.5 + 0.25 * field(size, 34, 20, 72) + 0.1 * field(size, 5, 1.5, 73)
-lichen = np.clip((field(size, 22, 20, 74) - 0.8) * 1.2, 0, 0.55)
-line = np.clip((np.abs(field(size, 50, 3, 75)) < 0.05) * 1.0, 0, 1)
-colours = blend((112, 114, 110), (166, 168, 162), tone) * (1 - 0.12 * line)[..., None]
-colours = colours * (1 - lichen)[..., None] + np.array((140, 154, 118)) * lichen[..., None]
+tone = 0.55 + 0.09 * field(size, 44, 60, 72) + 0.05 * field(size, 9, 9, 75) + 0.05 * field(size, 3, 1.2, 73)
+lichen = np.clip((field(size, 16, 18, 74) - 1.1) * 0.6, 0, 0.4)
+colours = blend((112, 114, 110), (166, 168, 162), tone)
+colours = colours * (1 - lichen)[..., None] + np.array((142, 150, 128)) * lichen[..., None]
 save_bark("bark.jpg", colours)
