@@ -669,6 +669,8 @@ void Controls::press(const KeyPress& press, ForestView& view, PanelState& panels
     if (press.control) {
         if (press.key == Key::S) {
             view.save();
+        } else if (press.key == Key::Enter) {
+            panels.source.apply_here(view, nullptr);
         }
         return;
     }
@@ -743,6 +745,8 @@ void Controls::press(const KeyPress& press, PlantView& view, PanelState& panels)
     if (press.control) {
         if (press.key == Key::S) {
             view.save();
+        } else if (press.key == Key::Enter) {
+            panels.source.apply_here(view, &view);
         }
         return;
     }

@@ -100,6 +100,7 @@ inline constexpr auto kPlantKeys = std::to_array<KeyHelp>({
     {"M", "Close or show the messages"},
     {"U", "Source of the grammar"},
     {"F8, Shift+F8", "Next, previous message in the source"},
+    {"Ctrl+Enter", "Apply the fix of the selected line of the source"},
     {"Ctrl+E", "Open the selected line, the clicked part or the message in the editor"},
     {"F1", "Keys"},
     {"F6", "Keyboard to the next panel, then to the picture"},

@@ -405,6 +405,31 @@ void SourcePane::apply(const SourceFix& fix, PlantView& view) const {
     view.change_files(std::move(changes), fmt::format("fixed {}: {}", where, fix.title));
 }
 
+const SourceFix* SourcePane::fix_here() const {
+    const ShownSource* const shown = source();
+    const SourceFix* best = nullptr;
+    for (std::size_t i = 0; shown != nullptr && i < shown->messages.size(); ++i) {
+        for (const SourceFix& fix : shown->messages[i].fixes) {
+            if (shown->messages[i].line == selected_ && fix.refusal.empty() &&
+                (best == nullptr || (fix.is_certain && !best->is_certain))) {
+                best = &fix;
+            }
+        }
+    }
+    return best;
+}
+
+void SourcePane::apply_here(View& view, PlantView* plant) const {
+    const SourceFix* const fix = look.is_shown ? fix_here() : nullptr;
+    if (plant == nullptr) {
+        view.set_note("Open the grammar alone to apply its fixes");
+    } else if (fix == nullptr) {
+        view.set_note("The selected line has no fix: F8 goes to the next message");
+    } else {
+        apply(*fix, *plant);
+    }
+}
+
 void SourcePane::apply_all(PlantView& view) const {
     std::vector<FileChange> changes;
     for (const auto& [path, bytes] : text_->fixed) {

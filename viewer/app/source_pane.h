@@ -78,6 +78,12 @@ public:
     /// fixes.
     void apply(const SourceFix& fix, PlantView& view) const;
     void apply_all(PlantView& view) const;
+    /// The fix that apply_here() applies: of the messages of the selected line, the first certain
+    /// fix, else the first repair; null if there is none.
+    [[nodiscard]] const SourceFix* fix_here() const;
+    /// Applies fix_here(), or says in a note of `view` why there is nothing to apply. `plant`: the
+    /// view, if it shows a plant, else null.
+    void apply_here(View& view, PlantView* plant) const;
 
     [[nodiscard]] const SourceText* text() const { return text_.get(); }
     /// The file that is shown; null: none.

@@ -186,7 +186,7 @@ bool draw_fix(const SourceFix& fix, bool can_apply, const RowPlaces& at) {
     ImGui::PushStyleColor(ImGuiCol_Text, ink_of(TextColour::Green));
     pressed = ImGui::SmallButton(name);
     ImGui::PopStyleColor();
-    draw_tooltip(fix.is_certain ? "Writes the file; Ctrl+Z takes it back"
+    draw_tooltip(fix.is_certain ? "Writes the file (Ctrl+Enter); Ctrl+Z takes it back"
                                 : "One of several repairs. Writes the file; Ctrl+Z takes it back");
     put({ImGui::GetItemRectMax().x + at.character, at.corner.y}, ink_of(TextColour::Green),
         fix.title);

@@ -424,6 +424,38 @@ TEST_CASE("F6 reaches the buttons and the lines of the source pane") {
     CHECK(DrawnPanels::focused_window().empty());
 }
 
+TEST_CASE("F8 and Ctrl+Enter apply a fix, and a line without one says so") {
+    const ScratchFolder folder;
+    const std::string file = folder / "tree.lsys";
+    const std::string wrong = "#n = 1;\n#w : F F\n#q : F : * : F F;\n";
+    write_text(file, wrong);
+    DrawnPanels drawn(panel_options(file));
+    SourcePane& source = drawn.panels.source;
+    PlantView& view = *drawn.switcher.plant();
+    source.look.is_shown = true;
+    REQUIRE(drawn.until([&] {
+        source.update(view, [] {});
+        return source.source() != nullptr && !source.source()->messages.empty();
+    }));
+    KeyPress apply;
+    apply.key = Key::Enter;
+    apply.control = true;
+    source.select_line(1, false);
+    CHECK(source.fix_here() == nullptr);
+    drawn.press_outside(apply);
+    CHECK(read_text(file) == wrong);
+    drawn.press_outside({Key::F8});
+    REQUIRE(source.fix_here() != nullptr);
+    CHECK(source.fix_here()->is_certain);
+    drawn.press_outside(apply);
+    CHECK(read_text(file) == "#n = 1;\n#w : F F;\n#q : F : * : F F;\n");
+    KeyPress undo;
+    undo.key = Key::Z;
+    undo.control = true;
+    drawn.press_outside(undo);
+    CHECK(read_text(file) == wrong);
+}
+
 TEST_CASE("keys alone change a value") {
     DrawnPanels drawn(panel_options(sample("teach-param")));
     REQUIRE(has_plant(drawn));
