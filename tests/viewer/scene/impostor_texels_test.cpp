@@ -100,3 +100,41 @@ TEST_CASE("a mip level keeps the coverage of each part of a tree") {
         CHECK(line[(std::size_t{y} * kSide + y / 3) * 4 + 3] >= 128);
     }
 }
+
+TEST_CASE(
+    "hollows of an impostor are darker than what stands out, and tiles keep their lightness") {
+    constexpr std::uint32_t kTile = 32;
+    ImpostorTexels picture{2 * kTile, kTile, {}, {}};
+    const auto is_hollow = [](std::uint32_t x, std::uint32_t y) {
+        return (x / 4 + y / 4) % 2 == 0;
+    };
+    for (std::uint32_t y = 0; y < kTile; ++y) {
+        for (std::uint32_t x = 0; x < 2 * kTile; ++x) {
+            // The left tile is a checkerboard of depths, the right one is even.
+            const auto depth = static_cast<std::uint8_t>(x >= kTile        ? 250
+                                                         : is_hollow(x, y) ? 110
+                                                                           : 140);
+            picture.albedos.insert(picture.albedos.end(), {120, 120, 120, 255});
+            picture.normals.insert(picture.normals.end(), {128, 128, depth, 0});
+        }
+    }
+    shade_hollows(picture, kTile, 1.0F);
+    double light = 0.0;
+    for (std::uint32_t y = 0; y < kTile; ++y) {
+        for (std::uint32_t x = 0; x < kTile; ++x) {
+            const double left = picture.albedos[4 * (std::size_t{y} * 2 * kTile + x)];
+            CHECK((is_hollow(x, y) ? left < 120.0 : left > 120.0));
+            light += left * left / (120.0 * 120.0);
+            CHECK(picture.albedos[4 * (std::size_t{y} * 2 * kTile + kTile + x)] == 120);
+        }
+    }
+    CHECK(light / (kTile * kTile) == Approx(1.0).margin(0.02));
+}
+
+TEST_CASE("hollows leave empty texels and empty tiles alone") {
+    ImpostorTexels picture{16, 8, std::vector<std::uint8_t>(512), std::vector<std::uint8_t>(512)};
+    picture.albedos[0] = 77; // an empty texel may have a colour
+    const std::vector<std::uint8_t> before = picture.albedos;
+    shade_hollows(picture, 8, 1.0F);
+    CHECK(picture.albedos == before);
+}
