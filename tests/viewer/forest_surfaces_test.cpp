@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: MIT
 // Picture files on the ground, on meshes and on polygons of forests, drawn and exported.
 #include "runtime/meshing/texture.h"
+#include "runtime/program/host.h"
 #include "tests/support/lsc_run.h"
 #include "tests/viewer/lsview_run.h"
 #include "tests/viewer/picture.h"
+#include "viewer/app/forest_document.h"
+#include "viewer/gl/headless_context.h"
+#include "viewer/gl/renderer.h"
 
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
@@ -14,7 +18,10 @@
 #include <cstdint>
 #include <cstring>
 #include <filesystem>
+#include <memory>
+#include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 using namespace lsys;
@@ -459,6 +466,89 @@ TEST_CASE("meshes and polygons of a forest show their pictures, with holes") {
     const std::size_t opacity = mtl.find("map_d b.");
     REQUIRE(opacity != std::string::npos);
     CHECK(mtl.substr(opacity, mtl.find('\n', opacity) - opacity).ends_with("_opacity.png"));
+}
+
+TEST_CASE("pictures of many materials need one draw call, and each repeats as if it were alone") {
+    // Cards whose pictures repeat three times; the first one is the same in all scenes.
+    const auto scene = [](const std::string& pictures) {
+        std::string grammar = "#n = 1;\n#object L \"a.obj\";\n#object M \"b.obj\";\n"
+                              "#object N \"c.obj\";\n#w : L(1)";
+        return grammar + pictures + ";\n";
+    };
+    const auto look = [&](const std::string& others, int& draws) {
+        const SurfaceScene files("", scene(others));
+        for (const char* const name : {"a", "b", "c"}) {
+            write_text(files.folder / (std::string(name) + ".obj"),
+                       std::string("mtllib ") + name + ".mtl\nusemtl card\nv -1 0 0\nv 1 0 0\n" +
+                           "v 1 2 0\nv -1 2 0\nvt 0 0\nvt 3 0\nvt 3 3\nvt 0 3\n" +
+                           "f 1/1 2/2 3/3 4/4\n");
+        }
+        write_text(files.folder / "blue.png", encode_png(halves(kNothing, kBlue)));
+        write_text(files.folder / "a.mtl", "newmtl card\nmap_Kd holes.png\n");
+        write_text(files.folder / "b.mtl", "newmtl card\nmap_Kd blue.png\n");
+        write_text(files.folder / "c.mtl", "newmtl card\nmap_Kd other.png\n");
+        write_text(files.folder / "other.png", encode_png(halves(kBlue, kNothing)));
+        const std::string stats = files.folder / "stats.json";
+        const Picture seen =
+            files.picture("eye 20,1,25 target 20,1,20 fov 30",
+                          {"--no-shadows", "--triangles", "30000", "--stats", stats}, "320x320");
+        draws = nlohmann::json::parse(read_text(stats))["passes"]["branches"]["draws"].get<int>();
+        return seen;
+    };
+    int alone = 0;
+    int together = 0;
+    const Picture one = look("", alone);
+    // The other cards stand behind the first one, to the right.
+    const Picture three = look("[ +(90) f(2.5) -(90) M(1) ][ +(90) f(5) -(90) N(1) ]", together);
+    CHECK(alone == 1);
+    CHECK(together == 1);
+    int red = 0;
+    int differing = 0; // at edges, because the crown of more cards is larger and darker
+    for (std::uint32_t x = 40; x < 240; ++x) {
+        const bool is_seen = is_red(texel(one, x, 160));
+        red += is_seen ? 1 : 0;
+        differing += is_seen != is_red(texel(three, x, 160)) ? 1 : 0;
+    }
+    CHECK(differing <= 4);
+    CHECK(red > 70); // three stripes
+}
+
+TEST_CASE("branches of the park, with pictures of seven species, need few draw calls") {
+    using namespace lsys::view;
+    ViewOptions options;
+    options.file = LSYS_SOURCE_DIR "/samples/scenes/park/park.toml";
+    options.files = {options.file};
+    options.is_forest = true;
+    const Project project{make_file_host(nullptr), options.run.limits, 1, {}};
+    auto made = make_forest_document(options, project);
+    REQUIRE(made);
+    const ForestDocument& park = *made.value();
+    std::set<std::pair<const Texture*, const Texture*>> pictures; // with their normal maps
+    for (const TreeForm& form : park.model.forms) {
+        for (const InstanceMeshes& level : *form.meshes) {
+            for (const Material& material : level.mesh.materials) {
+                if (material.picture != nullptr) {
+                    pictures.insert({material.picture.get(), material.normal_map.get()});
+                }
+            }
+        }
+    }
+    const std::unique_ptr<HeadlessContext> context = std::move(HeadlessContext::make().value());
+    const std::unique_ptr<Renderer> renderer = std::move(Renderer::make(built_in_shader).value());
+    REQUIRE(renderer->show_forest(park.model));
+    Frame frame;
+    frame.camera = parse_camera("eye 80,3.7,45 target 80,3.2,75 fov 60", Camera()).value();
+    frame.width = 640;
+    frame.height = 360;
+    frame.samples = 1;
+    static_cast<void>(renderer->draw(frame, {0, 0, frame.width, frame.height}));
+    CHECK(renderer->errors().empty());
+    const ForestFrameStats& stats = renderer->forest_stats();
+    CHECK(stats.drawn_branches > 1000);
+    CAPTURE(pictures.size());
+    // Whole and blended branches; a call for each picture would take up to twice their number.
+    CHECK(pictures.size() >= 12);
+    CHECK(stats.branches.draws <= 10);
 }
 
 TEST_CASE("impostors show pictures of meshes") {

@@ -1,18 +1,20 @@
 // SPDX-License-Identifier: MIT
 #include "light.glsl"
+#include "motion.glsl"
 #if defined(BLENDS) || (defined(CUT_OUT) && !defined(BAKE))
 #include "blend.glsl"
 #endif
 #ifdef BLENDS
 flat in vec2 blend_range;
 #endif
-layout(binding = 1) uniform sampler2D bark_texture;
-layout(binding = 2) uniform sampler2D leaf_texture;
+layout(binding = 1) uniform sampler2DArray bark_texture;
+layout(binding = 2) uniform sampler2DArray leaf_texture;
 in vec3 world_normal;
 in vec2 uv;
 flat in vec3 tint;
 flat in uint kind; // flags: 1 textured, 2 translucent, 4 bumpy, 8 one colour;
-                      // bits from 8 on: translucency in 1/256; from 20 on: roughness in 1/255
+                      // bits from 8 on: translucency in 1/256; from 20 on: roughness in 1/255;
+                      // from 28 on: layer of the textures
 in vec3 crown_position;
 #ifdef BAKE
 in vec3 world_position;
@@ -34,8 +36,12 @@ vec2 projected(vec3 normal) {
 in vec3 shadow_position;
 in vec2 fog;
 in vec3 from_eye; // m
-out vec4 colour;
-layout(binding = 5) uniform sampler2D normal_map; // normals as in glTF
+layout(location = 0) out vec4 colour;
+#ifdef MOVES
+in vec3 moved;
+layout(location = 1) out vec4 motion;
+#endif
+layout(binding = 5) uniform sampler2DArray normal_map; // normals as in glTF
 // Normal with the normal map applied. The axes of the texture come from differences between
 // pixels, because vertices have no tangents (Schueler 2006, "Normal Mapping without Precomputed
 // Tangents", ShaderX 5). `normal`: the normal of the visible side.
@@ -46,7 +52,7 @@ vec3 bumped(vec3 normal) {
     vec3 u = across * right.x + along * up.x;
     vec3 v = across * right.y + along * up.y;
     float size = max(dot(u, u), dot(v, v));
-    vec3 bump = texture(normal_map, uv).xyz * 2.0 - 1.0;
+    vec3 bump = texture(normal_map, vec3(uv, float(kind >> 28u))).xyz * 2.0 - 1.0;
     vec3 turned = size > 0.0 ? (u * bump.x - v * bump.y) * inversesqrt(size) : vec3(0.0);
     return normalize(turned + normal * bump.z);
 }
@@ -59,9 +65,9 @@ void main() {
     bool is_translucent = (kind & 2u) != 0u;
 #ifdef CUT_OUT
 #ifdef BAKE
-    vec4 texel = texture(leaf_texture, uv, -2.0);
+    vec4 texel = texture(leaf_texture, vec3(uv, float(kind >> 28u)), -2.0);
 #else
-    vec4 texel = texture(leaf_texture, uv);
+    vec4 texel = texture(leaf_texture, vec3(uv, float(kind >> 28u)));
 #endif
 #if defined(BAKE)
     if (texel.a < 0.5) {
@@ -77,7 +83,7 @@ void main() {
     }
 #else
     if ((kind & 1u) != 0u) {
-        albedo *= texture(bark_texture, uv).rgb;
+        albedo *= texture(bark_texture, vec3(uv, float(kind >> 28u))).rgb;
     }
 #endif
     vec3 normal = normalize(world_normal);
@@ -103,9 +109,12 @@ void main() {
     float visibility = ambient_visibility(crown_position);
     vec3 radiance = shade_crown(albedo, normal, lit, translucency, visibility);
 #if QUALITY > 0
-    radiance += gloss(normal, -normalize(from_eye), float(kind >> 20u) / 255.0,
+    radiance += gloss(normal, -normalize(from_eye), float(kind >> 20u & 0xFFu) / 255.0,
                       lit * (0.4 + 0.6 * visibility), visibility);
 #endif
     colour = tone_mapped(apply_fog(radiance, fog));
+#ifdef MOVES
+    motion = vec4(moved, 0.0);
+#endif
 #endif
 }

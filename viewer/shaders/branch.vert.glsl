@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "light.glsl"
 #include "forest.glsl"
+#include "motion.glsl"
 // Materials; the C++ side is gl/impl/forest_buffers.cpp.
 struct Material {
     vec3 colour;
@@ -44,6 +45,9 @@ out vec3 shadow_position;
 out vec2 fog;
 out vec3 from_eye;
 #endif
+#ifdef MOVES
+out vec3 moved; // place in the picture before minus place, m
+#endif
 void main() {
     Branch at = branches[branch & 0xFFFFFFu];
 #ifdef BLENDS
@@ -61,9 +65,13 @@ void main() {
     vec3 in_crown = (world - crown_centre(tree)) / crown_axes(tree);
     vec3 shadow_place = world; // place of the shadow map, which shows the trees without wind
 #ifdef CUT_OUT
-    world = swayed(world, tree, 1.0);
+    const float kFlutter = 1.0;
 #else
-    world = swayed(world, tree, 0.0);
+    const float kFlutter = 0.0;
+#endif
+    world = swayed(world, tree, kFlutter);
+#ifdef MOVES
+    moved = swayed_before(shadow_place, tree, kFlutter) - world;
 #endif
 #if QUALITY > 1
     shadow_place = world; // it shows them in the wind
@@ -94,7 +102,7 @@ void main() {
     // Light that the side towards the eye reflects has the colour of the light.
     vec3 to_eye = normalize(frame.eye_time.xyz - world);
     vec3 shown = dot(surface, to_eye) < 0.0 ? -surface : surface;
-    fog_only += fog.y * gloss(shown, to_eye, float(material.kind >> 20u) / 255.0,
+    fog_only += fog.y * gloss(shown, to_eye, float(material.kind >> 20u & 0xFFu) / 255.0,
                               lit * (0.4 + 0.6 * visibility), visibility);
 #endif
 #ifdef CUT_OUT

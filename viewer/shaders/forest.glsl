@@ -62,17 +62,16 @@ vec3 crown_centre(UnpackedTree tree) {
 
 // Position of a point of a tree in the wind: a function of the point at rest and the tree alone, so
 // that joints stay closed. `flutter`: 1 for leaves. sway_in() in scene/forest_lod_select.cpp bounds it.
-vec3 swayed(vec3 world_position, UnpackedTree tree, float flutter) {
+vec3 swayed_in(vec3 world_position, UnpackedTree tree, float flutter, vec4 wind, float time) {
 #ifdef WIND
-    float speed = length(frame.wind.xyz);
-    vec3 downwind = frame.wind.xyz / speed;
-    float time = frame.eye_time.w;
+    float speed = max(length(wind.xyz), 1e-6);
+    vec3 downwind = wind.xyz / speed;
     float height = tree.scale * (forms[tree.form].cylinder.z - forms[tree.form].cylinder.y);
     vec3 from = world_position - tree.root;
     float rise = clamp(from.y / height, 0.0, 1.2);
     // Gusts travel downwind.
     float along = dot(tree.root, downwind);
-    float gust = 1.0 + frame.wind.w * sin(0.9 * time - 0.05 * along + 6.2831853 * tree.phase) *
+    float gust = 1.0 + wind.w * sin(0.9 * time - 0.05 * along + 6.2831853 * tree.phase) *
                            sin(0.37 * time - 0.021 * along);
     float push = 0.004 * speed * gust;
     float swing = 1.0 + 0.35 * sin(1.7 * time + 6.2831853 * tree.phase);
@@ -91,4 +90,10 @@ vec3 swayed(vec3 world_position, UnpackedTree tree, float flutter) {
 #else
     return world_position;
 #endif
+}
+vec3 swayed(vec3 world_position, UnpackedTree tree, float flutter) {
+    return swayed_in(world_position, tree, flutter, frame.wind, frame.eye_time.w);
+}
+vec3 swayed_before(vec3 world_position, UnpackedTree tree, float flutter) {
+    return swayed_in(world_position, tree, flutter, frame.wind_before, frame.time_before.x);
 }

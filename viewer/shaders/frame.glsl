@@ -17,5 +17,7 @@ layout(std140, binding = 0) uniform FrameBlock {
     vec4 near_maps;
     vec4 crowns;    // xy: middle of the map of crowns, m; z: half its side, m; w: 1 if it is drawn
     vec4 hills;     // x: distance of the hills at the horizon, m, 0: none; y: altitude of their foot, m
+    vec4 wind_before; // wind of the picture before; only with QUALITY 2
+    vec4 time_before; // x: its time, s; y: number of the shift by a part of a pixel, 0: none
     vec4 viewport;  // xy: corner of the drawn area, zw: size of the whole picture; pixels
 } frame;

@@ -12,8 +12,9 @@ layout(location = 1) uniform ivec4 kind; // x: textured, z: alpha mask
 layout(location = 2) uniform uint first_triangle;
 in vec2 uv;
 #elif defined(CUT_OUT)
-layout(binding = 2) uniform sampler2D leaf_texture;
+layout(binding = 2) uniform sampler2DArray leaf_texture;
 in vec2 uv;
+flat in uint kind; // from bit 28 on: layer of the texture
 #endif
 #if !defined(PLANT) && !defined(GROUND)
 flat in uint item; // index of the branch or of the impostor
@@ -32,7 +33,7 @@ void main() {
     picked = uvec4(content, 0u, 0u, 0u);
 #else
 #ifdef CUT_OUT
-    if (texture(leaf_texture, uv).a < 0.5) {
+    if (texture(leaf_texture, vec3(uv, float(kind >> 28u))).a < 0.5) {
         discard;
     }
 #endif

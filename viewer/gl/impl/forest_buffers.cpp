@@ -17,6 +17,7 @@
 #include <map>
 #include <memory>
 #include <numbers>
+#include <optional>
 #include <utility>
 
 namespace lsys::view {
@@ -43,7 +44,7 @@ static_assert(sizeof(Vertex) == 16);
 struct MaterialRecord {
     glm::vec3 colour{};
     // kTextured, kTranslucent, kBumpy; from bit 8 on: translucency in 1/256; from bit 20 on:
-    // roughness in 1/255
+    // roughness in 1/255; from bit 28 on: layer of the array of its pictures
     std::uint32_t kind = 0;
 };
 static_assert(sizeof(MaterialRecord) == 16);
@@ -52,6 +53,7 @@ constexpr std::uint32_t kTranslucent = 2;
 constexpr std::uint32_t kBumpy = 4;
 constexpr unsigned kTranslucencyShift = 8;
 constexpr unsigned kRoughnessShift = 20;
+constexpr unsigned kLayerShift = 28;
 
 struct FormRecord {
     glm::vec4 cylinder{};
@@ -98,12 +100,9 @@ std::array<std::int8_t, 2> octahedral(const glm::vec3& n) {
     return {snorm8(e.x), snorm8(e.y)};
 }
 
-bool has_pictures(const Material& material) {
-    return material.picture != nullptr || material.normal_map != nullptr;
-}
-
 /// Appends the records of materials, equal records only once. Returns their indices.
 std::vector<std::uint16_t> add_materials(const std::vector<Material>& materials,
+                                         const PictureArrays& pictures,
                                          std::vector<MaterialRecord>& records) {
     std::vector<std::uint16_t> numbers;
     for (const Material& material : materials) {
@@ -120,6 +119,9 @@ std::vector<std::uint16_t> add_materials(const std::vector<Material>& materials,
                       (is_bumpy ? kBumpy : 0) | translucency << kTranslucencyShift |
                       static_cast<std::uint32_t>(std::lround(255.0F * roughness_of(material)))
                           << kRoughnessShift;
+        if (const std::optional<PictureArrays::Place> place = pictures.place_of(material)) {
+            record.kind |= place->layer << kLayerShift;
+        }
         const auto same =
             std::find_if(records.begin(), records.end(), [&](const MaterialRecord& other) {
                 return other.colour == record.colour && other.kind == record.kind;
@@ -169,13 +171,8 @@ void ForestBuffers::use(BufferSet set) {
 }
 
 std::size_t ForestBuffers::class_of(const Material& material) const {
-    if (has_pictures(material)) {
-        const auto found =
-            std::find_if(pictures_.begin(), pictures_.end(), [&](const BranchPicture& picture) {
-                return picture.colour_file == material.picture &&
-                       picture.normal_map_file == material.normal_map;
-            });
-        return kBranchClasses + static_cast<std::size_t>(found - pictures_.begin());
+    if (const std::optional<PictureArrays::Place> place = pictures_.place_of(material)) {
+        return kBranchClasses + place->array;
     }
     if (material.cut_out && material.textured) {
         return static_cast<std::size_t>(BranchClass::CutOut);
@@ -186,52 +183,15 @@ std::size_t ForestBuffers::class_of(const Material& material) const {
     return static_cast<std::size_t>(material.textured ? BranchClass::TwoSided : BranchClass::Plain);
 }
 
-void ForestBuffers::upload_pictures(const ForestModel& model, const MaterialTextures& textures) {
-    std::vector<BranchPicture> before = std::exchange(pictures_, {});
-    texture_bytes_ = 0;
-    const auto bytes_of = [](const Texture& picture) { return picture.texels.size() * 4 / 3; };
-    for (const TreeForm& form : model.forms) {
-        for (const InstanceMeshes& level : *form.meshes) {
-            for (const Material& material : level.mesh.materials) {
-                if (!has_pictures(material) || class_of(material) < class_count()) {
-                    continue;
-                }
-                BranchPicture& added = pictures_.emplace_back();
-                added.colour_file = material.picture;
-                added.normal_map_file = material.normal_map;
-                const auto same =
-                    std::find_if(before.begin(), before.end(), [&](const BranchPicture& picture) {
-                        return picture.colour_file == material.picture &&
-                               picture.normal_map_file == material.normal_map;
-                    });
-                if (same != before.end()) {
-                    added = std::move(*same);
-                    before.erase(same);
-                } else {
-                    if (material.picture != nullptr) {
-                        added.colour = textures.make(*material.picture);
-                        added.has_holes = has_holes(*material.picture);
-                    }
-                    if (material.normal_map != nullptr) {
-                        added.normal_map = textures.make_normals(*material.normal_map);
-                    }
-                }
-                texture_bytes_ += added.colour_file ? bytes_of(*added.colour_file) : 0;
-                texture_bytes_ += added.normal_map_file ? bytes_of(*added.normal_map_file) : 0;
-            }
-        }
-    }
+void ForestBuffers::upload(ForestModel& model,
+                           const ImpostorPlan& plan,
+                           const MaterialTextures& textures) {
+    pictures_.upload(model, textures);
     for (DrawBuffers* const buffers : {&forest_, &impostor_, &shadow_}) {
         while (buffers->commands.size() < 2 * class_count()) {
             buffers->commands.push_back({Buffer(*device_), 0});
         }
     }
-}
-
-void ForestBuffers::upload(ForestModel& model,
-                           const ImpostorPlan& plan,
-                           const MaterialTextures& textures) {
-    upload_pictures(model, textures);
     std::vector<MaterialRecord> records;
     std::uint64_t vertex_count = 0;
     std::uint64_t index_count = 0;
@@ -269,7 +229,8 @@ void ForestBuffers::upload(ForestModel& model,
             const InstanceMeshes& meshes = (*of_levels)[l];
             const Mesh& mesh = meshes.mesh;
             const LargeVector<std::uint32_t> indices = mesh.indices.expanded();
-            const std::vector<std::uint16_t> numbers = add_materials(mesh.materials, records);
+            const std::vector<std::uint16_t> numbers =
+                add_materials(mesh.materials, pictures_, records);
             FormLevel& level = levels[l];
             level.base_vertex = static_cast<std::int32_t>(first_vertex);
             packed.assign(mesh.positions.size(), {});
@@ -320,7 +281,9 @@ void ForestBuffers::upload(ForestModel& model,
                 }
             }
             for (const std::uint16_t number : numbers) {
-                digest = digest_of(std::span<const MaterialRecord>(&records[number], 1), digest);
+                MaterialRecord record = records[number];
+                record.kind &= (1U << kLayerShift) - 1; // other pictures may move the layer
+                digest = digest_of(std::span<const MaterialRecord>(&record, 1), digest);
             }
             digest = digest_of(std::span<const Vertex>(packed), digest);
             digest = digest_of(std::span<const std::uint32_t>(listed), digest);
@@ -535,18 +498,18 @@ std::uint64_t ForestBuffers::draw(BranchClass kind, bool blends) const {
 std::uint64_t ForestBuffers::draw_pictures(GLuint solid,
                                            GLuint cut_out,
                                            GLuint bumpy_cut_out,
+                                           MaterialTextures& textures,
                                            bool blends) const {
     std::uint64_t draws = 0;
-    for (std::size_t i = 0; i < pictures_.size(); ++i) {
-        const BranchPicture& picture = pictures_[i];
-        glUseProgram(!picture.has_holes ? solid : picture.normal_map ? bumpy_cut_out : cut_out);
-        if (picture.colour) {
-            glBindTextureUnit(picture.has_holes ? kLeafTexture : kBarkTexture,
-                              picture.colour.name());
-        }
-        if (picture.normal_map) {
-            glBindTextureUnit(kNormalMapTexture, picture.normal_map.name());
-        }
+    const std::vector<PictureArray>& arrays = pictures_.arrays();
+    for (std::size_t i = 0; i < arrays.size(); ++i) {
+        const PictureArray& array = arrays[i];
+        glUseProgram(!array.has_holes ? solid : array.has_normal_maps ? bumpy_cut_out : cut_out);
+        glBindTextureUnit(array.has_holes ? kLeafTexture : kBarkTexture,
+                          array.colours ? array.colours.name()
+                                        : textures.base_colour_array(MaterialKind::Bark));
+        glBindTextureUnit(kNormalMapTexture, array.normal_maps ? array.normal_maps.name()
+                                                               : textures.bark_normal_array());
         glDisable(GL_CULL_FACE); // meshes from files are two-sided
         draws += draw(kBranchClasses + i, blends);
     }

@@ -6,6 +6,7 @@
 
 #include "viewer/gl/impl/material_textures.h"
 #include "viewer/gl/impl/objects.h"
+#include "viewer/gl/impl/picture_arrays.h"
 #include "viewer/scene/branch_colours.h"
 #include "viewer/scene/forest_lod.h"
 #include "viewer/scene/impostor_plan.h"
@@ -27,7 +28,7 @@ enum class BranchClass : std::uint8_t {
     Plain,  // two-sided leaves of one colour
     CutOut, // two-sided leaves with an alpha mask
 };
-/// Number of these classes; each picture of a mesh file is a further class.
+/// Number of these classes; each array of pictures is a further class.
 inline constexpr std::size_t kBranchClasses = 4;
 
 /// Set of buffers that uploads and draws use. Impostor: for baking, which happens between pictures
@@ -106,12 +107,15 @@ public:
     /// Draws a class with the bound program of branch.*.glsl; returns the number of draw calls.
     /// `blends`: draws runs of blended trees; the program must be compiled with BLENDS.
     std::uint64_t draw(BranchClass kind, bool blends = false) const;
-    /// Draws the branches whose material has a picture file. Uses the program `cut_out` if the
-    /// picture has transparent texels, `bumpy_cut_out` if it also has a normal map, else `solid`.
-    /// Binds these programs, and the textures of bark, leaves and normal maps. Returns the number
-    /// of draw calls.
-    std::uint64_t
-    draw_pictures(GLuint solid, GLuint cut_out, GLuint bumpy_cut_out, bool blends) const;
+    /// Draws the branches whose material has a picture file, with one call per array of pictures.
+    /// Uses the program `cut_out` if the pictures have transparent texels, `bumpy_cut_out` if they
+    /// also have normal maps, else `solid`. Binds these programs, and the textures of bark, leaves
+    /// and normal maps. Returns the number of draw calls.
+    std::uint64_t draw_pictures(GLuint solid,
+                                GLuint cut_out,
+                                GLuint bumpy_cut_out,
+                                MaterialTextures& textures,
+                                bool blends) const;
     void bind_storage() const;
     /// Rebinds storage so that in later draws the index of a tree means a cluster. Call it after
     /// bind_storage().
@@ -119,7 +123,7 @@ public:
 
     [[nodiscard]] std::uint64_t mesh_bytes() const { return mesh_bytes_; }
     /// Bytes of memory of the textures of picture files.
-    [[nodiscard]] std::uint64_t texture_bytes() const { return texture_bytes_; }
+    [[nodiscard]] std::uint64_t texture_bytes() const { return pictures_.texture_bytes(); }
     [[nodiscard]] std::uint64_t tree_bytes() const {
         return forest_.trees.capacity() + clusters_.capacity();
     }
@@ -138,15 +142,6 @@ private:
         std::int32_t base_vertex = 0;
         std::vector<IndexRange> ranges; // by instance, then by class
     };
-    /// Textures of the pictures of a material.
-    struct BranchPicture {
-        std::shared_ptr<const Texture> colour_file;
-        std::shared_ptr<const Texture> normal_map_file;
-        TextureObject colour; // empty: there is only a normal map
-        TextureObject normal_map;
-        bool has_holes = false;
-    };
-
     struct Commands {
         Buffer buffer;
         std::uint32_t count = 0;
@@ -159,14 +154,13 @@ private:
         std::vector<Commands> commands; // by class: unblended ones, then blended ones
     };
     [[nodiscard]] static DrawBuffers make_draw_buffers(Device& device);
-    /// Makes textures of the pictures of all materials. Equal pictures share a texture; textures of
-    /// the previous forest are reused.
-    void upload_pictures(const ForestModel& model, const MaterialTextures& textures);
     [[nodiscard]] std::size_t class_of(const Material& material) const;
     [[nodiscard]] static std::size_t command_index(std::size_t kind, bool blends) {
         return 2 * kind + (blends ? 1 : 0);
     }
-    [[nodiscard]] std::size_t class_count() const { return kBranchClasses + pictures_.size(); }
+    [[nodiscard]] std::size_t class_count() const {
+        return kBranchClasses + pictures_.arrays().size();
+    }
     [[nodiscard]] const Commands& commands_of(std::size_t kind, bool blends) const {
         return current_->commands[command_index(kind, blends)];
     }
@@ -191,11 +185,10 @@ private:
     std::vector<std::uint64_t> mesh_digests_;   // by form
     std::vector<std::uint64_t> colour_digests_; // by form; 0: natural
     std::vector<std::array<FormLevel, kTreeLevels>> form_levels_;
-    std::vector<BranchPicture> pictures_;
+    PictureArrays pictures_;
     Device* device_;
     const DeviceDraws* device_draws_ = nullptr;
     std::uint64_t mesh_bytes_ = 0;
-    std::uint64_t texture_bytes_ = 0;
 };
 
 } // namespace lsys::view

@@ -559,15 +559,18 @@ void ForestPass::draw_near_shadows(std::size_t map,
          {BranchClass::OneSided, BranchClass::TwoSided, BranchClass::Plain}) {
         buffers_.draw(kind);
     }
-    glBindTextureUnit(kLeafTexture, textures.base_colour(MaterialKind::Leaf));
+    glBindTextureUnit(kLeafTexture, textures.base_colour_array(MaterialKind::Leaf));
     glUseProgram(programs().cut_out_caster.name());
     buffers_.draw(BranchClass::CutOut);
     buffers_.draw_pictures(programs().caster.name(), programs().cut_out_caster.name(),
-                           programs().cut_out_caster.name(), false);
+                           programs().cut_out_caster.name(), textures, false);
     buffers_.use(BufferSet::Forest);
 }
 
-void ForestPass::draw_branches(const BranchPrograms& programs, bool blends, FrameStats& stats) {
+void ForestPass::draw_branches(const BranchPrograms& programs,
+                               MaterialTextures& textures,
+                               bool blends,
+                               FrameStats& stats) {
     glUseProgram(programs.solid.name());
     stats.draws += buffers_.draw(BranchClass::OneSided, blends);
     stats.draws += buffers_.draw(BranchClass::TwoSided, blends);
@@ -578,7 +581,7 @@ void ForestPass::draw_branches(const BranchPrograms& programs, bool blends, Fram
     stats.draws += buffers_.draw(BranchClass::CutOut, blends);
     stats.draws += buffers_.draw_pictures(
         programs.solid.name(), cut_out.name(),
-        (programs.bumpy_cut_out ? programs.bumpy_cut_out : cut_out).name(), blends);
+        (programs.bumpy_cut_out ? programs.bumpy_cut_out : cut_out).name(), textures, blends);
 }
 
 void ForestPass::draw(MaterialTextures& textures, ForestFrameStats& stats) {
@@ -588,10 +591,10 @@ void ForestPass::draw(MaterialTextures& textures, ForestFrameStats& stats) {
     buffers_.bind_storage();
     branches_timer_.begin();
     for (const bool blends : {false, true}) {
-        glBindTextureUnit(kBarkTexture, textures.base_colour(MaterialKind::Bark));
-        glBindTextureUnit(kLeafTexture, textures.base_colour(MaterialKind::Leaf));
-        glBindTextureUnit(kNormalMapTexture, textures.bark_normals());
-        draw_branches(blends ? programs().blending_branches : programs().branches, blends,
+        glBindTextureUnit(kBarkTexture, textures.base_colour_array(MaterialKind::Bark));
+        glBindTextureUnit(kLeafTexture, textures.base_colour_array(MaterialKind::Leaf));
+        glBindTextureUnit(kNormalMapTexture, textures.bark_normal_array());
+        draw_branches(blends ? programs().blending_branches : programs().branches, textures, blends,
                       stats.branches);
     }
     branches_timer_.end();
@@ -698,7 +701,7 @@ void ForestPass::draw_picked(MaterialTextures& textures) {
     }
     buffers_.bind_storage();
     for (const bool blends : {false, true}) {
-        glBindTextureUnit(kLeafTexture, textures.base_colour(MaterialKind::Leaf));
+        glBindTextureUnit(kLeafTexture, textures.base_colour_array(MaterialKind::Leaf));
         use(blends ? picks.blending_branch : picks.branch, PickedKind::Branch);
         for (const BranchClass kind :
              {BranchClass::OneSided, BranchClass::TwoSided, BranchClass::Plain}) {
@@ -708,7 +711,7 @@ void ForestPass::draw_picked(MaterialTextures& textures) {
         buffers_.draw(BranchClass::CutOut, blends);
         const GLuint cut_out = (blends ? picks.blending_cut_out : picks.cut_out).name();
         buffers_.draw_pictures((blends ? picks.blending_branch : picks.branch).name(), cut_out,
-                               cut_out, blends);
+                               cut_out, textures, blends);
     }
     glDisable(GL_CULL_FACE);
     const auto draw_impostors = [&](std::span<const ImpostorEntry> entries, PickedKind kind) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // ForestPass: draws a forest: branches of near trees, impostors of far trees, ground and shadows.
-// For any number of trees it needs at most 16 draw calls, and two more for each picture of a mesh
-// file.
+// For any number of trees it needs at most 16 draw calls, and two more for each array of pictures
+// of mesh files (PictureArrays).
 #pragma once
 
 #include "grammar/base/result.h"
@@ -52,6 +52,8 @@ public:
     void update_trees();
     /// Bakes missing impostors for about `seconds`. Returns whether all are done.
     [[nodiscard]] bool bake_impostors(double seconds, MaterialTextures& textures);
+    /// Whether trees move in the wind of the prepared frame.
+    [[nodiscard]] bool is_windy() const { return is_windy_; }
     [[nodiscard]] bool has_stand_ins() const { return impostors_.is_filled(); }
     /// Colours the branches of this forest and of all later ones.
     void set_colours(BranchColours by);
@@ -127,7 +129,10 @@ private:
     [[nodiscard]] const ForestPrograms& programs() const { return programs_[is_windy_ ? 1 : 0]; }
     /// Program that draws depths of impostors, for the samples per pixel of the prepared frame.
     [[nodiscard]] const ProgramObject& impostor_depth(bool blends) const;
-    void draw_branches(const BranchPrograms& programs, bool blends, FrameStats& stats);
+    void draw_branches(const BranchPrograms& programs,
+                       MaterialTextures& textures,
+                       bool blends,
+                       FrameStats& stats);
     /// Draws impostors of trees or, if `trees` are entries of clusters, of clusters.
     void draw_impostors(std::span<const ImpostorEntry> trees, FrameStats& stats);
     /// Draws the quads first ... first + count - 1 of quad_trees_. Returns the number of draw

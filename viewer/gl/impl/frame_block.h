@@ -26,9 +26,11 @@ struct FrameBlock {
     glm::vec4 near_maps{0.0F, 0.0F, 0.0F, 1.0F};
     glm::vec4 crowns{0.0F};
     glm::vec4 hills{0.0F};
+    glm::vec4 wind_before{0.0F};
+    glm::vec4 time_before{0.0F};
     glm::vec4 viewport{0.0F};
 };
-static_assert(sizeof(FrameBlock) == 5 * 64 + 11 * 16);
+static_assert(sizeof(FrameBlock) == 5 * 64 + 13 * 16);
 
 /// Uniforms for the part of a picture within `area`. `shadow_texels`: texels along a side of the
 /// shadow map.

@@ -199,8 +199,8 @@ void ImpostorAtlas::draw_elevation(const Cylinder& form,
         glViewport(static_cast<GLint>(y * kTile * kSupersampling), 0,
                    static_cast<GLsizei>(kTile * kSupersampling),
                    static_cast<GLsizei>(kTile * kSupersampling));
-        glBindTextureUnit(1, textures.base_colour(MaterialKind::Bark));
-        glBindTextureUnit(2, textures.base_colour(MaterialKind::Leaf));
+        glBindTextureUnit(1, textures.base_colour_array(MaterialKind::Bark));
+        glBindTextureUnit(2, textures.base_colour_array(MaterialKind::Leaf));
         for (const ProgramObject* program : {&solid_, &cut_out_}) {
             glUseProgram(program->name());
             glUniform4f(kCentre, middle.x, middle.y, middle.z, deep);
@@ -215,7 +215,7 @@ void ImpostorAtlas::draw_elevation(const Cylinder& form,
                 buffers.draw(BranchClass::Plain);
             }
         }
-        buffers.draw_pictures(solid_.name(), cut_out_.name(), cut_out_.name(), false);
+        buffers.draw_pictures(solid_.name(), cut_out_.name(), cut_out_.name(), textures, false);
         device_->end_pass();
     }
 }
@@ -416,6 +416,12 @@ void ImpostorAtlas::step(const ForestModel& model,
         return;
     }
     bake.elevation = 0;
+    const auto depth_of = [](const Cylinder& form) {
+        return std::hypot(form.radius, 0.5F * (form.high - form.low));
+    };
+    shade_hollows(bake.finished, kTile,
+                  depth_of(cylinder_of(plan_, layer)) /
+                      depth_of(plan_.forms[plan_.layers[layer].form].cylinder));
     upload_layer(layer, std::move(bake.finished));
     keys_[layer] = target_keys_[layer];
     filled_[layer] = 1;

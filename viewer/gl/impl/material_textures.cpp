@@ -73,30 +73,75 @@ void keep_coverage(Texture& texture, double wanted) {
     }
 }
 
+void set_sampling(GLuint texture, bool clamps) {
+    const GLint wrap = clamps ? GL_CLAMP_TO_EDGE : GL_REPEAT;
+    glTextureParameteri(texture, GL_TEXTURE_WRAP_S, wrap);
+    glTextureParameteri(texture, GL_TEXTURE_WRAP_T, wrap);
+    glTextureParameteri(texture, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
+    glTextureParameteri(texture, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+}
+
+/// A texture of the same memory as `texture`, as an array of one layer.
+TextureObject array_of(Device& device, GLuint texture, GLenum format, bool clamps) {
+    GLint levels = 0;
+    glGetTextureParameteriv(texture, GL_TEXTURE_IMMUTABLE_LEVELS, &levels);
+    GLuint name = 0;
+    glGenTextures(1, &name);
+    glTextureView(name, GL_TEXTURE_2D_ARRAY, texture, format, 0, static_cast<GLuint>(levels), 0, 1);
+    TextureObject view(device, name);
+    set_sampling(name, clamps);
+    return view;
+}
+
+/// Makes a texture of pictures of one size. `target`: GL_TEXTURE_2D for a single picture, or
+/// GL_TEXTURE_2D_ARRAY.
+TextureObject upload(Device& device,
+                     std::vector<Texture> layers,
+                     GLenum target,
+                     GLenum format,
+                     bool cut_out,
+                     bool repeats) {
+    TextureObject object = make_texture(device, target);
+    const auto width = static_cast<GLsizei>(layers.front().width);
+    const auto height = static_cast<GLsizei>(layers.front().height);
+    const auto levels =
+        static_cast<GLsizei>(std::bit_width(std::max(layers.front().width, layers.front().height)));
+    if (target == GL_TEXTURE_2D) {
+        glTextureStorage2D(object.name(), levels, format, width, height);
+    } else {
+        glTextureStorage3D(object.name(), levels, format, width, height,
+                           static_cast<GLsizei>(layers.size()));
+    }
+    for (std::size_t layer = 0; layer < layers.size(); ++layer) {
+        Texture& texture = layers[layer];
+        const double wanted = cut_out ? coverage(texture.texels, 1.0F) : 0.0;
+        for (GLsizei level = 0; level < levels; ++level) {
+            const auto wide = static_cast<GLsizei>(texture.width);
+            const auto high = static_cast<GLsizei>(texture.height);
+            if (target == GL_TEXTURE_2D) {
+                glTextureSubImage2D(object.name(), level, 0, 0, wide, high, GL_RGBA,
+                                    GL_UNSIGNED_BYTE, texture.texels.data());
+            } else {
+                glTextureSubImage3D(object.name(), level, 0, 0, static_cast<GLint>(layer), wide,
+                                    high, 1, GL_RGBA, GL_UNSIGNED_BYTE, texture.texels.data());
+            }
+            device.add_upload(texture.texels.size());
+            texture = halved(texture);
+            if (cut_out) {
+                keep_coverage(texture, wanted);
+            }
+        }
+        texture = {};
+    }
+    set_sampling(object.name(), cut_out && !repeats);
+    return object;
+}
+
 TextureObject
 upload(Device& device, Texture texture, GLenum format, bool cut_out, bool repeats = false) {
-    TextureObject object = make_texture(device, GL_TEXTURE_2D);
-    const auto levels =
-        static_cast<GLsizei>(std::bit_width(std::max(texture.width, texture.height)));
-    glTextureStorage2D(object.name(), levels, format, static_cast<GLsizei>(texture.width),
-                       static_cast<GLsizei>(texture.height));
-    const double wanted = cut_out ? coverage(texture.texels, 1.0F) : 0.0;
-    for (GLsizei level = 0; level < levels; ++level) {
-        glTextureSubImage2D(object.name(), level, 0, 0, static_cast<GLsizei>(texture.width),
-                            static_cast<GLsizei>(texture.height), GL_RGBA, GL_UNSIGNED_BYTE,
-                            texture.texels.data());
-        device.add_upload(texture.texels.size());
-        texture = halved(texture);
-        if (cut_out) {
-            keep_coverage(texture, wanted);
-        }
-    }
-    const GLint wrap = cut_out && !repeats ? GL_CLAMP_TO_EDGE : GL_REPEAT;
-    glTextureParameteri(object.name(), GL_TEXTURE_WRAP_S, wrap);
-    glTextureParameteri(object.name(), GL_TEXTURE_WRAP_T, wrap);
-    glTextureParameteri(object.name(), GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
-    glTextureParameteri(object.name(), GL_TEXTURE_MAG_FILTER, GL_LINEAR);
-    return object;
+    std::vector<Texture> layers;
+    layers.push_back(std::move(texture));
+    return upload(device, std::move(layers), GL_TEXTURE_2D, format, cut_out, repeats);
 }
 
 } // namespace
@@ -120,6 +165,31 @@ GLuint MaterialTextures::bark_normals() {
         normals_ = upload(*device_, lsys::bark_normals(), GL_RGBA8, false);
     }
     return normals_.name();
+}
+
+GLuint MaterialTextures::base_colour_array(MaterialKind kind) {
+    TextureObject& object = base_arrays_[static_cast<std::size_t>(kind)];
+    if (!object) {
+        object = array_of(*device_, base_colour(kind), GL_SRGB8_ALPHA8, kind == MaterialKind::Leaf);
+    }
+    return object.name();
+}
+
+GLuint MaterialTextures::bark_normal_array() {
+    if (!normal_array_) {
+        normal_array_ = array_of(*device_, bark_normals(), GL_RGBA8, false);
+    }
+    return normal_array_.name();
+}
+
+TextureObject MaterialTextures::make_colour_array(std::vector<Texture> layers,
+                                                  bool has_holes) const {
+    return upload(*device_, std::move(layers), GL_TEXTURE_2D_ARRAY, GL_SRGB8_ALPHA8, has_holes,
+                  true);
+}
+
+TextureObject MaterialTextures::make_normal_array(std::vector<Texture> layers) const {
+    return upload(*device_, std::move(layers), GL_TEXTURE_2D_ARRAY, GL_RGBA8, false, true);
 }
 
 TextureObject MaterialTextures::make_opaque(const Texture& picture) const {
