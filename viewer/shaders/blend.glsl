@@ -10,7 +10,7 @@ bool is_in_range(float threshold, vec2 range) {
 // The functions below for pixels with one sample. A sample mask, even a full one, is costly for
 // software renderers.
 void keep_range(vec2 range) {
-    if (!is_in_range(dither_threshold(), range)) {
+    if (!is_in_range(stratified_random(0u, 0.25), range)) {
         discard;
     }
 }
@@ -20,23 +20,30 @@ void keep_cover(float opacity) {
     }
 }
 void keep_cover_in_range(float opacity, vec2 range) {
-    if (opacity < 0.5 || !is_in_range(dither_threshold(), range)) {
+    if (opacity < 0.5 || !is_in_range(stratified_random(0u, 0.25), range)) {
         discard;
     }
 }
 #else
-// Keeps the samples of a pixel whose thresholds are in `range`. Sample thresholds are evenly spaced,
-// from the threshold of the pixel on.
-void keep_range(vec2 range) {
-    float threshold = dither_threshold();
+// The samples of a pixel whose thresholds are in `range`, as a mask. Thresholds are evenly spaced and
+// the same in all pixels, because others show as dots; refined pictures have others.
+int samples_in(vec2 range) {
+    float first = fract(0.5 + 0.618034 * frame.time_before.y);
     int mask = 0;
     for (int i = 0; i < gl_NumSamples; ++i) {
-        mask |= is_in_range(fract(threshold + float(i) / float(gl_NumSamples)), range) ? 1 << i : 0;
+        mask |= is_in_range((float(i) + first) / float(gl_NumSamples), range) ? 1 << i : 0;
     }
+    return mask;
+}
+void keep_samples(int mask) {
     if (mask == 0) {
         discard;
     }
     gl_SampleMask[0] = mask;
+}
+// Keeps the samples of a pixel whose thresholds are in `range`.
+void keep_range(vec2 range) {
+    keep_samples(samples_in(range));
 }
 // Fraction of a pixel that a cut-out picture covers. The edge lies at opacity 0.5; it is a pixel
 // wide with multisampling, else hard. Call the function before any discard.

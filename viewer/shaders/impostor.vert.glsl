@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "light.glsl"
 #include "impostor.glsl"
+#include "motion.glsl"
 // Bounds of the opaque texels of each tile.
 layout(std430, binding = 4) readonly buffer Boxes { vec4 boxes[]; };
 layout(location = 0) in uint index; // index of the tree or cluster
@@ -30,6 +31,9 @@ out vec2 fog;
 out vec3 plane_crown_position;       // at the middle plane, in axes of the crown
 flat out vec3 crown_step;            // per unit of depth
 flat out mat3 world_from_impostor;   // for normals
+#endif
+#ifdef MOVES
+out vec3 moved; // place in the picture before minus place, m
 #endif
 // Axes of a view, for normals.
 mat3 axes_of(float yaw, int view, int elevation) {
@@ -91,6 +95,9 @@ void main() {
                           (2.0 * at.y - 1.0) * size.y * up;
     vec3 unswayed = world_position;
     world_position = swayed(unswayed, tree, 0.0);
+#ifdef MOVES
+    moved = swayed_before(unswayed, tree, 0.0) - world_position;
+#endif
     // Place of the shadow map, which shows the trees without wind, or in it.
 #if QUALITY > 1
     vec3 shadow_place = world_position;
