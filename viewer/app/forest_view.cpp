@@ -356,6 +356,7 @@ bool ForestView::draw(std::uint32_t width, std::uint32_t height) {
     frame.height = height;
     frame.shadows = settings.shadows;
     frame.samples = settings.antialiasing ? 4 : 1;
+    frame.temporal = settings.antialiasing;
     frame.style = settings.wireframe ? PlantStyle::Wireframe : PlantStyle::Surface;
     frame.max_triangles = settings.max_triangles;
     frame.max_expansions = kMaxExpansions;

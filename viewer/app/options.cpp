@@ -8,6 +8,8 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include <array>
+#include <cstdint>
 #include <filesystem>
 #include <string_view>
 #include <utility>
@@ -242,6 +244,21 @@ void add_picture(CLI::App& app, ViewOptions& options) {
          {"high", Quality::High}},
         "Looks and cost of pictures (default auto: medium with a graphics card, low with a "
         "software renderer)")
+        ->group("Picture");
+    add_parsed(
+        app, "--temporal-antialiasing", options.temporal,
+        [](const std::string& text) -> Result<std::uint64_t> {
+            constexpr std::array<const char*, 3> kWords = {"auto", "off", "on"}; // as Temporal
+            for (std::uint64_t i = 0; i < kWords.size(); ++i) {
+                if (text == kWords[i]) {
+                    return i;
+                }
+            }
+            return Error{fmt::format("`{}` is none of auto|off|on", text)};
+        },
+        "With --quality high, mix each picture with those before it, which smooths edges in motion "
+        "(default auto: in a window with a graphics card)")
+        ->type_name("auto|off|on")
         ->group("Picture");
     app.add_option("--shaders", options.shaders,
                    "Read shaders from this folder instead of the built-in ones")

@@ -36,6 +36,9 @@ struct PicturePixel {
     std::uint32_t y = 0;
 };
 
+/// Temporal antialiasing with Quality::High; Auto: in a window with a graphics card.
+enum class Temporal : std::uint8_t { Auto, Off, On };
+
 struct ViewOptions {
     MessageOptions messages;
     GrammarOptions grammar;
@@ -69,6 +72,7 @@ struct ViewOptions {
     std::uint64_t stream_bytes = std::uint64_t{128} << 20; // for trees of a streamed forest
     Culling culling = Culling::Auto;                       // forests only
     Quality quality = Quality::Auto;
+    Temporal temporal = Temporal::Auto;
     std::string fly_to; // camera at the end of a series; empty: the camera stays
     // Folder of shaders that replace the built-in shaders; empty: none.
     std::string shaders;

@@ -109,6 +109,7 @@ Frame frame_of(const ViewOptions& options, const Camera& camera) {
     frame.style = options.style;
     frame.wind = options.wind.value_or(Wind{});
     frame.samples = options.samples;
+    frame.temporal = options.temporal == Temporal::On;
     frame.max_triangles = options.max_triangles;
     frame.light = daylight_of(options.light, frame.light);
     return frame;

@@ -642,6 +642,7 @@ bool PlantView::draw(std::uint32_t width, std::uint32_t height) {
     frame.shadows = settings.shadows;
     frame.ground = settings.ground;
     frame.samples = settings.antialiasing ? 4 : 1;
+    frame.temporal = settings.antialiasing;
     frame.style = settings.style;
     frame.dims =
         settings.dims && settings.lines != LineKind::None && settings.style == PlantStyle::Surface;

@@ -125,8 +125,11 @@ void View::use_quality(Quality quality) {
     changed_ = true;
 }
 
-bool View::draw_frame(const Frame& frame) {
+bool View::draw_frame(Frame frame) {
     aspect_ = static_cast<float>(frame.width) / static_cast<float>(frame.height);
+    frame.temporal =
+        frame.temporal && (options_.temporal == Temporal::On ||
+                           (options_.temporal == Temporal::Auto && renderer_->prefers_temporal()));
     if (!changed_ && frame_ == frame) {
         return false;
     }
@@ -246,6 +249,7 @@ void View::write_picture(const PictureSettings& settings) {
     frame.width = settings.width == 0 ? frame.width : settings.width;
     frame.height = settings.height == 0 ? frame.height : settings.height;
     frame.samples = settings.samples;
+    frame.temporal = false;
     frame.max_expansions = ~0U;
     frame.max_triangles = options_.max_triangles;
     frame.transparent = settings.transparent && !is_forest();

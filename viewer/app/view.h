@@ -172,7 +172,7 @@ protected:
     /// stays.
     void use_quality(Quality quality);
     /// Draws `frame` if something has changed. Returns whether it drew.
-    bool draw_frame(const Frame& frame);
+    bool draw_frame(Frame frame);
     /// Stores the messages of a request, and prints them if they differ from the messages before.
     void take_messages(const Messages& messages, bool succeeded);
     void request_shader_reload() { shaders_changed_ = true; }

@@ -15,6 +15,7 @@
 #include "viewer/gl/impl/render_target.h"
 #include "viewer/gl/impl/sense_pass.h"
 #include "viewer/gl/impl/shadow_map.h"
+#include "viewer/gl/impl/temporal_antialiasing.h"
 
 #include <fmt/format.h>
 
@@ -135,6 +136,7 @@ void shift(FrameBlock& block, std::uint32_t index, const PixelArea& area) {
     if (index == 0) {
         return;
     }
+    block.time_before.y = static_cast<float>(index);
     const glm::vec2 by = (2.0F * glm::vec2(halton(index, 2), halton(index, 3)) - 1.0F) /
                          glm::vec2(area.width, area.height);
     for (int column = 0; column < 4; ++column) {
@@ -151,14 +153,15 @@ class GlRenderer final : public Renderer {
 public:
     GlRenderer()
         : timer_(device_), target_(device_), shadow_(device_, kShadowTexels), textures_(device_),
-          plant_(device_), lines_(device_), senses_(device_), forest_(device_), frame_(device_),
-          near_frame_(device_), empty_(make_vertex_array(device_)) {
+          temporal_(device_), plant_(device_), lines_(device_), senses_(device_), forest_(device_),
+          frame_(device_), near_frame_(device_), empty_(make_vertex_array(device_)) {
         device_.set_quality(tier_of(Quality::Auto));
     }
 
     void show_plant(const Mesh& mesh) override {
         plant_.upload(mesh, textures_);
         invalidate_shadows();
+        temporal_.forget();
         is_forest_ = false;
     }
     Result<void> show_forest(ForestModel model) override {
@@ -173,6 +176,7 @@ public:
         }
         forest_.show(std::move(model), textures_);
         invalidate_shadows();
+        temporal_.forget();
         is_forest_ = true;
         return {};
     }
@@ -195,10 +199,14 @@ public:
         return static_cast<Quality>(device_.quality() + static_cast<std::uint32_t>(Quality::Low));
     }
     void set_culling(Culling culling) override { culling_ = culling; }
+    bool prefers_temporal() const override {
+        return device_.quality() > 1 && !device_.is_software();
+    }
     void update_trees() override {
         if (is_forest_) {
             forest_.update_trees();
             invalidate_shadows();
+            temporal_.forget();
         }
     }
     bool has_stand_ins() const override { return forest_.has_stand_ins(); }
@@ -242,6 +250,12 @@ public:
                 return done;
             }
         }
+        if (device_.quality() > 1) {
+            if (Result<void> done = temporal_.reload(shaders); !done) {
+                return done;
+            }
+        }
+        temporal_.forget();
         shaders_ = shaders;
         programs_ = std::move(made.value());
         pick_plant_ = {};
@@ -253,7 +267,8 @@ public:
         shown_frame_ = frame;
         shown_area_ = area;
         refinements_ = 0;
-        return draw_sample();
+        return draw_sample(frame.temporal && device_.quality() > 1 && !frame.transparent &&
+                           area == PixelArea{0, 0, frame.width, frame.height});
     }
     bool refine() override {
         constexpr std::uint32_t kMax = 16;
@@ -276,7 +291,7 @@ public:
             add();
         }
         ++refinements_;
-        static_cast<void>(draw_sample());
+        static_cast<void>(draw_sample(false));
         add();
         return true;
     }
@@ -350,8 +365,9 @@ public:
     const std::vector<std::string>& errors() const override { return device_.errors(); }
 
 private:
-    /// Draws the shown frame; for a refinement, shifted by a part of a pixel.
-    FrameStats draw_sample() {
+    /// Draws the shown frame; for a refinement, shifted by a part of a pixel. `is_temporal`: mixes
+    /// it with the pictures before.
+    FrameStats draw_sample(bool is_temporal) {
         const Frame& world_frame = *shown_frame_;
         const PixelArea& area = shown_area_;
         const double cpu_start = platform::thread_cpu_seconds();
@@ -369,7 +385,16 @@ private:
             shadow_from_world = shadow_matrix(lit, frame.light.to_sun, kShadowTexels);
         }
         FrameBlock block = make_frame_block(frame, area, shadow_from_world, kShadowTexels);
-        shift(block, refinements_, area);
+        if (is_temporal) {
+            temporal_.resize(area.width, area.height);
+        } else if (refinements_ == 0) {
+            temporal_.forget(); // the next picture has no picture just before it
+        }
+        const TemporalAntialiasing::Moment now{block.view_projection, block.wind, block.eye_time.w};
+        const TemporalAntialiasing::Moment& before = temporal_.before(now);
+        block.wind_before = before.wind;
+        block.time_before.x = before.time;
+        shift(block, is_temporal ? temporal_.shift() : refinements_, area);
         if (frame.style == PlantStyle::None || lit.empty) {
             block.to_sun.w = 0.0F;
         }
@@ -399,7 +424,8 @@ private:
             far_wind_ = frame.wind;
             far_time_ = frame.time;
         }
-        target_.begin(area.width, area.height, frame.samples);
+        const bool moves = is_temporal && is_forest_ && forest_.is_windy();
+        target_.begin(area.width, area.height, frame.samples, moves);
         if (frame.transparent) {
             constexpr std::array<GLfloat, 4> kNothing{};
             glClearBufferfv(GL_COLOR, 0, kNothing.data());
@@ -433,6 +459,7 @@ private:
             ++stats.draws;
             ++stats.triangles;
         }
+        target_.end_motions();
         if (!senses_.empty()) {
             glUseProgram(programs_.sense.name());
             senses_.draw(stats);
@@ -453,7 +480,15 @@ private:
         }
         glUseProgram(programs_.line.name());
         stats.draws += lines_.draw();
-        target_.resolve();
+        if (is_temporal) {
+            target_.copy_parts(temporal_.parts(), moves);
+            glBindVertexArray(empty_.name());
+            target_.show(temporal_.mix(now, moves));
+            ++stats.draws;
+            ++stats.triangles;
+        } else {
+            target_.resolve();
+        }
         for (const FrameStats* pass : {&forest_stats_.branches, &forest_stats_.impostors,
                                        &forest_stats_.terrain, &forest_stats_.shadow}) {
             stats.draws += pass->draws;
@@ -484,6 +519,7 @@ private:
         const Frame local = forest_.localised(frame, moved);
         if (moved) {
             invalidate_shadows();
+            temporal_.forget();
         }
         return local;
     }
@@ -657,6 +693,7 @@ private:
     Wind far_wind_; // wind when shadow_ was last drawn
     double far_time_ = 0.0;
     MaterialTextures textures_;
+    TemporalAntialiasing temporal_;
     PlantMesh plant_;
     std::unique_ptr<PlantMesh> figure_;     // made when a person is first shown
     std::optional<glm::vec3> figure_place_; // feet of the person in figure_; nullopt: not shown

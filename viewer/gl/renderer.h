@@ -75,8 +75,11 @@ struct Frame {
     /// that is shown. A growth uses one disc for all its pictures.
     glm::vec4 ground_disc{0.0F};
     PlantStyle style = PlantStyle::Surface;
-    bool dims = false;                // dims everything except lines; not with `transparent`
-    std::uint32_t samples = 4;        // per pixel: 1 or 4
+    bool dims = false;         // dims everything except lines; not with `transparent`
+    std::uint32_t samples = 4; // per pixel: 1 or 4
+    /// Mix the picture with the pictures before it (temporal antialiasing). Only with Quality::High,
+    /// for whole pictures, and not with `transparent`.
+    bool temporal = false;
     std::optional<glm::dvec3> figure; // feet of a person of 1.8 m in the world, m
     // The three fields below are for forests only.
     /// Max triangles of branches; if there are more, trees are drawn in coarser levels.
@@ -205,6 +208,8 @@ public:
     [[nodiscard]] virtual Quality quality() const = 0;
     /// Sets the processor that chooses the trees of later forests, which is Auto at first.
     virtual void set_culling(Culling culling) = 0;
+    /// Whether the device is fast enough for temporal antialiasing, and the quality is High.
+    [[nodiscard]] virtual bool prefers_temporal() const = 0;
     /// Shows a forest in place of the previous plant or forest. The forest and the terrain of
     /// `model` must live as long as the forest is shown. bake_impostors() makes the new impostors.
     /// Until then, the impostors of the previous forest are drawn if both forests have the same

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "light.glsl"
+#include "motion.glsl"
 #include "crowns.glsl"
 #include "ground_look.glsl"
 // Blades of grass around the eye: an instance per cell of a lattice that is fixed in the world. Each
@@ -12,6 +13,9 @@ const float kCell = 0.32;      // m; TerrainPass has it too
 const float kHeightCell = 0.5; // m, of level 0
 out vec3 front;
 out vec3 back;
+#ifdef MOVES
+out vec3 moved; // place in the picture before minus place, m
+#endif
 
 uint mixed(uint bits) { // a step of PCG (O'Neill 2014)
     bits = bits * 747796405u + 2891336453u;
@@ -29,6 +33,9 @@ float height_of(ivec2 at) {
 void main() {
     gl_Position = vec4(0.0, 0.0, 2.0, 1.0); // clipped
     front = back = vec3(0.0);
+#ifdef MOVES
+    moved = vec3(0.0);
+#endif
     ivec2 cell = lattice.xy + ivec2(gl_InstanceID % sides.x, gl_InstanceID / sides.x);
     uvec2 world_cell = uvec2(cell + lattice.zw);
     int blade = gl_VertexID / 9;
@@ -69,8 +76,13 @@ void main() {
     float height = size * mix(0.08, 0.30, drawn(state) * (0.4 + 0.6 * look.middle));
     float width = (0.009 + 0.006 * drawn(state)) * (1.0 + 0.12 * away) * (1.0 - 0.45 * along);
     float bend = mix(0.2, 0.9, drawn(state));
-    vec3 push = 0.03 * frame.wind.xyz *
-                (1.0 + sin(2.3 * frame.eye_time.w + 0.6 * (place.x + place.y) + angle));
+    float phase = 0.6 * (place.x + place.y) + angle;
+    vec3 push = 0.03 * frame.wind.xyz * (1.0 + sin(2.3 * frame.eye_time.w + phase));
+#ifdef MOVES
+    vec3 push_before =
+        0.03 * frame.wind_before.xyz * (1.0 + sin(2.3 * frame.time_before.x + phase));
+    moved = height * along * along * (push_before - push);
+#endif
     vec3 world = root + across * (side * width) +
                  height * (up * (along * (1.0 - 0.25 * bend * along)) +
                            (bend * lean + push) * (along * along));

@@ -9,7 +9,10 @@ in vec3 world_position;
 in vec3 world_normal;
 in vec2 uv;
 in vec4 world_tangent;
-out vec4 colour;
+layout(location = 0) out vec4 colour;
+#if QUALITY > 1
+layout(location = 1) out vec4 motion; // temporal.frag.glsl
+#endif
 void main() {
     vec3 albedo = base_colour.rgb;
     float opacity = 1.0;
@@ -41,4 +44,7 @@ void main() {
     radiance += gloss(normal, to_eye, base_colour.w, lit, 1.0);
 #endif
     colour = tone_mapped(fogged(radiance, world_position));
+#if QUALITY > 1
+    motion = vec4(0.0);
+#endif
 }

@@ -2,7 +2,10 @@
 #include "light.glsl"
 #include "dither.glsl"
 in vec3 view_ray;
-out vec4 colour;
+layout(location = 0) out vec4 colour;
+#if QUALITY > 1
+layout(location = 1) out vec4 motion; // temporal.frag.glsl
+#endif
 #if QUALITY > 0
 // Height of wooded hills above their foot in a direction, m; crowns make the outline rough.
 float hill_height(float azimuth) {
@@ -37,4 +40,7 @@ void main() {
 #endif
     colour = tone_mapped(radiance);
     colour.rgb += (dither_threshold() - 0.5) / 255.0; // a smooth sky would show bands of 8 bits
+#if QUALITY > 1
+    motion = vec4(0.0);
+#endif
 }

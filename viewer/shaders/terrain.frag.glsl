@@ -22,7 +22,10 @@ in vec3 fog; // xy: fog_to(); z: distance, m
 #ifndef PICTURE
 in float widest;
 #endif
-out vec4 colour;
+layout(location = 0) out vec4 colour;
+#if QUALITY > 1
+layout(location = 1) out vec4 motion; // temporal.frag.glsl
+#endif
 #ifdef PICTURE
 #if QUALITY > 0
 // Noise of 0 to 1 with a period of 1 between its random values.
@@ -110,4 +113,7 @@ void main() {
     light = mix(light, crowns, cover * smoothstep(canopy_range.x, canopy_range.y, fog.z));
 #endif
     colour = tone_mapped(apply_fog(light, fog.xy));
+#if QUALITY > 1
+    motion = vec4(0.0);
+#endif
 }

@@ -2,6 +2,7 @@
 #include "viewer/gl/impl/render_target.h"
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 
 namespace lsys::view {
@@ -22,7 +23,11 @@ Renderbuffer make_storage(Device& device,
 
 } // namespace
 
-void RenderTarget::begin(std::uint32_t width, std::uint32_t height, std::uint32_t samples) {
+void RenderTarget::begin(std::uint32_t width,
+                         std::uint32_t height,
+                         std::uint32_t samples,
+                         bool moves) {
+    shown_ = 0;
     if (width != width_ || height != height_ || samples != samples_) {
         width_ = width;
         height_ = height;
@@ -35,6 +40,7 @@ void RenderTarget::begin(std::uint32_t width, std::uint32_t height, std::uint32_
         glNamedFramebufferRenderbuffer(drawn_.name(), GL_DEPTH_ATTACHMENT, GL_RENDERBUFFER,
                                        depth_.name());
         mean_ = {};
+        motions_ = {};
         resolved_ = {};
         resolved_colour_ = {};
         if (samples > 1) {
@@ -45,10 +51,40 @@ void RenderTarget::begin(std::uint32_t width, std::uint32_t height, std::uint32_
         }
     }
     glBindFramebuffer(GL_FRAMEBUFFER, drawn_.name());
+    if (moves) {
+        if (!motions_) {
+            motions_ = make_storage(*device_, GL_RGBA16F, width, height, samples);
+            glNamedFramebufferRenderbuffer(drawn_.name(), GL_COLOR_ATTACHMENT1, GL_RENDERBUFFER,
+                                           motions_.name());
+        }
+        constexpr std::array<GLenum, 2> kBoth = {GL_COLOR_ATTACHMENT0, GL_COLOR_ATTACHMENT1};
+        glNamedFramebufferDrawBuffers(drawn_.name(), 2, kBoth.data());
+        constexpr std::array<GLfloat, 4> kNone{};
+        glClearNamedFramebufferfv(drawn_.name(), GL_COLOR, 1, kNone.data());
+    }
     glViewport(0, 0, static_cast<GLsizei>(width), static_cast<GLsizei>(height));
     glDepthMask(GL_TRUE);
     constexpr GLfloat kInfinitelyFar = 0.0F;
     glClearNamedFramebufferfv(drawn_.name(), GL_DEPTH, 0, &kInfinitelyFar);
+}
+
+void RenderTarget::end_motions() const {
+    glNamedFramebufferDrawBuffer(drawn_.name(), GL_COLOR_ATTACHMENT0);
+}
+
+void RenderTarget::copy_parts(GLuint framebuffer, bool moves) const {
+    const auto width = static_cast<GLint>(width_);
+    const auto height = static_cast<GLint>(height_);
+    const auto copy = [&](GLenum point, GLbitfield parts) {
+        glNamedFramebufferReadBuffer(drawn_.name(), point);
+        glNamedFramebufferDrawBuffer(framebuffer, point);
+        glBlitNamedFramebuffer(drawn_.name(), framebuffer, 0, 0, width, height, 0, 0, width, height,
+                               parts, GL_NEAREST);
+    };
+    if (moves) {
+        copy(GL_COLOR_ATTACHMENT1, GL_COLOR_BUFFER_BIT);
+    }
+    copy(GL_COLOR_ATTACHMENT0, GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
 }
 
 void RenderTarget::resolve() {

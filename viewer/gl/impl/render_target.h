@@ -15,7 +15,15 @@ public:
     explicit RenderTarget(Device& device) : device_(&device) {}
 
     /// Resizes the framebuffer if needed, binds it, and clears colour and depth.
-    void begin(std::uint32_t width, std::uint32_t height, std::uint32_t samples);
+    /// `moves`: programs also write motions, to the second output.
+    void begin(std::uint32_t width, std::uint32_t height, std::uint32_t samples, bool moves);
+    /// Ends the writing of motions.
+    void end_motions() const;
+    /// Copies colours, motions if they were written, and depths of the last picture to another
+    /// framebuffer of its size.
+    void copy_parts(GLuint framebuffer, bool moves) const;
+    /// Takes the last picture from another framebuffer of its size, until the next begin().
+    void show(GLuint framebuffer) { shown_ = framebuffer; }
     /// Resolves the samples of the last picture; required before the functions below.
     void resolve();
     /// Mixes the last picture into a mean with weight `weight`, up to 1; 1 begins a new mean.
@@ -29,7 +37,11 @@ public:
 
 private:
     [[nodiscard]] GLuint source(bool mean) const {
-        return (mean ? mean_ : resolved_ ? resolved_ : drawn_).name();
+        return !mean && shown_ != 0 ? shown_
+                                    : (mean        ? mean_
+                                       : resolved_ ? resolved_
+                                                   : drawn_)
+                                          .name();
     }
 
     Device* device_;
@@ -38,6 +50,8 @@ private:
     std::uint32_t samples_ = 0;
     Renderbuffer colour_;
     Renderbuffer depth_;
+    Renderbuffer motions_; // made when first needed
+    GLuint shown_ = 0;     // framebuffer with the last picture; 0: drawn_ or resolved_
     Framebuffer drawn_;
     Renderbuffer resolved_colour_;
     Framebuffer resolved_;

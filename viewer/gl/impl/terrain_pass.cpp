@@ -108,8 +108,9 @@ Result<void> TerrainPass::reload(const ShaderSource& shaders) {
     }
     ProgramObject grass;
     if (device_->quality() > 0) {
-        Result<ProgramObject> with_grass = make_program(*device_, shaders, "grass.vert.glsl",
-                                                        "leaf.frag.glsl", "#define ONE_TAP\n");
+        Result<ProgramObject> with_grass =
+            make_program(*device_, shaders, "grass.vert.glsl", "leaf.frag.glsl",
+                         "#define ONE_TAP\n#define WIND\n");
         if (!with_grass) {
             return with_grass.error();
         }
