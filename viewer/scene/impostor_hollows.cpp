@@ -39,8 +39,8 @@ float depth_around(const ImpostorTexels& coarse,
 
 } // namespace
 
-void shade_hollows(ImpostorTexels& picture, std::uint32_t tile) {
-    constexpr float kStrength = 7.0F; // change of the lightness per depth of the tree
+void shade_hollows(ImpostorTexels& picture, std::uint32_t tile, float depth_of_tile) {
+    const float strength = 7.0F * depth_of_tile; // change of the lightness per depth of a tile
     constexpr float kDarkest = 0.45F;
     constexpr float kLightest = 1.5F;
     const ImpostorTexels quarter = halved(halved(picture));
@@ -66,7 +66,7 @@ void shade_hollows(ImpostorTexels& picture, std::uint32_t tile) {
                     depth -= depth_around(*level, at, static_cast<float>(step), low,
                                           low + static_cast<int>(tile / step) - 1);
                 }
-                factors[i] = std::clamp(1.0F + kStrength * depth, kDarkest, kLightest);
+                factors[i] = std::clamp(1.0F + strength * depth, kDarkest, kLightest);
                 const auto opacity = static_cast<float>(picture.albedos[texel + 3]);
                 sum += opacity * factors[i];
                 weights += opacity;

@@ -118,7 +118,7 @@ TEST_CASE(
             picture.normals.insert(picture.normals.end(), {128, 128, depth, 0});
         }
     }
-    shade_hollows(picture, kTile);
+    shade_hollows(picture, kTile, 1.0F);
     double light = 0.0;
     for (std::uint32_t y = 0; y < kTile; ++y) {
         for (std::uint32_t x = 0; x < kTile; ++x) {
@@ -135,6 +135,6 @@ TEST_CASE("hollows leave empty texels and empty tiles alone") {
     ImpostorTexels picture{16, 8, std::vector<std::uint8_t>(512), std::vector<std::uint8_t>(512)};
     picture.albedos[0] = 77; // an empty texel may have a colour
     const std::vector<std::uint8_t> before = picture.albedos;
-    shade_hollows(picture, 8);
+    shade_hollows(picture, 8, 1.0F);
     CHECK(picture.albedos == before);
 }

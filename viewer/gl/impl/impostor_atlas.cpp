@@ -418,7 +418,12 @@ void ImpostorAtlas::step(const ForestModel& model,
         return;
     }
     bake.elevation = 0;
-    shade_hollows(bake.finished, kTile);
+    const auto depth_of = [](const Cylinder& form) {
+        return std::hypot(form.radius, 0.5F * (form.high - form.low));
+    };
+    shade_hollows(bake.finished, kTile,
+                  depth_of(cylinder_of(plan_, layer)) /
+                      depth_of(plan_.forms[plan_.layers[layer].form].cylinder));
     upload_layer(layer, std::move(bake.finished));
     keys_[layer] = target_keys_[layer];
     filled_[layer] = 1;

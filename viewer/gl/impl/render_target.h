@@ -53,7 +53,7 @@ private:
     Renderbuffer depth_;
     Renderbuffer motions_; // made when first needed
     GLuint shown_ = 0;     // framebuffer with the last picture; 0: drawn_ or resolved_
-    Framebuffer drawn_;    // with all samples of a pixel
+    Framebuffer drawn_;
     Renderbuffer resolved_colour_;
     Framebuffer resolved_; // empty: one sample per pixel
     TextureObject last_;   // copy of the last picture; made, like the mean, when first needed
