@@ -116,6 +116,7 @@ public:
                                 GLuint bumpy_cut_out,
                                 MaterialTextures& textures,
                                 bool blends) const;
+    /// Binds the buffers that the shaders of branches and impostors read.
     void bind_storage() const;
     /// Rebinds storage so that in later draws the index of a tree means a cluster. Call it after
     /// bind_storage().
@@ -155,6 +156,7 @@ private:
         std::vector<Commands> commands; // by class: unblended ones, then blended ones
     };
     [[nodiscard]] static DrawBuffers make_draw_buffers(Device& device);
+    /// Class of the branches with this material.
     [[nodiscard]] std::size_t class_of(const Material& material) const;
     [[nodiscard]] static std::size_t command_index(std::size_t kind, bool blends) {
         return 2 * kind + (blends ? 1 : 0);
@@ -185,7 +187,7 @@ private:
     std::vector<float> boxes_;                  // m, by form: half side of its vertices' box
     std::vector<std::uint64_t> mesh_digests_;   // by form
     std::vector<std::uint64_t> colour_digests_; // by form; 0: natural
-    std::vector<std::array<FormLevel, kTreeLevels>> form_levels_;
+    std::vector<std::array<FormLevel, kTreeLevels>> form_levels_; // by form
     PictureArrays pictures_;
     Device* device_;
     const DeviceDraws* device_draws_ = nullptr;

@@ -38,11 +38,11 @@ public:
 private:
     /// Name of the framebuffer with the picture or the mean.
     [[nodiscard]] GLuint source(bool mean) const {
-        return !mean && shown_ != 0 ? shown_
-                                    : (mean        ? mean_
-                                       : resolved_ ? resolved_
-                                                   : drawn_)
-                                          .name();
+        if (mean) {
+            return mean_.name();
+        }
+        const Framebuffer& last = resolved_ ? resolved_ : drawn_;
+        return shown_ != 0 ? shown_ : last.name();
     }
 
     Device* device_;
@@ -53,7 +53,7 @@ private:
     Renderbuffer depth_;
     Renderbuffer motions_; // made when first needed
     GLuint shown_ = 0;     // framebuffer with the last picture; 0: drawn_ or resolved_
-    Framebuffer drawn_;
+    Framebuffer drawn_;    // with all samples of a pixel
     Renderbuffer resolved_colour_;
     Framebuffer resolved_; // empty: one sample per pixel
     TextureObject last_;   // copy of the last picture; made, like the mean, when first needed
