@@ -201,7 +201,7 @@ private:
         const auto nearest = std::ranges::min_element(to, {}, [&](const StepCorner& corner) {
             return glm::length(corner.position - from.front().position);
         });
-        std::ranges::rotate(to, nearest);
+        std::rotate(to.begin(), nearest, to.end());
         const glm::dvec3 heading = high.rings.front().heading;
         // Triangles that face ahead, and triangles that face back, which have vertices of their own.
         std::array<std::vector<std::array<const StepCorner*, 3>>, 2> sides;
