@@ -72,8 +72,8 @@ Region region_of(std::span<const Tree> places) {
         });
     const double x = low_x->position.x;
     const double z = low_z->position.z;
-    return {x, z, std::max(double{high_x->position.x} - x, 1.0),
-            std::max(double{high_z->position.z} - z, 1.0)};
+    return {x, z, std::max(static_cast<double>(high_x->position.x) - x, 1.0),
+            std::max(static_cast<double>(high_z->position.z) - z, 1.0)};
 }
 
 /// Places the trees of a grown forest: at the places of `source` if it has any, else by its scene.

@@ -381,11 +381,7 @@ private:
     [[nodiscard]] std::optional<Stop>
     traced(const Derivation& from, StepTracer& tracer, const Work& work) {
         DeriveOptions options = derive_;
-        const Word* written = nullptr;
-        options.on_pass = [&](const DerivationPass& pass) {
-            tracer.on_pass(pass);
-            written = pass.out;
-        };
+        options.on_pass = [&](const DerivationPass& pass) { tracer.on_pass(pass); };
         const std::unique_ptr<EnvironmentSense> senses = senses_.make(bytecode_);
         Derivation stepping(bytecode_, with_senses(options, senses.get()));
         std::optional<Word> copy = copy_of_word(from.word());

@@ -29,7 +29,7 @@ double poisson_places() {
 } // namespace
 
 DensityField::DensityField(const PlacementOptions& options, const Terrain& terrain)
-    : options_(options), maker_(std::make_unique<TreeMaker>(options, terrain)) {
+    : maker_(std::make_unique<TreeMaker>(options, terrain)) {
     LSYS_CHECK(is_tileable(options.method), static_cast<int>(options.method));
     switch (options.method) {
     case PlacementMethod::Jittered:

@@ -31,7 +31,6 @@ public:
     [[nodiscard]] Tree tree_of(std::uint32_t number, std::uint16_t species) const;
 
 private:
-    const PlacementOptions& options_;
     std::unique_ptr<TreeMaker> maker_;
     std::unique_ptr<GreySampler> grey_; // DensityCells only
     double places_ = 0.0;               // per m2; for DensityCells: per white m2 of the map

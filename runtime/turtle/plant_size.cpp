@@ -106,7 +106,7 @@ float mass_of_cone(double length, double base_radius, double tip_radius, double 
 }
 
 float spring_of_beam(double length, double base_radius, double tip_radius, double elasticity) {
-    constexpr double kMax = std::numeric_limits<float>::max();
+    constexpr auto kMax = static_cast<double>(std::numeric_limits<float>::max());
     const double square = (base_radius + tip_radius) * (base_radius + tip_radius);
     const double stiff = std::numbers::pi / 64.0 * square * square * elasticity;
     return static_cast<float>(std::abs(length) * kMax > stiff ? stiff / std::abs(length) : kMax);

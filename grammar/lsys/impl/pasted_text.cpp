@@ -316,6 +316,16 @@ void repair_entities(DraftText& draft) {
 
 // --- the same text twice
 
+/// Whether two texts differ in blanks and line ends only.
+bool are_equal_but_for_blanks(std::string_view a, std::string_view b) {
+    const auto without_blanks = [](std::string_view text) {
+        std::string kept(text);
+        std::erase_if(kept, [](char c) { return kWhitespace.find(c) != std::string_view::npos; });
+        return kept;
+    };
+    return without_blanks(a) == without_blanks(b);
+}
+
 void repair_second_copy(DraftText& draft) {
     const std::string_view text = draft.text;
     const std::size_t w = text.find("#w");
@@ -331,7 +341,7 @@ void repair_second_copy(DraftText& draft) {
     const std::size_t second = text.find(line, first + line.size());
     if (line.size() < 4 || second == std::string_view::npos ||
         text.substr(first, second - first).find("#n") == std::string_view::npos ||
-        stripped(text.substr(first, second - first)) != stripped(text.substr(second))) {
+        !are_equal_but_for_blanks(text.substr(first, second - first), text.substr(second))) {
         return;
     }
     const std::size_t end = text.find_last_not_of(kWhitespace) + 1;

@@ -141,7 +141,7 @@ LargeVector<SplitItem> split_items(std::span<const SensePlace> places) {
 }
 
 float centre_coordinate(double value) {
-    constexpr double kLargest = std::numeric_limits<float>::max() / 4;
+    constexpr auto kLargest = static_cast<double>(std::numeric_limits<float>::max() / 4);
     return static_cast<float>(std::clamp(value, -kLargest, kLargest));
 }
 

@@ -12,7 +12,7 @@ namespace lsys {
 namespace {
 
 float rounded_down(double value) {
-    constexpr double kMax = std::numeric_limits<float>::max();
+    constexpr auto kMax = static_cast<double>(std::numeric_limits<float>::max());
     if (value > kMax) {
         return std::numeric_limits<float>::max();
     }

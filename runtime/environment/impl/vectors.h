@@ -55,7 +55,7 @@ namespace lsys {
 
 /// The answer (number, x, y, z) in binary32, with 0 for -0 and infinity beyond the range.
 inline void write_answer(double number, const Vector3& direction, float* answer) {
-    constexpr double kMax = std::numeric_limits<float>::max();
+    constexpr auto kMax = static_cast<double>(std::numeric_limits<float>::max());
     const double bounded = std::abs(number) <= kMax ? number : std::copysign(HUGE_VAL, number);
     answer[0] = static_cast<float>(bounded) + 0.0F;
     for (std::size_t axis = 0; axis < 3; ++axis) {

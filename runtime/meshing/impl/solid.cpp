@@ -66,12 +66,12 @@ Bounds3 bounds_of(const Skeleton& skeleton, const Mesh& flat) {
 std::optional<double> ground_of(const Skeleton& skeleton, const Bounds3& bounds) {
     constexpr float kStanding = 0.5F; // min y of the heading
     const double near = 1e-6 * bounds.extent();
-    const bool stands = std::any_of(skeleton.segments.begin(), skeleton.segments.end(),
-                                    [&](const Segment& segment) {
-                                        return segment.parent == kNoSegment && is_drawn(segment) &&
-                                               heading(segment.frame).y > kStanding &&
-                                               double{segment.base.y} <= bounds.low.y + near;
-                                    });
+    const bool stands = std::any_of(
+        skeleton.segments.begin(), skeleton.segments.end(), [&](const Segment& segment) {
+            return segment.parent == kNoSegment && is_drawn(segment) &&
+                   heading(segment.frame).y > kStanding &&
+                   static_cast<double>(segment.base.y) <= bounds.low.y + near;
+        });
     return stands ? std::optional(bounds.low.y) : std::nullopt;
 }
 
@@ -157,9 +157,10 @@ Solid make_solid(const Skeleton& skeleton, const Mesh& flat, const MeshOptions& 
     solid.cell = kCellSides / std::max(options.sides, kMinSolidSides);
     solid.ground = ground_of(skeleton, bounds);
     const double extent = std::max(bounds.extent(), 1e-30);
-    const double min_width = options.min_width > 0.0F
-                                 ? std::max(double{options.min_width}, kFinestWidth * extent)
-                                 : kMinWidth * extent;
+    const double min_width =
+        options.min_width > 0.0F
+            ? std::max(static_cast<double>(options.min_width), kFinestWidth * extent)
+            : kMinWidth * extent;
     Flares flares(skeleton);
     for (std::size_t i = 0; i < skeleton.segments.size(); ++i) {
         const Segment& segment = skeleton.segments[i];
@@ -168,9 +169,9 @@ Solid make_solid(const Skeleton& skeleton, const Mesh& flat, const MeshOptions& 
             continue;
         }
         for (const ConePart& part : flares.parts_of(segment, arc)) {
-            SolidShape& cone = solid.shapes.emplace_back(
-                make_cone(part.base, std::max(double{part.base_radius}, 0.5 * min_width), part.tip,
-                          std::max(double{part.tip_radius}, 0.5 * min_width)));
+            SolidShape& cone = solid.shapes.emplace_back(make_cone(
+                part.base, std::max(static_cast<double>(part.base_radius), 0.5 * min_width),
+                part.tip, std::max(static_cast<double>(part.tip_radius), 0.5 * min_width)));
             cone.palette = segment.colour;
             cone.segment = static_cast<std::uint32_t>(i);
         }

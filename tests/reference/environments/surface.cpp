@@ -136,7 +136,8 @@ int winding_number(const Surface& surface, const Vector& place) {
         std::array<long double, 3> lengths{};
         for (std::size_t corner = 0; corner < 3; ++corner) {
             for (std::size_t axis = 0; axis < 3; ++axis) {
-                ways[corner][axis] = static_cast<long double>(triangle[corner][axis]) - place[axis];
+                ways[corner][axis] = static_cast<long double>(triangle[corner][axis]) -
+                                     static_cast<long double>(place[axis]);
             }
             const auto& [x, y, z] = ways[corner];
             lengths[corner] = std::sqrt(x * x + y * y + z * z);
