@@ -9,9 +9,9 @@
 
 namespace lsys {
 
-/// Merges the diagnostics from index `first` on: errors with equal texts, and several
-/// warnings whose texts differ in quoted names and numbers only, become one. The first by place
-/// stays; the others become its labels. Diagnostics without a file and notes stay as they are.
+/// Merges the diagnostics from index `first` on: errors with equal texts, and warnings whose texts
+/// differ in quoted names and numbers only, become one. The first by place stays; the others become
+/// its labels. Diagnostics without a file and notes stay as they are.
 void merge_repeated_messages(Diagnostics& diagnostics, std::size_t first);
 
 /// Marks, by a fact, a warning about a statement that may be lost: another one replaces it, or the
