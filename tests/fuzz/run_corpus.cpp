@@ -15,10 +15,10 @@
 #include <cstdint>
 #include <cstdio>
 #include <fcntl.h>
-#include <sys/time.h>
 #include <fstream>
 #include <iterator>
 #include <string>
+#include <sys/time.h>
 #include <unistd.h>
 #include <vector>
 
