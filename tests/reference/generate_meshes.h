@@ -11,7 +11,7 @@
 namespace lsys::reference {
 
 enum class MeshUse {
-    Obstacle, // of `solid`: open or closed, its faces not always on one side
+    Obstacle, // of `solid`: open or closed, some faces may have reversed winding
     Crown,    // of `space`: closed
     Organ     // of `#object`: small
 };

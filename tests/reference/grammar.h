@@ -42,6 +42,8 @@ struct ModulePattern {
 
 using Pattern = std::vector<ModulePattern>;
 
+// Down and Up: the sweeps of `#down` (from the last module of the word to the first: from tips to the
+// base) and `#up` (from the first to the last).
 enum class Stage { Rewrite, Decompose, Interpret, Down, Up };
 
 struct Production {

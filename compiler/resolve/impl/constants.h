@@ -26,10 +26,10 @@ class ConstantTable {
 public:
     explicit ConstantTable(Resolution& resolution);
 
-    /// The state at the statement given to visible_until(): Later for a constant defined after that
-    /// statement.
+    /// The state at the statement given to visible_until(): Later for a constant defined at that
+    /// statement or after it.
     [[nodiscard]] ConstantState state(NameId name) const;
-    /// Makes state() ignore definitions after this statement (index in Ast::statements).
+    /// Makes state() ignore definitions at and after this statement (index in Ast::statements).
     void visible_until(std::size_t statement) { visible_until_ = statement; }
     /// The place of the first definition of the name. Precondition: not Unknown.
     [[nodiscard]] SourceSpan definition_span(NameId name) const;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Counts of places in squares of one row of voxels, by a summed-area table (Crow 1984).
+// Counts of places in squares of a horizontal slice of voxels, those with the same y, by a
+// summed-area table (Crow 1984).
 #pragma once
 
 #include "runtime/environment/impl/shadow_layers.h"

@@ -112,8 +112,10 @@ private:
     }
 
     ::lsys::Project inner_;
-    std::optional<std::string> refusal_; // error for an unknown code or environment of Project
-    std::mutex answer_mutex_;            // functions of the host are called one at a time
+    /// Error if Project::allow or Project::deny has an unknown code of a diagnostic, or the host
+    /// answers for an environment that the grammar lacks.
+    std::optional<std::string> refusal_;
+    std::mutex answer_mutex_; // functions of the host are called one at a time
     std::atomic<bool> own_cancel_flag_{false};
     std::atomic<bool>* cancel_flag_ = &own_cancel_flag_; // or Host::cancelled
     std::exception_ptr caught_;                          // thrown by a function of the host
