@@ -12,8 +12,12 @@ namespace {
 /// value, which no function can use.
 void refuse_new(const pybind11::module_& module) {
     for (const auto& [key, value] : pybind11::dict(module.attr("__dict__"))) {
-        const bool is_class = pybind11::isinstance<pybind11::type>(value);
-        if (!is_class || pybind11::dict(value.attr("__dict__")).contains("__init__")) {
+        if (!pybind11::isinstance<pybind11::type>(value)) {
+            continue;
+        }
+        // pybind11 gives a class without constructors an `__init__` that is a slot of C.
+        const pybind11::type kind = pybind11::type::of(value.attr("__init__"));
+        if (kind.attr("__name__").cast<std::string>() != "wrapper_descriptor") {
             continue;
         }
         const std::string text = pybind11::str(key).cast<std::string>() + " has no constructor";

@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: MIT
 // Measures environments of kinds Shadow and Sky, and compares Shadow with a hand-written program for
 // the same cloud (tests/bench/limits.h), in one run on one machine. Values are medians in
-// milliseconds. The argument, shadow or sky, leaves out the other. Asserts nothing about time.
+// milliseconds. Compares the answers to `?P` with the turtle alone. The argument, shadow, sky or
+// positions, leaves out the others. Asserts nothing about time.
 #include "runtime/base/workers.h"
+#include "runtime/derive/derive.h"
 #include "runtime/environment/environment.h"
+#include "runtime/environment/word_sense.h"
+#include "runtime/turtle/turtle.h"
 #include "tests/bench/limits.h"
 #include "tests/bench/measure.h"
 
@@ -123,6 +127,42 @@ void measure_sky(const char* name, std::size_t count, float cell) {
                bench::hash(answers));
 }
 
+/// Compares the answers to 2^20 `?P` of a word with drawing the same word.
+void measure_positions() {
+    const Bytecode bytecode =
+        bench::compile_text("#w : A;\n"
+                            "#p : A : step() < 20 : A A;\n"
+                            "#q : A : step() >= 20 : F(1) +(3) ?P(0, 0, 0);\n");
+    SenseOptions sense_options;
+    sense_options.threads = 2;
+    EnvironmentSense sense(bytecode, sense_options);
+    DeriveOptions options;
+    options.generations = 21;
+    options.senses = &sense;
+    Derivation derivation(bytecode, options);
+    if (derivation.start() || derivation.run_to(options.generations)) {
+        fail("a plant does not derive");
+    }
+    Word word = derivation.word();
+    DerivationEnd end;
+    const double answered = milliseconds([&] {
+        if (sense.sense(word, options.generations, end)) {
+            fail("positions are not answered");
+        }
+    });
+    Skeleton drawn;
+    const double turtle_alone = milliseconds([&] {
+        Turtle turtle(bytecode, {});
+        if (turtle.reserve(word) || turtle.feed(word)) {
+            fail("a plant cannot be drawn");
+        }
+        drawn = turtle.take_skeleton();
+    });
+    fmt::print("\n{} segments and as many ?P: answers {:.1f} ms, the turtle alone {:.1f} ms, "
+               "ratio {:.2f}\n",
+               drawn.segments.size(), answered, turtle_alone, answered / turtle_alone);
+}
+
 } // namespace
 
 int main(int argument_count, char** arguments) {
@@ -142,6 +182,9 @@ int main(int argument_count, char** arguments) {
     if (is_wanted("sky")) {
         measure_sky("sky, 20 m, cell 0.5", 100'000, 0.5F);
         measure_sky("sky, 20 m, cell 0.05", 10'000, 0.05F);
+    }
+    if (is_wanted("positions")) {
+        measure_positions();
     }
     return 0;
 }

@@ -48,7 +48,7 @@ class UntrustedTest(unittest.TestCase):
 
     def test_later_calls_are_untrusted_too(self):
         plant = lsys.compile(self.write("home/a.lsys", '#n = 1; #w : Q; #object Q "leaf.obj";'), untrusted=True).grow()
-        self.assertEqual(len(plant.mesh().indices), 3)
+        self.assertEqual(len(plant.mesh().indices), 1)
         grammar = lsys.compile(self.write("home/a.lsys", '#n = 1; #w : Q; #object Q "../secret.obj";'), untrusted=True)
         with self.assertRaisesRegex(lsys.LsysError, "only files in"):
             grammar.grow().mesh()
