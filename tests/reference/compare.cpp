@@ -212,7 +212,9 @@ private:
                lsc_prints(command("dump", {"--all", "--origins", "--threads", "2"}), 0, all) &&
                lsc_prints(command("dump", {"--origins"}), 0, body) &&
                (!can_stream() || lsc_prints(command("dump", {"--origins", "--stream"}), 0, body)) &&
-               lsc_prints(compiled_dump({"--all", "--origins"}), 0, all) &&
+               // A compiled grammar has names of files relative to the grammar.
+               lsc_prints(compiled_dump({"--all", "--origins"}), 0,
+                          all_origins(test_case_, derivation_, {}, 0, std::nullopt)) &&
                lsc_prints(command("dump", {"--all", "--origins", "--from", state}), 0,
                           all_origins(test_case_, derivation_, folder, half, half));
     }
@@ -407,12 +409,16 @@ std::string all_origins(const Case& test_case,
                         const std::filesystem::path& folder,
                         std::uint32_t first,
                         std::optional<std::uint32_t> saved) {
+    const std::filesystem::path home =
+        std::filesystem::path(test_case.grammar.files[0].path).parent_path();
     std::map<const ModuleUse*, std::string> places;
     for (const TextFile& file : print_grammar(test_case.grammar, test_case.layout_seed)) {
         for (const WrittenModule& written : file.modules) {
-            places[written.module] = (folder / file.shown).generic_string() + ":" +
-                                     std::to_string(written.line) + ":" +
-                                     std::to_string(written.column);
+            const std::filesystem::path shown = file.shown;
+            const std::filesystem::path path =
+                folder.empty() && !home.empty() ? shown.lexically_relative(home) : folder / shown;
+            places[written.module] = path.generic_string() + ":" + std::to_string(written.line) +
+                                     ":" + std::to_string(written.column);
         }
     }
     std::string text;

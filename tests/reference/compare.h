@@ -45,7 +45,8 @@ std::vector<std::string> options_of(const Request& request);
 std::string all_generations(const Grammar& grammar, const Derivation& derivation);
 
 // The expected output of `dump --all --origins`, from generation `first` on, for the files in
-// `folder`. `saved`: generation of a saved state, at most `first`. The saved state is the origin of
+// `folder`; empty: for a compiled grammar, whose files have names relative to the first one. `saved`:
+// generation of a saved state, at most `first`. The saved state is the origin of
 // all modules that were written up to this generation.
 std::string all_origins(const Case& test_case,
                         const Derivation& derivation,

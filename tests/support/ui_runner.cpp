@@ -214,7 +214,8 @@ private:
         const fs::path parts = case_.file.parent_path() / "parts";
         fs::create_directories(folder);
         if (fs::exists(parts)) {
-            fs::copy(parts, folder / "parts", fs::copy_options::recursive);
+            fs::copy(parts, folder / "parts",
+                     fs::copy_options::recursive | fs::copy_options::copy_symlinks);
         }
         const std::string before = read_file(case_.file);
         write_file(folder / name_, before);
