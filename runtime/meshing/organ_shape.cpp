@@ -254,8 +254,8 @@ private:
     static std::vector<StepCorner> corners_of(const OrganSheet& sheet, const OrganRing& ring) {
         std::vector<StepCorner> corners;
         for (const std::uint32_t column : outline_of(sheet.layout)) {
-            corners.push_back(
-                {ring.positions[column], ring.contour_points[column] / std::max(ring.circumference, 1e-30)});
+            corners.push_back({ring.positions[column],
+                               ring.contour_points[column] / std::max(ring.circumference, 1e-30)});
         }
         return corners;
     }

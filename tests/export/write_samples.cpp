@@ -50,8 +50,8 @@ std::vector<Sample> dialect_models() {
         const std::string folder = file.parent_path().filename().string();
         const fs::path extension = file.extension();
         const bool is_model = entry.is_regular_file() && extension != ".md" && extension != ".v" &&
-                              extension != ".func" && extension != ".con" &&
-                              extension != ".s" && folder != "fractint";
+                              extension != ".func" && extension != ".con" && extension != ".s" &&
+                              folder != "fractint";
         if (is_model) {
             models.emplace_back().file = file;
         }
