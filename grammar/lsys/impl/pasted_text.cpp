@@ -288,18 +288,26 @@ const Entity* find_entity(std::string_view text) {
 }
 
 void repair_entities(DraftText& draft) {
+    std::size_t read = 0;       // the text before it has been searched for `//`
+    bool is_in_comment = false; // `//` stands before `read` in its line
     for (std::size_t at = draft.masked.find('&'); at != std::string::npos;
          at = draft.masked.find('&', at + 1)) {
         const std::string_view text = draft.text;
+        if (const std::size_t newline = text.substr(read, at - read).rfind('\n');
+            newline != std::string_view::npos) {
+            is_in_comment = false;
+            read += newline;
+        }
+        is_in_comment =
+            is_in_comment || text.substr(read, at - read).find("//") != std::string_view::npos;
+        read = at;
         std::string characters;
         std::size_t end = at;
         while (const Entity* const entity = find_entity(text.substr(end))) {
             characters += entity->character;
             end += entity->name.size();
         }
-        const std::size_t line = start_of_line(text, at);
-        if (characters.empty() || !continues_statement(text, end) ||
-            text.substr(line, at - line).find("//") != std::string_view::npos) {
+        if (characters.empty() || !continues_statement(text, end) || is_in_comment) {
             continue;
         }
         const bool is_blank = characters.find_first_not_of(' ') == std::string::npos;
