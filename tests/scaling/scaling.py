@@ -19,7 +19,7 @@ import subprocess
 import sys
 import tempfile
 
-LIMIT = 2.5
+LIMIT = 2.8
 LEAST = 1_000_000  # instructions between n and 2n; fewer say nothing
 MOST = 4_000_000_000  # instructions at 4n; a case with more is too large for a test
 
