@@ -30,13 +30,15 @@ def lines(text, count):
 
 
 GRAMMAR = "#n = 1;\n#w : A(1);\n"
-SCENE = """ground = [400.0, 400.0]
-key = 1
-[[species]]
-grammar = "tree.lsys"
+SCENE = """key = 1
+[terrain]
+kind = "flat"
+size = 400
 [placement]
 method = "uniform"
 count = %d
+[[species]]
+grammar = "tree.lsys"
 """
 TREE = "#n = 4;\n#w : '(0.1) A(1);\n#p : A(s) : * : F(s) [+ A(s * 0.7)] [- A(s * 0.7)];\n"
 
@@ -50,7 +52,8 @@ def grammar(text, command=("check",), name="a.lsys"):
 CASES = {
     # statements and expressions
     "check: productions": (500, grammar(lambda n: GRAMMAR + lines("#p%d : A%d(x) : x > 1 : A%d(x - 1) F;\n", n))),
-    "check: stochastic productions of one symbol": (250, grammar(lambda n: GRAMMAR + lines("#p%d : A : ~ 1 : F;\n", n))),
+    "check: stochastic productions of one symbol": (250, grammar(
+        lambda n: "#n = 1;\n#set weights any;\n#w : A;\n" + lines("#p%d : A : ~ 1 : F;\n", n))),
     "check: successor": (2000, grammar(lambda n: GRAMMAR + "#p : A(x) : * : " + "F(x) " * n + ";\n")),
     "check: different modules of a successor": (
         500, grammar(lambda n: GRAMMAR + "#p : A(x) : * : " + lines("B%d(x) ", n) + ";\n")),
@@ -61,8 +64,7 @@ CASES = {
         500, grammar(lambda n: GRAMMAR + "#define c0 1;\n" + "".join(f"#define c{i + 1} c{i} + 1;\n" for i in range(n)))),
     "check: parameters": (500, grammar(lambda n: GRAMMAR + lines("#param c%d 1 {0, 2};\n", n))),
     "check: comments": (2000, grammar(lambda n: GRAMMAR + lines("// comment %d\n", n))),
-    "check: points of a curve": (
-        1000, grammar(lambda n: GRAMMAR + "#curve c " + ", ".join(f"{i} {i % 7}" for i in range(n + 2)) + ";\n")),
+    "check: curves": (300, grammar(lambda n: GRAMMAR + lines("#curve c%d 0 0, 1 1, 2 0;\n", n))),
     "check: context": (500, grammar(lambda n: GRAMMAR + "#p : " + "B " * n + "< A(x) : * : F;\n")),
     "check: decompositions": (500, grammar(lambda n: GRAMMAR + lines("#decompose d%d : A%d : * : B%d F;\n", n))),
     "check: included files": (100, lambda n: (
@@ -84,7 +86,7 @@ CASES = {
     "dump: modules": (20000, grammar(lambda n: GRAMMAR + "#p : A(x) : * : " + "F(x) " * n + ";\n", ("dump", "--count"))),
     "dump: generations": (2000, lambda n: (
         {"a.lsys": "#w : A;\n#p : A : * : A;\n"}, ["dump", "-n", str(n), "a.lsys"])),
-    "dump: choices": (5000, grammar(lambda n: "#n = 1;\n#w : " + "A " * n + ";\n#a : A : ~ 1 : F;\n#b : A : ~ 1 : G;\n",
+    "dump: choices": (5000, grammar(lambda n: "#n = 1;\n#w : " + "A " * n + ";\n#a : A : ~ 0.5 : F;\n#b : A : ~ 0.5 : G;\n",
                                     ("dump", "--count"))),
     "dump: context of one module": (3000, grammar(
         lambda n: "#n = 3;\n#w : B " + "A " * n + ";\n#p : B < A : * : B;\n", ("dump", "--count"))),
@@ -102,7 +104,7 @@ CASES = {
         lambda n: "#n = 1;\n#sense near crowd radius 2;\n#w : " + "F(1) ?near(0, 0, 0, 0) " * n + ";\n",
         ("dump", "--count"))),
     "dump: sweep": (1000, grammar(
-        lambda n: "#n = 1;\n#w : " + "A(1) " * n + "B(1);\n#up u : A(x) > A(y) : * : A(x + y);\n", ("dump", "--count"))),
+        lambda n: "#n = 1;\n#w : " + "A(1) " * n + "B(1);\n#up u : A(x) < A(y) : * : A(x + y);\n", ("dump", "--count"))),
     "trace": (500, grammar(lambda n: "#n = 1;\n#w : " + "A " * n + ";\n#p : A : * : F F;\n", ("trace", "-n", "0", "--all", "A"))),
     # plants
     **{f"export {ending}": (300, grammar(lambda n: "#n = 0;\n#w : " + "F(1) +(3) " * n + ";\n",
@@ -126,7 +128,7 @@ CASES = {
     "place: domination": (200, lambda n: (
         {"tree.lsys": TREE}, ["place", "tree.lsys", "--placement", "domination", "--years", "5", "--count", str(n),
                               "--size", str(10 * n ** 0.5), "-o", "a.trees"])),
-    "tiles": (500, lambda n: ({"tree.lsys": TREE, "a.toml": SCENE % n},
+    "tiles": (100, lambda n: ({"tree.lsys": TREE, "a.toml": SCENE % n},
                               ["tiles", "a.toml", "-o", "tiles", "--triangles", "1000000"])),
     # other languages
     "abop: productions": (300, grammar(
@@ -141,7 +143,7 @@ CASES = {
     "cpfg: macros": (300, grammar(
         lambda n: lines("#define M%d %d\n", n) + "Lsystem: 1\nderivation length: 1\nAxiom: A(M0)\n" +
         lines("A(x) : x == M%d --> F\n", n) + "endlsystem\n", ("check",), "a.l")),
-    "cpfg: condition": (200, grammar(
+    "cpfg: condition": (50, grammar(
         lambda n: "Lsystem: 1\nderivation length: 1\nAxiom: A(1)\nA(x) : x > 0" + lines(" && x > -%d", n) +
         " --> F\nendlsystem\n", ("check",), "a.l")),
     "fractint: systems": (200, grammar(
@@ -184,7 +186,7 @@ def instructions(lsc, files, arguments):
         run = subprocess.run(
             ["valgrind", "--tool=cachegrind", "--cache-sim=no", "--cachegrind-out-file=/dev/null", "--log-file=log",
              lsc, *arguments, *threads], cwd=folder, capture_output=True, text=True, check=False)
-        if run.returncode not in (0, 1):
+        if run.returncode != 0 and not (run.returncode == 1 and arguments[0] == "check"):
             raise Refused(f"exit status {run.returncode}: {run.stderr[-500:]}")
         with open(os.path.join(folder, "log"), encoding="utf-8", errors="replace") as log:
             return int(re.search(r"I\s+refs:\s+([\d,]+)", log.read()).group(1).replace(",", ""))
@@ -192,13 +194,14 @@ def instructions(lsc, files, arguments):
 
 def growth(lsc, size, make):
     """How many times the instructions of the pieces from 2n to 4n are those from n to 2n, and the counts."""
-    while True:
+    for _ in range(6):
         counts = [instructions(lsc, *make(n)) for n in (size, 2 * size, 4 * size)]
         if counts[2] > MOST:
             raise Refused(f"{counts[2]} instructions for {4 * size} pieces")
         if counts[1] - counts[0] >= LEAST:
             return (counts[2] - counts[1]) / (counts[1] - counts[0]), size, counts
         size *= 4
+    raise Refused(f"{counts[2] - counts[0]} instructions for {size} pieces")
 
 
 def main():
