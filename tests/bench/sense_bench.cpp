@@ -143,7 +143,7 @@ void measure_positions() {
     if (derivation.start() || derivation.run_to(options.generations)) {
         fail("a plant does not derive");
     }
-    Word word = derivation.word();
+    Word word = derivation.take_word();
     DerivationEnd end;
     const double answered = milliseconds([&] {
         if (sense.sense(word, options.generations, end)) {
