@@ -129,7 +129,7 @@ CASES = {
         {"tree.lsys": TREE}, ["place", "tree.lsys", "--placement", "domination", "--years", "5", "--count", str(n),
                               "--size", str(10 * n ** 0.5), "-o", "a.trees"])),
     "tiles": (100, lambda n: ({"tree.lsys": TREE, "a.toml": SCENE % n},
-                              ["tiles", "a.toml", "-o", "tiles", "--triangles", "1000000"])),
+                              ["tiles", "a.toml", "-o", "tiles", "--heroes", "1", "-n", "2"])),
     # other languages
     "abop: productions": (300, grammar(
         lambda n: "n = 1\nω : A0\n" + lines("p%d : A%d -> F [ + A%d ] F\n", n), ("check",), "a.ls")),
@@ -152,8 +152,6 @@ CASES = {
         lambda n: "S {\n  Angle 6\n  Axiom F--F\n  F=" + "F+F-" * n + "\n}\n", ("check",), "a.l")),
     "houdini: productions": (300, grammar(
         lambda n: "Generations: 1\nA(1)\n" + lines("A(x):x==%d=F(x)[+A(x-1)]\n", n), ("check",), "a.hlsys")),
-    "houdini: condition": (200, grammar(
-        lambda n: "Generations: 1\nA(1)\nA(x):x>0" + lines("&x>%d", n) + "=F\n", ("check",), "a.hlsys")),
     "l3d: rules": (300, grammar(
         lambda n: "6 24 6\nA\n" + "".join(f"{chr(65 + i % 26)}=f[+A]f{'f' * (i % 5)}\n" for i in range(n)) + "@\n",
         ("check",), "a.l3d")),
