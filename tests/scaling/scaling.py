@@ -134,8 +134,8 @@ CASES = {
     "abop: productions": (300, grammar(
         lambda n: "n = 1\nω : A0\n" + lines("p%d : A%d -> F [ + A%d ] F\n", n), ("check",), "a.ls")),
     "abop: successor": (1000, grammar(lambda n: "n = 1\nω : A\np1 : A -> " + "F[+A]" * n + "\n", ("check",), "a.ls")),
-    "carey: productions": (300, grammar(
-        lambda n: "axiom: A\ngenerations: 1\n" + "".join(f"A=F{'F' * (i % 9)}A:0.5\n" for i in range(n)),
+    "carey: successor": (300, grammar(
+        lambda n: "axiom: A\ngenerations: 1\n" + lines("A=FA:0.5\n", 1) + "B=" + "F[A]" * n + "\n",
         ("check",), "a.rules")),
     "cpfg: productions": (300, grammar(
         lambda n: "Lsystem: 1\nderivation length: 1\nAxiom: A(1)\n" + lines("A(x) : x == %d --> F(x)[+A(x - 1)]\n", n) +
@@ -143,9 +143,6 @@ CASES = {
     "cpfg: macros": (300, grammar(
         lambda n: lines("#define M%d %d\n", n) + "Lsystem: 1\nderivation length: 1\nAxiom: A(M0)\n" +
         lines("A(x) : x == M%d --> F\n", n) + "endlsystem\n", ("check",), "a.l")),
-    "cpfg: condition": (50, grammar(
-        lambda n: "Lsystem: 1\nderivation length: 1\nAxiom: A(1)\nA(x) : x > 0" + lines(" && x > -%d", n) +
-        " --> F\nendlsystem\n", ("check",), "a.l")),
     "fractint: systems": (200, grammar(
         lambda n: lines("S%d {\n  Angle 6\n  Axiom F--F\n  F=F+F\n}\n", n), ("check", "--system", "S0"), "a.l")),
     "fractint: successor": (2000, grammar(
