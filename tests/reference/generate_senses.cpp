@@ -91,7 +91,7 @@ private:
             add("size", {pick({2, 3, 4.3F}), pick({1, 3, 2.6F}), pick({2, 4, 3.1F})});
         }
         add_some_lists("at", {{0, 0, 0}, {0.5F, 1, -0.25F}, {0.1F, -0.7F, 0.2F}});
-        add("count", {pick({1, 30, 60, 120})});
+        add("count", {pick({1, 60, 120, 240})});
         add("radius", {pick({0.7F, 1.5F, 3, 40})});
         add("kill", {pick({0, 0.1F, 0.2F, 0.4F})});
         add_some("angle", {360, 180, 120, 90, 60, 41.5F, 271});
