@@ -169,29 +169,33 @@ void TilesetFolder::write_file_at(const std::string& path, const Make& make) {
     }
     bytes_ += bytes.size();
     ++files_;
-    const std::unique_lock<std::mutex> lock(outputs_mutex_);
-    outputs_.push_back(std::move(output.value()));
-    if (outputs_.size() >= kFilesStoredAtOnce) {
-        name_files(lock);
+    std::size_t count = 0;
+    {
+        const std::lock_guard<std::mutex> lock(mutex_);
+        outputs_.push_back(std::move(output.value()));
+        count = outputs_.size();
+    }
+    if (count >= kFilesStoredAtOnce) {
+        name_files();
     }
 }
 
 void TilesetFolder::name_files() {
-    name_files(std::unique_lock<std::mutex>(outputs_mutex_));
-}
-
-void TilesetFolder::name_files(const std::unique_lock<std::mutex>& /*lock*/) {
-    if (outputs_.empty()) {
+    std::vector<Output> outputs;
+    {
+        const std::lock_guard<std::mutex> lock(mutex_);
+        outputs.swap(outputs_);
+    }
+    if (outputs.empty()) {
         return;
     }
     // After a power failure a name must not stand for a file whose bytes were never stored.
     platform::store_file_system(command_.output);
-    for (Output& output : outputs_) {
-        if (const Result<void> named = output.commit(Storing::BySystem); !named) {
+    for (Output& output : outputs) {
+        if (const Result<void> named = output.commit(); !named) {
             stop(named.error());
         }
     }
-    outputs_.clear();
 }
 
 void TilesetFolder::make_folder(std::string_view path) {

@@ -93,7 +93,6 @@ private:
     void make_folder(std::string_view path);
     /// Stores the files of `outputs_` on the disk, then gives them their names.
     void name_files();
-    void name_files(const std::unique_lock<std::mutex>& lock); // locks outputs_mutex_
 
     const TilesCommand& command_;
     const TileForest& forest_;
@@ -104,10 +103,9 @@ private:
     std::atomic<std::uint64_t> bytes_{0};
     std::atomic<std::uint64_t> trees_{0};
     std::atomic<bool> is_stopped_{false};
-    mutable std::mutex mutex_;      // guards folders_ and result_
+    mutable std::mutex mutex_;      // guards folders_, result_ and outputs_
     std::set<std::string> folders_; // folders that exist
     Result<void> result_;
-    std::mutex outputs_mutex_;    // guards outputs_
     std::vector<Output> outputs_; // complete files under temporary names
 };
 

@@ -343,8 +343,8 @@ Result<void> Output::finish(Storing storing) {
     return reason == 0 ? Result<void>() : failure(reason);
 }
 
-Result<void> Output::commit(Storing storing) {
-    if (Result<void> finished = finish(storing); !finished) {
+Result<void> Output::commit() {
+    if (Result<void> finished = finish(); !finished) {
         return finished;
     }
     if (temporary_.empty()) {
@@ -410,27 +410,24 @@ Result<void> commit_all(std::vector<Output>& outputs) {
 
 namespace {
 
-Result<void> write_all(Result<Output> output, std::string_view text, Storing storing) {
+Result<void> write_all(Result<Output> output, std::string_view text) {
     if (!output) {
         return output.error();
     }
     if (Result<void> written = output.value().write(text); !written) {
         return written;
     }
-    return output.value().commit(storing);
+    return output.value().commit();
 }
 
 } // namespace
 
-Result<void> write_file(const std::string& path,
-                        std::string_view text,
-                        const Console& console,
-                        Storing storing) {
-    return write_all(Output::open(path, console), text, storing);
+Result<void> write_file(const std::string& path, std::string_view text, const Console& console) {
+    return write_all(Output::open(path, console), text);
 }
 
 Result<void> rewrite_file(const std::string& path, std::string_view text, const Console& console) {
-    return write_all(Output::reopen(path, console), text, Storing::BeforeNaming);
+    return write_all(Output::reopen(path, console), text);
 }
 
 } // namespace lsys

@@ -80,7 +80,7 @@ public:
     /// Stores the bytes on the disk and closes the file under its temporary name. Idempotent.
     [[nodiscard]] Result<void> finish(Storing storing = Storing::BeforeNaming);
     /// Finishes the file and gives it its name.
-    [[nodiscard]] Result<void> commit(Storing storing = Storing::BeforeNaming);
+    [[nodiscard]] Result<void> commit();
 
 private:
     friend Result<void> commit_all(std::vector<Output>& outputs);
@@ -119,10 +119,8 @@ private:
 [[nodiscard]] Result<void> commit_all(std::vector<Output>& outputs);
 
 /// Opens, writes and commits a file.
-[[nodiscard]] Result<void> write_file(const std::string& path,
-                                      std::string_view text,
-                                      const Console& console,
-                                      Storing storing = Storing::BeforeNaming);
+[[nodiscard]] Result<void>
+write_file(const std::string& path, std::string_view text, const Console& console);
 
 /// Replaces a file that the run has read.
 [[nodiscard]] Result<void>
