@@ -41,12 +41,12 @@ public:
     }
     template <typename Command>
     ExitStatus operator()(const Command& command) const {
+        RunFiles files;
+        Io io = io_;
+        io.files = &files;
         if constexpr (requires { command.run; }) {
-            return run_within_limits(command);
+            return run_within_limits(command, io);
         } else {
-            RunFiles files;
-            Io io = io_;
-            io.files = &files;
             const Console console(io, command.messages);
             return console.finish(run_command(command, console));
         }
@@ -55,12 +55,9 @@ public:
 private:
     /// Runs a command within `--max-time` and `--max-output`.
     template <typename Command>
-    ExitStatus run_within_limits(const Command& command) const {
-        Io io = io_;
+    ExitStatus run_within_limits(const Command& command, Io io) const {
         OutputBudget budget(command.run.max_output);
         io.output_budget = &budget;
-        RunFiles files;
-        io.files = &files;
         const std::string late = late_message(command.run.max_seconds);
         std::optional<Deadline> deadline;
         constexpr bool kIsServer = std::is_same_v<Command, ServeCommand>; // has its own deadline
