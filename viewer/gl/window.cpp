@@ -330,7 +330,8 @@ struct Window::State {
             });
     }
 
-    /// Passes the delayed releases to ImGui. Call it after ImGui has begun a frame.
+    /// Passes the delayed releases to ImGui. Call it between two frames of ImGui: within one, the
+    /// modifier keys may not change.
     void release_keys() {
         new_keys.clear();
         for (const auto& [code, scan_code] : std::exchange(waiting_releases, {})) {
@@ -489,11 +490,11 @@ void Window::begin_panels() {
         io.NavInputs[ImGuiNavInput_Activate] = 1.0F;
     }
     ImGui::NewFrame();
-    state_->release_keys();
 }
 
 void Window::present() {
     ImGui::Render();
+    state_->release_keys();
     glBindFramebuffer(GL_FRAMEBUFFER, 0);
     ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
     glfwSwapBuffers(state_->window);
