@@ -18,13 +18,13 @@ LANCE = [(0, 0), (0.08, 0.045), (0.25, 0.075), (0.45, 0.078), (0.65, 0.058), (0.
 
 
 def draw_twig(card, place, direction, length, leaves):
-    """A thin yellow twig with narrow leaves by turns to either side, which hang."""
+    """A thin yellow twig with narrow leaves by turns to either side, which hang. It strays little from `direction`."""
     steps = round(length / 0.036)
     heading = direction
     for i in range(steps):
-        heading += draw.uniform(-3, 3) - 0.12 * (heading - 0)
+        heading += draw.uniform(-3, 3) - 0.12 * heading
         ahead = along(place, heading, length / steps)
-        card.line([place, ahead], 0.007 if leaves else 0.013, (176, 152, 84))
+        card.line([place, ahead], 0.011 if leaves else 0.013, (176, 152, 84))
         place = ahead
         if not leaves:
             continue
@@ -37,8 +37,9 @@ def draw_twig(card, place, direction, length, leaves):
 
 for name, leaves in (("spray.png", True), ("twig.png", False)):
     card = Card(224, 512)
-    for start, length in ((0.0, 0.88), (-0.09, 0.62), (0.1, 0.74)):
-        draw_twig(card, (0, 0.02 + abs(start)), 200 * start, length, leaves)
+    # The middle twig reaches from end to end, so that pieces in a row show no gaps.
+    for angle, start, length in ((0, 0, 1), (-18, 0.1, 0.62), (20, 0.11, 0.74)):
+        draw_twig(card, (0, start), angle, length, leaves)
     card.save(name, levels=24)
 
 size = 512
