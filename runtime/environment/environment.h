@@ -84,7 +84,7 @@ struct EnvironmentFailure {
 /// Resources of an environment. They must outlive the environment.
 struct EnvironmentContext {
     Workers* workers = nullptr;
-    const std::atomic<bool>* cancelled = nullptr;
+    const std::atomic<bool>* cancelled = nullptr; // becomes true to cancel; null: never
     std::uint64_t max_bytes = ~std::uint64_t{0}; // max bytes that the environment may hold
 };
 

@@ -211,6 +211,7 @@ private:
         }
         return result;
     }
+    /// each() for the lanes of mask_ alone; the other lanes become 0.
     template <typename Function>
     [[nodiscard]] Lanes each_taken(const Lanes& x, const Lanes& y, Function function) const {
         Lanes result;

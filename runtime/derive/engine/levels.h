@@ -67,7 +67,7 @@ struct LevelOptions {
     std::uint64_t max_bytes = ~std::uint64_t{0};
     std::uint64_t min_codes = 0;      // min room of a block, in modules
     std::uint64_t min_parameters = 0; // min room of a block, in parameters
-    const std::atomic<bool>* cancelled = nullptr;
+    const std::atomic<bool>* cancelled = nullptr; // becomes true to cancel; null: never
 };
 
 /// R: uint8_t or uint32_t, the wider of the plans' record_width().

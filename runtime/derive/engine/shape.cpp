@@ -17,7 +17,7 @@ struct Term {
     AffineTerm affine;
     bool scaled = false; // has a factor; a second factor would round differently
     bool offset = false; // has an offset
-    std::size_t first_comparison = 0;
+    std::size_t first_comparison = 0; // index in AffineDomain::comparisons_
     std::size_t comparison_count = 0;
 };
 

@@ -165,6 +165,7 @@ struct PrintedNumbers : UnknownDomain<PrintedValue> {
         return leaf(draws == nullptr ? 0.0F : draws->draw_branch(branch), "branch");
     }
 
+    /// Adds an operation to `parts` and returns it. `values`: its text with numbers as operands.
     PrintedValue add(PrintedValue printed, std::string values, bool is_truth) {
         printed.text = cut(std::move(printed.text));
         printed.is_truth = is_truth;

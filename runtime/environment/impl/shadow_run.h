@@ -72,7 +72,8 @@ private:
     const VoxelTiles& tiles_;
     const ShadowLayers& layers_;
     std::int32_t edge_; // width of a tile, in voxels
-    /// Voxels along an axis from a target to the farthest source of it or a neighbour.
+    /// Voxels along an axis from a target to the farthest source that shades the target or one of
+    /// its 26 neighbours.
     std::int32_t reach_;
 
     std::vector<TileVoxel> targets_; // sorted by y; x and z count from the corner of the tables

@@ -18,7 +18,8 @@ namespace lsys {
 
 class SkyRay {
 public:
-    /// `own` is the cell of `place`; `direction` is a unit vector that points upwards.
+    /// `own` is the cell of `place`; `direction` is a unit vector that points upwards; `cell` is
+    /// the edge of a cell, m.
     SkyRay(const Vector3& place, const CellIndex& own, const Vector3& direction, double cell)
         : place_(place), direction_(direction), size_(cell), at_(own) {}
 
