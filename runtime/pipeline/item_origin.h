@@ -19,7 +19,7 @@ struct ItemOrigin {
     std::uint64_t module_index = 0; // index in the word
     std::uint64_t module_count = 0; // number of modules in the word
     std::string origin;             // "from p2 at tree.lsys:7:14, generation 3"
-    std::optional<FilePosition> place;
+    std::optional<FilePosition> place; // place in the grammar that wrote the module; unset: unknown
     std::uint32_t generation = 0; // generation of the word
 };
 

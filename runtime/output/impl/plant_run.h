@@ -36,7 +36,7 @@ struct PlantRun {
     std::optional<glm::vec3> pivot = {};    // for frames of a growth: pivot of the last plant
     bool is_placed = false;                 // pivot and unit have been applied to the mesh
     std::vector<Mesh>* collected = nullptr; // if not null, receives the meshes in place of files
-    const PlantVariants* variants = nullptr;
+    const PlantVariants* variants = nullptr; // ExportInfo::variants; null: none
 };
 
 /// The motion of the mesh of a file. Both null: no motion.
