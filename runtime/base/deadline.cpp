@@ -15,7 +15,7 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr std::chrono::milliseconds kPoll(20); // between looks at the flag of the caller
-constexpr std::chrono::seconds kGrace(1); // from the end of the time to the call of `end_late`
+constexpr std::chrono::seconds kGrace(1);      // from the end of the time to the call of `end_late`
 
 /// `seconds` from now; at most a year, because sums of larger values overflow.
 Clock::time_point after(double seconds) {
@@ -58,7 +58,7 @@ struct Deadline::State {
     std::mutex mutex;
     std::condition_variable changed;
     bool is_over = false; // the Deadline is being destroyed
-    std::thread thread; // declared last: it uses all members above
+    std::thread thread;   // declared last: it uses all members above
 };
 
 Deadline::Deadline(double seconds,

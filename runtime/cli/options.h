@@ -67,9 +67,9 @@ struct DumpCommand {
     MeshOptions mesh;
     std::optional<float> height; // m, of the plant
     std::optional<EnvironmentFormat> environment_format;
-    bool all = false;                   // --all: every generation
-    bool count = false;                 // --count: the number of modules in place of the word
-    bool stream = false;                // --stream: derive without storing words
+    bool all = false;    // --all: every generation
+    bool count = false;  // --count: the number of modules in place of the word
+    bool stream = false; // --stream: derive without storing words
     /// --rho, for --stage instanced, heroes and cache: probability that a branch is replaced by a
     /// recorded one.
     std::optional<float> rho;

@@ -85,7 +85,7 @@ struct EnvironmentFailure {
 struct EnvironmentContext {
     Workers* workers = nullptr;
     const std::atomic<bool>* cancelled = nullptr; // becomes true to cancel; null: never
-    std::uint64_t max_bytes = ~std::uint64_t{0}; // max bytes that the environment may hold
+    std::uint64_t max_bytes = ~std::uint64_t{0};  // max bytes that the environment may hold
 };
 
 /// begin() and answer() may throw std::bad_alloc, which EnvironmentSense catches.

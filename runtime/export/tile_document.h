@@ -48,8 +48,8 @@ struct MeshDocument {
     std::string data;                // the buffer; empty if it is in the file `uri`
     std::uint64_t decoded_bytes = 0; // size of the fallback; 0: no fallback
     std::string uri; // name of the file with the buffer, percent-encoded, relative to the tile
-    std::uint64_t file_bytes = 0;    // size of the file `uri`
-    std::vector<FilePart> pictures;  // by image: PNG files; empty: the document has the images
+    std::uint64_t file_bytes = 0;   // size of the file `uri`
+    std::vector<FilePart> pictures; // by image: PNG files; empty: the document has the images
 };
 /// The order in which a compressed document stores the triangles and vertices of a mesh with one
 /// part. If all vertices differ, the order depends on the triangles alone, so meshes with equal

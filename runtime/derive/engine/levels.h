@@ -65,8 +65,8 @@ struct LevelBlock {
 struct LevelOptions {
     bool origins = false; // whether to write the origin of each module
     std::uint64_t max_bytes = ~std::uint64_t{0};
-    std::uint64_t min_codes = 0;      // min room of a block, in modules
-    std::uint64_t min_parameters = 0; // min room of a block, in parameters
+    std::uint64_t min_codes = 0;                  // min room of a block, in modules
+    std::uint64_t min_parameters = 0;             // min room of a block, in parameters
     const std::atomic<bool>* cancelled = nullptr; // becomes true to cancel; null: never
 };
 
