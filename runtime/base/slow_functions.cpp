@@ -48,7 +48,7 @@ WideFixedPoint exp_of(const WideFixedPoint& x) {
     return sum;
 }
 
-/// Sum of x^n / n! for n = first, first + 2, ... with alternating signs.
+/// Sum of x^n / n! for n = first, first + 2, ... with alternating signs. `term`: x^first / first!.
 WideFixedPoint alternating(const WideFixedPoint& x, WideFixedPoint term, std::uint32_t first) {
     const WideFixedPoint square = x * x;
     WideFixedPoint plus = term;

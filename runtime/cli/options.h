@@ -73,8 +73,10 @@ struct DumpCommand {
     /// --rho, for --stage instanced, heroes and cache: probability that a branch is replaced by a
     /// recorded one.
     std::optional<float> rho;
-    std::optional<std::uint64_t> first; // for --stage instanced: first form listed
-    std::optional<std::uint64_t> rows;  // for --stage instanced: number of forms per production
+    // For --stage instanced, which lists 2^n forms of a production with n branches: each branch is
+    // written out or replaced by a recorded one.
+    std::optional<std::uint64_t> first; // number of the first form listed
+    std::optional<std::uint64_t> rows;  // number of forms listed per production
     // For --stage heroes and cache.
     std::optional<std::uint32_t> heroes;    // number of plants derived completely
     std::optional<std::uint32_t> cache_cap; // CacheOptions::cap
