@@ -115,8 +115,8 @@ struct Workers::Team {
     std::atomic<std::uint64_t> tasks_begun{0}; // number of tasks so far
     const Task* task = nullptr;                // null between tasks
     std::uint32_t busy = 0;                    // helpers within the task
-    bool stops = false;
-    std::vector<std::thread> helpers; // declared last: they use all members above
+    bool stops = false;                        // whether the helpers are to end
+    std::vector<std::thread> helpers;          // declared last: they use all members above
 };
 
 Workers::Workers(std::uint32_t threads)

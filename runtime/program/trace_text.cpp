@@ -986,7 +986,7 @@ private:
     const Trace& trace_;
     const Grammar& grammar_;
     const Bytecode& bytecode_;
-    bool colour_;
+    bool colour_;                   // whether to use the colours of a terminal
     std::set<ProductionId> framed_; // productions that traces() has shown for later passes
     std::string out_;
 };
