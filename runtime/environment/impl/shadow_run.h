@@ -53,6 +53,8 @@ private:
     void find_targets(std::size_t begin, std::size_t end);
     /// Sets neighbours_: the tile itself and the tiles around it.
     void find_neighbours(std::size_t tile);
+    /// Adds a tile whose corner is at (x, z), counted from the corner of the tables, if the tile
+    /// overlaps the tables.
     void add_neighbour(std::size_t tile, std::int32_t x, std::int32_t z);
     /// Sets sources_ and rows_: the voxels of neighbours_ that may shade a target.
     void read_sources();

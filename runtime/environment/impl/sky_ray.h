@@ -151,6 +151,7 @@ private:
             }
         }
     }
+    /// Index along `axis` of the cell that the ray has reached at `distance`.
     [[nodiscard]] std::int64_t cell_at(std::size_t axis, double distance) const {
         const std::int64_t step = direction_[axis] > 0.0 ? 1 : -1;
         // The plane through which the ray enters a cell.

@@ -138,6 +138,7 @@ struct Turtle::State {
     bool execute(const Action& action, const float* arguments);
     // `part`: factor of the length.
     bool forward(const Action& action, const float* arguments, float part);
+    /// forward() with the setting `tropisms`.
     bool forward_with_tropisms(const Action& action, const float* arguments, float part);
     bool move(double length, bool adds_corners); // without drawing
     /// Arguments: length, base width, tip width.
