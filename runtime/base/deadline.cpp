@@ -15,7 +15,7 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr std::chrono::milliseconds kPoll(20); // between looks at the flag of the caller
-constexpr std::chrono::seconds kGrace(1);
+constexpr std::chrono::seconds kGrace(1);      // from the end of the time to the call of `end_late`
 
 /// `seconds` from now; at most a year, because sums of larger values overflow.
 Clock::time_point after(double seconds) {
@@ -50,15 +50,15 @@ struct Deadline::State {
         }
     }
 
-    Clock::time_point time;
-    const std::atomic<bool>* cancelled;
+    Clock::time_point time;             // time at which `stop` is set
+    const std::atomic<bool>* cancelled; // flag of the caller; null: the caller has none
     std::function<void()> end_late;
     std::atomic<bool> stop{false};
-    std::atomic<bool> passed{false};
+    std::atomic<bool> passed{false}; // `time` passed before `cancelled` became true
     std::mutex mutex;
     std::condition_variable changed;
-    bool is_over = false;
-    std::thread thread; // declared last: it uses all members above
+    bool is_over = false; // the Deadline is being destroyed
+    std::thread thread;   // declared last: it uses all members above
 };
 
 Deadline::Deadline(double seconds,

@@ -18,6 +18,7 @@ public:
     Deadline& operator=(const Deadline&) = delete;
     ~Deadline();
 
+    /// The flag that tells the run to stop; valid as long as the Deadline.
     [[nodiscard]] const std::atomic<bool>* stop() const;
     /// Whether the time has passed before `cancelled` became true.
     [[nodiscard]] bool has_passed() const;

@@ -56,7 +56,7 @@ bool has_small_tables(std::string_view bytes) {
 }
 
 /// has_small_tables() of all segments. Up to the first scan, segments are found as stb_image finds
-/// them, which skips bytes between them; behind it, whatever looks like a table counts.
+/// them, which skips bytes between them; behind it, all bytes that look like a table are checked.
 bool has_sound_tables(std::string_view bytes) {
     constexpr std::string_view kTables = "\xFF\xC4";
     std::size_t at = 2;

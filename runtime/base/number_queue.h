@@ -90,7 +90,7 @@ private:
     std::deque<Range> ranges_;        // no range is empty
     std::uint64_t left_ = 0;          // count of the numbers in ranges_
     std::uint64_t wanted_below_ = 0;  // `count` of wait_below(); 0: no thread waits
-    bool is_closed_ = false;
+    bool is_closed_ = false;          // close() was called
 };
 
 } // namespace lsys

@@ -48,7 +48,7 @@ WideFixedPoint exp_of(const WideFixedPoint& x) {
     return sum;
 }
 
-/// Sum of x^n / n! for n = first, first + 2, ... with alternating signs.
+/// Sum of x^n / n! for n = first, first + 2, ... with alternating signs. `term`: x^first / first!.
 WideFixedPoint alternating(const WideFixedPoint& x, WideFixedPoint term, std::uint32_t first) {
     const WideFixedPoint square = x * x;
     WideFixedPoint plus = term;
@@ -94,7 +94,7 @@ ReducedAngle reduce_radians(double angle) {
     exponent -= 53;
     // Skip the words of 2/pi whose product with m * 2^exponent is a multiple of 4; the other words
     // begin at `first`.
-    constexpr int kUsed = 16;
+    constexpr int kUsed = 16; // number of words of 2/pi that are used
     const int first = ((exponent - 34) >> 5) + 1;
     std::array<std::uint32_t, kUsed + 2> product{}; // least word first
     for (std::size_t part = 0; part < 2; ++part) {

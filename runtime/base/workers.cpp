@@ -63,16 +63,16 @@ struct Workers::Team {
     Team(const Team&) = delete;
     Team& operator=(const Team&) = delete;
 
-    /// Runs `own` on the calling thread, and `new_task` on each helper that wakes before `own`
-    /// returns. Returns when all helpers have left `new_task`.
-    void run(const Task& own, const Task& new_task) {
+    /// Runs `callers_task` on the calling thread, and `new_task` on each helper that wakes before
+    /// `callers_task` returns. Returns when all helpers have left `new_task`.
+    void run(const Task& callers_task, const Task& new_task) {
         {
             const std::lock_guard lock(mutex);
             task = &new_task;
             ++tasks_begun;
         }
         task_begun.notify_all();
-        own();
+        callers_task();
         std::unique_lock lock(mutex);
         task = nullptr;
         all_left.wait(lock, [&] { return busy == 0; });
@@ -115,8 +115,8 @@ struct Workers::Team {
     std::atomic<std::uint64_t> tasks_begun{0}; // number of tasks so far
     const Task* task = nullptr;                // null between tasks
     std::uint32_t busy = 0;                    // helpers within the task
-    bool stops = false;
-    std::vector<std::thread> helpers; // declared last: they use all members above
+    bool stops = false;                        // whether the helpers are to end
+    std::vector<std::thread> helpers;          // declared last: they use all members above
 };
 
 Workers::Workers(std::uint32_t threads)

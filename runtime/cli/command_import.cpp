@@ -58,7 +58,6 @@ std::string first_error(const Messages& messages) {
     return {};
 }
 
-/// Prints an error and keeps it as the reason.
 /// The name of a file for a comment that ends with its line.
 std::string comment_text(const std::filesystem::path& name) {
     std::string text = path_text(name);
@@ -67,6 +66,7 @@ std::string comment_text(const std::filesystem::path& name) {
     return text;
 }
 
+/// Prints an error and stores it as the reason why `imported` is incomplete.
 ExitStatus fail(const Error& error, const Console& console, Imported& imported) {
     imported.reason = error.message;
     return report_error(error, console);

@@ -126,7 +126,7 @@ public:
 
 private:
     Output output_;
-    std::optional<Error> failed_;
+    std::optional<Error> failed_; // the first error of writing; unset: none
 };
 
 // --- stored words

@@ -67,14 +67,18 @@ struct DumpCommand {
     MeshOptions mesh;
     std::optional<float> height; // m, of the plant
     std::optional<EnvironmentFormat> environment_format;
-    bool all = false;                   // --all: every generation
-    bool count = false;                 // --count: the number of modules in place of the word
-    bool stream = false;                // --stream: derive without storing words
-    std::optional<float> rho;           // --rho, for --stage instanced, heroes and cache
-    std::optional<std::uint64_t> first; // for --stage instanced: first form listed
-    std::optional<std::uint64_t> rows;  // for --stage instanced: number of forms per production
+    bool all = false;    // --all: every generation
+    bool count = false;  // --count: the number of modules in place of the word
+    bool stream = false; // --stream: derive without storing words
+    /// --rho, for --stage instanced, heroes and cache: probability that a branch is replaced by a
+    /// recorded one.
+    std::optional<float> rho;
+    // For --stage instanced, which lists 2^n forms of a production with n branches: each branch is
+    // written out or replaced by a recorded one.
+    std::optional<std::uint64_t> first; // number of the first form listed
+    std::optional<std::uint64_t> rows;  // number of forms listed per production
     // For --stage heroes and cache.
-    std::optional<std::uint32_t> heroes;
+    std::optional<std::uint32_t> heroes;    // number of plants derived completely
     std::optional<std::uint32_t> cache_cap; // CacheOptions::cap
     std::optional<float> tolerance;         // CacheOptions::tolerance
     bool origins = false; // --origins: the place in the grammar that wrote each module
@@ -186,7 +190,7 @@ struct ImportCommand {
 struct FormatCommand {
     MessageOptions messages;
     RunOptions run;
-    std::string dialect;
+    std::string dialect; // value of --dialect; empty: found from the file
     std::vector<std::string> files;
     bool check = false; // list the files that are not formatted, write no file
 };

@@ -48,8 +48,9 @@ struct RuntimeError {
     /// Arguments of the range or distribution, for RangeReversed, RangeTooWide and BadDistribution.
     float first_argument = 0.0F;
     float second_argument = 0.0F;
-    Opcode opcode = Opcode::Range;     // for BadDistribution
-    std::uint32_t global = kNone;      // for OutOfBounds and errors while globals are drawn
+    Opcode opcode = Opcode::Range; // for BadDistribution
+    /// Index in Bytecode::globals, for OutOfBounds and errors while globals are drawn; else kNone.
+    std::uint32_t global = kNone;
     bool in_condition = false;         // true: in a condition or weight; false: in an argument
     bool in_weight = false;            // true: in a weight; in_condition is then also true
     std::uint32_t environment = kNone; // for SenseFailed: index in Bytecode::environments, or kNone

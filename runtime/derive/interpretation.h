@@ -19,7 +19,7 @@ struct InterpretInputs {
     std::uint64_t seed = 0;
     std::uint32_t generations = 0; // the age of the word
     std::uint64_t max_bytes = ~std::uint64_t{0};
-    const std::atomic<bool>* cancelled = nullptr;
+    const std::atomic<bool>* cancelled = nullptr; // becomes true to cancel; null: never
 };
 
 class Interpretation {

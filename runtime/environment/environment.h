@@ -84,8 +84,8 @@ struct EnvironmentFailure {
 /// Resources of an environment. They must outlive the environment.
 struct EnvironmentContext {
     Workers* workers = nullptr;
-    const std::atomic<bool>* cancelled = nullptr;
-    std::uint64_t max_bytes = ~std::uint64_t{0}; // max bytes that the environment may hold
+    const std::atomic<bool>* cancelled = nullptr; // becomes true to cancel; null: never
+    std::uint64_t max_bytes = ~std::uint64_t{0};  // max bytes that the environment may hold
 };
 
 /// begin() and answer() may throw std::bad_alloc, which EnvironmentSense catches.

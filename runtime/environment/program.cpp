@@ -101,7 +101,7 @@ private:
     }
 
     std::string_view text_;
-    std::size_t at_ = 0;
+    std::size_t at_ = 0; // index of the next character to read
 };
 
 /// An environment whose answers come from a function of the host.

@@ -36,7 +36,7 @@ struct SenseOptions {
     std::uint32_t threads = 0; // 0: as many as the machine has
     /// Max bytes of places, answers and environments together.
     std::uint64_t max_bytes = ~std::uint64_t{0};
-    const std::atomic<bool>* cancelled = nullptr;
+    const std::atomic<bool>* cancelled = nullptr; // becomes true to cancel; null: never
 };
 
 /// The places of an environment in a word, and its answers.

@@ -146,14 +146,15 @@ struct ExportInfo {
     std::string buffer_name = {};
     bool textures = true;      // pictures for textured materials, where the format has pictures
     std::uint32_t threads = 0; // 0: as many as the machine has
-    /// Meshes of Skeleton::mesh_files, for their outlines in SVG; missing meshes are skipped.
+    /// Meshes of Skeleton::mesh_files, for their outlines in SVG; missing meshes are skipped, all
+    /// meshes if null.
     const std::vector<UserMesh>* user_meshes = nullptr;
     /// Poses that move the mesh as a skin, in formats with motion. Preconditions: the skeleton is
     /// the first pose; Mesh::segments has an item for each vertex.
-    const PlantAnimation* animation = nullptr;
+    const PlantAnimation* animation = nullptr; // null: the plant stands still
     /// Frames with different meshes, in formats with films. Preconditions: the exported mesh is
     /// MeshFilm::mesh; no animation, compression or wind data.
-    const MeshFilm* film = nullptr;
+    const MeshFilm* film = nullptr; // null: no film
     /// Max count of joints of the skin, 2 to kMaxJoints; the skin then has few joints with smooth
     /// weights (impl/bones.h). 0: a joint for each segment that moves.
     std::uint32_t max_joints = 0;

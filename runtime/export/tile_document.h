@@ -47,9 +47,9 @@ struct MeshDocument {
     nlohmann::ordered_json json;     // buffer 0 is `data`, buffer 1 its fallback
     std::string data;                // the buffer; empty if it is in the file `uri`
     std::uint64_t decoded_bytes = 0; // size of the fallback; 0: no fallback
-    std::string uri;                 // of that file, percent-encoded, relative to the tile
-    std::uint64_t file_bytes = 0;    // size of the file `uri`
-    std::vector<FilePart> pictures;  // by image: PNG files; empty: the document has the images
+    std::string uri; // name of the file with the buffer, percent-encoded, relative to the tile
+    std::uint64_t file_bytes = 0;   // size of the file `uri`
+    std::vector<FilePart> pictures; // by image: PNG files; empty: the document has the images
 };
 /// The order in which a compressed document stores the triangles and vertices of a mesh with one
 /// part. If all vertices differ, the order depends on the triangles alone, so meshes with equal
@@ -122,7 +122,8 @@ public:
     void set_surface(MeshDocument surface) { surface_ = std::move(surface); }
     /// Sets the trees of the table of properties. Trees without instances get no row.
     void set_trees(std::vector<TileTree> trees) { trees_ = std::move(trees); }
-    /// Adds `instances`, at least one, of the mesh of a part. Instances of a tree are consecutive.
+    /// Adds `instances`, at least one, of the mesh of a part. `part`: number from TileParts::add().
+    /// Instances of a tree are consecutive.
     void add_instances(std::size_t part, std::vector<TileInstance> instances) {
         groups_.push_back({part, std::move(instances)});
     }

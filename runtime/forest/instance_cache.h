@@ -213,7 +213,7 @@ private:
     void add_exits(const Instance& instance, const BranchInstance& at);
 
     const InstanceCache& cache_;
-    std::uint64_t key_;
+    std::uint64_t key_; // the forest's key
     VisitStack<Pending> pending_;
     VisitStack<std::uint32_t> pending_slots_;      // used by expand_instances()
     std::array<std::uint32_t, kBlockRun> draws_{}; // random words of the current run of nodes

@@ -37,8 +37,8 @@ constexpr double kTurn = 2.0 * std::numbers::pi;
 struct Offset {
     double x = 0.0;
     double z = 0.0;
-    double square = 0.0; // m2, square of the distance
-    std::uint32_t number = 0;
+    double square = 0.0;      // m2, square of the distance
+    std::uint32_t number = 0; // number of the tree
 
     /// Key of an order by distance. The last three members make the order independent of the order
     /// of trees.

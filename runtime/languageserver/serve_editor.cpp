@@ -15,7 +15,8 @@ namespace lsys {
 
 namespace {
 
-/// The destructor ends the delivery of late responses, which writes to the stream.
+/// The destructor ends LanguageServer::deliver_late(), which writes responses of `lsys/plant` to
+/// the stream.
 struct LateDelivery {
     explicit LateDelivery(LanguageServer& own_server) : server(own_server) {}
     LateDelivery(const LateDelivery&) = delete;

@@ -102,7 +102,7 @@ public:
     }
 
 private:
-    float count_;
+    float count_; // number of lines
     Noise wide_;
     Noise narrow_;
 };

@@ -55,7 +55,7 @@ private:
     std::uint64_t min_queued_files_;
     std::atomic<std::uint32_t> writing_{0}; // number of threads that have not ended yet
     bool has_helpers_ = false;              // whether the system could start other threads
-    bool is_closed_ = false;
+    bool is_closed_ = false;                // close() was called
 };
 
 } // namespace lsys::mpi

@@ -28,7 +28,7 @@ struct RankState {
     lsc::TileTotals reported; // totals in the last printed line of progress
     std::string machine;
     std::uint64_t threads = 0; // 0: not known yet
-    bool is_done = false;
+    bool is_done = false;      // the rank has ended its work
 };
 
 /// Rank 0.
@@ -267,7 +267,7 @@ private:
     std::uint64_t plan_ = 0;        // hash of the plan
     std::uint64_t next_ = 0;        // the next file to hand out
     std::uint64_t end_ = 0;         // one more than the last file to hand out
-    bool is_stopping_ = false;
+    bool is_stopping_ = false;      // stop_all() was called
     ExitStatus status_ = ExitStatus::Ok;
     Clock::time_point begin_ = Clock::now();
     Clock::time_point last_progress_ = begin_;

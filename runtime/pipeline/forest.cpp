@@ -238,7 +238,8 @@ struct GrownStage {
     std::shared_ptr<const SourceMap> sources;
     AxiomPlace axiom;
     bool can_reuse_branches = false; // some branch can be replaced by a recorded one
-    /// The scene wants it to sense neighbours, but no environment reads shade.
+    /// The scene wants the species to sense neighbours, but no environment of its grammar reads
+    /// shade.
     bool cannot_sense_neighbours = false;
     std::vector<BranchOrigin> origins; // by instance; empty for a stage without `origins_of`
     std::vector<std::string> programs; // names of environments of kind Program

@@ -55,7 +55,7 @@ struct GrownForest {
     /// By species: index of the species of the previous forest whose heroes are reused; unset if
     /// the heroes are new.
     std::vector<std::optional<std::size_t>> reused_species;
-    std::vector<Messages> messages; // by species
+    std::vector<Messages> messages; // by species: messages of growing its heroes
     /// By species; null: it senses nothing, or SceneSpecies::keeps_senses is not set.
     std::vector<std::shared_ptr<const SensedHeroes>> sensed;
     double cache_seconds = 0.0; // time to derive and draw the heroes
@@ -129,7 +129,7 @@ place_forest(const Scene& scene, const Project& project, GrownForest& grown);
 /// The production that wrote a branch.
 struct BranchOrigin {
     std::string text; // "from p2 at tree.lsys:7:14, generation 3"; "from the axiom": a whole plant
-    std::optional<FilePosition> place;
+    std::optional<FilePosition> place; // place of the branch in the grammar; unset: unknown
 };
 /// Origins by index of the instance in a stage's cache. Reads the grammar and derives the heroes
 /// again. `folder`: LoadedScene::folder.

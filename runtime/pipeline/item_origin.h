@@ -15,12 +15,12 @@
 namespace lsys {
 
 struct ItemOrigin {
-    std::string module;             // text of the module as in a word: "F(1.5)"
-    std::uint64_t module_index = 0; // index in the word
-    std::uint64_t module_count = 0; // number of modules in the word
-    std::string origin;             // "from p2 at tree.lsys:7:14, generation 3"
-    std::optional<FilePosition> place;
-    std::uint32_t generation = 0; // generation of the word
+    std::string module;                // text of the module as in a word: "F(1.5)"
+    std::uint64_t module_index = 0;    // index in the word
+    std::uint64_t module_count = 0;    // number of modules in the word
+    std::string origin;                // "from p2 at tree.lsys:7:14, generation 3"
+    std::optional<FilePosition> place; // place in the grammar that wrote the module; unset: unknown
+    std::uint32_t generation = 0;      // generation of the word
 };
 
 /// Finds the module that draws `item` in the word of `generation`. Folds the bytecode of `grammar`

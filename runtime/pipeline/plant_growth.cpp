@@ -42,8 +42,8 @@ struct PlantGrowth::State {
     Skeleton drawn;                       // skeleton of the current word, if `growth` is unset
     std::optional<SkeletonGrowth> growth; // skeletons of the previous and the current word
     std::vector<Origin> ancestors;        // by current module: the previous module that wrote it
-    bool is_consistent = false; // whether the skeletons match the word; false after a stop
-    bool noted_fewer_corners = false;
+    bool is_consistent = false;       // whether the skeletons match the word; false after a stop
+    bool noted_fewer_corners = false; // the note that polygons lose corners has been given
 
     [[nodiscard]] std::uint32_t age() const { return derivation.age(); }
 

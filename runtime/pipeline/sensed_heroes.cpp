@@ -57,7 +57,7 @@ private:
     const EnvironmentSense& hero_sense_;
     const Bytecode& bytecode_;
     const std::vector<EnvironmentFiles>& files_;
-    bool has_begun_ = false; // a hero that is not kept yet
+    bool has_begun_ = false; // a hero has begun whose senses are not in heroes_ yet
     std::vector<SensedPlant> heroes_;
 };
 

@@ -84,7 +84,7 @@ public:
 
 private:
     const Project& project_;
-    Stop stop_ = Stop::Failed;
+    Stop stop_ = Stop::Failed; // stop of the last inner step for which take() returned false
 };
 
 } // namespace lsys

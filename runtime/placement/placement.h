@@ -91,11 +91,11 @@ struct PlacementOptions {
     std::uint64_t count = 0;               // Uniform: places; Domination: plants of the first year
     double spacing = 0.0;                  // m; PoissonDisk, Jittered, PoissonCells
     double density = 0.0; // places per m2: UniformCells; per white m2: DensityMap, DensityCells
-    const GreyMap* density_map = nullptr;
-    std::optional<Region> map_region; // extent of the map, black outside; unset: `region`
-    std::uint32_t years = 0;          // Domination
-    std::uint32_t stages_passed = 0;  // unless Domination: number of stages passed since the start
-    std::uint32_t threads = 0;        // 0: as many as the machine has
+    const GreyMap* density_map = nullptr; // for DensityMap and DensityCells; null: none
+    std::optional<Region> map_region;     // extent of the map, black outside; unset: `region`
+    std::uint32_t years = 0;              // Domination
+    std::uint32_t stages_passed = 0; // unless Domination: number of stages passed since the start
+    std::uint32_t threads = 0;       // 0: as many as the machine has
 };
 
 struct PlacementReport {

@@ -57,13 +57,13 @@ private:
     void read_messages();                             // of standard error
     void wait_for_exit();                             // for at most half a second
 
-    int process_ = 0;  // 0: none
-    int input_ = -1;   // our end of the program's standard input, a file descriptor
-    int output_ = -1;  // our end of the program's standard output
-    int error_ = -1;   // our end of the program's standard error
-    std::string read_; // bytes of standard output that ask() has not returned yet
-    std::string messages_;
-    std::string exit_text_;
+    int process_ = 0;       // 0: none
+    int input_ = -1;        // our end of the program's standard input, a file descriptor
+    int output_ = -1;       // our end of the program's standard output
+    int error_ = -1;        // our end of the program's standard error
+    std::string read_;      // bytes of standard output that ask() has not returned yet
+    std::string messages_;  // the last characters of standard error
+    std::string exit_text_; // how the program has ended; empty while it runs
 };
 
 /// Ends all running ShellPrograms. Callable in a signal handler.

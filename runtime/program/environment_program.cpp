@@ -77,7 +77,7 @@ public:
 
 private:
     platform::ShellProgram program_;
-    double seconds_ = 0.0;
+    double seconds_ = 0.0; // max time of an answer
     const std::atomic<bool>* cancelled_ = nullptr;
 };
 

@@ -107,7 +107,7 @@ private:
     std::string target_; // path_ with symbolic links resolved
     /// Temporary path in the folder of target_; empty for devices and pipes.
     std::string temporary_;
-    TemporaryName* slot_ = nullptr;    // registration of temporary_
+    TemporaryName* slot_ = nullptr;    // registration of temporary_; null: not registered
     platform::File file_;              // not open if it is standard output or finished
     bool is_finished_ = false;         // finish() has been called
     bool must_be_new_ = false;         // made by create()

@@ -338,7 +338,7 @@ private:
     struct PartLine {
         std::string text;
         std::string values;
-        std::size_t operations = 0;
+        std::size_t operations = 0; // number of operations in `text`
     };
     /// Prints the operations of a condition before the last, which is the label of the frame. A
     /// comparison shares its line with the arithmetic before it.
@@ -986,7 +986,7 @@ private:
     const Trace& trace_;
     const Grammar& grammar_;
     const Bytecode& bytecode_;
-    bool colour_;
+    bool colour_;                   // whether to use the colours of a terminal
     std::set<ProductionId> framed_; // productions that traces() has shown for later passes
     std::string out_;
 };

@@ -20,10 +20,10 @@ namespace lsys {
 struct WeightReport {
     double gravity = 0.0; // m/s^2
     Stability stability;
-    double height_left = 1.0; // height of the bent plant / height of the unbent plant
-    std::optional<double> width_factor;
-    std::optional<double> elasticity; // Pa; only if all springs are computed from it
-    std::optional<double> spring;     // N m/rad; only if all joints have the same spring
+    double height_left = 1.0;           // height of the bent plant / height of the unbent plant
+    std::optional<double> width_factor; // for all widths; only if all springs depend on them
+    std::optional<double> elasticity;   // Pa; only if all springs are computed from it
+    std::optional<double> spring;       // N m/rad; only if all joints have the same spring
     [[nodiscard]] bool stands() const { return height_left >= kStandingHeight; }
 };
 

@@ -51,8 +51,8 @@ struct TileCounts {
     std::atomic<std::uint64_t> hits{0};                    // requests answered from the cache
     std::array<std::atomic<std::uint64_t>, kSeconds.size() + 1> times{}; // files by time to make
     std::atomic<std::uint64_t> microseconds{0};                          // spent on making files
-    std::atomic<std::int64_t> connections{0};
-    std::atomic<std::uint64_t> refused_connections{0};
+    std::atomic<std::int64_t> connections{0};                            // open now
+    std::atomic<std::uint64_t> refused_connections{0}; // too many, or no memory for them
 };
 
 class TileService {

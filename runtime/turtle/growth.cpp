@@ -350,8 +350,8 @@ struct SkeletonGrowth::State {
         out.corners.resize(corners.size());
     }
 
-    /// Moves the points of an organ between those of object `old` of `before` and its own. New
-    /// points come out of the last old one.
+    /// Moves the points of the organ `object` from those of object `old` of `before` towards their
+    /// places in `after`. Points that the old organ lacks start at its last point.
     void pose_organ(std::uint32_t old,
                     double progress,
                     const PlacedObject& object,

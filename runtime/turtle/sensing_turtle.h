@@ -65,8 +65,8 @@ struct SensingOptions {
     double leaf_area = 0.0;
     /// Half the area of the triangles of FLOWER, m^2 at size 1.
     double flower_area = 0.0;
-    std::uint64_t max_bytes = ~std::uint64_t{0}; // limit of the stack of `[`
-    const std::atomic<bool>* cancelled = nullptr;
+    std::uint64_t max_bytes = ~std::uint64_t{0};  // limit of the stack of `[`
+    const std::atomic<bool>* cancelled = nullptr; // becomes true to cancel; null: never
 };
 
 class SensingTurtle {

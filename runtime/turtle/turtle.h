@@ -119,9 +119,9 @@ protected:
 struct TurtleOptions {
     /// Lengths along +Y of the files of MeshFile symbols, by symbol; empty: 1 each.
     std::vector<float> mesh_lengths;
-    std::shared_ptr<const Looks> looks;          // Skeleton::looks
-    std::uint64_t max_bytes = ~std::uint64_t{0}; // limit of the skeleton
-    const std::atomic<bool>* cancelled = nullptr;
+    std::shared_ptr<const Looks> looks;           // Skeleton::looks
+    std::uint64_t max_bytes = ~std::uint64_t{0};  // limit of the skeleton
+    const std::atomic<bool>* cancelled = nullptr; // becomes true to cancel; null: never
     /// Options of the derivation of the word, which productions of `#interpret` read.
     std::uint64_t seed = 0;
     std::uint32_t generations = 0;

@@ -211,6 +211,7 @@ private:
         }
         return result;
     }
+    /// each() for the lanes of mask_ alone; the other lanes become 0.
     template <typename Function>
     [[nodiscard]] Lanes each_taken(const Lanes& x, const Lanes& y, Function function) const {
         Lanes result;
@@ -272,7 +273,7 @@ private:
     Mask mask_;
     Mask faults_{}; // all bits set for a module with an invalid random range or distribution
     std::vector<Mask> outer_; // mask_ before each choice that is being computed, outermost first
-    std::uint64_t block_ = ~std::uint64_t{0};
+    std::uint64_t block_ = ~std::uint64_t{0}; // block of draws in units_; ~0: none yet
     std::array<Lanes, kDrawsPerBlock> units_; // the draws of block_
 };
 

@@ -47,6 +47,7 @@ public:
         const PhiloxBlock block = draw_block(key.seed, key.generation, position, key.block);
         return unit_interval(block[key.word]);
     }
+    /// Writes the draws of the `count` modules at `positions` to `units`.
     void module_draws(const std::uint64_t* positions, std::size_t count, float* units) const {
         draw_units(choice_key(), positions, count, units);
     }

@@ -125,7 +125,7 @@ void ContextTables::build_right(const C* codes) {
         std::uint64_t gap;  // the gap after the `]`
     };
     std::vector<Closed> closed;
-    std::uint64_t next = kNowhere;
+    std::uint64_t next = kNowhere;    // index of the next module on the axis
     std::uint64_t unignored = count_; // index of the next module or bracket that is not ignored
     next_.set(count_, kNowhere);
     for (std::uint64_t i = count_; i-- > 0;) {

@@ -36,6 +36,7 @@ public:
         wide_ = width(word_length) == sizeof(std::uint64_t);
         return arena_.reserve(count * width(word_length));
     }
+    /// Entry `at`: an index or kNowhere.
     [[nodiscard]] std::uint64_t get(std::uint64_t at) const {
         if (wide_) {
             return arena_.as<std::uint64_t>()[at];

@@ -36,7 +36,7 @@ Fault check_range(float minimum, float maximum) {
 
 namespace {
 
-constexpr std::uint32_t kUsualSlots = 32;
+constexpr std::uint32_t kUsualSlots = 32; // slots of local values that need no heap memory
 
 /// The Domain of interpret() whose values are numbers.
 struct Numbers : UnknownDomain<float> {

@@ -36,6 +36,7 @@ struct LevelSteps {
     [[nodiscard]] std::uint64_t count() const {
         return (std::uint64_t{last_age} - first_age + 1) * depth + (last_age - first_age);
     }
+    /// Age of the words of a level.
     [[nodiscard]] std::uint32_t age_of(std::uint64_t level) const {
         return first_age + static_cast<std::uint32_t>(level / (std::uint64_t{depth} + 1));
     }
@@ -43,6 +44,7 @@ struct LevelSteps {
     [[nodiscard]] bool rewrites(std::uint64_t level) const {
         return level % (std::uint64_t{depth} + 1) == depth;
     }
+    /// Keys of the draws of the step after `level`.
     [[nodiscard]] PassKeys keys_of(std::uint64_t level) const {
         const std::uint64_t pass = level % (std::uint64_t{depth} + 1);
         return rewrites(level)
@@ -65,9 +67,9 @@ struct LevelBlock {
 struct LevelOptions {
     bool origins = false; // whether to write the origin of each module
     std::uint64_t max_bytes = ~std::uint64_t{0};
-    std::uint64_t min_codes = 0;      // min room of a block, in modules
-    std::uint64_t min_parameters = 0; // min room of a block, in parameters
-    const std::atomic<bool>* cancelled = nullptr;
+    std::uint64_t min_codes = 0;                  // min room of a block, in modules
+    std::uint64_t min_parameters = 0;             // min room of a block, in parameters
+    const std::atomic<bool>* cancelled = nullptr; // becomes true to cancel; null: never
 };
 
 /// R: uint8_t or uint32_t, the wider of the plans' record_width().

@@ -19,7 +19,7 @@ template <typename C>
 struct WordView {
     const C* codes = nullptr;
     const float* parameters = nullptr;
-    std::uint64_t count = 0;
+    std::uint64_t count = 0; // number of modules
     std::uint64_t first_position = 0;
     const Origin* origins = nullptr; // one per module, if they are kept
 };

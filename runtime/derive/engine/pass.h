@@ -58,8 +58,8 @@ private:
     /// thread.
     template <typename C>
     void make_chunks(const WordView<C>& word);
-    /// Finds the first parameter of each chunk, if the word stores any and several threads read
-    /// them.
+    /// Finds the first parameter of each chunk if several threads read chunks. `stores`: whether
+    /// the word has parameters.
     template <typename C>
     void place_chunks(const WordView<C>& word, bool stores);
     /// Whether the mask takes less time, judged by the share of active modules among the first ones
@@ -92,6 +92,7 @@ private:
                                                    const PassKeys& keys,
                                                    ModulePlace begin,
                                                    std::uint64_t end);
+    /// Sets limit_ to a lack of memory for `bytes` bytes.
     [[nodiscard]] std::optional<Stop> report_out_of_memory(const Word& in, std::uint64_t bytes);
     [[nodiscard]] bool cancelled() const;
     /// Adds written modules; calls DeriveOptions::progress now and then.

@@ -353,7 +353,7 @@ private:
 
     const Bytecode& bytecode_;
     PlanInputs inputs_;
-    bool each_generation_;
+    bool each_generation_; // prepare() is called for each generation
     TableRange productions_;
     bool families_by_symbol_;                   // a family holds all productions of its symbol
     std::uint32_t generation_ = 0;              // argument of the last prepare()

@@ -67,7 +67,7 @@ private:
     };
     std::vector<Kind> kinds_; // by code
     std::uint64_t depth_ = 0; // open brackets since the cut, the cut branch included; 0: no cut
-    bool can_cut_ = false;
+    bool can_cut_ = false;    // some symbol is a cut
 };
 
 /// Modules and parameters of a word after its cuts.

@@ -15,9 +15,9 @@ struct Term {
     ShapeKind kind = ShapeKind::Other;
     float constant = 0.0F;
     AffineTerm affine;
-    bool scaled = false; // has a factor; a second factor would round differently
-    bool offset = false; // has an offset
-    std::size_t first_comparison = 0;
+    bool scaled = false;              // has a factor; a second factor would round differently
+    bool offset = false;              // has an offset
+    std::size_t first_comparison = 0; // index in AffineDomain::comparisons_
     std::size_t comparison_count = 0;
 };
 

@@ -131,7 +131,7 @@ struct PrintedNumbers : UnknownDomain<PrintedValue> {
     std::map<std::size_t, TracedLocal> locals; // by slot
     std::vector<std::string> choices;          // conditions of `if` in the next local value
     std::vector<PrintedValue> taken;           // values of Emit and Test instructions
-    std::string fault;
+    std::string fault;                         // why the evaluation ended early; empty: it did not
 
     /// Names the slots of local values that the last instruction has set. Other slots hold
     /// arguments of functions.
@@ -165,6 +165,7 @@ struct PrintedNumbers : UnknownDomain<PrintedValue> {
         return leaf(draws == nullptr ? 0.0F : draws->draw_branch(branch), "branch");
     }
 
+    /// Adds an operation to `parts` and returns it. `values`: its text with numbers as operands.
     PrintedValue add(PrintedValue printed, std::string values, bool is_truth) {
         printed.text = cut(std::move(printed.text));
         printed.is_truth = is_truth;

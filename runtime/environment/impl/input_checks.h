@@ -13,7 +13,7 @@
 
 namespace lsys {
 
-/// OutOfMemory or Cancelled.
+/// A failure without a message. `stop`: OutOfMemory or Cancelled.
 [[nodiscard]] inline EnvironmentFailure stopped(Stop stop) {
     EnvironmentFailure failure;
     failure.stop = stop;

@@ -132,6 +132,7 @@ private:
         }
         return steps;
     }
+    /// Key of the cell at `steps`, or with `level` above 0 of the block that contains the cell.
     [[nodiscard]] static Key key_of(const Steps& steps, std::uint32_t level) {
         const std::uint32_t shift = kBlockBits * level;
         const std::uint64_t x = steps[0] >> shift;

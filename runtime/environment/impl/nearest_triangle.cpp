@@ -221,16 +221,17 @@ private:
     }
 
     const NearestTriangle& tree_;
-    const Vector3* place_ = nullptr;
-    NearestPoint* nearest_ = nullptr;
-    std::array<Lanes, 3> at_{};    // the place in the frame
-    double margin_ = 0.0;          // FramedPlace::margin
-    float limit_ = 0.0F;           // squared distance in the frame above which nodes are skipped
-    bool is_bounded_ = false;      // whether the bounds of nodes are used
-    std::uint32_t next_index_ = 0; // 1 + index of the nearest; 0: in another mesh
-    std::uint32_t first_ = 0;
-    std::uint32_t found_ = 0;
-    std::size_t count_ = 0; // entries of `open_`
+    const Vector3* place_ = nullptr;  // `place` of start(); null before
+    NearestPoint* nearest_ = nullptr; // `nearest` of start(); null before
+    std::array<Lanes, 3> at_{};       // the place in the frame
+    double margin_ = 0.0;             // FramedPlace::margin
+    float limit_ = 0.0F;              // squared distance in the frame above which nodes are skipped
+    bool is_bounded_ = false;         // whether the bounds of nodes are used
+    /// 1 + LeafTriangle::index of the nearest triangle so far; 0: it is a triangle of another mesh.
+    std::uint32_t next_index_ = 0;
+    std::uint32_t first_ = 0; // `hint` of start()
+    std::uint32_t found_ = 0; // result of found()
+    std::size_t count_ = 0;   // entries of `open_`
     OpenNodes open_;
 };
 

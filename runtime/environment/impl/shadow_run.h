@@ -53,6 +53,8 @@ private:
     void find_targets(std::size_t begin, std::size_t end);
     /// Sets neighbours_: the tile itself and the tiles around it.
     void find_neighbours(std::size_t tile);
+    /// Adds a tile whose corner is at (x, z), counted from the corner of the tables, if the tile
+    /// overlaps the tables.
     void add_neighbour(std::size_t tile, std::int32_t x, std::int32_t z);
     /// Sets sources_ and rows_: the voxels of neighbours_ that may shade a target.
     void read_sources();
@@ -72,7 +74,8 @@ private:
     const VoxelTiles& tiles_;
     const ShadowLayers& layers_;
     std::int32_t edge_; // width of a tile, in voxels
-    /// Voxels along an axis from a target to the farthest source of it or a neighbour.
+    /// Voxels along an axis from a target to the farthest source that shades the target or one of
+    /// its 26 neighbours.
     std::int32_t reach_;
 
     std::vector<TileVoxel> targets_; // sorted by y; x and z count from the corner of the tables

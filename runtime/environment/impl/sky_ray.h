@@ -18,7 +18,8 @@ namespace lsys {
 
 class SkyRay {
 public:
-    /// `own` is the cell of `place`; `direction` is a unit vector that points upwards.
+    /// `own` is the cell of `place`; `direction` is a unit vector that points upwards; `cell` is
+    /// the edge of a cell, m.
     SkyRay(const Vector3& place, const CellIndex& own, const Vector3& direction, double cell)
         : place_(place), direction_(direction), size_(cell), at_(own) {}
 
@@ -150,6 +151,7 @@ private:
             }
         }
     }
+    /// Index along `axis` of the cell that the ray has reached at `distance`.
     [[nodiscard]] std::int64_t cell_at(std::size_t axis, double distance) const {
         const std::int64_t step = direction_[axis] > 0.0 ? 1 : -1;
         // The plane through which the ray enters a cell.

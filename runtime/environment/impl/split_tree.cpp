@@ -11,7 +11,7 @@ namespace lsys {
 
 namespace {
 
-/// A node to be filled.
+/// A node to be filled, with the items [begin, end).
 struct SplitTask {
     std::uint32_t node = 0;
     std::uint32_t begin = 0;

@@ -82,11 +82,11 @@ private:
     std::uint32_t edge_bits_;
     Workers& workers_;
     const std::atomic<bool>& cancelled_;
-    SortRecords records_; // sorted by tile, y, x, z
-    SortRecords scratch_;
-    VoxelIndex low_{};  // least index along each axis
-    VoxelIndex high_{}; // greatest
-    std::uint64_t key_step_ = 0;
+    SortRecords records_;        // sorted by tile, y, x, z
+    SortRecords scratch_;        // memory for sort_records()
+    VoxelIndex low_{};           // least index along each axis
+    VoxelIndex high_{};          // greatest
+    std::uint64_t key_step_ = 0; // see key()
     /// By voxel: its first record; last: the number of records.
     LargeVector<std::size_t> first_record_;
     LargeVector<std::size_t> first_voxel_; // by tile: its first voxel; last: the number of voxels

@@ -93,6 +93,8 @@ private:
     /// Sets the groups of all cells, the counts of instances and the final
     /// ForestPiece::counts_before; removes cells without groups.
     void find_groups();
+    /// Calls visit(stage, number of the instance among all stages, branch) for each branch of the
+    /// `count` trees from the tree `first` of the plan on.
     template <typename Visit>
     void for_each_branch_of(std::uint64_t first, std::uint64_t count, const Visit& visit) const;
     [[nodiscard]] std::vector<TreeExpander> make_expanders() const;

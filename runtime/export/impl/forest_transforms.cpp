@@ -177,7 +177,7 @@ private:
     std::uint64_t window_; // max count of instances
     Workers workers_;
     LargeVector<float> floats_; // of the window
-    bool stopped_ = false;
+    bool stopped_ = false;      // a call of write() has returned false
 };
 
 } // namespace

@@ -46,8 +46,8 @@ std::uint64_t weight_count(const MeshFilm::Shape& shape) {
 
 /// Part of an array of the animation.
 struct Slice {
-    std::size_t view = 0;
-    std::uint64_t first = 0;
+    std::size_t view = 0;    // number of the buffer view
+    std::uint64_t first = 0; // items [first, first + count) of the view
     std::uint64_t count = 0;
 };
 

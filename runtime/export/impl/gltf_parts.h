@@ -37,10 +37,10 @@ JsonWriter& begin_accessor(JsonWriter& json, const GltfAccessor& accessor);
 void put_position_bounds(JsonWriter& json, const GltfForm& form, const Bounds& bounds);
 /// A view compressed by EXT_meshopt_compression, in buffer 0.
 struct GltfPackedView {
-    std::uint64_t offset = 0;
-    std::uint64_t bytes = 0;
-    std::uint32_t stride = 0;
-    std::uint64_t count = 0;
+    std::uint64_t offset = 0;     // in the buffer
+    std::uint64_t bytes = 0;      // in the buffer
+    std::uint32_t stride = 0;     // bytes of a decoded item
+    std::uint64_t count = 0;      // items
     bool is_index_list = false;   // indices of triangles; false: attributes
     std::string_view filter = {}; // "QUATERNION"; empty: none
 };

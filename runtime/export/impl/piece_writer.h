@@ -47,6 +47,7 @@ public:
 private:
     /// Passes the buffered bytes to the sink.
     void flush();
+    /// Passes `piece` to the sink, unless the sink has refused an earlier piece.
     void pass_on(std::string_view piece);
 
     const ByteSink& sink_;

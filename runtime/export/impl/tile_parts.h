@@ -64,9 +64,9 @@ public:
     }
 
 private:
-    const PartTable* shared_;
-    std::size_t first_item_ = 0;
-    std::size_t first_buffer_ = 0;
+    const PartTable* shared_;      // null: none
+    std::size_t first_item_ = 0;   // number of items in shared_
+    std::size_t first_buffer_ = 0; // number of buffers in shared_
     std::vector<TileItem> items_;
     std::map<std::string, std::size_t> numbers_; // numbers of items, by list and key
     std::vector<TileBuffer> buffers_;

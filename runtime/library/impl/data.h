@@ -21,7 +21,7 @@ namespace lsys::v0 {
 struct Grammar::Data {
     std::string name;
     std::string file;        // FilePolicy::named: the name, or "-" for a text of the caller
-    Policy policy;           // with which it was read
+    Policy policy;           // policy with which the grammar was read
     ::lsys::Grammar grammar; // not folded; calls work on copies
     std::vector<Constant> constants;
 };

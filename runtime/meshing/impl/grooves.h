@@ -31,7 +31,7 @@ public:
     [[nodiscard]] float ridge_shift(double arc) const;
 
 private:
-    std::uint32_t count_;
+    std::uint32_t count_; // number of grooves
     BarkNoise shift_noise_;
     float begin_; // value of shift_noise_ at arc 0
 };

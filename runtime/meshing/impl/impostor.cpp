@@ -201,9 +201,9 @@ std::vector<std::size_t> trapezoids_of(const std::vector<std::size_t>& areas, st
 
 /// The point of a triangle that a sample shows.
 struct ImpostorBaker::Fragment {
-    std::uint64_t first_index = 0;
-    std::uint32_t part = 0;
-    float u = 0.0F; // weights of its first two corners
+    std::uint64_t first_index = 0; // index in Mesh::indices of its first corner
+    std::uint32_t part = 0;        // number of its mesh part
+    float u = 0.0F;                // weights of its first two corners
     float v = 0.0F;
 };
 

@@ -56,10 +56,10 @@ public:
     [[nodiscard]] double reach() const { return static_cast<double>(reach_); }
 
 private:
-    std::uint32_t count_;
-    float reach_;
-    float depth_; // depth of the ridges at the ground, in radii
-    float mean_;  // mean of all ridges around the axis
+    std::uint32_t count_; // number of roots
+    float reach_;         // reach()
+    float depth_;         // depth of the ridges at the ground, in radii
+    float mean_;          // mean of all ridges around the axis
 };
 
 } // namespace lsys

@@ -498,9 +498,9 @@ private:
 /// A tetrahedron with the shapes that determine distance and size of cells in it.
 struct Piece {
     Tetrahedron tetrahedron;
-    std::vector<std::uint32_t> near;
+    std::vector<std::uint32_t> near; // numbers of these shapes
     SolidSurface surface;
-    std::vector<std::uint64_t> keys;
+    std::vector<std::uint64_t> keys; // by vertex of `surface`: key of the edge on which it lies
 };
 
 /// Divides the root cube into six tetrahedra around its diagonal, and bisects these into pieces.

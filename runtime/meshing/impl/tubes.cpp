@@ -258,7 +258,7 @@ private:
     }
 
     const Skeleton& skeleton_;
-    bool alone_;
+    bool alone_; // no other thread writes vertices
     const Task& task_;
     TubeWriter writer_;
 };

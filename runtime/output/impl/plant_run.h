@@ -32,11 +32,11 @@ struct PlantRun {
     Mesh mesh = {};           // mesh of the last frame, or of the finest level
     /// Levels of the plant; empty if only the finest is needed.
     DetailLevels levels = {};
-    std::set<std::string> pictures = {};    // names of the written pictures, shared by all frames
-    std::optional<glm::vec3> pivot = {};    // for frames of a growth: pivot of the last plant
-    bool is_placed = false;                 // pivot and unit have been applied to the mesh
-    std::vector<Mesh>* collected = nullptr; // if not null, receives the meshes in place of files
-    const PlantVariants* variants = nullptr;
+    std::set<std::string> pictures = {};     // names of the written pictures, shared by all frames
+    std::optional<glm::vec3> pivot = {};     // for frames of a growth: pivot of the last plant
+    bool is_placed = false;                  // pivot and unit have been applied to the mesh
+    std::vector<Mesh>* collected = nullptr;  // if not null, receives the meshes in place of files
+    const PlantVariants* variants = nullptr; // ExportInfo::variants; null: none
 };
 
 /// The motion of the mesh of a file. Both null: no motion.

@@ -85,6 +85,7 @@ private:
     const CellGrid& grid_;
     double squared_spacing_;
     CellRange cells_;
+    // By candidate:
     std::vector<glm::vec2> places_;
     std::vector<std::uint32_t> ranks_;
     std::vector<std::uint8_t> quarters_; // quarter of the cell; bit 0: upper half in x; bit 1: in z

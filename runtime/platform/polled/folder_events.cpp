@@ -13,7 +13,7 @@ namespace lsys::platform {
 struct FolderEvents::State {
     std::mutex mutex; // guards is_woken
     std::condition_variable woken;
-    bool is_woken = false;
+    bool is_woken = false; // wake() was called since the last wait() ended
 };
 
 FolderEvents::Waited FolderEvents::wait(std::chrono::milliseconds time) {

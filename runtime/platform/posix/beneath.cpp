@@ -130,7 +130,7 @@ private:
 
     std::vector<File> folders_;     // from the root of the walk to the folder that it has reached
     std::vector<std::string> left_; // names that are left, last name first
-    int links_ = 0;
+    int links_ = 0;                 // number of symbolic links followed so far
 };
 
 } // namespace

@@ -123,9 +123,9 @@ bool may_be_repeated(int reason) {
 
 /// The lines of one call of ask().
 struct ShellProgram::Exchange {
-    std::string out;         // bytes to be written
-    std::size_t written = 0; // number of bytes of `out` that have been written
-    std::uint64_t max_bytes = 0;
+    std::string out;             // bytes to be written
+    std::size_t written = 0;     // number of bytes of `out` that have been written
+    std::uint64_t max_bytes = 0; // max bytes of the answer
 };
 
 ShellProgram::~ShellProgram() {

@@ -18,7 +18,7 @@ namespace {
 /// The result of parsing a statement without errors.
 struct ParsedStatement {
     std::string tree; // dump of the syntax tree, which leaves out redundant parentheses
-    std::size_t redundant_groups = 0;
+    std::size_t redundant_groups = 0; // number of pairs of redundant parentheses
 };
 
 /// The text of the statement `#set names` of a file; empty if there is none.

@@ -74,7 +74,7 @@ public:
     [[nodiscard]] FixedGrammar take() { return std::move(fixed_); }
 
 private:
-    using Errors = std::set<std::pair<DiagnosticCode, std::string>>;
+    using Errors = std::set<std::pair<DiagnosticCode, std::string>>; // codes and messages
 
     void read_files();           // adds files read for the first time to files_
     void read_syntax_errors();   // sets with_syntax_errors_

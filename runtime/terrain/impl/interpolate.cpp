@@ -16,6 +16,7 @@ struct Place {
     double part = 0.0;
 };
 
+/// `at`: position among `count` samples, where sample i is at i.
 Place place(double at, std::uint32_t count) {
     const double clamped = std::clamp(at, 0.0, static_cast<double>(count - 1));
     const std::uint32_t index = std::min(static_cast<std::uint32_t>(clamped), count - 2);

@@ -21,10 +21,10 @@ float mix(float a, float b, float part) {
 
 /// Consecutive points of a row of the grid that lie in one lattice cell.
 struct NoiseRun {
-    const float* offsets; // along X
-    const float* weights; // along X
-    double* sums;
-    std::size_t count;
+    const float* offsets; // NoiseAxis::offsets along X
+    const float* weights; // NoiseAxis::weights along X
+    double* sums;         // to which the noise is added
+    std::size_t count;    // number of points
 };
 
 /// Contribution of a lattice point to the noise along a row: along_x * (distance along X) + rest.
@@ -33,13 +33,14 @@ struct RowProduct {
     float rest; // z component of the gradient times the distance along Z
 };
 
-/// The four lattice points of a cell, and the constants of a row.
+/// The four lattice points of a cell, near or far along X and then along Z, and the constants of a
+/// row. Near points are at or below the points of the row, far points are the next above.
 struct RowCell {
-    RowProduct near_near; // near along X, near along Z
+    RowProduct near_near;
     RowProduct near_far;
     RowProduct far_near;
     RowProduct far_far;
-    float weight_z;
+    float weight_z; // weight of the lattice points that are far along Z
     double amplitude;
 };
 
@@ -84,8 +85,8 @@ NoiseLayer::NoiseLayer(float height) {
     // Near a lattice point the noise is the dot product of gradient and distance, up to an error of
     // third order. The distance along X is 32 times the distance along Z, so that one noise value
     // determines both components of the gradient.
-    constexpr float kNear = 0x1p-7F;
-    constexpr float kNearest = 0x1p-12F;
+    constexpr float kNear = 0x1p-7F;     // distance along X, in lattice cells
+    constexpr float kNearest = 0x1p-12F; // distance along Z, in lattice cells
     const auto lattice = std::make_shared<Lattice>();
     for (std::uint32_t x = 0; x < kPeriod; ++x) {
         for (std::uint32_t z = 0; z < kPeriod; ++z) {

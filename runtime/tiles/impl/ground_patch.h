@@ -18,7 +18,7 @@ namespace lsys {
 
 struct PatchPlan {
     std::uint32_t cells = 1; // along each side
-    Region region;           // of the scene
+    Region region;           // the part of the scene's ground that the patch covers
     const TileFrame& frame;
     double skirt = 0.0; // m, depth of the skirt below the surface
     Material material;

@@ -18,7 +18,8 @@ constexpr std::uint32_t kGroundCells = 128; // max number of cells along a side 
 /// Ratio of the side of a tile to its error. With this ratio, clients that allow an error of 16
 /// pixels in views of about 1,000 pixels show the tile at a distance of about one side.
 constexpr double kSidesOfError = 64.0;
-constexpr double kCoarser = 1.5; // factor by which errors are raised if a level has too much
+/// Factor by which errors are raised if a level has too many triangles or branches.
+constexpr double kCoarser = 1.5;
 
 class Planner {
 public:
@@ -91,7 +92,7 @@ private:
         const ForestStage& stage = needs_.forest.species[hero.species].stages[hero.stage];
         return !hero.ends_at_exits && stage.cache.instances[hero.instance].slot == 0;
     }
-    /// Mean number of triangles per tree if the same number of trees stands for each plant.
+    /// Mean number of triangles per tree if each plant is shown for the same number of trees.
     [[nodiscard]] double mean_triangles(std::span<const std::size_t> detail) const {
         double sum = 0.0;
         std::size_t plants = 0;

@@ -49,7 +49,7 @@ struct LevelPlan {
     std::vector<TileLevel> levels;
     std::uint32_t first_tree_level = 0;     // the first level with single trees
     std::vector<std::uint32_t> cells;       // by level: cells along a side of a tile's surface
-    std::vector<double> skirts;             // m, by level: height below the surface
+    std::vector<double> skirts;             // m, by level: depth of the skirts below the surface
     std::vector<LevelDetail> details;       // by level; empty for levels without trees
     std::vector<std::size_t> canopy_levels; // by hero: level of detail of plants in a canopy
 

@@ -69,6 +69,7 @@ private:
         buffer_.resize((buffer_.size() + kAlignment - 1) / kAlignment * kAlignment, '\0');
         return part;
     }
+    /// Makes the document of a mesh and puts its pictures into the current file.
     MeshDocument add(const Mesh& mesh, const ExportInfo& info) {
         MeshDocument model = make_mesh_document(mesh, info);
         waiting_bytes_ += model.data.size();

@@ -131,6 +131,7 @@ private:
         return {{"bitstream", add_view(bytes)}, {"availableCount", count}};
     }
 
+    /// Appends bytes to the buffer and returns the index of their buffer view.
     std::size_t add_view(const std::string& bytes) {
         views_.push_back(
             {{"buffer", 0}, {"byteOffset", data_.size()}, {"byteLength", bytes.size()}});
@@ -139,6 +140,7 @@ private:
         return views_.size() - 1;
     }
 
+    /// The bytes of the file: a header, `json` and the buffer.
     [[nodiscard]] std::string file_of(std::string json) const {
         pad(json, ' ');
         std::string file = "subt";
@@ -150,9 +152,9 @@ private:
 
     const TilesetPlan& plan_;
     const TileId& root_;
-    std::uint32_t depth_; // number of levels of the subtree
-    Json views_ = Json::array();
-    std::string data_;
+    std::uint32_t depth_;        // number of levels of the subtree
+    Json views_ = Json::array(); // buffer views
+    std::string data_;           // the buffer
 };
 
 /// The box of the whole square, which clients divide into quarters. Its axes are turned by 180

@@ -47,13 +47,16 @@ struct FollowedDrawings {
     std::span<const Origin> ancestors;
     std::size_t modules; // modules of the earlier word, up to the last with an item or descendant
 
+    /// Items of the earlier drawing, by the module that drew them. `origins`: of these items.
     [[nodiscard]] ItemsByModule old_items(const LargeVector<Origin>& origins) const {
         return {origins.size(), modules, [&](std::size_t i) { return origins[i].place; }};
     }
+    /// Items of the later drawing, by the ancestor of the module that drew them.
     [[nodiscard]] ItemsByModule new_items(const LargeVector<Origin>& origins) const {
         return {origins.size(), modules,
                 [&](std::size_t i) { return ancestors[origins[i].place].place; }};
     }
+    /// Whether the module that drew segment `segment` of `after` was copied, not rewritten.
     [[nodiscard]] bool is_copy(std::uint32_t segment) const {
         return (ancestors[after.segment_origins[segment].place].generation & ~kFollowed) !=
                generation;

@@ -14,12 +14,12 @@
 namespace lsys {
 
 struct OpenPolygon {
-    std::size_t first_vertex = 0;  // index in OpenPolygons::vertices_
-    std::size_t first_on_path = 0; // index in OpenPolygons::path_
-    glm::quat frame{1.0F, 0.0F, 0.0F, 0.0F};
-    Origin origin;              // origin of its `{`
-    std::uint64_t position = 0; // index of its `{` in the word
-    Code code = 0;              // code of its `{`
+    std::size_t first_vertex = 0;            // index in OpenPolygons::vertices_
+    std::size_t first_on_path = 0;           // index in OpenPolygons::path_
+    glm::quat frame{1.0F, 0.0F, 0.0F, 0.0F}; // frame of the turtle at its `{`
+    Origin origin;                           // origin of its `{`
+    std::uint64_t position = 0;              // index of its `{` in the word
+    Code code = 0;                           // code of its `{`
     std::uint32_t picture = kNoPicture;
 };
 

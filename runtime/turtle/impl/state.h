@@ -138,6 +138,7 @@ struct Turtle::State {
     bool execute(const Action& action, const float* arguments);
     // `part`: factor of the length.
     bool forward(const Action& action, const float* arguments, float part);
+    /// forward() with the setting `tropisms`.
     bool forward_with_tropisms(const Action& action, const float* arguments, float part);
     bool move(double length, bool adds_corners); // without drawing
     /// Arguments: length, base width, tip width.
@@ -247,7 +248,7 @@ struct Turtle::State {
     std::unique_ptr<Interpretation> interpretation; // made with the first piece
     std::vector<Code> piece;                        // codes that are interpreted, widened to Code
     PendingCommand pending;
-    bool keeps_origins = false; // set only for words of L3D
+    bool keeps_origins = false; // the word of L3D has origins; not used for other words
     TurtleTraits traits;
     bool has_tropism = false;        // Settings::has_tropism
     bool has_second_heading = false; // a module of the bytecode uses the second heading

@@ -28,8 +28,8 @@ struct TextCommand {
 
     /// Reads the next module.
     [[nodiscard]] TextStep take(const Action& action);
-    /// The number at the start of the text, after blanks and a sign; 0 if there is none. No value if
-    /// 1 stands for the default of `command`, as in L3D itself (`is_compatible`).
+    /// The number at the start of the text, after blanks and a sign; 0 if there is none. No value
+    /// if the number is 1, `is_compatible` is true, and 1 means the default of `command` in L3D.
     [[nodiscard]] std::optional<float> parameter(TurtleOperation command, bool is_compatible) const;
 };
 

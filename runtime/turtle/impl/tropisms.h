@@ -56,8 +56,8 @@ private:
     void untwist(SensingPose& pose) const;
     /// Stores heading and up axis as those at the end of the last segment.
     void keep(const SensingPose& pose);
-    /// Index of the row with the number `number` from 1 on among Before and Twist; the count of
-    /// rows if there is none.
+    /// Index of the row that has number `number`, from 1 on, among the rows of the kinds Before and
+    /// Twist; the count of all rows if there is none.
     [[nodiscard]] std::size_t row_of(float number) const;
 
     StepTropisms rows_; // the rows of the setting

@@ -65,6 +65,7 @@ struct ForestCounts {
 /// Cheap to copy, immutable, safe to use from several threads at once.
 class LSYS_API Forest {
 public:
+    /// The seed of all choices of the trees.
     [[nodiscard]] std::uint64_t key() const;
     [[nodiscard]] const std::vector<Species>& species() const;
     [[nodiscard]] std::span<const Tree> trees() const;

@@ -44,7 +44,7 @@ struct Constant {
 struct PredictedSize {
     double low = 0.0;
     double high = 0.0;
-    double low_segments = 0.0;
+    double low_segments = 0.0; // bounds of the number of modules that draw a segment
     double high_segments = 0.0;
     std::uint64_t max_bytes = 0; // size of a word of `high` modules; saturates
 };

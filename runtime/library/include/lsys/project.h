@@ -82,8 +82,9 @@ struct Limits {
 /// Restrictions for grammars and scenes that are not trusted.
 struct Policy {
     /// Grammars and scenes name only files in `root` or below: no absolute path, `..` or symbolic
-    /// link leads out, and only regular files are read. Limits that are not set become those of the
-    /// next two members, and 1 GiB for Limits::max_bytes. Host::read_file is not restricted.
+    /// link leads out, and only regular files are read. Limits that are not set get defaults: for
+    /// max_seconds and max_output see below, for Limits::max_bytes 1 GiB. Host::read_file is not
+    /// restricted.
     bool untrusted = false;
     /// The folder of the files; empty: the folder of the grammar or scene, none for a text.
     std::string root;
