@@ -17,7 +17,7 @@ os.chdir(os.path.dirname(os.path.abspath(__file__)))
 draw = random.Random(5)
 
 # Half of a leaf: the envelope is broadest beyond the middle; five round lobes, and ears at the base.
-ENVELOPE = [(0, 0.06), (0.1, 0.14), (0.3, 0.22), (0.55, 0.32), (0.72, 0.33), (0.88, 0.24), (1, 0.02)]
+ENVELOPE = [(0, 0.06), (0.1, 0.14), (0.3, 0.22), (0.55, 0.31), (0.72, 0.31), (0.88, 0.22), (1, 0.02)]
 
 
 def lobed_outline():
@@ -26,10 +26,8 @@ def lobed_outline():
         t = i / 60
         half = float(np.interp(t, [p for p, _ in ENVELOPE], [w for _, w in ENVELOPE]))
         wave = abs(math.cos(math.pi * (4.6 * t + 0.55))) ** 0.7
-        outline.append((t, half * (0.5 + 0.55 * wave) if t < 0.97 else half))
+        outline.append((t, half * (0.3 + 0.74 * wave) if t < 0.97 else half))
     return outline + [(1, 0)]
-
-
 
 
 def leafy(card, place, direction, length, bend, leaves):
@@ -42,13 +40,13 @@ def leafy(card, place, direction, length, bend, leaves):
         place = ahead
         heading += bend / steps + draw.uniform(-9, 9)
         last = i == steps - 1
-        for angle in ((-80, -40, -4, 36, 76) if last else (draw.choice((-62, 62)),)):
+        for angle in ((-84, -42, 0, 42, 84) if last else (draw.choice((-62, 62)),)):
             if not leaves:
                 card.line([place, along(place, heading + 0.6 * angle, draw.uniform(0.05, 0.16))], 0.011, (124, 106, 90))
                 continue
             tone = draw.uniform(0.74, 1.0)
             hue = draw.uniform(-10, 10)
-            leaf(card, place, heading + angle + draw.uniform(-12, 12), draw.uniform(0.125, 0.155), lobed_outline(),
+            leaf(card, place, heading + angle + draw.uniform(-12, 12), draw.uniform(0.14, 0.175), lobed_outline(),
                  ((218 + hue) * tone, 224 * tone, (190 - hue) * tone), (240 * tone, 242 * tone, 206 * tone),
                  veins=5, vein_angle=48, stalk=0.03)
 
