@@ -18,10 +18,12 @@ card = Card(448, 512)
 def fan(place, direction, length):
     end = along(place, direction, length)
     card.line([place, end], 0.008, (176, 184, 110))
-    for angle in (-74, -44, -20, 4, 30, 58):
+    # Leaves stand by turns in two rows; the last continues the twig.
+    for i, part in enumerate((0.25, 0.45, 0.6, 0.75, 0.88, 1)):
         tone = draw.uniform(0.74, 1)
-        leaf(card, along(place, direction, length * draw.uniform(0.7, 1)), direction + angle + draw.uniform(-8, 8),
-             draw.uniform(0.22, 0.32), BLADE, (212 * tone, 226 * tone, 180 * tone), (238, 244, 206), veins=0, stalk=0.03)
+        angle = 0 if part == 1 else (62 - 40 * part) * (1 if i % 2 else -1)
+        leaf(card, along(place, direction, length * part), direction + angle + draw.uniform(-8, 8),
+             draw.uniform(0.2, 0.29), BLADE, (212 * tone, 226 * tone, 180 * tone), (238, 244, 206), veins=0, stalk=0.03)
 
 
 for start, direction, length in ((0.02, -52, 0.26), (0.06, 50, 0.28), (0.3, -40, 0.22), (0.36, 44, 0.2)):
