@@ -258,7 +258,7 @@ inline constexpr std::uint32_t kMaxColourIndex = 65535;
 
 struct Bytecode {
     Settings settings;
-    std::optional<std::uint32_t> generations; // value of #n
+    std::optional<std::uint32_t> generations; // value of #n; unset if the grammar has no #n
 
     std::vector<std::string> files; // paths; FileId of a Site indexes them
     std::vector<BytecodeSymbol> symbols;
@@ -281,7 +281,7 @@ struct Bytecode {
     std::vector<BytecodeMaterial> materials;       // sorted by index
     std::vector<BytecodeEnvironment> environments; // in source order, all kinds
     std::uint32_t stack_depth = 0;                 // max stack depth of any code
-    std::uint32_t local_count = 0;                 // max number of slots of any code
+    std::uint32_t local_count = 0;                 // max number of local values' slots of any code
 
     /// The range of productions of a stage.
     [[nodiscard]] TableRange productions_of(Stage stage) const;

@@ -104,6 +104,7 @@ public:
     Reader& outside_digest() { return *this; }
     void implied(bool /*value*/) {}
     [[nodiscard]] bool failed() const { return failed_; }
+    /// Number of bytes not read yet.
     [[nodiscard]] std::size_t left() const { return bytes_.size(); }
 
     template <std::unsigned_integral T>

@@ -35,7 +35,7 @@ public:
 private:
     struct Link {
         std::string path; // normalised
-        SourceSpan included_at;
+        SourceSpan included_at; // place of the path in the #include
     };
     const ParseContext& context_;
     std::vector<Link> chain_;

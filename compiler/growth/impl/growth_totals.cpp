@@ -42,6 +42,8 @@ Bounds sum(const Terms& terms, const std::vector<Bounds>& values) {
     return total;
 }
 
+/// For each class, bounds of the size that one of its modules has after g generations; g starts at
+/// 0.
 class TotalsTable {
 public:
     explicit TotalsTable(ModuleClasses& classes) : classes_(classes), values_(classes.count()) {
@@ -121,10 +123,10 @@ private:
 
     ModuleClasses& classes_;
     std::vector<Bounds> values_; // by class: size of the modules that one module has become
-    std::vector<ClassId> all_;
+    std::vector<ClassId> all_;   // all classes
     /// Classes by rule, in sequential rewriting; else empty.
     std::vector<std::vector<ClassId>> by_rule_;
-    std::uint64_t terms_ = 0;
+    std::uint64_t terms_ = 0; // number of terms of all outcomes of expanded classes
 };
 
 } // namespace

@@ -44,7 +44,7 @@ private:
 
     Resolution& resolution_;
     std::vector<Latest> latest_; // by name: the last symbol looked up
-    std::unordered_map<std::uint64_t, SymbolId> symbols_;
+    std::unordered_map<std::uint64_t, SymbolId> symbols_; // by name and number of parameters
     std::unordered_map<std::uint32_t, Binding> bindings_; // by NameId; so are senses_
     std::unordered_map<std::uint32_t, Sense> senses_;
     std::vector<bool> ignored_; // by name: ignore() was called; considered_: consider() was
