@@ -236,7 +236,7 @@ struct Program {
     bool has_all_statements = false;
     Settings settings;
     std::optional<std::uint32_t> generations; // value of #n; unset if the grammar has no #n
-    SourceSpan generations_span;    // place of the number in #n
+    SourceSpan generations_span;              // place of the number in #n
     SourceSpan height_span;         // place of the key in `#set height`; kNoFile if missing
     SourceSpan pipe_span;           // place of the key in `#set pipe`; kNoFile if missing
     std::vector<std::string> files; // paths by FileId

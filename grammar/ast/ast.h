@@ -70,9 +70,9 @@ struct Expression {
     std::uint32_t begin = 0; // the bytes of the expression are [begin, end)
     std::uint32_t end = 0;
     union {
-        float value;       // Number
-        NameId name;       // Name, Call
-        ExpressionId left; // Unary, Binary, Range, Grouping
+        float value;                      // Number
+        NameId name;                      // Name, Call
+        ExpressionId left;                // Unary, Binary, Range, Grouping
         std::uint32_t bits = 0xFFFFFFFFu; // initialises the union
     };
     union {

@@ -150,8 +150,8 @@ private:
     /// State of the last name of the current module list. Decides whether parentheses may follow
     /// it.
     enum class LastName : std::uint8_t {
-        None,  // no name yet, or a character that was reported because it is not a module
-        Empty, // an empty text in back quotes
+        None,   // no name yet, or a character that was reported because it is not a module
+        Empty,  // an empty text in back quotes
         Bare,   // a module without parentheses
         Called, // a module with parentheses
     };
@@ -226,8 +226,8 @@ private:
     };
     std::vector<CachedWord> word_cache_; // recent names of up to eight characters
 
-    std::vector<ExpressionId> arguments_; // stack of argument(): arguments that no node has taken yet
-    std::uint32_t open_brackets_ = 0; // `[` of the current module list
+    std::vector<ExpressionId> arguments_; // stack: arguments that no node has taken yet
+    std::uint32_t open_brackets_ = 0;     // `[` of the current module list
     LastName last_name_ = LastName::None;
     /// Place of the last module of the current list in the original file; for translations only.
     SourceSpan list_place_;

@@ -34,7 +34,7 @@ public:
 
 private:
     struct Link {
-        std::string path; // normalised
+        std::string path;       // normalised
         SourceSpan included_at; // place of the path in the #include
     };
     const ParseContext& context_;

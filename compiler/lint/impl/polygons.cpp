@@ -170,8 +170,8 @@ private:
         std::vector<OpenPolygon> open;        // innermost last
         bool nesting_reported = false;        // one message per word
         std::optional<std::size_t> first_end; // the first `}` without its `{`
-        std::size_t opened = 0; // number of `{`
-        std::size_t closed = 0; // number of `}`
+        std::size_t opened = 0;               // number of `{`
+        std::size_t closed = 0;               // number of `}`
         for (std::size_t i = word.first_module;
              i < std::size_t{word.first_module} + word.module_count; ++i) {
             const SymbolId id = program_.modules[i].symbol;

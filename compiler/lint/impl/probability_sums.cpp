@@ -24,7 +24,7 @@ constexpr const char* kUseWeights =
 
 struct Group {
     double sum = 0.0;
-    bool has_fixed_sum = true; // no member has a condition or a weight in error
+    bool has_fixed_sum = true;          // no member has a condition or a weight in error
     std::vector<std::uint32_t> members; // indices of productions
 };
 

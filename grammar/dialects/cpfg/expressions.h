@@ -173,7 +173,7 @@ private:
     std::set<Stage> reported_stages_;       // stages whose step statements have been reported
     std::set<std::string> warned_;          // each `what` of warn_left_out()
     KnownValues known_values_;
-    int loops_ = 0;                    // loops that are being unrolled, one in another
+    int loops_ = 0;                    // number of nested loops that are being unrolled
     std::size_t loop_statements_ = 0;  // statements of loops run so far
     std::uint32_t draws_ = 0;          // random numbers of the production so far
     std::size_t end_of_constants_ = 0; // see end_of_constants()

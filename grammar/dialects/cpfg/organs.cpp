@@ -63,7 +63,8 @@ bool take(std::string_view& line, std::string_view label) {
     return true;
 }
 
-/// Appends a point `times`; returns false if the line is no point.
+/// Appends a point, with `has_times` as often as the last number of the line says. Returns false if
+/// the line is no point.
 bool append_point(std::string_view line, bool has_times, ContourFile& file) {
     const std::optional<double> x = first_number(line);
     const std::optional<double> y = first_number(line);
@@ -73,11 +74,11 @@ bool append_point(std::string_view line, bool has_times, ContourFile& file) {
     std::uint32_t times = 1;
     if (has_times) {
         static_cast<void>(first_number(line)); // z
-        const auto given = first_count(line, kMaxPoints);
-        if (!given) {
+        const auto written_times = first_count(line, kMaxPoints);
+        if (!written_times) {
             return false;
         }
-        times = *given;
+        times = *written_times;
     }
     file.points.insert(file.points.end(), times, CurvePoint{*x, *y});
     return file.points.size() <= kMaxPoints;

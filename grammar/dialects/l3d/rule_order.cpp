@@ -166,8 +166,8 @@ void report_rule_order(const std::vector<L3dRule>& rules,
     }
     // Bisection finds a swap between the two orders that changes the word.
     const std::vector<std::size_t> places = swaps_of_sort(sorted);
-    std::size_t same = 0;
-    std::size_t differs = places.size();
+    std::size_t same = 0;                // number of swaps after which the words are equal
+    std::size_t differs = places.size(); // number of swaps after which a word differs
     while (differs - same > 1) {
         const std::size_t middle = same + (differs - same) / 2;
         const Order order = exchanged(sorted, places, middle);
