@@ -70,12 +70,13 @@ void merge_groups(Diagnostics& diagnostics,
         std::stable_sort(indices.begin(), indices.end(), [&](std::size_t a, std::size_t b) {
             return is_before(all[a].span, all[b].span);
         });
-        Diagnostic& kept = all[indices.front()];
+        Diagnostic& first_message = all[indices.front()];
         for (std::size_t i = 1; i < indices.size(); ++i) {
             const Diagnostic& other = all[indices[i]];
             is_dropped[indices[i]] = true;
             if (other.span != all[indices[i - 1]].span) {
-                kept.labels.push_back({other.span, by_shape ? other.message : "here, too"});
+                first_message.labels.push_back(
+                    {other.span, by_shape ? other.message : "here, too"});
             }
         }
     }

@@ -68,13 +68,14 @@ private:
     }
 
     void check_equal_conditions(std::span<const std::uint32_t> productions) {
-        std::unordered_map<std::string, std::uint32_t> met; // by key(): the first production
+        std::unordered_map<std::string, std::uint32_t>
+            first_of_key; // index of the production, by key()
         for (const std::uint32_t p : productions) {
             if (code(p).condition == kNone || code(p).stochastic ||
                 is_meant_as_probability(input_, production(p))) {
                 continue;
             }
-            const auto [place, is_new] = met.emplace(key(p), p);
+            const auto [place, is_new] = first_of_key.emplace(key(p), p);
             const Production& earlier = production(place->second);
             // Conditions with different constants may be equal only until a user changes a
             // constant.

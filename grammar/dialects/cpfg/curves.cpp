@@ -158,13 +158,13 @@ std::vector<CurvePoint> chords(const std::vector<CurvePoint>& samples) {
             spans.emplace_back(worst, to);
         }
     }
-    std::vector<CurvePoint> kept;
+    std::vector<CurvePoint> vertices;
     for (std::size_t i = 0; i < samples.size(); ++i) {
         if (wanted[i]) {
-            kept.push_back(samples[i]);
+            vertices.push_back(samples[i]);
         }
     }
-    return kept;
+    return vertices;
 }
 
 /// The binary32 nearest to `value`, as text.

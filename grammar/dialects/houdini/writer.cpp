@@ -393,17 +393,17 @@ std::vector<ForeignId> HoudiniWriter::arguments(const HoudiniModule& module,
                                                 std::uint32_t skip,
                                                 const HoudiniScope& scope) {
     const HoudiniSymbol& known = symbols_.symbol(module);
-    const std::uint32_t given = symbols_.count(module);
-    const std::uint32_t count = known.is_command ? given : known.max_count;
+    const std::uint32_t written_count = symbols_.count(module);
+    const std::uint32_t count = known.is_command ? written_count : known.max_count;
     std::vector<ForeignId> terms;
     if (count > HoudiniSymbols::kMaxParameters) {
         report_syntax(module.parentheses, "a module with so many parameters is not read");
         return terms;
     }
-    const SourceSpan place = given != 0 ? module.parentheses : module.symbol;
+    const SourceSpan place = written_count != 0 ? module.parentheses : module.symbol;
     for (std::uint32_t i = skip; i < count; ++i) {
         const bool is_given =
-            i < given && session_.node(module.arguments[i]).kind != ForeignKind::Missing;
+            i < written_count && session_.node(module.arguments[i]).kind != ForeignKind::Missing;
         terms.push_back(is_given ? expressions_.term(module.arguments[i], scope)
                                  : omitted_argument(module, i, place));
     }
