@@ -57,8 +57,8 @@ enum class OperandKind : std::uint8_t {
 struct OpcodeInfo {
     std::string_view mnemonic;
     OperandKind operand;
-    std::uint8_t pops;
-    std::uint8_t pushes;
+    std::uint8_t pops;   // number of values taken from the stack
+    std::uint8_t pushes; // number of values pushed onto the stack
     std::string_view meaning;
 };
 template <>
@@ -120,9 +120,9 @@ struct FoldedModule {
 
 /// A place in a source file for messages. Has line and column, so messages need no source text.
 struct Site {
-    SourceSpan span; // its FileId is an index in Bytecode::files
-    std::uint32_t line = 0;
-    std::uint32_t column = 0;
+    SourceSpan span;          // its FileId is an index in Bytecode::files
+    std::uint32_t line = 0;   // from 1
+    std::uint32_t column = 0; // from 1
 };
 
 /// The instructions from `instruction` up to the next range belong to one site.
@@ -206,7 +206,7 @@ struct BytecodeGlobal {
     std::uint32_t draw_position = 0;
     std::uint32_t draw_count = 0; // random ranges and distributions
     bool has_bounds = false;      // true for a #param
-    float minimum = 0.0F;
+    float minimum = 0.0F;         // bounds of a #param
     float maximum = 0.0F;
     std::uint32_t site = kNone; // index in sites
 };
@@ -245,7 +245,7 @@ struct BytecodeMaterial {
     std::uint32_t index = 0; // colour index, up to kMaxColourIndex
     bool has_colour = false;
     std::array<float, 3> colour{}; // sRGB, 0 to 1
-    BytecodePicture picture;       // of the colour
+    BytecodePicture picture;       // picture of the colour
     BytecodePicture normal;        // normal map
     bool has_roughness = false;
     float roughness = 0.0F; // 0 to 1

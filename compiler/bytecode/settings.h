@@ -110,7 +110,7 @@ struct Flare {
 
     friend bool operator==(const Flare&, const Flare&) = default;
 };
-inline constexpr float kMaxFlare = 10.0F; // of `factor`
+inline constexpr float kMaxFlare = 10.0F; // max of Flare::factor
 inline constexpr std::uint32_t kMinRoots = 3;
 inline constexpr std::uint32_t kMaxRoots = 9;
 

@@ -176,7 +176,7 @@ struct ProgramMaterial {
     std::uint32_t index = 0;                    // a colour index, up to 65,535
     SourceSpan span;                            // place of the index
     std::optional<std::array<float, 3>> colour; // sRGB, 0 to 1
-    MaterialPictureName picture;                // of the colour
+    MaterialPictureName picture;                // picture of the colour
     MaterialPictureName normal;                 // normal map
     std::optional<float> roughness;
     std::optional<float> translucency;

@@ -141,7 +141,8 @@ public:
     void recover();
 
     /// Ends the current statement: keeps its nodes, or rolls the nodes back and marks the Ast as
-    /// incomplete. Returns whether the statement was kept.
+    /// incomplete. `is_complete`: the statement has no syntax error. Returns whether the statement
+    /// was kept.
     bool finish_statement(SourceSpan span, bool is_complete);
     /// Protects all present nodes from rollbacks, for example the nodes of an included file.
     void set_watermark();

@@ -18,7 +18,7 @@ namespace {
 /// How a value arises: exact in binary32, a rounded literal, a result that may be rounded.
 enum class Level : std::uint8_t { Exact, Literal, Computed };
 
-constexpr int kMaxRounds = 16; // of propagate()
+constexpr int kMaxRounds = 16; // max number of calls of propagate()
 
 class EqualityCheck {
 public:

@@ -103,7 +103,7 @@ private:
     struct NonFiniteCause {
         SourceSpan span;
         std::string reason;
-        std::optional<SourceSpan> definition; // of the constant that is to blame; unset for others
+        std::optional<SourceSpan> definition; // of the constant that is the cause, if one is
     };
     struct Function {
         Opcode opcode;

@@ -591,7 +591,7 @@ private:
     const ParseContext* context_; // null: no mistake is reported
     AbopFile file_;
     Open open_ = Open::Nothing;       // the statement that an indented line continues
-    SourceSpan open_span_;            // of that statement
+    SourceSpan open_span_;            // place of the statement of open_
     SourceSpan more_;                 // the rest of the line after a setting
     std::vector<SourceSpan> bare_;    // lines of symbols before the first rule
     std::vector<SourceSpan> unread_;  // lines without meaning

@@ -150,7 +150,7 @@ void CpfgExpressions::loop(const CpfgStatement& statement) {
         const std::uint64_t errors = session_.context.diagnostics.count(Severity::Error);
         run(statement.block);
         if (session_.context.diagnostics.count(Severity::Error) != errors) {
-            break; // each round would repeat them
+            break; // each further round would repeat the errors
         }
     }
     --loops_;

@@ -215,7 +215,7 @@ CpfgView read_view(std::string_view text, const FileBeside& beside) {
 
 std::vector<double> curve_table(const CpfgCurve& curve) {
     constexpr std::size_t kDegree = 3;
-    constexpr double kError = 1e-3; // of x, at which cpfg ends its search
+    constexpr double kError = 1e-3; // error of x at which cpfg ends its search
     std::vector<double> table;
     if (curve.samples < 3 || curve.samples > kMaxTable || curve.points.size() <= kDegree) {
         return table;

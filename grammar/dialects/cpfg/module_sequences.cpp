@@ -15,7 +15,7 @@ namespace {
 
 using Modules = std::vector<CpfgModule>;
 
-constexpr std::size_t kMaxLetters = 16; // of a module name in back quotes
+constexpr std::size_t kMaxLetters = 16; // max length of a module name in back quotes
 
 bool is_same(const CpfgModule& a, const CpfgModule& b) {
     return a.name == b.name && a.arguments.size() == b.arguments.size();

@@ -26,7 +26,7 @@ struct CpfgOrgans {
     /// Points around the turtle, relative to the width: x to the right, y up; closed if the last
     /// equals the first. Empty for a file that cannot be read.
     std::map<std::uint32_t, std::vector<CurvePoint>> contours;
-    std::map<std::uint32_t, std::string> contour_files;
+    std::map<std::uint32_t, std::string> contour_files; // name of the file, by number
     std::uint32_t sides = 0; // number of sides of a contour; 0: not given
 };
 /// Reads the surfaces and contours of a view file with the text `view`.

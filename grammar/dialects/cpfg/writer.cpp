@@ -422,7 +422,7 @@ bool CpfgWriter::check_production(const CpfgProduction& production) {
         (contexts || production.predecessor.size() > 1)) {
         session_.report_unsupported(*session_.ring, "contexts in a ring L-system, whose word has "
                                                     "no ends");
-        session_.ring.reset(); // one report
+        session_.ring.reset(); // report the ring once
         return false;
     }
     if (contexts && production.stage == Stage::Decompose) {
