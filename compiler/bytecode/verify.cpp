@@ -428,6 +428,8 @@ private:
         return has_no(code_.problem(place, first, bounds));
     }
 
+    /// Whether the productions use all of each table, and the stated sizes of the stack and of the
+    /// slots are those that the code needs.
     bool ends() {
         if (next_pattern_ != bytecode_.patterns.size() ||
             next_code_ != bytecode_.template_codes.size() ||

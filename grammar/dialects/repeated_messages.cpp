@@ -35,6 +35,9 @@ std::string shape_of(std::string_view message) {
 
 using Key = std::tuple<DiagnosticCode, Severity, std::string>;
 
+/// Indices of the diagnostics from `first` on that have the same text, or if `by_shape`, of the
+/// warnings whose texts have the same shape_of(). Notes and diagnostics without a place are left
+/// out.
 std::map<Key, std::vector<std::size_t>>
 group(const std::vector<Diagnostic>& all, std::size_t first, bool by_shape) {
     std::map<Key, std::vector<std::size_t>> groups;

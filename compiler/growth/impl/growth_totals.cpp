@@ -98,6 +98,8 @@ public:
     }
 
 private:
+    /// Replaces the sizes of these classes by those one generation later, all at once: each is the
+    /// range of the sums over the outcomes of the class.
     void rewrite(const std::vector<ClassId>& ids) {
         std::vector<std::pair<ClassId, Bounds>> new_bounds;
         new_bounds.reserve(ids.size());

@@ -112,6 +112,7 @@ private:
         return id == kNoValue ? Level::Exact : levels_[static_cast<std::size_t>(id)];
     }
 
+    /// The level of value `i` by those of its operands; level() has the levels found so far.
     Level level_of(std::size_t i) const {
         const Value& value = program_.values[i];
         const Level left = level(value.left);

@@ -173,6 +173,8 @@ private:
         return id != kNoName && index_of(id) < known_.size() && known_[index_of(id)];
     }
 
+    /// Whether the word is neither a known module name, nor in the file outside its comments, nor
+    /// such names written together.
     [[nodiscard]] bool is_foreign(std::string_view word, FileId file) {
         const FileWords& words = words_of(file);
         if (is_letters(file)) {

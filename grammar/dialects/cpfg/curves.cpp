@@ -34,6 +34,7 @@ std::optional<std::string_view> value_of(std::string_view line, std::string_view
     return trimmed(line.substr(key.size()), kWhitespace);
 }
 
+/// Removes a number from the beginning of `text`; false if there is none or it is not finite.
 bool read_number(std::string_view& text, double& value) {
     text = trimmed(text, kWhitespace);
     const auto [end, error] = number_from_chars(text.data(), text.data() + text.size(), value);
@@ -111,6 +112,7 @@ CurvePoint spline(const std::vector<CurvePoint>& points, std::size_t degree, dou
     return control[degree];
 }
 
+/// Points of the spline with these control points, at equal distances in x.
 std::vector<CurvePoint> sampled(const std::vector<CurvePoint>& points) {
     const std::size_t degree = std::min<std::size_t>(points.size() - 1, 3);
     const auto spans = static_cast<double>(points.size() - degree);

@@ -28,6 +28,8 @@ struct ContourFile {
     std::vector<CurvePoint> points;
 };
 
+// The functions first_... and take() remove what they read from the beginning of their argument.
+
 std::string_view first_line(std::string_view& text) {
     return trimmed(take_line(text), kBlanks);
 }
@@ -48,6 +50,7 @@ std::optional<double> first_number(std::string_view& line) {
     return is_number ? std::optional(value) : std::nullopt;
 }
 
+/// A number from 0 to `max`, without its fraction.
 std::optional<std::uint32_t> first_count(std::string_view& line, double max) {
     const std::optional<double> number = first_number(line);
     return number && *number >= 0.0 && *number <= max
@@ -55,6 +58,7 @@ std::optional<std::uint32_t> first_count(std::string_view& line, double max) {
                : std::nullopt;
 }
 
+/// Whether the line begins with `label`.
 bool take(std::string_view& line, std::string_view label) {
     if (!line.starts_with(label)) {
         return false;

@@ -45,6 +45,7 @@ Level level_of(const ForeignNode& node) {
 Level left_level(Level level) {
     return level == Equal || level == Compare ? Sum : level == Power ? Single : level;
 }
+/// The same for the right operand.
 Level right_level(Level level) {
     return level == Equal || level == Compare ? Sum
            : level == Power                   ? Power

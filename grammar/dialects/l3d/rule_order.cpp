@@ -46,6 +46,7 @@ std::vector<Key> keys_of(const std::vector<L3dRule>& rules, const SourceMap& sou
     return keys;
 }
 
+/// The text with each `key` replaced by `value`.
 std::string replaced(const std::string& text, std::string_view key, std::string_view value) {
     std::string out;
     std::size_t at = 0;
@@ -128,6 +129,7 @@ std::vector<std::size_t> swaps_of_sort(Order order) {
     return places;
 }
 
+/// The order after the first `count` of the swaps `places`.
 Order exchanged(Order order, const std::vector<std::size_t>& places, std::size_t count) {
     for (std::size_t i = 0; i < count; ++i) {
         std::swap(order[places[i]], order[places[i] + 1]);
