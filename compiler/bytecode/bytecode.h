@@ -57,8 +57,8 @@ enum class OperandKind : std::uint8_t {
 struct OpcodeInfo {
     std::string_view mnemonic;
     OperandKind operand;
-    std::uint8_t pops;
-    std::uint8_t pushes;
+    std::uint8_t pops;   // number of values taken from the stack
+    std::uint8_t pushes; // number of values pushed onto the stack
     std::string_view meaning;
 };
 template <>
@@ -120,9 +120,9 @@ struct FoldedModule {
 
 /// A place in a source file for messages. Has line and column, so messages need no source text.
 struct Site {
-    SourceSpan span; // its FileId is an index in Bytecode::files
-    std::uint32_t line = 0;
-    std::uint32_t column = 0;
+    SourceSpan span;          // its FileId is an index in Bytecode::files
+    std::uint32_t line = 0;   // from 1
+    std::uint32_t column = 0; // from 1
 };
 
 /// The instructions from `instruction` up to the next range belong to one site.
@@ -206,7 +206,7 @@ struct BytecodeGlobal {
     std::uint32_t draw_position = 0;
     std::uint32_t draw_count = 0; // random ranges and distributions
     bool has_bounds = false;      // true for a #param
-    float minimum = 0.0F;
+    float minimum = 0.0F;         // bounds of a #param
     float maximum = 0.0F;
     std::uint32_t site = kNone; // index in sites
 };
@@ -245,7 +245,7 @@ struct BytecodeMaterial {
     std::uint32_t index = 0; // colour index, up to kMaxColourIndex
     bool has_colour = false;
     std::array<float, 3> colour{}; // sRGB, 0 to 1
-    BytecodePicture picture;       // of the colour
+    BytecodePicture picture;       // picture of the colour
     BytecodePicture normal;        // normal map
     bool has_roughness = false;
     float roughness = 0.0F; // 0 to 1
@@ -258,7 +258,7 @@ inline constexpr std::uint32_t kMaxColourIndex = 65535;
 
 struct Bytecode {
     Settings settings;
-    std::optional<std::uint32_t> generations; // value of #n
+    std::optional<std::uint32_t> generations; // value of #n; unset if the grammar has no #n
 
     std::vector<std::string> files; // paths; FileId of a Site indexes them
     std::vector<BytecodeSymbol> symbols;
@@ -281,7 +281,7 @@ struct Bytecode {
     std::vector<BytecodeMaterial> materials;       // sorted by index
     std::vector<BytecodeEnvironment> environments; // in source order, all kinds
     std::uint32_t stack_depth = 0;                 // max stack depth of any code
-    std::uint32_t local_count = 0;                 // max number of slots of any code
+    std::uint32_t local_count = 0;                 // max number of local values' slots of any code
 
     /// The range of productions of a stage.
     [[nodiscard]] TableRange productions_of(Stage stage) const;

@@ -44,8 +44,8 @@ enum class DistributionFault : std::uint8_t {
 /// error about 1e-16: algorithm AS 241, PPND16 (Wichura 1988).
 [[nodiscard]] double normal_quantile(double p);
 /// Quantiles: the smallest k with P(X <= k) > u, for u in [0, 1). If rounding keeps the sum of the
-/// probabilities at or below u, the first k above the mean that adds nothing to the sum; for a
-/// binomial distribution `trials`.
+/// probabilities at or below u, the result is the first k above the mean that adds nothing to the
+/// sum; for a binomial distribution the result is then `trials`.
 [[nodiscard]] std::uint32_t poisson_quantile(double mean, double u);
 [[nodiscard]] std::uint32_t binomial_quantile(std::uint32_t trials, double probability, double u);
 

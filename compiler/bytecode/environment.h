@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The environments that `#sense` declares and modules `?NAME` ask (docs/language.md section 13).
-// All lengths are in metres, in the plant's own axes, +Y up.
+// All lengths are in metres, in the plant's own axes, +Y up. A place is the position of the turtle
+// at a module that asks.
 #pragma once
 
 #include "grammar/base/counted_enum.h"
@@ -34,8 +35,9 @@ LSYS_COUNTED_ENUM(EnvironmentKind,
 /// The shape that holds the markers of an environment of kind Space.
 LSYS_COUNTED_ENUM(SpaceShape, Box, Ball, Dome, Cone, Mesh);
 
-/// Numbers of an answer of each kind. Program: the program decides, so the number is unknown.
+/// Result of answer_size() for Program: the external program decides how many numbers it answers.
 inline constexpr std::uint32_t kUnknownAnswerSize = 0xFFFFFFFFu;
+/// How many numbers an answer of this kind has.
 [[nodiscard]] constexpr std::uint32_t answer_size(EnvironmentKind kind) {
     switch (kind) {
     case EnvironmentKind::Sky:
@@ -65,7 +67,7 @@ struct BytecodeEnvironment {
     EnvironmentKind kind = EnvironmentKind::Shadow;
     std::uint32_t site = 0xFFFFFFFFu; // index in Bytecode::sites: the name in the statement
     float cell = 0.5F;                // edge of a voxel; > 0
-    std::uint32_t levels = 8;         // layers of voxels below a place that it shades; up to 255
+    std::uint32_t levels = 8;         // layers of voxels that a place shades below its own; to 255
     float strength = 0.2F;            // shadow that a place adds to its own voxel; >= 0
     float ratio = 2.0F;               // shadow of a layer / shadow of the layer below it; > 0
     float extinction = 0.5F;          // extinction coefficient of light per leaf area index; >= 0
@@ -73,7 +75,7 @@ struct BytecodeEnvironment {
     SpaceShape shape = SpaceShape::Box;
     std::array<float, 3> size{}; // Space: x y z, > 0; Map: x z 0, > 0; unused by SpaceShape::Mesh
     std::array<float, 3> at{};   // Space: middle of the base, x y z; Map: middle, x z 0
-    std::uint32_t count = 1;     // markers; 1 to 2^26
+    std::uint32_t count = 1;     // number of markers; 1 to 2^26
     float radius = 1.0F;         // max distance at which a place sees markers or places; > 0
     float angle = 90.0F;         // full opening of the cone of view, degrees; above 0, up to 360
     float kill = 0.0F;           // markers nearer than this to a place vanish; >= 0

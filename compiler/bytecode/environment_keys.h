@@ -62,17 +62,17 @@ struct EnvironmentKey {
 [[nodiscard]] std::vector<std::string_view> environment_keys_of(EnvironmentKind kind);
 /// A description of the kind and its answer, for hovers and documents.
 [[nodiscard]] std::string_view meaning_of(EnvironmentKind kind);
-/// "(q, x, y, z)".
+/// Names of the numbers in an answer of this kind, such as "(q, x, y, z)".
 [[nodiscard]] std::string_view answer_text(EnvironmentKind kind);
 [[nodiscard]] std::optional<EnvironmentKind> find_environment_kind(std::string_view word);
 /// The words of the kinds, in their order.
 [[nodiscard]] std::vector<std::string_view> environment_kind_names();
 
-/// Numbers of a Vector.
+/// Number of components of a Vector: x z for Map, else x y z.
 [[nodiscard]] constexpr std::uint32_t axes_of(EnvironmentKind kind) {
     return kind == EnvironmentKind::Map ? 2 : 3;
 }
-/// Number of values behind a key.
+/// Number of values after one occurrence of a key.
 [[nodiscard]] constexpr std::uint32_t value_count(const EnvironmentKey& key, EnvironmentKind kind) {
     return key.form == EnvironmentKeyForm::Vector  ? axes_of(kind)
            : key.form == EnvironmentKeyForm::Plane ? 4

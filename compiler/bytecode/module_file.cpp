@@ -104,6 +104,7 @@ public:
     Reader& outside_digest() { return *this; }
     void implied(bool /*value*/) {}
     [[nodiscard]] bool failed() const { return failed_; }
+    /// Number of bytes not read yet.
     [[nodiscard]] std::size_t left() const { return bytes_.size(); }
 
     template <std::unsigned_integral T>
@@ -148,10 +149,10 @@ public:
     }
     void optional_number(std::optional<std::uint32_t>& value) {
         bool has = false;
-        std::uint32_t given = 0;
+        std::uint32_t stored = 0;
         truth(has);
-        number(given);
-        value = has ? std::optional(given) : std::nullopt;
+        number(stored);
+        value = has ? std::optional(stored) : std::nullopt;
     }
     /// Same as table(): only the digest treats an empty table specially.
     template <typename Row, typename Function>

@@ -79,8 +79,8 @@ struct StepTropism {
     TropismKind kind = TropismKind::None;
     std::array<float, 3> direction{}; // its length is a factor of the strength
     float strength = 0.0F;            // at the start of the word
-    float increment = 0.0F;           // of the strength, by commands without a number
-    float angle = 0.0F;               // of Before, in degrees between heading and direction
+    float increment = 0.0F;           // change of the strength by commands without a parameter
+    float angle = 0.0F; // degrees from the direction to the heading that Before turns towards
 
     friend bool operator==(const StepTropism&, const StepTropism&) = default;
 };
@@ -110,7 +110,7 @@ struct Flare {
 
     friend bool operator==(const Flare&, const Flare&) = default;
 };
-inline constexpr float kMaxFlare = 10.0F; // of `factor`
+inline constexpr float kMaxFlare = 10.0F; // max of Flare::factor
 inline constexpr std::uint32_t kMinRoots = 3;
 inline constexpr std::uint32_t kMaxRoots = 9;
 

@@ -347,6 +347,8 @@ private:
         return true;
     }
 
+    /// Checks a context or predecessor of production `index`. Adds its formals to `formals`, the
+    /// number of formals before it. `brackets`: whether the pattern may have brackets.
     bool pattern(std::size_t index, TableRange range, std::uint64_t& formals, bool brackets) {
         if (!consecutive(range, next_pattern_, bytecode_.patterns.size())) {
             return fail("production {} has a pattern out of place", index);
@@ -426,6 +428,8 @@ private:
         return has_no(code_.problem(place, first, bounds));
     }
 
+    /// Whether the productions use all of each table, and the stated sizes of the stack and of the
+    /// slots are those that the code needs.
     bool ends() {
         if (next_pattern_ != bytecode_.patterns.size() ||
             next_code_ != bytecode_.template_codes.size() ||
@@ -442,7 +446,7 @@ private:
     const Bytecode& bytecode_;
     std::vector<std::uint32_t> parameters_; // per symbol: number of parameters
     std::string problem_;
-    // The first elements of the tables that no part of the program so far has.
+    // Index of the first pattern and of the first template code that no part checked so far uses.
     std::uint64_t next_pattern_ = 0;
     std::uint64_t next_code_ = 0;
     CodeVerifier code_;

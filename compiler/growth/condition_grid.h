@@ -27,14 +27,15 @@ struct GridCell {
     float high = 0.0F;
 };
 
+/// A value of one parameter that stands for its cell.
 struct GridSample {
     float value = 0.0F;
-    std::uint32_t cell = 0;
+    std::uint32_t cell = 0; // index in GridAxis::cells
 };
 
 /// A parameter that the conditions depend on.
 struct GridAxis {
-    std::uint32_t parameter = 0;
+    std::uint32_t parameter = 0;     // index of the parameter in its module
     bool compared = false;           // a condition compares it with another parameter
     std::vector<GridCell> cells;     // ascending, without gaps
     std::vector<GridSample> samples; // ascending; one per cell, up to three if compared

@@ -25,7 +25,7 @@ constexpr std::uint64_t kMaxListWork = 5'000'000;
 struct Listing {
     std::vector<GenerationSize> low;
     std::vector<GenerationSize> high;
-    std::vector<double> expected;
+    std::vector<double> expected; // mean numbers of modules
     std::optional<std::uint32_t> unchanged_from;
     SymbolId depends_on = kNoSymbol; // see GrowthPrediction::depends_on
 };

@@ -57,7 +57,7 @@ struct GrowthPrediction {
     /// The expected counts of the listed generations. Known for stochastic systems without contexts
     /// if the truth of all conditions is known before the derivation.
     bool has_expected = false;
-    std::vector<double> expected_modules;
+    std::vector<double> expected_modules; // by generation
     /// The last requested generation, even if it is not listed.
     bool has_last = false;
     GenerationSize last_low;

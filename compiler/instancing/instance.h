@@ -27,8 +27,9 @@ struct InstancedSystem {
     std::size_t kind_count = 0; // number of different valid branches
 };
 
-/// Compiles the instanced system, in which each valid branch is taken with probability `rho` in
-/// [0, 1]. Returns nothing if the system cannot be instanced, after reporting the reasons.
+/// Compiles the instanced system, in which each valid branch is replaced by a recorded branch with
+/// probability `rho` in [0, 1]. Returns nothing if the system cannot be instanced, after reporting
+/// the reasons.
 [[nodiscard]] std::optional<InstancedSystem> compile_instanced(Program program,
                                                                const Names& names,
                                                                const SourceMap& sources,

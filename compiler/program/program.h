@@ -57,7 +57,7 @@ struct Symbol {
     NameId name = kNoName;
     std::uint32_t parameter_count = 0;
     SymbolKind kind = SymbolKind::Plain;
-    bool ignored = false;                              // in contexts
+    bool ignored = false;                              // contexts skip the symbol
     TurtleOperation turtle = TurtleOperation::Nothing; // effect of a module on the turtle
     std::string mesh_file;        // for MeshFile; for SetContour: the name of a contour, or empty
     Sense sense = Sense::Nothing; // quantity that a sense module reads
@@ -116,7 +116,7 @@ struct Production {
     ProgramPattern left;
     ProgramPattern predecessor;
     ProgramPattern right;
-    std::vector<NameId> formals; // left, predecessor, right
+    std::vector<NameId> formals; // of the left context, the predecessor and the right context
     std::vector<SourceSpan> formal_spans;
     ValueId condition = kNoValue;
     SourceSpan condition_span;
@@ -146,7 +146,7 @@ struct Global {
     ValueId value = kNoValue;
     std::uint32_t draw_position = 0; // index of its first draw among all of #define, #param, #w
     std::uint32_t draw_count = 0;    // random ranges and distributions
-    bool has_bounds = false;
+    bool has_bounds = false;         // true for a #param
     float minimum = 0.0F;
     float maximum = 0.0F;
 };
@@ -176,7 +176,7 @@ struct ProgramMaterial {
     std::uint32_t index = 0;                    // a colour index, up to 65,535
     SourceSpan span;                            // place of the index
     std::optional<std::array<float, 3>> colour; // sRGB, 0 to 1
-    MaterialPictureName picture;                // of the colour
+    MaterialPictureName picture;                // picture of the colour
     MaterialPictureName normal;                 // normal map
     std::optional<float> roughness;
     std::optional<float> translucency;
@@ -201,8 +201,8 @@ struct Constant {
     bool is_random = false;
     bool is_used = false; // an expression reads it
     float value = 0.0F;
-    std::uint32_t global = kNone;
-    float minimum = 0.0F;
+    std::uint32_t global = kNone; // index in Program::globals
+    float minimum = 0.0F;         // bounds of a #param
     float maximum = 0.0F;
 };
 
@@ -235,8 +235,8 @@ struct Program {
     /// missing in the grammar, too.
     bool has_all_statements = false;
     Settings settings;
-    std::optional<std::uint32_t> generations;
-    SourceSpan generations_span;    // place of the number in #n
+    std::optional<std::uint32_t> generations; // value of #n; unset if the grammar has no #n
+    SourceSpan generations_span;              // place of the number in #n
     SourceSpan height_span;         // place of the key in `#set height`; kNoFile if missing
     SourceSpan pipe_span;           // place of the key in `#set pipe`; kNoFile if missing
     std::vector<std::string> files; // paths by FileId
@@ -254,7 +254,7 @@ struct Program {
     std::vector<ProgramContour> contours;         // in source order
     std::vector<ProgramMaterial> materials;       // in source order, one per colour index
     std::vector<ProgramEnvironment> environments; // in source order; Symbol::sense numbers them
-    std::vector<Production> productions;          // by stage
+    std::vector<Production> productions;          // sorted by stage
     std::uint32_t rule_count = 0;                 // rules: productions with equal predecessors
     std::uint32_t context_group_count = 0; // groups: productions of a rule with equal contexts
     std::vector<Axiom> axioms;             // axioms; at least one if `is_valid`

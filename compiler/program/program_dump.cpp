@@ -324,6 +324,7 @@ private:
         }
     }
 
+    /// `production`: the production of the word; the arguments name its formals. Null for an axiom.
     void word(const ProgramWord& word, const Production* production) {
         std::size_t argument = word.first_argument;
         for (std::uint32_t i = 0; i < word.module_count; ++i) {
@@ -339,7 +340,8 @@ private:
     }
 
     /// Writes operations as functions of their operands, so that readers need no precedence.
-    /// Iterative, since an expression may be nested as deep as its file is long.
+    /// Iterative, since an expression may be nested as deep as its file is long. `production`: null
+    /// outside of productions.
     void value(ValueId root, const Production* production) {
         struct Step {
             ValueId value;
@@ -410,7 +412,7 @@ private:
 
     const Program& program_;
     const Names& names_;
-    bool has_labels_;
+    bool has_labels_; // write the names of productions
     std::string out_;
 };
 

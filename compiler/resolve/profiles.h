@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The turtle profiles of docs/language.md section 7 as data: the commands of each profile. The
-// names of the profiles are in turtle_profiles.def. Used where symbols are made and by the checks;
+// names of the profiles are in turtle_profiles.def. SymbolTable and the checks read the commands;
 // the runtime uses only their operations.
 #pragma once
 
@@ -18,16 +18,16 @@ namespace lsys {
 struct TurtleCommand {
     constexpr TurtleCommand() = default;
     /// Takes the parameters from the row of the operation in turtle_operations.def.
-    constexpr TurtleCommand(std::string_view own_name, TurtleOperation own_operation)
-        : TurtleCommand(own_name,
-                        own_operation,
-                        info(own_operation).parameter_count,
-                        info(own_operation).parameters) {}
-    constexpr TurtleCommand(std::string_view own_name,
-                            TurtleOperation own_operation,
+    constexpr TurtleCommand(std::string_view module_name, TurtleOperation turtle_operation)
+        : TurtleCommand(module_name,
+                        turtle_operation,
+                        info(turtle_operation).parameter_count,
+                        info(turtle_operation).parameters) {}
+    constexpr TurtleCommand(std::string_view module_name,
+                            TurtleOperation turtle_operation,
                             std::uint8_t parameter_count,
                             std::string_view meanings)
-        : name(own_name), operation(own_operation), max_parameters(parameter_count),
+        : name(module_name), operation(turtle_operation), max_parameters(parameter_count),
           parameters(meanings) {}
 
     std::string_view name;

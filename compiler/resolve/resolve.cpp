@@ -243,6 +243,7 @@ private:
         return false;
     }
 
+    /// Reports a grammar without an axiom or without a number of generations.
     void check_missing() {
         if (resolution_.options.part) {
             return;

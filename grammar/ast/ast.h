@@ -70,10 +70,10 @@ struct Expression {
     std::uint32_t begin = 0; // the bytes of the expression are [begin, end)
     std::uint32_t end = 0;
     union {
-        float value;       // Number
-        NameId name;       // Name, Call
-        ExpressionId left; // Unary, Binary, Range, Grouping
-        std::uint32_t bits = 0xFFFFFFFFu;
+        float value;                      // Number
+        NameId name;                      // Name, Call
+        ExpressionId left;                // Unary, Binary, Range, Grouping
+        std::uint32_t bits = 0xFFFFFFFFu; // initialises the union
     };
     union {
         ExpressionId right;                     // Binary, Range
@@ -380,7 +380,7 @@ private:
     FileId file_;
     std::uint32_t index_;
     std::uint32_t end_;
-    std::size_t call_; // the first call at or after index_
+    std::size_t call_; // index in Ast::calls of the first call of a module from index_ on
 };
 
 } // namespace lsys

@@ -344,8 +344,8 @@ void AstBuilder::mark_incomplete() {
 }
 
 bool AstBuilder::finish_statement(SourceSpan span, bool is_complete) {
-    const bool kept = is_complete && !is_discarded_ && check_room(span);
-    if (!kept) {
+    const bool is_kept = is_complete && !is_discarded_ && check_room(span);
+    if (!is_kept) {
         rollback();
         ast_.incomplete = true;
     } else if (has_node_) {
@@ -358,7 +358,7 @@ bool AstBuilder::finish_statement(SourceSpan span, bool is_complete) {
     arguments_.clear();
     production_ = ProductionNode{};
     list_place_ = {};
-    return kept;
+    return is_kept;
 }
 
 void AstBuilder::set_watermark() {

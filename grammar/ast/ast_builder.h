@@ -105,6 +105,7 @@ public:
     /// Adds the name of a contour to the #object added last.
     void contour_of_object(NameId contour, SourceSpan span);
     void include(NameId path, SourceSpan span);
+    // set_word(), set_number() and set_file() add a value to the next set(), material() or sense().
     void set_word(NameId word, SourceSpan span);
     void set_number(ExpressionId value, SourceSpan span);
     void set_file(NameId path, SourceSpan span);
@@ -122,7 +123,7 @@ public:
     void condition(ExpressionId condition);
     void probability(SourceSpan tilde, ExpressionId probability);
     /// Sets name and stage of the current production. `label`: place of the name, perhaps with
-    /// the `#`.
+    /// the `#`; `condition`: place of the condition.
     void production_front(NameId name,
                           SourceSpan label,
                           SourceSpan condition,
@@ -140,7 +141,8 @@ public:
     void recover();
 
     /// Ends the current statement: keeps its nodes, or rolls the nodes back and marks the Ast as
-    /// incomplete. Returns whether the statement was kept.
+    /// incomplete. `is_complete`: the statement has no syntax error. Returns whether the statement
+    /// was kept.
     bool finish_statement(SourceSpan span, bool is_complete);
     /// Protects all present nodes from rollbacks, for example the nodes of an included file.
     void set_watermark();
@@ -149,10 +151,10 @@ private:
     /// State of the last name of the current module list. Decides whether parentheses may follow
     /// it.
     enum class LastName : std::uint8_t {
-        None,  // no name yet, or a character that was reported because it is not a module
-        Empty, // an empty text in back quotes
-        Bare,
-        Called, // a module with parameters
+        None,   // no name yet, or a character that was reported because it is not a module
+        Empty,  // an empty text in back quotes
+        Bare,   // a module without parentheses
+        Called, // a module with parentheses
     };
     /// Sizes of the Ast without the current statement, to which a rollback returns.
     struct Watermark {
@@ -225,8 +227,8 @@ private:
     };
     std::vector<CachedWord> word_cache_; // recent names of up to eight characters
 
-    std::vector<ExpressionId> arguments_;
-    std::uint32_t open_brackets_ = 0; // `[` of the current module list
+    std::vector<ExpressionId> arguments_; // stack: arguments that no node has taken yet
+    std::uint32_t open_brackets_ = 0;     // `[` of the current module list
     LastName last_name_ = LastName::None;
     /// Place of the last module of the current list in the original file; for translations only.
     SourceSpan list_place_;

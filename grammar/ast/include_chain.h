@@ -34,11 +34,11 @@ public:
 
 private:
     struct Link {
-        std::string path; // normalised
-        SourceSpan included_at;
+        std::string path;       // normalised
+        SourceSpan included_at; // place of the path in the #include
     };
     const ParseContext& context_;
-    std::vector<Link> chain_;
+    std::vector<Link> chain_;                      // files from the root to the innermost
     std::unordered_map<std::string, FileId> read_; // files read so far, by normalised path
     std::uint32_t inclusions_ = 0;                 // number of inclusions so far
 };

@@ -346,7 +346,7 @@ void AstBuilder::remove_slashes(std::uint32_t begin) {
 }
 
 void AstBuilder::record_slashes(std::uint32_t slashes) {
-    // Maximum per grammar; bounds the memory for files that use `//` to roll the turtle twice.
+    // Max number of recorded `//` per grammar, since files may use `//` often, to roll twice.
     constexpr std::size_t kMaxKept = 10'000;
     const std::size_t next = scanned_.text.find_first_not_of(" \t", slashes + 2);
     if (next != std::string_view::npos && is_letter(scanned_.text[next]) &&

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Inputs and outputs of every front end. Front ends read no files; the host supplies included files
-// through FileLoader.
+// Inputs and outputs of every front end. Front ends read no files; the calling program supplies
+// included files through FileLoader.
 #pragma once
 
 #include "grammar/base/diagnostic.h"

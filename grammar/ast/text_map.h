@@ -38,7 +38,7 @@ private:
     struct Edit {
         std::uint32_t source_begin = 0;
         std::uint32_t source_end = 0;
-        std::uint32_t text_end = 0;
+        std::uint32_t text_end = 0; // end of the replacement in text_
     };
     [[nodiscard]] std::size_t edits_ending_by(std::uint32_t offset) const;
 

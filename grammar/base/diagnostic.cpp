@@ -146,11 +146,11 @@ void Diagnostics::sort_by_place() {
     const auto same = [](const Diagnostic& a, const Diagnostic& b) {
         return a.code == b.code && a.span == b.span && a.message == b.message;
     };
-    const auto kept = std::unique(all_.begin(), all_.end(), same);
-    for (auto dropped = kept; dropped != all_.end(); ++dropped) {
+    const auto unique_end = std::unique(all_.begin(), all_.end(), same);
+    for (auto dropped = unique_end; dropped != all_.end(); ++dropped) {
         --counts_[static_cast<std::size_t>(dropped->severity)];
     }
-    all_.erase(kept, all_.end());
+    all_.erase(unique_end, all_.end());
 }
 
 bool Diagnostics::has_doubtful_error_from(std::size_t first) const {

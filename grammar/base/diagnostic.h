@@ -138,7 +138,7 @@ public:
     /// Gives each diagnostic the severity that `severity_of` returns for it, or removes it.
     template <typename SeverityOf>
     void reassign_severities(const SeverityOf& severity_of) {
-        std::size_t kept = 0;
+        std::size_t kept_count = 0;
         for (std::size_t i = 0; i < all_.size(); ++i) {
             const std::optional<Severity> severity = severity_of(std::as_const(all_[i]));
             --counts_[static_cast<std::size_t>(all_[i].severity)];
@@ -147,12 +147,12 @@ public:
             }
             ++counts_[static_cast<std::size_t>(*severity)];
             all_[i].severity = *severity;
-            if (kept != i) {
-                all_[kept] = std::move(all_[i]);
+            if (kept_count != i) {
+                all_[kept_count] = std::move(all_[i]);
             }
-            ++kept;
+            ++kept_count;
         }
-        all_.erase(all_.begin() + static_cast<std::ptrdiff_t>(kept), all_.end());
+        all_.erase(all_.begin() + static_cast<std::ptrdiff_t>(kept_count), all_.end());
     }
     /// Adds the warnings beyond kMaxStored to the count of errors.
     void promote_unstored_warnings();

@@ -37,6 +37,7 @@ public:
 
 private:
     std::map<DiagnosticCode, MessageLevel> codes_;
+    // Levels of warnings and of notes whose code has no level of its own; unset: they have none.
     std::optional<MessageLevel> warnings_;
     std::optional<MessageLevel> notes_;
 };

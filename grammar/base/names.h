@@ -31,7 +31,7 @@ public:
     [[nodiscard]] std::string_view written(NameId id) const;
 
 private:
-    std::deque<std::string> texts_;
+    std::deque<std::string> texts_; // by NameId
     std::unordered_map<std::string_view, NameId> ids_;
     std::map<NameId, std::string> written_; // originals of replaced names
 };

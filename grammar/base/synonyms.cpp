@@ -43,8 +43,8 @@ std::string_view called_function(std::string_view spelling) {
 const Synonym* find_synonym(SynonymKind kind, std::string_view word, const FunctionTest& exists) {
     const auto* const found =
         std::find_if(std::begin(kSynonyms), std::end(kSynonyms), [&](const Synonym& row) {
-            const std::string_view own = row.word.substr(0, row.word.find('('));
-            if (row.kind != kind || !is_same_word(own, word)) {
+            const std::string_view name = row.word.substr(0, row.word.find('('));
+            if (row.kind != kind || !is_same_word(name, word)) {
                 return false;
             }
             const std::string_view function = called_function(row.spelling);

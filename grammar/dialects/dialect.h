@@ -72,7 +72,8 @@ struct DetectedDialect {
 /// parsed.
 [[nodiscard]] bool check_is_lsys(FileId root, const ParseContext& context);
 
-/// parse_lsys() of a file of any dialect. `text`, if given, gets the .lsys text of a foreign file.
+/// parse_lsys() of a file of any dialect. `text`, if not null, gets the .lsys text of a foreign
+/// file.
 [[nodiscard]] Ast parse_dialect(FileId root,
                                 Dialect dialect,
                                 const ParseContext& context,

@@ -227,8 +227,8 @@ std::optional<OtherLanguage> recognise_format(const std::vector<Line>& lines) {
 
 /// Help text for a file in a dialect that lsc reads.
 std::string reading_of(const DialectRow& row) {
-    const std::string_view own = row.dialect == Dialect::Lparser ? ".ls" : ".l";
-    const std::string_view extensions = row.extensions.empty() ? own : row.extensions;
+    const std::string_view usual_extension = row.dialect == Dialect::Lparser ? ".ls" : ".l";
+    const std::string_view extensions = row.extensions.empty() ? usual_extension : row.extensions;
     return "give it a name that ends with `" +
            std::string(extensions.substr(0, extensions.find(' '))) + "`, or write `--dialect " +
            std::string(row.name) + "`";

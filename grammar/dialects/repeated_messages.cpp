@@ -35,6 +35,9 @@ std::string shape_of(std::string_view message) {
 
 using Key = std::tuple<DiagnosticCode, Severity, std::string>;
 
+/// Indices of the diagnostics from `first` on that have the same text, or if `by_shape`, of the
+/// warnings whose texts have the same shape_of(). Notes and diagnostics without a place are left
+/// out.
 std::map<Key, std::vector<std::size_t>>
 group(const std::vector<Diagnostic>& all, std::size_t first, bool by_shape) {
     std::map<Key, std::vector<std::size_t>> groups;
@@ -70,12 +73,13 @@ void merge_groups(Diagnostics& diagnostics,
         std::stable_sort(indices.begin(), indices.end(), [&](std::size_t a, std::size_t b) {
             return is_before(all[a].span, all[b].span);
         });
-        Diagnostic& kept = all[indices.front()];
+        Diagnostic& first_message = all[indices.front()];
         for (std::size_t i = 1; i < indices.size(); ++i) {
             const Diagnostic& other = all[indices[i]];
             is_dropped[indices[i]] = true;
             if (other.span != all[indices[i - 1]].span) {
-                kept.labels.push_back({other.span, by_shape ? other.message : "here, too"});
+                first_message.labels.push_back(
+                    {other.span, by_shape ? other.message : "here, too"});
             }
         }
     }

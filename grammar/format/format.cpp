@@ -81,6 +81,7 @@ private:
         column_ = 0;
     }
 
+    /// Sets LayoutRow::comments_end.
     void find_comments(LayoutRow& row) const {
         std::size_t next = row.end;
         while (next < text_.size() && (text_[next] == ' ' || text_[next] == '\t')) {

@@ -20,7 +20,7 @@ enum class MessageFormat : std::uint8_t {
 
 struct RenderOptions {
     MessageFormat format = MessageFormat::Human;
-    bool colour = false;
+    bool colour = false;          // write escape sequences for colours
     std::uint32_t max_shown = 50; // a last line counts the others; JSON has all stored diagnostics
     const char* program = "lsc";  // replaces the path of a diagnostic without a file
 };

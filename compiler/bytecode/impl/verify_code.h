@@ -20,10 +20,10 @@ enum class CodePlace : std::uint8_t { Global, Axiom, Condition, Locals, Successo
 
 /// Limits of the operands of a piece of code, and the number of values that it must produce.
 struct CodeBounds {
-    std::uint32_t formals = 0;
-    std::uint32_t globals = kNone; // kNone: no limit
-    std::uint32_t draws = 0;
-    std::uint32_t emits = 1;
+    std::uint32_t formals = 0;     // number of formals
+    std::uint32_t globals = kNone; // number of globals; kNone: no limit
+    std::uint32_t draws = 0;       // number of draws
+    std::uint32_t emits = 1;       // exact number of values that Emit or Test must take
 };
 
 /// Verifies the pieces of code of a bytecode, which follow each other without gaps.

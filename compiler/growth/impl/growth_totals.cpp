@@ -42,6 +42,8 @@ Bounds sum(const Terms& terms, const std::vector<Bounds>& values) {
     return total;
 }
 
+/// For each class, bounds of the size that one of its modules has after g generations; g starts at
+/// 0.
 class TotalsTable {
 public:
     explicit TotalsTable(ModuleClasses& classes) : classes_(classes), values_(classes.count()) {
@@ -96,6 +98,8 @@ public:
     }
 
 private:
+    /// Replaces the sizes of these classes by those one generation later, all at once: each is the
+    /// range of the sums over the outcomes of the class.
     void rewrite(const std::vector<ClassId>& ids) {
         std::vector<std::pair<ClassId, Bounds>> new_bounds;
         new_bounds.reserve(ids.size());
@@ -121,10 +125,10 @@ private:
 
     ModuleClasses& classes_;
     std::vector<Bounds> values_; // by class: size of the modules that one module has become
-    std::vector<ClassId> all_;
+    std::vector<ClassId> all_;   // all classes
     /// Classes by rule, in sequential rewriting; else empty.
     std::vector<std::vector<ClassId>> by_rule_;
-    std::uint64_t terms_ = 0;
+    std::uint64_t terms_ = 0; // number of terms of all outcomes of expanded classes
 };
 
 } // namespace

@@ -91,7 +91,7 @@ private:
     void index_by_symbol();
     /// Removes classes without modules from present_.
     void drop_absent();
-    /// The size of a word with these counts by class.
+    /// The size of a word with these counts by class. `is_low`: the counts are lower bounds.
     [[nodiscard]] GenerationSize total(const std::vector<Count>& counts, bool is_low) const;
 
     ModuleClasses* classes_;

@@ -20,10 +20,11 @@ KnownValue known(const std::optional<std::uint32_t>& count) {
 
 /// The domain of numbers that may be unknown.
 struct Known : UnknownDomain<KnownValue> {
-    Known(const ExpressionInputs& given, std::uint64_t& counter) : inputs(given), work(counter) {}
+    Known(const ExpressionInputs& input_values, std::uint64_t& counter)
+        : inputs(input_values), work(counter) {}
 
     const ExpressionInputs& inputs;
-    std::uint64_t& work;
+    std::uint64_t& work; // number of instructions run, without Emit and Test
 
     bool enter() const {
         ++work;

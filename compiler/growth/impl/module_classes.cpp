@@ -485,20 +485,20 @@ void ModuleClasses::add_bounds(ClassExpansion& expansion) {
     struct Bounds {
         std::uint32_t low = 0;
         std::uint32_t high = 0;
-        std::uint32_t met = 0; // outcomes that have the class
+        std::uint32_t outcome_count = 0; // number of outcomes that have the class
     };
     std::map<ClassId, Bounds> bounds;
     for (const ClassOutcome& outcome : outcomes(expansion.outcomes)) {
         for (const ClassTerm& term : terms(outcome.terms)) {
             Bounds& b = bounds[term.target];
-            b.low = b.met == 0 ? term.count : std::min(b.low, term.count);
+            b.low = b.outcome_count == 0 ? term.count : std::min(b.low, term.count);
             b.high = std::max(b.high, term.count);
-            ++b.met;
+            ++b.outcome_count;
         }
     }
     expansion.low = {static_cast<std::uint32_t>(terms_.size()), 0};
     for (const auto& [target, b] : bounds) {
-        if (b.met == expansion.outcomes.count) {
+        if (b.outcome_count == expansion.outcomes.count) {
             terms_.push_back({target, b.low});
             ++expansion.low.count;
         }

@@ -107,7 +107,7 @@ private:
     /// A word, with modules of fixed classes counted by class.
     struct CountedWord {
         bool is_counted = false;              // the modules have been counted
-        std::uint32_t locals = kNone;         // code of the local values
+        std::uint32_t locals = kNone;         // see WordTemplate::locals
         std::vector<ClassTerm> fixed;         // modules of fixed classes
         std::vector<VariableModule> variable; // the other modules
     };

@@ -24,6 +24,7 @@ struct Effects {
     bool depends_on_vertical = false;
     bool is_random = false;
 
+    /// Adds the effects of `other`. Returns whether that changed something.
     bool add(const Effects& other) {
         const bool grows =
             (other.depends_on_vertical && !depends_on_vertical) || (other.is_random && !is_random);
@@ -126,14 +127,14 @@ private:
 
     /// A `[` whose `]` has not been read yet.
     struct OpenBranch {
-        std::uint32_t index = 0;
+        std::uint32_t index = 0;    // index of the `[` among the modules of the word
         std::uint32_t site = kNone; // index in found_
         std::uint32_t polygons = 0; // number of polygons open at the `[`
-        bool valid = false;
+        bool valid = false;         // some production can rewrite a module of the branch
         Effects effects;
         std::string key; // made of the modules read so far; equal branches have equal keys
-        std::vector<std::uint32_t> formals;
-        std::vector<std::uint32_t> locals;
+        std::vector<std::uint32_t> formals; // formals used so far
+        std::vector<std::uint32_t> locals;  // local values used so far
     };
     /// A closed branch, valid or not.
     struct FoundBranch {
@@ -149,6 +150,7 @@ private:
         std::uint32_t id = 0; // 0 until a valid branch of this kind is found
     };
 
+    /// Reports a reason why the system cannot be instanced.
     Diagnostic& refuse(SourceSpan span, std::string message) {
         instanceable_ = false;
         return diagnostics_.add(DiagnosticCode::NotInstanceable, span, std::move(message));
@@ -256,6 +258,8 @@ private:
         return {word.file, begin, begin + 1};
     }
 
+    /// Finds the branches of a word. `where`: "axiom" or "successor", for messages. `production`:
+    /// the production to which the branches of the word belong; kNone if they get no ids.
     void read_word(const ProgramWord& word, const char* where, std::uint32_t production) {
         open_.clear();
         found_.clear();
@@ -393,6 +397,8 @@ private:
         }
     }
 
+    /// Ends the innermost open branch at the `]` with index `index` of the word. `polygons`: number
+    /// of polygons open there.
     void close(const ProgramWord& word,
                std::uint32_t index,
                std::uint32_t production,
@@ -430,6 +436,7 @@ private:
         outer.locals.insert(outer.locals.end(), open.locals.begin(), open.locals.end());
     }
 
+    /// Adds the valid branches of the current word to branches_, with the ids of their kinds.
     void give_ids() {
         std::uint32_t number = 0;
         for (FoundBranch& found : found_) {

@@ -16,11 +16,11 @@ namespace lsys {
 
 /// A `[...]` of a successor in which, at any depth, some production can rewrite a module.
 struct BranchSite {
-    std::uint32_t production = 0;
-    std::uint32_t number = 0;  // number within its successor, in text order
-    std::uint32_t open = 0;    // index of `[` among the modules of the successor
-    std::uint32_t close = 0;   // index of `]` among them
-    std::uint32_t kind_id = 0; // 1 + index in Branches::kinds
+    std::uint32_t production = 0; // index in Program::productions
+    std::uint32_t number = 0;     // number within its successor, in text order
+    std::uint32_t open = 0;       // index of `[` among the modules of the successor
+    std::uint32_t close = 0;      // index of `]` among them
+    std::uint32_t kind_id = 0;    // 1 + index in Branches::kinds
 };
 
 /// A set of branches that are equal after names are resolved.

@@ -15,7 +15,7 @@ namespace lsys {
 
 namespace {
 
-constexpr std::size_t kFormBits = 64;
+constexpr std::size_t kFormBits = 64; // bits of a form number: one per branch of the production
 /// Bytes of a piece of text passed to `put`.
 constexpr std::size_t kPieceBytes = std::size_t{1} << 18;
 
@@ -44,7 +44,7 @@ public:
         }
         std::size_t site = 0;
         const std::vector<double> probability = probabilities();
-        bool wanted = true;
+        bool wanted = true; // put_() has not ended the list
         for (std::uint32_t i = 0; i < program_.productions.size() && wanted; ++i) {
             const std::size_t begin = site;
             while (site < branches_.sites.size() && branches_.sites[site].production == i) {
@@ -97,6 +97,7 @@ private:
             for (std::size_t c = 0; c < sites.size(); ++c) {
                 taken += takes(form, c) ? 1U : 0U;
             }
+            // Probability of this form among the forms of the production.
             const double part = std::pow(rho_, static_cast<double>(taken)) *
                                 std::pow(1.0 - rho_, static_cast<double>(sites.size() - taken));
             const std::string_view name = names_.text(production.name);

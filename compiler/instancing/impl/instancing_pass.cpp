@@ -101,14 +101,15 @@ private:
         return add(span, value);
     }
 
+    /// The symbol of SaveBranch with this number of parameters and the name of `bracket`.
     SymbolId symbol(SymbolId bracket, std::uint32_t parameters) {
         const auto [known, is_new] = symbols_.emplace(
             parameters, SymbolId{static_cast<std::uint32_t>(program_.symbols.size())});
         if (is_new) {
-            Symbol made = program_.symbol(bracket);
-            made.parameter_count = parameters;
-            made.turtle = TurtleOperation::SaveBranch;
-            program_.symbols.push_back(made);
+            Symbol save_branch = program_.symbol(bracket);
+            save_branch.parameter_count = parameters;
+            save_branch.turtle = TurtleOperation::SaveBranch;
+            program_.symbols.push_back(save_branch);
         }
         return known->second;
     }

@@ -59,7 +59,7 @@ std::optional<Fix> first_values_fix(const CheckInput& input,
                                     const ModuleMention& place,
                                     const Production& production,
                                     std::uint32_t wanted) {
-    constexpr std::uint32_t kMaxValues = 4; // of a module that a fix writes
+    constexpr std::uint32_t kMaxValues = 4; // max number of arguments that a fix writes
     const std::vector<Axiom>& axioms = input.program.axioms;
     const bool in_axiom = std::any_of(axioms.begin(), axioms.end(), [&](const Axiom& axiom) {
         return &axiom.word == place.word;

@@ -31,15 +31,18 @@ struct Depth {
     friend bool operator==(const Depth&, const Depth&) = default;
 };
 
+/// `value` limited to -kUnbounded ... kUnbounded.
 std::int64_t bounded(std::int64_t value) {
     return std::clamp(value, -kUnbounded, kUnbounded);
 }
 
+/// The bounds of a word with the bounds `first`, followed by one with the bounds `second`.
 Depth after(const Depth& first, const Depth& second) {
     return {bounded(first.low + second.low), bounded(first.high + second.high),
             std::min(first.lowest, bounded(first.low + second.lowest))};
 }
 
+/// The bounds of a word that has the bounds `a` or `b`.
 Depth either(const Depth& a, const Depth& b) {
     return {std::min(a.low, b.low), std::max(a.high, b.high), std::min(a.lowest, b.lowest)};
 }

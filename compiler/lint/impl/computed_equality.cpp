@@ -18,7 +18,7 @@ namespace {
 /// How a value arises: exact in binary32, a rounded literal, a result that may be rounded.
 enum class Level : std::uint8_t { Exact, Literal, Computed };
 
-constexpr int kMaxRounds = 16; // of propagate()
+constexpr int kMaxRounds = 16; // max number of calls of propagate()
 
 class EqualityCheck {
 public:
@@ -112,6 +112,7 @@ private:
         return id == kNoValue ? Level::Exact : levels_[static_cast<std::size_t>(id)];
     }
 
+    /// The level of value `i` by those of its operands; level() has the levels found so far.
     Level level_of(std::size_t i) const {
         const Value& value = program_.values[i];
         const Level left = level(value.left);

@@ -135,6 +135,7 @@ private:
         }
         return matching;
     }
+    /// The row of the first production that matches at a point; productions.size() if none does.
     std::size_t first(std::uint64_t point) const {
         std::size_t row = 0;
         while (row < table_.productions.size() && !table_.holds(row, point)) {
@@ -172,6 +173,7 @@ private:
         return fix;
     }
 
+    /// `a`, `b`: the rows of the first productions that match just below and just above the gap.
     void report_gap(std::uint64_t point,
                     std::size_t axis,
                     std::size_t a,
@@ -216,10 +218,10 @@ private:
 
     /// The module at a point: `A(2)`, or `B(x, y)` with `x == y`.
     std::string text_of(std::uint64_t point, std::size_t axis, std::size_t row) const {
-        const analysis::GridAxis& own = table_.grid.axes[axis];
+        const analysis::GridAxis& grid_axis = table_.grid.axes[axis];
         const std::optional<std::size_t> other = equal_axis(point, axis);
         const analysis::GridCell& cell =
-            own.cells[own.samples[table_.grid.sample_of(point, axis)].cell];
+            grid_axis.cells[grid_axis.samples[table_.grid.sample_of(point, axis)].cell];
         if (!other || cell.low == cell.high) {
             return quoted(module_at(input_, production(row), symbol_, table_, point));
         }

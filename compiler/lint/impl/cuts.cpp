@@ -9,6 +9,7 @@ namespace lsys {
 
 namespace {
 
+/// Whether the item is a module that cuts off its branch.
 bool cuts(const Program& program, const ProgramPatternItem& item) {
     return item.kind == PatternKind::Module &&
            program.symbol(item.symbol).turtle == TurtleOperation::Cut;

@@ -36,10 +36,10 @@ public:
             if (use_.reachable.usable[p] || missing_item(use_, production.predecessor) == nullptr) {
                 continue;
             }
-            const SymbolId own = production.predecessor.items.front().symbol;
+            const SymbolId rewritten = production.predecessor.items.front().symbol;
             for_each_symbol(program_, production.successor, [&](std::size_t, SymbolId symbol) {
                 written[static_cast<std::size_t>(symbol)] =
-                    written[static_cast<std::size_t>(symbol)] || symbol != own;
+                    written[static_cast<std::size_t>(symbol)] || symbol != rewritten;
             });
         }
         for (const bool in_cycles : {false, true}) {
@@ -82,6 +82,7 @@ private:
         }
     }
 
+    /// Whether a production that names `symbol`, which never occurs, is not reported.
     [[nodiscard]] bool is_exempt(const Production& production, SymbolId symbol) const {
         const auto s = static_cast<std::size_t>(symbol);
         // An included file may rewrite more than this grammar uses; a declared module may be
@@ -132,6 +133,7 @@ private:
         return false;
     }
 
+    /// Suggests the most similar name of a module that occurs. `span`: place of the name in error.
     void suggest(Diagnostic& diagnostic, SymbolId symbol, SourceSpan span) {
         if (candidates_.empty()) {
             for (std::uint32_t s = 0; s < program_.symbols.size(); ++s) {
@@ -159,6 +161,7 @@ private:
         }
     }
 
+    /// The name, with its number of parameters if modules of the name differ in that number.
     [[nodiscard]] std::string with_count(SymbolId symbol) const {
         const std::uint32_t count = program_.symbol(symbol).parameter_count;
         return use_.same_name(program_, symbol).size() == 1
@@ -211,8 +214,8 @@ private:
     ModuleUse& use_;
     Diagnostics& diagnostics_;
     std::vector<bool> explained_; // per symbol: a reported production explains why it never occurs
-    GroupedLists rewriters_;
-    std::vector<std::string_view> candidates_;
+    GroupedLists rewriters_;      // per symbol: see rewriters_of()
+    std::vector<std::string_view> candidates_; // names that suggest() may offer
 };
 
 } // namespace

@@ -13,7 +13,7 @@ void check_formal_names(const CheckInput& input, Diagnostics& diagnostics) {
     const Program& program = input.program;
     // Per group: its first stochastic production with formals.
     std::vector<std::uint32_t> first(program.context_group_count, kNone);
-    std::vector<bool> noted(program.context_group_count);
+    std::vector<bool> noted(program.context_group_count); // per group: it has been reported
     for (std::uint32_t i = 0; i < program.productions.size(); ++i) {
         const Production& production = program.productions[i];
         const std::uint32_t group = production.group;

@@ -12,7 +12,7 @@ namespace lsys {
 
 namespace {
 
-constexpr std::size_t kMaxProductions = 10'000; // of a program that is checked
+constexpr std::size_t kMaxProductions = 10'000; // larger programs are not checked
 
 /// Whether another message says why the axiom is never rewritten.
 bool is_explained(const Diagnostics& diagnostics) {

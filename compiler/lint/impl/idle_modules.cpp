@@ -47,6 +47,7 @@ std::string formals_text(std::uint32_t count) {
     return count == 0 ? text : text + ")";
 }
 
+/// Whether only the turtle profile `houdini` draws modules of this name.
 bool is_houdini_object(const CheckInput& input, std::string_view name) {
     return name.size() == 1 && std::string_view("JKM").find(name[0]) != std::string_view::npos &&
            input.program.settings.turtle != TurtleProfile::Houdini;
@@ -171,7 +172,7 @@ struct IdleModules {
 
 IdleModules find_idle_modules(const CheckInput& input, ModuleUse& use) {
     IdleModules idle;
-    std::vector<const ProgramWord*> words; // with letters
+    std::vector<const ProgramWord*> words; // words that contain the modules in idle.letters
     for (std::uint32_t s = 0; s < input.program.symbols.size(); ++s) {
         const auto symbol = SymbolId{s};
         if (!is_idle(input, use, symbol) || use.reported[s]) {
@@ -189,7 +190,8 @@ IdleModules find_idle_modules(const CheckInput& input, ModuleUse& use) {
             words.push_back(place.word);
         }
     }
-    if (idle.letters.size() > 1) { // a longer name beside several letters is one of them
+    // Report a longer name in a word with several idle letters as one of these letters.
+    if (idle.letters.size() > 1) {
         std::erase_if(idle.names, [&](SymbolId symbol) {
             const ModuleMention place = use.first_place[static_cast<std::size_t>(symbol)];
             const bool is_letter =

@@ -82,6 +82,7 @@ private:
         }
     }
 
+    /// Calls visit(symbol) for the modules of a word that neither begin nor end a polygon.
     template <typename Visit>
     void for_each(const ProgramWord& word, Visit&& visit) const {
         for (std::size_t i = word.first_module;
@@ -162,13 +163,15 @@ private:
         bool may_grow = false;      // some module in it is rewritten
     };
 
+    /// `where`: "axiom" or "successor", for messages. `may_be_inside`: the word may stand within a
+    /// polygon of another word.
     void check_word(const ProgramWord& word, const char* where, bool may_be_inside) {
         const bool may_nest = program_.settings.turtle != TurtleProfile::Carey;
         std::vector<OpenPolygon> open;        // innermost last
         bool nesting_reported = false;        // one message per word
         std::optional<std::size_t> first_end; // the first `}` without its `{`
-        std::size_t opened = 0;
-        std::size_t closed = 0;
+        std::size_t opened = 0;               // number of `{`
+        std::size_t closed = 0;               // number of `}`
         for (std::size_t i = word.first_module;
              i < std::size_t{word.first_module} + word.module_count; ++i) {
             const SymbolId id = program_.modules[i].symbol;
@@ -293,7 +296,7 @@ private:
     Diagnostics& diagnostics_;
     std::vector<bool> inside_; // by symbol: can occur in a polygon
     GroupedLists rewriters_;
-    bool stray_reported_ = false;
+    bool stray_reported_ = false; // a `.` outside of polygons has been reported
     /// Some successor leaves a polygon open, so modules outside of `{` and `}` of their own word
     /// may be inside a polygon.
     bool crosses_words_ = false;

@@ -18,14 +18,14 @@ namespace {
 
 /// Tolerance of sums: 0.33 + 0.33 + 0.33 is accepted.
 constexpr double kTolerance = 0.011 + 1e-6;
-constexpr std::size_t kMaxLabels = 12;
+constexpr std::size_t kMaxLabels = 12; // max number of labels of one message
 constexpr const char* kUseWeights =
     "change the numbers, or let them be weights that are normalised: `#set weights any;`";
 
 struct Group {
     double sum = 0.0;
-    bool has_fixed_sum = true; // no member has a condition or a weight in error
-    std::vector<std::uint32_t> members;
+    bool has_fixed_sum = true;          // no member has a condition or a weight in error
+    std::vector<std::uint32_t> members; // indices of productions
 };
 
 void report(const CheckInput& input, const Group& group, Diagnostics& diagnostics) {

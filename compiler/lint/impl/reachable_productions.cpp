@@ -68,13 +68,14 @@ private:
     }
 
     void check_equal_conditions(std::span<const std::uint32_t> productions) {
-        std::unordered_map<std::string, std::uint32_t> met;
+        std::unordered_map<std::string, std::uint32_t>
+            first_of_key; // index of the production, by key()
         for (const std::uint32_t p : productions) {
             if (code(p).condition == kNone || code(p).stochastic ||
                 is_meant_as_probability(input_, production(p))) {
                 continue;
             }
-            const auto [place, is_new] = met.emplace(key(p), p);
+            const auto [place, is_new] = first_of_key.emplace(key(p), p);
             const Production& earlier = production(place->second);
             // Conditions with different constants may be equal only until a user changes a
             // constant.
@@ -113,11 +114,11 @@ private:
             // A stochastic production may be chosen as soon as the first stochastic production of
             // its group is tried.
             const std::uint32_t from = code(p).stochastic ? first_stochastic.at(group) : p;
-            const auto own = first_unconditional.find(group);
+            const auto in_group = first_unconditional.find(group);
             std::uint32_t earlier =
                 unconditional != kNone && unconditional < from ? unconditional : kNone;
-            if (own != first_unconditional.end() && own->second < from) {
-                earlier = std::min(earlier, own->second);
+            if (in_group != first_unconditional.end() && in_group->second < from) {
+                earlier = std::min(earlier, in_group->second);
             }
             if (earlier != kNone && !same_choice(earlier, p)) {
                 report(p, earlier);
@@ -131,6 +132,7 @@ private:
         }
     }
 
+    /// Whether productions `a` and `b` are alternatives of one random choice.
     bool same_choice(std::uint32_t a, std::uint32_t b) const {
         return code(a).stochastic && code(b).stochastic && code(a).group == code(b).group;
     }
@@ -187,7 +189,7 @@ private:
         reported_.insert(p);
         const Production& late = production(p);
         const Production& early = production(earlier);
-        const bool mixed = late.stochastic != early.stochastic;
+        const bool mixed = late.stochastic != early.stochastic; // only one has a probability
         Diagnostic& diagnostic = diagnostics_.add(
             mixed ? DiagnosticCode::MixedProbability : DiagnosticCode::UnreachableProduction,
             mixed && late.stochastic ? late.weight_span : late.name_span,

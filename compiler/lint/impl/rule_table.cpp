@@ -14,7 +14,7 @@ namespace lsys {
 namespace {
 
 constexpr std::uint64_t kMaxEntries = 1'000'000; // max number of productions times points
-constexpr std::uint64_t kMaxPoints = 65'536;     // of the grid
+constexpr std::uint64_t kMaxPoints = 65'536;     // max number of points of the grid
 // Max instructions run per table, about 0.1 s: a condition of n comparisons has n points and n
 // instructions at each of them.
 constexpr std::uint64_t kMaxWork = 16'000'000;

@@ -29,6 +29,7 @@ std::optional<int> degrees_if_radians(float value) {
     return std::nullopt;
 }
 
+/// Whether arguments of modules with this symbol are checked.
 bool is_checked(const Symbol& symbol) {
     return symbol.parameter_count != 0 &&
            (turns(symbol.turtle) || symbol.turtle == TurtleOperation::SetWidth ||

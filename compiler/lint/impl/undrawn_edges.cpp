@@ -135,14 +135,14 @@ private:
 
     void check(SymbolId edge) {
         SymbolId drawn = kNoSymbol;
-        const std::vector<Step> own = steps(edge, drawn);
-        if (own.empty() || !has_plain_production(drawn) ||
+        const std::vector<Step> edge_steps = steps(edge, drawn);
+        if (edge_steps.empty() || !has_plain_production(drawn) ||
             info(program_.symbol(drawn).turtle).drawn != DrawnKind::Segment) {
             return;
         }
         SymbolId back = kNoSymbol;
-        const std::vector<Step> partner = steps(drawn, back);
-        if (back != edge || !are_images(own, partner)) {
+        const std::vector<Step> drawn_steps = steps(drawn, back);
+        if (back != edge || !are_images(edge_steps, drawn_steps)) {
             return;
         }
         const std::string_view name = input_.name(edge);

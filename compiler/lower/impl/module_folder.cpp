@@ -36,24 +36,24 @@ ModuleFolder::ModuleFolder(const Program& program, Bytecode& bytecode)
 }
 
 Code ModuleFolder::code(SymbolId symbol, std::size_t first_argument) {
-    const auto own = static_cast<Code>(symbol);
-    if (changes_[own]) {
-        return own;
+    const auto symbol_code = static_cast<Code>(symbol);
+    if (changes_[symbol_code]) {
+        return symbol_code;
     }
     const std::uint32_t count = program_.symbol(symbol).parameter_count;
     key_.clear();
-    append_bytes(key_, own);
+    append_bytes(key_, symbol_code);
     for (std::uint32_t i = 0; i < count; ++i) {
         const Value& value = program_.value(program_.arguments[first_argument + i]);
         if (value.opcode != Opcode::Literal || !std::isfinite(value.literal)) {
-            return own;
+            return symbol_code;
         }
         append_bytes(key_, value.literal);
     }
     if (key_ == last_key_) {
         return last_code_;
     }
-    Code code = own;
+    Code code = symbol_code;
     if (const auto found = codes_.find(key_); found != codes_.end()) {
         code = found->second;
     } else if (program_.symbols.size() + bytecode_.folded.size() < capacity_) {

@@ -44,12 +44,12 @@ private:
     const Program& program_;
     const Names& names_;
     const SourceMap& sources_;
-    std::vector<PlaceRun>& runs_;     // Bytecode::template_places
-    std::vector<Spelling> spellings_; // per symbol
-    const SourceFile* file_ = nullptr;
-    std::string_view text_;    // of file_
-    std::uint32_t offset_ = 0; // byte offset of the last module
-    LineColumn place_;         // place of the last module
+    std::vector<PlaceRun>& runs_;      // Bytecode::template_places
+    std::vector<Spelling> spellings_;  // per symbol
+    const SourceFile* file_ = nullptr; // file of place_; null before the first module
+    std::string_view text_;            // of file_
+    std::uint32_t offset_ = 0;         // byte offset of the last module
+    LineColumn place_;                 // place of the last module
 };
 
 } // namespace lsys

@@ -15,11 +15,12 @@ public:
                         EnvironmentResolver& environments)
         : resolution_(resolution), symbols_(symbols), environments_(environments) {}
 
-    /// Call for all objects before the NameSplitter and any symbol are made.
+    /// Binds the module of an #object statement to its object, or reports mistakes. Call for all
+    /// objects before the NameSplitter and any symbol are made.
     void object(const ObjectNode& node);
-    /// Call after object() and before any symbol is made.
+    /// Reads an #ignore or #consider statement. Call after object() and before any symbol is made.
     void ignore(const IgnoreNode& node, NameSplitter& splitter);
-    /// Call after all statements.
+    /// Applies #consider: all other modules are ignored. Call after all statements.
     void finish_ignores();
     /// Adds the symbol of a #module statement, or reports its mistakes.
     void module(const ModuleDeclarationNode& node, SourceSpan statement, ModuleReading& reading);
@@ -33,6 +34,7 @@ private:
     [[nodiscard]] bool set_contour(const ObjectNode& node, ObjectBinding& binding);
     /// Makes modules of this name draw the object; reports a second object for the name.
     void bind(const ModuleView& module, ObjectBinding binding);
+    /// Reads one module of a statement: of #consider if `considers`, else of #ignore.
     void ignore_module(const ModuleView& module,
                        bool considers,
                        NameSplitter& splitter,
@@ -48,8 +50,8 @@ private:
     SymbolTable& symbols_;
     EnvironmentResolver& environments_;
     Suggestions suggestions_;
-    SourceSpan first_ignore_;                          // kNoFile if there is none
-    SourceSpan first_consider_;                        // the same for #consider
+    SourceSpan first_ignore_;                          // first #ignore; kNoFile if there is none
+    SourceSpan first_consider_;                        // first #consider; kNoFile if there is none
     std::unordered_map<NameId, std::size_t> bindings_; // index in Program::objects
 };
 

@@ -177,15 +177,16 @@ void DefinitionResolver::check_bounds(const ParamNode& node, const Constant& con
     if (constants_.state(node.name) != ConstantState::Known) {
         return;
     }
-    const Constant& made = constants_.constant(node.name);
-    if (made.is_random || (made.value >= constant.minimum && made.value <= constant.maximum)) {
+    const Constant& definition = constants_.constant(node.name);
+    if (definition.is_random ||
+        (definition.value >= constant.minimum && definition.value <= constant.maximum)) {
         return;
     }
     const bool replaced = replacements_.contains(std::string(resolution_.text(constant.name)));
     Diagnostic& error = resolution_.diagnostics.add(
         DiagnosticCode::BadParameterBounds,
         replaced ? node.name_span : resolution_.ast.expression(node.value).span(),
-        fmt::format("{}{} is outside the bounds {} to {} of `{}`", made.value,
+        fmt::format("{}{} is outside the bounds {} to {} of `{}`", definition.value,
                     replaced ? ", given by -D," : "", constant.minimum, constant.maximum,
                     resolution_.text(node.name)));
     error.labels.push_back({node.bounds_span, "the bounds"});

@@ -14,7 +14,8 @@
 
 namespace lsys {
 
-/// Reports a second statement of a kind that may occur only once; returns the message.
+/// Reports a second statement of a kind that may occur only once; returns the message. `what`: the
+/// kind in the message "a second ...". `second`, `first`: places of the two statements.
 Diagnostic& report_duplicate(Resolution& resolution,
                              SourceSpan second,
                              SourceSpan first,

@@ -27,7 +27,7 @@ public:
     /// Adds the names of all #sense to the SymbolTable. Call before any symbol is made. `#sense`
     /// may follow the modules that ask it.
     void declare_all();
-    /// Reads the keys of a statement; only constants before it are visible.
+    /// Reads the keys of statement Ast::senses[index]; only constants before it are visible.
     void environment(std::uint32_t index);
     /// Returns false after reporting a sense module that no #sense declares; true for other
     /// modules.
@@ -75,7 +75,9 @@ private:
     std::unordered_map<NameId, SourceSpan> first_; // by name: place in its first #sense
     /// Index of the environment, by index in Ast::senses.
     std::unordered_map<std::uint32_t, std::uint32_t> numbers_;
-    std::unordered_map<NameId, bool> declared_; // by name of the module, with `?`
+    /// Names, with `?`, of the sense modules that need no further report: they are declared, or
+    /// reported. All values are true.
+    std::unordered_map<NameId, bool> declared_;
 };
 
 } // namespace lsys

@@ -19,8 +19,9 @@
 
 namespace lsys {
 
+/// The part of a grammar in which an expression stands.
 enum class ExpressionPlace : std::uint8_t {
-    Generations,
+    Generations, // the number of #n
     Define,
     Param,
     Bound, // min or max of a #param
@@ -102,7 +103,7 @@ private:
     struct NonFiniteCause {
         SourceSpan span;
         std::string reason;
-        std::optional<SourceSpan> definition;
+        std::optional<SourceSpan> definition; // of the constant that is the cause, if one is
     };
     struct Function {
         Opcode opcode;
@@ -192,6 +193,7 @@ private:
     /// for `malen`. Empty if there is none.
     [[nodiscard]] std::string_view name_before_replacement(std::string_view text) const;
     void report_unknown_function(const Expression& expression, NameId function);
+    /// Reports a range or distribution (`is_range`) or a name that the place does not allow.
     void report_not_allowed(const Expression& expression, ExpressionPlace place, bool is_range);
     /// Reports a parameter or condition that can never be finite.
     void check_finite(ValueId value, ExpressionId root, ExpressionPlace place);

@@ -40,7 +40,7 @@ private:
     ModuleReading& reading_;
     Resolution& resolution_;
     ConstantTable& constants_;
-    const ProductionNode* node_ = nullptr;
+    const ProductionNode* node_ = nullptr; // arguments of resolve(); null before the first call
     Production* production_ = nullptr;
     std::vector<SourceSpan> open_;  // open brackets of the right context
     bool bracket_reported_ = false; // a bracket of the current pattern has been reported

@@ -41,7 +41,7 @@ private:
     Resolution& resolution_;
     ExpressionResolver& expressions_;
     Suggestions suggestions_;
-    std::unordered_map<std::uint32_t, SourceSpan> first_; // by index: its first place
+    std::unordered_map<std::uint32_t, SourceSpan> first_; // by colour index: its first statement
 };
 
 } // namespace lsys

@@ -12,7 +12,7 @@
 
 namespace lsys {
 
-/// Finds the productions with the same predecessor, and those with the same contexts too.
+/// Finds productions with equal predecessors, and among these the productions with equal contexts.
 class ProductionClasses {
 public:
     explicit ProductionClasses(Program& program) : program_(program) {}

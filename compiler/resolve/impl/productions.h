@@ -44,7 +44,8 @@ private:
     ConstantTable& constants_;
     HeadResolver heads_;
     ProductionClasses classes_;
-    std::array<std::vector<Production>, kCountOf<Stage>> later_; // by stage; none of Rewrite
+    /// By stage: productions of stages after Rewrite, kept for finish(); empty for Rewrite.
+    std::array<std::vector<Production>, kCountOf<Stage>> later_;
     std::vector<SourceSpan> first_of_name_; // by name: first production, or kNoFile
 };
 

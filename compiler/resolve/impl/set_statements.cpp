@@ -326,13 +326,14 @@ void SetResolver::read_tropisms(const SetNode& node, ExpressionResolver& express
         const std::uint32_t first = at;
         const TropismKind kind = at < node.values.count ? kind_at(at++) : TropismKind::None;
         std::array<float, kMaxNumbers> numbers{};
-        std::uint32_t given = 0;
-        while (at < node.values.count && given < kMaxNumbers && kind_at(at) == TropismKind::None) {
-            numbers[given++] = number_of(node, at++, expressions).value_or(0.0F);
+        std::uint32_t number_count = 0;
+        while (at < node.values.count && number_count < kMaxNumbers &&
+               kind_at(at) == TropismKind::None) {
+            numbers[number_count++] = number_of(node, at++, expressions).value_or(0.0F);
         }
         const bool is_valid =
-            kind != TropismKind::None && given >= kMinNumbers &&
-            (kind == TropismKind::Before || given < kMaxNumbers) &&
+            kind != TropismKind::None && number_count >= kMinNumbers &&
+            (kind == TropismKind::Before || number_count < kMaxNumbers) &&
             !(kind == TropismKind::After && has_after) && count < tropisms.size() &&
             std::ranges::all_of(numbers, [](float number) { return std::isfinite(number); });
         if (!is_valid) {

@@ -10,7 +10,7 @@ namespace lsys {
 
 namespace {
 
-constexpr std::size_t kMaxLabels = 8; // of one warning
+constexpr std::size_t kMaxLabels = 8; // max number of labels of one warning
 /// Max number of edits in a fix; files with more are better fixed by `names letters`.
 constexpr std::size_t kMaxEdits = 10'000;
 constexpr std::size_t kMaxQuotedBytes = 60;

@@ -26,22 +26,22 @@ std::string_view line_at(std::string_view text, std::size_t at) {
 /// The modules of `text` up to the next `:` or `;`. Arguments with their parentheses, and comments
 /// `/* ... */`, are replaced by blanks.
 std::string without_arguments(std::string_view text) {
-    std::string kept;
+    std::string modules;
     std::size_t depth = 0;
     for (std::size_t at = 0; at < text.size(); ++at) {
         if (text.substr(at, 2) == "/*") {
             at = std::min(text.find("*/", at + 2), text.size() - 2) + 1;
-            kept += ' ';
+            modules += ' ';
             continue;
         }
         if (depth == 0 && (text[at] == ':' || text[at] == ';')) {
             break; // the rest is another part or statement
         }
         depth += text[at] == '(' ? 1U : 0U;
-        kept += depth == 0 ? text[at] : ' ';
+        modules += depth == 0 ? text[at] : ' ';
         depth -= text[at] == ')' && depth > 0 ? 1U : 0U;
     }
-    return kept;
+    return modules;
 }
 
 /// Calls visit(word) for each identifier of `text`.
@@ -153,6 +153,7 @@ public:
     }
 
 private:
+    /// Whether the file has `names letters` or `names characters`.
     [[nodiscard]] bool is_letters(FileId file) const {
         return std::ranges::find(resolution_.letter_files, file) != resolution_.letter_files.end();
     }
@@ -172,6 +173,8 @@ private:
         return id != kNoName && index_of(id) < known_.size() && known_[index_of(id)];
     }
 
+    /// Whether the word is neither a known module name, nor in the file outside its comments, nor
+    /// such names written together.
     [[nodiscard]] bool is_foreign(std::string_view word, FileId file) {
         const FileWords& words = words_of(file);
         if (is_letters(file)) {
@@ -195,7 +198,7 @@ private:
     }
 
     Resolution& resolution_;
-    const std::vector<bool>& known_;
+    const std::vector<bool>& known_; // by name: it is a known module name
     NameSplitter& splitter_;
     std::map<FileId, FileWords> files_;
 };

@@ -43,8 +43,8 @@ private:
     SymbolId make(NameId name, std::uint32_t parameter_count);
 
     Resolution& resolution_;
-    std::vector<Latest> latest_; // by name: the last symbol looked up
-    std::unordered_map<std::uint64_t, SymbolId> symbols_;
+    std::vector<Latest> latest_;                          // by name: the last symbol looked up
+    std::unordered_map<std::uint64_t, SymbolId> symbols_; // by name and number of parameters
     std::unordered_map<std::uint32_t, Binding> bindings_; // by NameId; so are senses_
     std::unordered_map<std::uint32_t, Sense> senses_;
     std::vector<bool> ignored_; // by name: ignore() was called; considered_: consider() was

@@ -106,17 +106,17 @@ ValueId ValueBuilder::operation(Opcode opcode, ValueId left, ValueId right, Sour
     return add(node_of(opcode, span, left, binary ? right : kNoValue));
 }
 
-ValueId ValueBuilder::mix(ValueId from, ValueId to, ValueId part, SourceSpan span) {
-    if (from == kPoison || to == kPoison || part == kPoison) {
+ValueId ValueBuilder::mix(ValueId from, ValueId to, ValueId fraction, SourceSpan span) {
+    if (from == kPoison || to == kPoison || fraction == kPoison) {
         return kPoison;
     }
-    if (is_literal(from) && is_literal(to) && is_literal(part)) {
+    if (is_literal(from) && is_literal(to) && is_literal(fraction)) {
         return literal(
-            arithmetic::mix((*this)[from].literal, (*this)[to].literal, (*this)[part].literal),
+            arithmetic::mix((*this)[from].literal, (*this)[to].literal, (*this)[fraction].literal),
             span);
     }
     Value node = node_of(Opcode::Mix, span, from, to);
-    node.third = part;
+    node.third = fraction;
     return add(node);
 }
 

@@ -28,7 +28,7 @@ public:
     /// operand is kPoison.
     [[nodiscard]] ValueId operation(Opcode opcode, ValueId left, ValueId right, SourceSpan span);
     /// arithmetic::mix() of three values.
-    [[nodiscard]] ValueId mix(ValueId from, ValueId to, ValueId part, SourceSpan span);
+    [[nodiscard]] ValueId mix(ValueId from, ValueId to, ValueId fraction, SourceSpan span);
     /// `yes` if the condition is not 0, else `no`. A literal condition selects one of the two at
     /// once.
     [[nodiscard]] ValueId choice(ValueId condition, ValueId yes, ValueId no, SourceSpan span);

@@ -53,12 +53,12 @@ void append_module(ModuleReading& reading, const ModuleView& module) {
 /// Appends modules from `index` on up to the first that has arguments or no cached symbol, and
 /// returns its index. Nearly all modules of a long word are appended here.
 std::uint32_t append_bare(ModuleReading& reading, std::uint32_t index, std::uint32_t end) {
-    ChunkedVector<ProgramModule>& made = reading.resolution.program.modules;
+    ChunkedVector<ProgramModule>& program_modules = reading.resolution.program.modules;
     const std::span<const SymbolId> bare = reading.bare;
     while (index < end) {
         const std::span<const ModuleNode> nodes =
             std::as_const(reading.resolution.ast.modules).row(index, end - index);
-        const std::span<ProgramModule> row = made.extend(nodes.size());
+        const std::span<ProgramModule> row = program_modules.extend(nodes.size());
         std::size_t taken = 0;
         for (; taken < row.size(); ++taken) {
             const ModuleNode node = nodes[taken];
@@ -69,7 +69,7 @@ std::uint32_t append_bare(ModuleReading& reading, std::uint32_t index, std::uint
         }
         index += static_cast<std::uint32_t>(taken);
         if (taken != row.size()) {
-            made.truncate(made.size() - (row.size() - taken));
+            program_modules.truncate(program_modules.size() - (row.size() - taken));
             break;
         }
         reading.resolution.ast.modules.release_before(index);

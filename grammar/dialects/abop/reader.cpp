@@ -72,6 +72,7 @@ std::size_t find_colon(std::string_view text, std::size_t at) {
     return kNone;
 }
 
+/// Offsets of an arrow; kNone if the text has no arrow.
 struct Found {
     std::size_t begin = kNone;
     std::size_t end = kNone;
@@ -225,6 +226,8 @@ private:
         report(DiagnosticCode::ForeignSyntax, span(open.front(), open.front() + 1),
                "`(` is never closed");
     }
+
+    // The functions read_...() that return a bool return false for a line of another form.
 
     /// Reads `#define name value`.
     bool read_define(SourceSpan line) {
@@ -439,6 +442,7 @@ private:
         return true;
     }
 
+    /// Ends the rule or axiom that indented lines could continue, and reads the rule.
     void end_statement() {
         if (open_ == Open::Rule) {
             read_rule(open_span_);
@@ -463,17 +467,17 @@ private:
             return;
         }
         ++statements_;
-        AbopRule made;
-        made.span = span(rule.begin, rule.begin + words.size());
-        made.arrow = span(rule.begin + arrow.begin, rule.begin + arrow.end);
+        AbopRule new_rule;
+        new_rule.span = span(rule.begin, rule.begin + words.size());
+        new_rule.arrow = span(rule.begin + arrow.begin, rule.begin + arrow.end);
         std::size_t head_end = rule.begin + arrow.begin;
         if (const std::size_t number = chance_before(words.substr(0, arrow.begin));
             number != kNone) {
-            made.chance = span(rule.begin + number, head_end);
+            new_rule.chance = span(rule.begin + number, head_end);
             head_end = rule.begin + words.substr(0, number).find_last_not_of('-') + 1;
         }
-        read_right_side(made, rule.begin + arrow.end, made.span.end);
-        read_left_side(made, span(rule.begin, head_end));
+        read_right_side(new_rule, rule.begin + arrow.end, new_rule.span.end);
+        read_left_side(new_rule, span(rule.begin, head_end));
     }
 
     /// The start of a probability in the arrow, `-0.3->`; npos if there is none.
@@ -533,6 +537,7 @@ private:
         file_.rules.push_back(rule);
     }
 
+    /// Takes a lone line of symbols as the axiom if no statement sets one; reports unread lines.
     void finish() {
         if (file_.find(AbopKey::Axiom) == nullptr && bare_.size() == 1) {
             file_.settings.push_back({AbopKey::Axiom, bare_[0], bare_[0]});
@@ -583,10 +588,10 @@ private:
     }
 
     FileId id_;
-    const ParseContext* context_;
+    const ParseContext* context_; // null: no mistake is reported
     AbopFile file_;
     Open open_ = Open::Nothing;       // the statement that an indented line continues
-    SourceSpan open_span_;            // of that statement
+    SourceSpan open_span_;            // place of the statement of open_
     SourceSpan more_;                 // the rest of the line after a setting
     std::vector<SourceSpan> bare_;    // lines of symbols before the first rule
     std::vector<SourceSpan> unread_;  // lines without meaning

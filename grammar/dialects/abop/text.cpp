@@ -41,7 +41,7 @@ bool is_comment_text(std::string_view text) {
 
 /// The length of the comment at the start of `rest`, the rest of a line; 0 if none begins there.
 /// `is_first`: only blanks stand before `rest` in the line; `is_indented`: at least one blank
-/// stands there.
+/// stands there; `has_blank`: a blank stands directly before `rest`, or nothing in the file.
 std::size_t comment_length(std::string_view rest, bool is_first, bool is_indented, bool has_blank) {
     if (rest.starts_with("//")) {
         const bool is_spaced = rest.size() == 2 || is_blank(rest[2]);

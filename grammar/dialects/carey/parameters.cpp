@@ -80,6 +80,7 @@ private:
         return is_valid ? modules : std::vector<PlacedModule>();
     }
 
+    /// Whether the last symbol of `left` is `symbol` and no module of `left` has parameters.
     static bool ends_in(const std::vector<PlacedModule>& left, char32_t symbol) {
         return !left.empty() && left.back().form.first == symbol &&
                std::ranges::all_of(
@@ -147,6 +148,7 @@ private:
                std::string_view("[]{}.#").find(static_cast<char>(symbol)) == std::string_view::npos;
     }
 
+    /// Adds the note [parameter-stays]: `rule` moves the parameters of `module` to another symbol.
     void note(const RuleWithModules& rule, const PlacedModule& module) {
         if (!takes_parameters(rule)) {
             return; // follow() reports the error
@@ -167,10 +169,10 @@ private:
     }
 
     const ParseContext& context_;
-    Diagnostics ignored_;
-    ParseContext quiet_;
+    Diagnostics ignored_; // messages of quiet_, which CareyWriter reports
+    ParseContext quiet_;  // context_ with messages in ignored_
     std::vector<RuleWithModules> rules_;
-    std::set<SymbolForm> enqueued_;
+    std::set<SymbolForm> enqueued_;     // symbols with parameters that have been in pending_
     std::vector<PlacedModule> pending_; // modules whose parameters have not been followed yet
 };
 

@@ -25,10 +25,12 @@ constexpr std::array kKeys{
 
 constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
 
+/// Length of the value of a setting at the beginning of `ahead`: up to the end of the line.
 std::size_t value_length(std::string_view ahead) {
     return trimmed(ahead.substr(0, length_up_to(ahead, std::string_view("\r\n\0", 3)))).size();
 }
 
+/// Length of the text at the beginning of `ahead`, up to the next `=`, `:` or end of line.
 std::size_t text_length(std::string_view ahead) {
     return trimmed(ahead.substr(0, length_up_to(ahead, std::string_view("=:\r\n\0", 5)))).size();
 }

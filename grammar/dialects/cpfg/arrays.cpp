@@ -98,12 +98,12 @@ void CpfgExpressions::define_array(const CpfgStatement& statement) {
         count *= value;
     }
     for (const ForeignId value : statement.values) {
-        const ForeignId made = term(value);
-        if (tree_.has_draw(made)) {
+        const ForeignId element = term(value);
+        if (tree_.has_draw(element)) {
             static_cast<void>(unsupported(statement.span, "random numbers in an array"));
             return;
         }
-        array.values.push_back(made);
+        array.values.push_back(element);
     }
     array.values.resize(static_cast<std::size_t>(count), tree_.number("0", statement.span));
     arrays_[target.text] = std::move(array);
@@ -150,7 +150,7 @@ void CpfgExpressions::loop(const CpfgStatement& statement) {
         const std::uint64_t errors = session_.context.diagnostics.count(Severity::Error);
         run(statement.block);
         if (session_.context.diagnostics.count(Severity::Error) != errors) {
-            break; // each round would repeat them
+            break; // each further round would repeat the errors
         }
     }
     --loops_;

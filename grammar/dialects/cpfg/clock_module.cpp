@@ -17,6 +17,8 @@ bool is_same(const CpfgModule& a, const CpfgModule& b) {
     return a.name == b.name && a.arguments.size() == b.arguments.size();
 }
 
+/// Finds the clock: a production that rewrites, once in each step, the first module of the word
+/// that is rewritten at all, and that changes only variables of the whole system.
 class Clock {
 public:
     explicit Clock(CpfgSession& session) : session_(session) {

@@ -66,6 +66,7 @@ public:
     }
 
 private:
+    /// Adds the commands of a list to commands_.
     void note(const Modules& list) {
         for (const CpfgModule& module : list) {
             if (is_command(module)) {
@@ -107,13 +108,13 @@ private:
                 used.insert(originals[i]);
             }
         }
-        std::vector<CpfgProduction> kept;
+        std::vector<CpfgProduction> remaining;
         for (std::size_t i = 0; i < all.size(); ++i) {
             if (is_used[i] || (originals[i] == i && used.count(i) == 0)) {
-                kept.push_back(std::move(all[i]));
+                remaining.push_back(std::move(all[i]));
             }
         }
-        all = std::move(kept);
+        all = std::move(remaining);
     }
 
     /// Whether a production of the stage may rewrite letter `at` of a command. When cpfg interprets
@@ -169,13 +170,13 @@ private:
             if (!skips_prefix_ && !(is_left && i == 0)) {
                 continue;
             }
-            const std::size_t made = copies.size();
+            const std::size_t original_count = copies.size();
             for (const auto& [command, span] : commands_) {
                 const std::size_t last = command.first.size() - 1;
                 if (!is_part((copies.front().*context)[i], command, last)) {
                     continue;
                 }
-                for (std::size_t k = 0; k < made; ++k) {
+                for (std::size_t k = 0; k < original_count; ++k) {
                     if (copies.size() > kMaxCopies) {
                         session_.report_unsupported(
                             copies.front().span,
@@ -209,20 +210,20 @@ private:
                          const Command& command,
                          std::size_t at,
                          std::vector<CpfgProduction>& all) {
-        CpfgProduction made = production;
+        CpfgProduction new_production = production;
         const std::string& name = command.first;
         // The letters before `at` are the nearest left context, those behind it the nearest right
         // one.
-        for (std::size_t i = at; i > 0 && !skips_prefix_ && !made.left.empty(); --i) {
-            if (made.left.back().name != name.substr(i - 1, 1)) {
+        for (std::size_t i = at; i > 0 && !skips_prefix_ && !new_production.left.empty(); --i) {
+            if (new_production.left.back().name != name.substr(i - 1, 1)) {
                 return;
             }
-            made.left.pop_back();
+            new_production.left.pop_back();
         }
-        if (at + 1 < name.size() && !made.right.empty() && !skips_prefix_) {
+        if (at + 1 < name.size() && !new_production.right.empty() && !skips_prefix_) {
             return;
         }
-        CpfgModule& predecessor = made.predecessor[0];
+        CpfgModule& predecessor = new_production.predecessor[0];
         const CpfgModule letter = predecessor;
         predecessor.name = name;
         if (at + 1 < name.size()) {
@@ -236,14 +237,15 @@ private:
             }
         };
         add_letters(0, at);
-        written.insert(written.end(), made.successor.begin(), made.successor.end());
+        written.insert(written.end(), new_production.successor.begin(),
+                       new_production.successor.end());
         if (at + 1 < name.size()) {
             add_letters(at + 1, name.size() - 1);
             written.push_back({name.substr(name.size() - 1), letter.span, predecessor.has_arguments,
                                predecessor.arguments});
         }
-        made.successor = joined(std::move(written));
-        all.push_back(std::move(made));
+        new_production.successor = joined(std::move(written));
+        all.push_back(std::move(new_production));
     }
 
     /// Parameters whose names the production does not use.
@@ -256,12 +258,12 @@ private:
                 }
             }
         }
-        std::vector<ForeignId> made;
+        std::vector<ForeignId> names;
         for (std::size_t i = 0; i < count; ++i) {
             const std::string name = unique_name("kept" + std::to_string(i + 1), taken);
-            made.push_back(session_.expressions.name(name, production.span));
+            names.push_back(session_.expressions.name(name, production.span));
         }
-        return made;
+        return names;
     }
 
     /// Joins `@` and the letters after it to commands, as the scanner does.
@@ -270,10 +272,10 @@ private:
         const auto letter = [&](std::size_t i) {
             return i < letters.size() && letters[i].name.size() == 1 ? letters[i].name[0] : '\0';
         };
-        Modules made;
+        Modules modules;
         for (std::size_t i = 0; i < letters.size(); ++i) {
             if (letter(i) != '@' || letters[i].has_arguments || letter(i + 1) == '\0') {
-                made.push_back(std::move(letters[i]));
+                modules.push_back(std::move(letters[i]));
                 continue;
             }
             const bool has_two = kTwoLetters.find(letter(i + 1)) != kTwoLetters.npos &&
@@ -282,10 +284,10 @@ private:
             const std::size_t last = i + (has_two ? 2 : 1);
             CpfgModule command = letters[last];
             command.name = "@" + (has_two ? letters[i + 1].name : std::string()) + command.name;
-            made.push_back(std::move(command));
+            modules.push_back(std::move(command));
             i = last;
         }
-        return made;
+        return modules;
     }
 
     CpfgSession& session_;

@@ -34,6 +34,7 @@ std::optional<std::string_view> value_of(std::string_view line, std::string_view
     return trimmed(line.substr(key.size()), kWhitespace);
 }
 
+/// Removes a number from the beginning of `text`; false if there is none or it is not finite.
 bool read_number(std::string_view& text, double& value) {
     text = trimmed(text, kWhitespace);
     const auto [end, error] = number_from_chars(text.data(), text.data() + text.size(), value);
@@ -111,6 +112,7 @@ CurvePoint spline(const std::vector<CurvePoint>& points, std::size_t degree, dou
     return control[degree];
 }
 
+/// Points of the spline with these control points, at equal distances in x.
 std::vector<CurvePoint> sampled(const std::vector<CurvePoint>& points) {
     const std::size_t degree = std::min<std::size_t>(points.size() - 1, 3);
     const auto spans = static_cast<double>(points.size() - degree);
@@ -158,13 +160,13 @@ std::vector<CurvePoint> chords(const std::vector<CurvePoint>& samples) {
             spans.emplace_back(worst, to);
         }
     }
-    std::vector<CurvePoint> kept;
+    std::vector<CurvePoint> vertices;
     for (std::size_t i = 0; i < samples.size(); ++i) {
         if (wanted[i]) {
-            kept.push_back(samples[i]);
+            vertices.push_back(samples[i]);
         }
     }
-    return kept;
+    return vertices;
 }
 
 /// The binary32 nearest to `value`, as text.
@@ -215,7 +217,7 @@ CpfgView read_view(std::string_view text, const FileBeside& beside) {
 
 std::vector<double> curve_table(const CpfgCurve& curve) {
     constexpr std::size_t kDegree = 3;
-    constexpr double kError = 1e-3; // of x, at which cpfg ends its search
+    constexpr double kError = 1e-3; // error of x at which cpfg ends its search
     std::vector<double> table;
     if (curve.samples < 3 || curve.samples > kMaxTable || curve.points.size() <= kDegree) {
         return table;

@@ -58,7 +58,7 @@ private:
     /// A file of numbers, opened by `fopen` in `Start:`.
     struct DataFile {
         std::string text;
-        std::size_t at = 0; // where the next number begins
+        std::size_t at = 0; // offset of the next number in `text`
     };
     struct Array {
         std::vector<int> sizes;
@@ -163,7 +163,7 @@ private:
     std::map<std::string, ForeignId> increments_; // per global: amount that each step adds
     std::set<std::string> assigned_each_step_; // globals that each step assigns before reading them
     std::map<std::string, Array> arrays_;
-    std::map<std::string, DataFile> files_; // by the variable
+    std::map<std::string, DataFile> files_; // by name of the variable, `fp` in fopen()
     /// Names of functions in .lsys, by index in curves_; only of curves that expressions call.
     std::map<std::size_t, CpfgCurveNames> curve_names_;
     std::map<std::size_t, std::vector<double>> tables_; // by index in curves_
@@ -173,7 +173,7 @@ private:
     std::set<Stage> reported_stages_;       // stages whose step statements have been reported
     std::set<std::string> warned_;          // each `what` of warn_left_out()
     KnownValues known_values_;
-    int loops_ = 0;                    // loops that are being unrolled, one in another
+    int loops_ = 0;                    // number of nested loops that are being unrolled
     std::size_t loop_statements_ = 0;  // statements of loops run so far
     std::uint32_t draws_ = 0;          // random numbers of the production so far
     std::size_t end_of_constants_ = 0; // see end_of_constants()

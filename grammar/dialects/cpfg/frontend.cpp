@@ -60,9 +60,9 @@ int CpfgSession::add(CpfgStatement statement) {
     return static_cast<int>(statements.size()) - 1;
 }
 
-void CpfgSession::production(CpfgProduction made) {
-    made.stage = stage;
-    productions.push_back(std::move(made));
+void CpfgSession::production(CpfgProduction new_production) {
+    new_production.stage = stage;
+    productions.push_back(std::move(new_production));
 }
 
 std::string_view recognise_cpfg(std::string_view text) {

@@ -150,9 +150,9 @@ void CpfgWriter::write_organs() {
             out_.put(contour_statement(number, points), header_);
             continue;
         }
-        const std::string what = std::to_string(number);
-        expressions_.warn_left_out(header_, "contour " + what,
-                                   "contour " + what + " is a circle: `" +
+        const std::string digits = std::to_string(number);
+        expressions_.warn_left_out(header_, "contour " + digits,
+                                   "contour " + digits + " is a circle: `" +
                                        shown(organs_.contour_files.at(number)) +
                                        "` cannot be read as a contour");
     }
@@ -195,9 +195,9 @@ void CpfgWriter::write_setting(const char* begin, ForeignId expression, const ch
 }
 
 void CpfgWriter::write_depth(const char* begin, ForeignId expression, Stage stage) {
-    const bool own = bound_.count(stage) != 0;
-    const bool first = stage == Stage::Decompose && bound_.count(Stage::Rewrite) != 0;
-    if (!own && !first) {
+    const bool has_own_groups = bound_.count(stage) != 0;
+    const bool has_rewrite_groups = stage == Stage::Decompose && bound_.count(Stage::Rewrite) != 0;
+    if (!has_own_groups && !has_rewrite_groups) {
         write_setting(begin, expression, "1");
         return;
     }
@@ -206,8 +206,9 @@ void CpfgWriter::write_depth(const char* begin, ForeignId expression, Stage stag
         return;
     }
     ForeignId depth = expression == kNoForeign ? tree_.number("1", header_) : expression;
-    depth = own ? tree_.binary("*", depth, tree_.number("2", header_), header_) : depth;
-    depth = first ? tree_.binary("+", depth, tree_.number("1", header_), header_) : depth;
+    depth = has_own_groups ? tree_.binary("*", depth, tree_.number("2", header_), header_) : depth;
+    depth =
+        has_rewrite_groups ? tree_.binary("+", depth, tree_.number("1", header_), header_) : depth;
     write_setting(begin, depth, nullptr);
 }
 

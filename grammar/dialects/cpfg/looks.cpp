@@ -142,6 +142,7 @@ public:
         read_other_line(line);
     }
 
+    /// `nowhere`: place of statements that no line of the view file gives.
     CpfgLooks finish(SourceSpan nowhere) {
         write_tropisms(nowhere);
         write_widths(nowhere);
@@ -185,7 +186,7 @@ private:
             after_.increment = number_of(line).value_or(0.0);
         } else if (line.key == "tropism" || line.key == "torque") {
             ViewTropism read = read_tropism(line.value, line.key == "tropism" ? "before" : "twist");
-            constexpr std::size_t kMaxCount = 10; // of cpfg
+            constexpr std::size_t kMaxCount = 10; // max number of tropisms and torques in cpfg
             if (!read.is_valid || rows_.size() == kMaxCount) {
                 leave_out(line, read.is_valid ? "there are ten others"
                                               : "it is not of the form `T: 0 -1 0 E: 0.2`");
@@ -286,12 +287,12 @@ private:
 
     CpfgLooks looks_;
     const CpfgUses& uses_;
-    ViewTropism after_;               // the tropism of elasticity
-    std::vector<ViewTropism> rows_;   // the other tropisms and torques
-    std::optional<SourceSpan> place_; // of the last tropism
-    std::optional<double> width_;     // initial line width
-    std::optional<bool> is_pixel_;    // widths are in pixels
-    std::optional<SourceSpan> width_place_;
+    ViewTropism after_;                     // the tropism of elasticity
+    std::vector<ViewTropism> rows_;         // the other tropisms and torques
+    std::optional<SourceSpan> place_;       // place of the last line about a tropism
+    std::optional<double> width_;           // initial line width
+    std::optional<bool> is_pixel_;          // widths are in pixels; unset: no line says it
+    std::optional<SourceSpan> width_place_; // place of the last line about widths
 };
 
 } // namespace

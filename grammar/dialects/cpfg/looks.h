@@ -21,7 +21,7 @@ struct CpfgUses {
     bool has_elasticity = false;   // `_`
     bool changes_tropisms = false; // `@Ti`, `@Td` or `@Ts`
     bool has_textures = false;     // `@Tx`
-    bool has_any_colour = false;   // a colour that is computed
+    bool has_any_colour = false;   // a computed colour, which may have any index
     std::set<unsigned> colours{};  // constant colours, 0 to 255
 };
 

@@ -15,7 +15,7 @@ namespace {
 
 using Modules = std::vector<CpfgModule>;
 
-constexpr std::size_t kMaxLetters = 16; // of a module name in back quotes
+constexpr std::size_t kMaxLetters = 16; // max length of a module name in back quotes
 
 bool is_same(const CpfgModule& a, const CpfgModule& b) {
     return a.name == b.name && a.arguments.size() == b.arguments.size();
@@ -67,11 +67,13 @@ private:
         });
     }
 
+    /// Whether the condition of a production always holds.
     [[nodiscard]] bool is_always(const CpfgProduction& production) {
         return production.condition == kNoForeign ||
                known_values_.of(production.condition).value_or(0.0) != 0.0;
     }
 
+    /// Whether one module can replace the sequence in all words of the stage.
     [[nodiscard]] bool may_join(Stage stage, const Modules& modules) {
         std::size_t letters = 0;
         for (const CpfgModule& module : modules) {
@@ -89,8 +91,8 @@ private:
     /// one of the sequence, to more or fewer of them, or to some of them if none of the sequence
     /// applies.
     [[nodiscard]] bool is_first(Stage stage, const Modules& modules) {
-        bool always = false;
-        bool parts_alone = false; // productions of the parts
+        bool always = false;      // a production of the whole sequence always holds
+        bool parts_alone = false; // another production begins with a module of the sequence
         for (const CpfgProduction& production : session_.productions) {
             const Modules& other = production.predecessor;
             if (production.stage != stage || other.empty()) {
@@ -143,14 +145,14 @@ private:
 
     /// One module in place of `count` modules from `first` on.
     static CpfgModule joined(const CpfgModule* first, std::size_t count) {
-        CpfgModule made = *first;
+        CpfgModule joined_module = *first;
         for (std::size_t i = 1; i < count; ++i) {
-            made.name += first[i].name;
-            made.arguments.insert(made.arguments.end(), first[i].arguments.begin(),
-                                  first[i].arguments.end());
+            joined_module.name += first[i].name;
+            joined_module.arguments.insert(joined_module.arguments.end(),
+                                           first[i].arguments.begin(), first[i].arguments.end());
         }
-        made.has_arguments = !made.arguments.empty();
-        return made;
+        joined_module.has_arguments = !joined_module.arguments.empty();
+        return joined_module;
     }
 
     /// Joins the sequences of the predecessor and the successor. The word that a stage reads is
@@ -165,19 +167,20 @@ private:
             if (production.stage == Stage::Interpret && sequence.stage != Stage::Interpret) {
                 continue;
             }
-            Modules made;
+            Modules joined_modules;
             for (std::size_t i = 0; i < production.successor.size(); ++i) {
                 if (has_at(production.successor, i, sequence.modules)) {
-                    made.push_back(joined(&production.successor[i], count));
+                    joined_modules.push_back(joined(&production.successor[i], count));
                     i += count - 1;
                 } else {
-                    made.push_back(production.successor[i]);
+                    joined_modules.push_back(production.successor[i]);
                 }
             }
-            production.successor = std::move(made);
+            production.successor = std::move(joined_modules);
         }
     }
 
+    /// Whether some production of the joined module always holds.
     [[nodiscard]] bool always_holds(const Sequence& sequence,
                                     const std::vector<CpfgProduction>& productions) {
         const CpfgModule module = joined(sequence.modules.data(), sequence.modules.size());
@@ -190,12 +193,12 @@ private:
 
     /// The production that writes the modules of a sequence if no other applies.
     static CpfgProduction taking_apart(const Sequence& sequence) {
-        CpfgProduction made;
-        made.stage = sequence.stage;
-        made.predecessor = {joined(sequence.modules.data(), sequence.modules.size())};
-        made.successor = sequence.modules;
-        made.span = made.arrow = sequence.modules[0].span;
-        return made;
+        CpfgProduction production;
+        production.stage = sequence.stage;
+        production.predecessor = {joined(sequence.modules.data(), sequence.modules.size())};
+        production.successor = sequence.modules;
+        production.span = production.arrow = sequence.modules[0].span;
+        return production;
     }
 
     CpfgSession& session_;

@@ -28,6 +28,8 @@ struct ContourFile {
     std::vector<CurvePoint> points;
 };
 
+// The functions first_... and take() remove what they read from the beginning of their argument.
+
 std::string_view first_line(std::string_view& text) {
     return trimmed(take_line(text), kBlanks);
 }
@@ -48,6 +50,7 @@ std::optional<double> first_number(std::string_view& line) {
     return is_number ? std::optional(value) : std::nullopt;
 }
 
+/// A number from 0 to `max`, without its fraction.
 std::optional<std::uint32_t> first_count(std::string_view& line, double max) {
     const std::optional<double> number = first_number(line);
     return number && *number >= 0.0 && *number <= max
@@ -55,6 +58,7 @@ std::optional<std::uint32_t> first_count(std::string_view& line, double max) {
                : std::nullopt;
 }
 
+/// Whether the line begins with `label`.
 bool take(std::string_view& line, std::string_view label) {
     if (!line.starts_with(label)) {
         return false;
@@ -63,7 +67,8 @@ bool take(std::string_view& line, std::string_view label) {
     return true;
 }
 
-/// Appends a point `times`; returns false if the line is no point.
+/// Appends a point, with `has_times` as often as the last number of the line says. Returns false if
+/// the line is no point.
 bool append_point(std::string_view line, bool has_times, ContourFile& file) {
     const std::optional<double> x = first_number(line);
     const std::optional<double> y = first_number(line);
@@ -73,11 +78,11 @@ bool append_point(std::string_view line, bool has_times, ContourFile& file) {
     std::uint32_t times = 1;
     if (has_times) {
         static_cast<void>(first_number(line)); // z
-        const auto given = first_count(line, kMaxPoints);
-        if (!given) {
+        const auto written_times = first_count(line, kMaxPoints);
+        if (!written_times) {
             return false;
         }
-        times = *given;
+        times = *written_times;
     }
     file.points.insert(file.points.end(), times, CurvePoint{*x, *y});
     return file.points.size() <= kMaxPoints;
@@ -93,7 +98,7 @@ std::optional<ContourFile> read_contour(std::string_view text) {
         while (!text.empty()) {
             line = first_line(text);
             if (take(line, "points:")) {
-                count = first_count(line, kMaxPoints); // of lines; the second number is of points
+                count = first_count(line, kMaxPoints); // number of lines, then that of points
             } else if (take(line, "type:")) {
                 line = trimmed(line, kBlanks);
                 file.closed = line.starts_with('c');

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Surfaces and contours of a cpfg model: the lines `surface:`, `contour:` and `contour sides:` of its
-// view file, and the contour files (.con), which hold control points of a uniform cubic B-spline.
+// Surfaces and contours of a cpfg model: the lines `surface:`, `contour:` and `contour sides:` of
+// its view file, and the contour files (.con), which hold control points of a uniform cubic
+// B-spline.
 #pragma once
 
 #include "grammar/dialects/cpfg/curves.h"
@@ -25,9 +26,10 @@ struct CpfgOrgans {
     /// Points around the turtle, relative to the width: x to the right, y up; closed if the last
     /// equals the first. Empty for a file that cannot be read.
     std::map<std::uint32_t, std::vector<CurvePoint>> contours;
-    std::map<std::uint32_t, std::string> contour_files;
-    std::uint32_t sides = 0; // 0: not given
+    std::map<std::uint32_t, std::string> contour_files; // name of the file, by number
+    std::uint32_t sides = 0; // number of sides of a contour; 0: not given
 };
+/// Reads the surfaces and contours of a view file with the text `view`.
 
 [[nodiscard]] CpfgOrgans read_organs(std::string_view view, const FileBeside& beside);
 

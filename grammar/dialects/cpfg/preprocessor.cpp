@@ -85,6 +85,7 @@ private:
         context_.diagnostics.add(DiagnosticCode::ForeignSyntax, span, std::move(message));
     }
 
+    /// Whether all conditions around the current line hold.
     [[nodiscard]] bool active() const {
         return std::all_of(conditions_.begin(), conditions_.end(),
                            [](const Condition& each) { return each.holds; });
@@ -371,12 +372,14 @@ private:
         return false;
     }
 
-    void expand(const std::string& own,
+    /// Appends the expansion of a macro to `out`. `macro_name`: empty for an argument. `depth`:
+    /// number of enclosing expansions.
+    void expand(const std::string& macro_name,
                 const Macro& macro,
                 const std::vector<std::string>& arguments,
                 int depth,
                 std::string& out) {
-        active_.push_back(own);
+        active_.push_back(macro_name);
         const std::string_view body = macro.body;
         for (std::size_t at = 0; at < body.size() && out.size() <= kMaxExpanded;) {
             std::size_t length = name_length(body.substr(at));
@@ -396,10 +399,10 @@ private:
             std::size_t used = length;
             if (parameter != macro.parameters.end()) {
                 const auto index = static_cast<std::size_t>(parameter - macro.parameters.begin());
-                Macro given;
-                given.body = index < arguments.size() ? arguments[index] : std::string();
+                Macro argument_macro;
+                argument_macro.body = index < arguments.size() ? arguments[index] : std::string();
                 if (depth < kMaxMacroDepth) {
-                    expand({}, given, {}, depth + 1, out);
+                    expand({}, argument_macro, {}, depth + 1, out);
                 }
             } else if (inner != macros_.end() && depth < kMaxMacroDepth &&
                        std::find(active_.begin(), active_.end(), word) == active_.end() &&
@@ -419,10 +422,10 @@ private:
     Translation& out_;
     IncludeChain chain_;
     std::map<std::string, Macro> macros_;
-    std::vector<Condition> conditions_;
-    std::vector<std::string> active_; // macros that are being replaced
-    std::size_t expanded_ = 0;        // bytes written by macros so far
-    bool reported_ = false;           // an error has said that they are too many
+    std::vector<Condition> conditions_; // one per #if without #endif yet, the innermost last
+    std::vector<std::string> active_;   // macros that are being replaced
+    std::size_t expanded_ = 0;          // bytes written by macros so far
+    bool reported_ = false;             // an error has said that they are too many
 };
 
 } // namespace

@@ -24,8 +24,8 @@ struct CpfgStatement {
     ForeignId target = kNoForeign;   // Assign: a Name or Index. Array: an Index
     ForeignId value = kNoForeign;    // Assign, Call; the condition of If and Loop
     std::vector<int> block{};        // indices of the statements of If and Loop
-    std::vector<int> otherwise{};    // ... of its else
-    std::vector<ForeignId> values{}; // Array
+    std::vector<int> otherwise{};    // indices of the statements after the `else` of an If
+    std::vector<ForeignId> values{}; // Array: initial values
     bool tests_last = false;         // Loop: do { block } while (value);
     SourceSpan span{};
     int depth = 1; // levels of statements within statements
@@ -44,9 +44,9 @@ struct CpfgProduction {
     std::vector<CpfgModule> left;
     std::vector<CpfgModule> predecessor;
     std::vector<CpfgModule> right;
-    std::vector<int> before;          // statements
+    std::vector<int> before;          // indices of the statements before the condition
     ForeignId condition = kNoForeign; // kNoForeign: always holds
-    std::vector<int> after;           // statements
+    std::vector<int> after;           // indices of the statements after the condition
     std::vector<CpfgModule> successor;
     ForeignId weight = kNoForeign;
     SourceSpan span; // place of the predecessor
@@ -75,7 +75,8 @@ public:
     ForeignId seed = kNoForeign;
     ForeignId decompose_depth = kNoForeign;
     ForeignId interpret_depth = kNoForeign;
-    // Indices in `statements` of the statements of `Define:` and of the blocks of a run.
+    // Indices in `statements` of the statements in the blocks `Define:`, `Start:`, `StartEach:`,
+    // `EndEach:` and `End:`.
     std::vector<int> definitions;
     std::vector<int> start;
     std::vector<int> start_each;
@@ -112,11 +113,11 @@ public:
         context.diagnostics.add(DiagnosticCode::ForeignFeature, span, std::move(message));
     }
     /// Adds a production of the current stage.
-    void production(CpfgProduction made);
+    void production(CpfgProduction new_production);
     void begin_system() { ++systems; }
 
 private:
-    std::uint32_t at_ = 0;
+    std::uint32_t at_ = 0; // offset in `text` up to which the scanner has read
 };
 
 /// One pass of the scanner over a text.

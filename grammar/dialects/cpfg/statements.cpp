@@ -187,13 +187,14 @@ void CpfgExpressions::enter_step() {
         const SourceSpan span = tree_[added].span;
         const ForeignId first = first_value(variable, span);
         const std::string start = known_literal(first); // makes `first` inline
-        ForeignId done = tree_.call("step", {}, span);  // count of finished steps
+        ForeignId finished_steps = tree_.call("step", {}, span);
         if (stage_ != Stage::Rewrite) {
-            done = tree_.binary("-", done, tree_.number("1", span), span);
+            finished_steps = tree_.binary("-", finished_steps, tree_.number("1", span), span);
         }
         const ForeignId each = term(added);
         const bool by_one = tree_.literal(each) == "1";
-        const ForeignId all = by_one ? done : tree_.binary("*", each, done, span);
+        const ForeignId all =
+            by_one ? finished_steps : tree_.binary("*", each, finished_steps, span);
         const bool from_zero = by_one && is_cpfg_number(start) && is_cpfg_zero(start);
         assign(variable, from_zero ? all : tree_.binary("+", first, all, span), span);
     }

@@ -26,6 +26,7 @@ std::vector<std::string_view> words_of(std::string_view line) {
     }
 }
 
+/// Whether the name is that of a file of materials or of a colour map.
 bool holds_colours(std::string_view name) {
     return name.ends_with(".mat") || name.ends_with(".map");
 }

@@ -14,10 +14,10 @@ namespace lsys {
 
 struct CpfgFiles {
     std::string view_path;
-    std::string view; // text
+    std::string view; // text of the view file
     std::string colours_path;
-    std::string colours; // bytes
-    bool has_view = false;
+    std::string colours;   // bytes of the colour map or the materials
+    bool has_view = false; // a view file was found and read
 };
 
 /// Finds the files of the model `path`, in this order: the view file of the command line;

@@ -247,18 +247,18 @@ ForeignId CpfgWriter::weighted_condition(const std::vector<std::size_t>& members
     const CpfgProduction& production = session_.productions[index];
     const SourceSpan span =
         production.weight == kNoForeign ? production.span : expression(production.weight).span;
-    const std::vector<std::string> own = formals_of(production);
+    const std::vector<std::string> formals = formals_of(production);
     ForeignId all = kNoForeign;
     ForeignId until = kNoForeign;
     ForeignId test = kNoForeign;
     for (const std::size_t member : members) {
         const CpfgProduction& other = session_.productions[member];
-        expressions_.begin({own.begin(), own.end()}, bound_stage(production.stage));
+        expressions_.begin({formals.begin(), formals.end()}, bound_stage(production.stage));
         expressions_.bind_draws(lowered_[member].first_draw);
         const std::vector<std::string> names = formals_of(other);
-        for (std::size_t i = 0; i < names.size() && i < own.size(); ++i) {
-            if (names[i] != own[i]) {
-                expressions_.let(names[i], tree_.name(own[i], span));
+        for (std::size_t i = 0; i < names.size() && i < formals.size(); ++i) {
+            if (names[i] != formals[i]) {
+                expressions_.let(names[i], tree_.name(formals[i], span));
             }
         }
         expressions_.run(other.before);
@@ -422,7 +422,7 @@ bool CpfgWriter::check_production(const CpfgProduction& production) {
         (contexts || production.predecessor.size() > 1)) {
         session_.report_unsupported(*session_.ring, "contexts in a ring L-system, whose word has "
                                                     "no ends");
-        session_.ring.reset(); // one report
+        session_.ring.reset(); // report the ring once
         return false;
     }
     if (contexts && production.stage == Stage::Decompose) {
@@ -521,12 +521,12 @@ void CpfgWriter::write_group(std::size_t index) {
     bool always = false;
     for (const std::size_t member : members) {
         const CpfgProduction& production = session_.productions[member];
-        const std::vector<std::string> own = formals_of(production);
-        const std::vector<std::string> draws = draw_names(own, count);
+        const std::vector<std::string> formals = formals_of(production);
+        const std::vector<std::string> draws = draw_names(formals, count);
         out_.put(bound_label(production.stage, "b" + std::to_string(member + 1)) + " : " +
                      random_module(index),
                  production.span);
-        write_parameters(own, draws, production.span);
+        write_parameters(formals, draws, production.span);
         out_.put(" : ", production.span);
         write_condition(member, {.expands_locals = true, .draws = draws});
         always = always || is_always(lowered_[member].condition);

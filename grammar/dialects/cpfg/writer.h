@@ -38,9 +38,9 @@ private:
         ForeignId weight = kNoForeign;
         std::vector<std::vector<ForeignId>> arguments; // one list per module of the successor
         std::size_t first_local = 0;                   // index of its first local value
-        std::size_t end_local = 0;
+        std::size_t end_local = 0;                     // one past its last local value
         std::uint32_t first_draw = 0; // index of its first random number in its group
-        std::uint32_t draws = 0;
+        std::uint32_t draws = 0;      // count of its random numbers
     };
 
     // --- names

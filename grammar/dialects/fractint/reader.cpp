@@ -17,10 +17,12 @@ std::size_t word_length(std::string_view ahead) {
     return length_up_to(ahead, ahead[0] == '(' ? stops.substr(5) : stops);
 }
 
+/// Length of the text up to the end of the line or of the entry.
 std::size_t body_length(std::string_view ahead) {
     return length_up_to(ahead, "};\n");
 }
 
+/// Length of a key or of a piece of its text.
 std::size_t text_length(std::string_view ahead) {
     return length_up_to(ahead, std::string_view(" \t\r\x1A\n;=\0", 8));
 }

@@ -27,6 +27,7 @@ constexpr std::string_view kNumbered = "@\\/C<>";
 /// Symbols that no rule can replace in current versions of Fractint.
 constexpr std::string_view kReserved = "+-/\\@|!C<>[]";
 
+/// The capital letter; Fractint does not tell small letters from capitals.
 char folded(char c) {
     return c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c;
 }

@@ -52,7 +52,7 @@ private:
     void report_syntax(SourceSpan place, const std::string& message);
 
     const std::vector<FractintLine>& lines_;
-    SourceSpan name_; // of the system
+    SourceSpan name_; // place of the name of the system
     const ParseContext& context_;
     Translation& translation_;
     bool has_repeated_key_ = false; // a second `Angle` or `Axiom` has been reported

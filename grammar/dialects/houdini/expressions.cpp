@@ -55,8 +55,8 @@ ForeignId HoudiniExpressions::term(ForeignId root, const HoudiniScope& scope) {
     }
     std::sort(wanted.begin(), wanted.end()); // children before parents
     for (const ForeignId id : wanted) {
-        const ForeignId made = lower(id, terms, scope);
-        terms[id] = made;
+        const ForeignId equivalent = lower(id, terms, scope);
+        terms[id] = equivalent;
     }
     return terms[root];
 }

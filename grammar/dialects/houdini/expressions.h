@@ -19,7 +19,7 @@ enum class HoudiniPlace : std::uint8_t { Premise, Successor, Condition, Probabil
 struct HoudiniScope {
     HoudiniPlace place{};
     const HoudiniRule* rule = nullptr; // null in the premise
-    /// Parameters that this variant of the rule lacks.
+    /// Parameters that this variant of the rule lacks; null: it lacks none.
     const std::vector<std::string_view>* omitted_parameters = nullptr;
 };
 
@@ -38,7 +38,7 @@ public:
     void warn_random(SourceSpan place);
 
 private:
-    using Terms = std::map<ForeignId, ForeignId>; // by node of the file
+    using Terms = std::map<ForeignId, ForeignId>; // by node of the file: its equivalent in .lsys
     /// The equivalent of one node. `terms`: the equivalents of its operands.
     [[nodiscard]] ForeignId lower(ForeignId id, const Terms& terms, const HoudiniScope& scope);
     [[nodiscard]] ForeignId name(const ForeignNode& node, const HoudiniScope& scope);

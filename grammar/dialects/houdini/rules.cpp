@@ -143,7 +143,8 @@ void HoudiniWriter::write_rule(const HoudiniRule& rule, std::size_t index) {
     }
 }
 
-/// Writes the formals `(x, y)` of a module of a head; missing names are generated.
+/// Writes the formals `(x, y)` of a module of a head; missing names are generated. `has_age`: the
+/// age of the module is a further formal.
 void HoudiniWriter::write_formals(const HoudiniModule& head, std::uint32_t count, bool has_age) {
     const SourceSpan place = head.arguments.empty() ? head.symbol : head.parentheses;
     for (std::uint32_t i = 0; i < count; ++i) {

@@ -22,13 +22,13 @@ bool is_in(std::string_view set, std::string_view symbol) {
 
 } // namespace
 
-void HoudiniWriter::write_scaled(const Lowered& made) {
-    const HoudiniModule& module = *made.module;
+void HoudiniWriter::write_scaled(const Lowered& lowered_module) {
+    const HoudiniModule& module = *lowered_module.module;
     const std::string_view symbol = text(module.symbol);
     const bool moves = is_in(kMoves, symbol) && is_on("continuous_length");
     const bool turns = is_in(kTurns, symbol) && is_on("continuous_angles");
     const bool draws = is_in(kDrawing, symbol) && is_on("continuous_width");
-    Lowered scaled = made;
+    Lowered scaled = lowered_module;
     const auto scale = [&](std::size_t index) {
         const SourceSpan span = module.symbol;
         scaled.arguments[index] =
@@ -41,14 +41,14 @@ void HoudiniWriter::write_scaled(const Lowered& made) {
         after += spelled_letter(static_cast<unsigned char>(command)) + "(1/" + fraction_ + ")";
     };
     if (moves || turns) {
-        if (made.arguments.empty()) {
+        if (lowered_module.arguments.empty()) {
             scale_turtle(moves ? '"' : ';');
         } else {
             scale(0);
         }
     }
     if (draws) {
-        if (made.arguments.size() < 2) {
+        if (lowered_module.arguments.size() < 2) {
             scale_turtle('!');
         } else {
             scale(1);

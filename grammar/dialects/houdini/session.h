@@ -80,6 +80,7 @@ public:
     /// Ends the condition or probability at a `=` outside of parentheses; returns true if modules
     /// follow.
     bool end_condition();
+    /// Forgets what the line has opened: parentheses, a condition or probability.
     void end_line();
 
     // For the parser.

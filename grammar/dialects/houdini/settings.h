@@ -16,7 +16,7 @@ enum class HoudiniSettingKind : std::uint8_t {
     Seed,
     Ignore, // symbols that contexts skip
     Switch, // on, off, 1 or 0
-    Scale,  // of random lengths, angles and widths
+    Scale,  // range of the random factor of lengths, angles and widths
     Unused, // has no effect here
 };
 

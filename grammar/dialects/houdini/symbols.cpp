@@ -43,11 +43,12 @@ const HoudiniSymbol& HoudiniSymbols::symbol(const HoudiniModule& module) const {
 }
 
 std::uint32_t HoudiniSymbols::count(const HoudiniModule& module) const {
-    auto given = static_cast<std::uint32_t>(module.arguments.size());
-    while (given != 0 && session_.node(module.arguments[given - 1]).kind == ForeignKind::Missing) {
-        --given;
+    auto written_count = static_cast<std::uint32_t>(module.arguments.size());
+    while (written_count != 0 &&
+           session_.node(module.arguments[written_count - 1]).kind == ForeignKind::Missing) {
+        --written_count;
     }
-    return given;
+    return written_count;
 }
 
 void HoudiniSymbols::count_symbols(const std::vector<HoudiniModule>& modules, bool is_word) {

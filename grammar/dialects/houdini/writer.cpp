@@ -227,11 +227,11 @@ void HoudiniWriter::write_symbol(const HoudiniModule& module) {
 HoudiniWriter::Word HoudiniWriter::lower_word(const std::vector<HoudiniModule>& word,
                                               const HoudiniScope& scope) {
     expressions_.begin();
-    Word made;
+    Word lowered_word;
     for (const HoudiniModule& module : word) {
-        made.push_back(lower_module(module, scope));
+        lowered_word.push_back(lower_module(module, scope));
     }
-    return made;
+    return lowered_word;
 }
 
 void HoudiniWriter::name_locals(const Word& word, std::size_t first, std::set<std::string> taken) {
@@ -244,28 +244,28 @@ void HoudiniWriter::name_locals(const Word& word, std::size_t first, std::set<st
 }
 
 void HoudiniWriter::write_word(const Word& word) {
-    for (const Lowered& made : word) {
+    for (const Lowered& lowered_module : word) {
         if (is_last_) {
-            write_scaled(made);
+            write_scaled(lowered_module);
         } else {
-            write_module(made);
+            write_module(lowered_module);
         }
     }
 }
 
-void HoudiniWriter::write_module(const Lowered& made) {
-    const HoudiniModule& module = *made.module;
+void HoudiniWriter::write_module(const Lowered& lowered_module) {
+    const HoudiniModule& module = *lowered_module.module;
     const SourceSpan place = symbols_.count(module) != 0 ? module.parentheses : module.symbol;
-    if (made.name.empty()) {
+    if (lowered_module.name.empty()) {
         write_symbol(module);
     } else {
-        translation_.put(made.name, module.symbol);
+        translation_.put(lowered_module.name, module.symbol);
     }
-    for (std::size_t i = 0; i < made.arguments.size(); ++i) {
+    for (std::size_t i = 0; i < lowered_module.arguments.size(); ++i) {
         translation_.put(i == 0 ? "(" : ", ", place);
-        tree_.write(made.arguments[i], {}, translation_);
+        tree_.write(lowered_module.arguments[i], {}, translation_);
     }
-    translation_.put(made.arguments.empty() ? "" : ")", place);
+    translation_.put(lowered_module.arguments.empty() ? "" : ")", place);
 }
 
 void HoudiniWriter::warn_ignored_effect(char symbol, SourceSpan place) {
@@ -284,12 +284,12 @@ void HoudiniWriter::warn_ignored_effect(char symbol, SourceSpan place) {
 HoudiniWriter::Lowered HoudiniWriter::lower_module(const HoudiniModule& module,
                                                    const HoudiniScope& scope) {
     const HoudiniSymbol& known = symbols_.symbol(module);
-    Lowered made{.module = &module, .name = {}, .arguments = {}};
+    Lowered lowered_module{.module = &module, .name = {}, .arguments = {}};
     if (!known.is_command || known.is_rewritten ||
-        !lower_special(made, text(module.symbol)[0], scope)) {
-        made.arguments = arguments(module, 0, scope);
+        !lower_special(lowered_module, text(module.symbol)[0], scope)) {
+        lowered_module.arguments = arguments(module, 0, scope);
     }
-    return made;
+    return lowered_module;
 }
 
 std::vector<ForeignId> HoudiniWriter::random_turns(const HoudiniModule& module,
@@ -309,19 +309,19 @@ std::vector<ForeignId> HoudiniWriter::random_turns(const HoudiniModule& module,
     return turns;
 }
 
-bool HoudiniWriter::lower_special(Lowered& made, char symbol, const HoudiniScope& scope) {
-    const HoudiniModule& module = *made.module;
+bool HoudiniWriter::lower_special(Lowered& lowered_module, char symbol, const HoudiniScope& scope) {
+    const HoudiniModule& module = *lowered_module.module;
     const std::uint32_t count = symbols_.count(module);
     switch (symbol) {
     case '~':
-        made.name = "`~`";
-        made.arguments = random_turns(module, scope);
+        lowered_module.name = "`~`";
+        lowered_module.arguments = random_turns(module, scope);
         return true;
     case 'T':
         if (count != 0) {
             return false;
         }
-        made.arguments = {tree_.number(number("gravity", "0"), module.symbol)};
+        lowered_module.arguments = {tree_.number(number("gravity", "0"), module.symbol)};
         return true;
     case '$':
         if (count == 0) {
@@ -330,9 +330,9 @@ bool HoudiniWriter::lower_special(Lowered& made, char symbol, const HoudiniScope
         if (count != 3) {
             report_syntax(module.parentheses, "`$` takes a point: three numbers");
         }
-        made.name = "`aim`";
+        lowered_module.name = "`aim`";
         translation_.replace_name("aim", "$");
-        made.arguments = arguments(module, 0, scope);
+        lowered_module.arguments = arguments(module, 0, scope);
         return true;
     case 'a': {
         if (count == 0) {
@@ -340,7 +340,7 @@ bool HoudiniWriter::lower_special(Lowered& made, char symbol, const HoudiniScope
         }
         warn_ignored_effect('a', module.symbol);
         const bool named = session_.node(module.arguments.front()).kind == ForeignKind::Text;
-        made.arguments = arguments(module, named ? 1 : 0, scope);
+        lowered_module.arguments = arguments(module, named ? 1 : 0, scope);
         return true;
     }
     case 'g':
@@ -393,24 +393,24 @@ std::vector<ForeignId> HoudiniWriter::arguments(const HoudiniModule& module,
                                                 std::uint32_t skip,
                                                 const HoudiniScope& scope) {
     const HoudiniSymbol& known = symbols_.symbol(module);
-    const std::uint32_t given = symbols_.count(module);
-    const std::uint32_t count = known.is_command ? given : known.max_count;
-    std::vector<ForeignId> made;
+    const std::uint32_t written_count = symbols_.count(module);
+    const std::uint32_t count = known.is_command ? written_count : known.max_count;
+    std::vector<ForeignId> terms;
     if (count > HoudiniSymbols::kMaxParameters) {
         report_syntax(module.parentheses, "a module with so many parameters is not read");
-        return made;
+        return terms;
     }
-    const SourceSpan place = given != 0 ? module.parentheses : module.symbol;
+    const SourceSpan place = written_count != 0 ? module.parentheses : module.symbol;
     for (std::uint32_t i = skip; i < count; ++i) {
         const bool is_given =
-            i < given && session_.node(module.arguments[i]).kind != ForeignKind::Missing;
-        made.push_back(is_given ? expressions_.term(module.arguments[i], scope)
-                                : omitted_argument(module, i, place));
+            i < written_count && session_.node(module.arguments[i]).kind != ForeignKind::Missing;
+        terms.push_back(is_given ? expressions_.term(module.arguments[i], scope)
+                                 : omitted_argument(module, i, place));
     }
     if (known.has_age) {
-        made.push_back(tree_.number("0", place));
+        terms.push_back(tree_.number("0", place));
     }
-    return made;
+    return terms;
 }
 
 } // namespace lsys

@@ -90,14 +90,14 @@ private:
     /// Finds which local values from index `first` on a word reads, and gives them names.
     void name_locals(const Word& word, std::size_t first, std::set<std::string> taken);
     void write_word(const Word& word);
-    void write_module(const Lowered& made);
+    void write_module(const Lowered& lowered_module);
     /// Scales a command of the last, fractional generation: its parameter, or the values of the
     /// turtle before the command, restored behind it.
-    void write_scaled(const Lowered& made);
+    void write_scaled(const Lowered& lowered_module);
     void write_expression(ForeignId expression, const HoudiniScope& scope);
     [[nodiscard]] Lowered lower_module(const HoudiniModule& module, const HoudiniScope& scope);
     /// Lowers a turtle symbol that .lsys spells in another way; returns false for other symbols.
-    bool lower_special(Lowered& made, char symbol, const HoudiniScope& scope);
+    bool lower_special(Lowered& lowered_module, char symbol, const HoudiniScope& scope);
     /// Random ranges of the three turns of `~`, drawn when the derivation writes the module.
     [[nodiscard]] std::vector<ForeignId> random_turns(const HoudiniModule& module,
                                                       const HoudiniScope& scope);

@@ -42,13 +42,14 @@ Level level_of(const ForeignNode& node) {
 
 /// The loosest left operand that needs no parentheses. A comparison as an operand of another
 /// comparison needs them.
-Level left_level(Level own) {
-    return own == Equal || own == Compare ? Sum : own == Power ? Single : own;
+Level left_level(Level level) {
+    return level == Equal || level == Compare ? Sum : level == Power ? Single : level;
 }
-Level right_level(Level own) {
-    return own == Equal || own == Compare ? Sum
-           : own == Power                 ? Power
-                                          : static_cast<Level>(own + 1);
+/// The same for the right operand.
+Level right_level(Level level) {
+    return level == Equal || level == Compare ? Sum
+           : level == Power                   ? Power
+                                              : static_cast<Level>(level + 1);
 }
 
 } // namespace

@@ -44,11 +44,11 @@ enum class ForeignKind : std::uint8_t {
 struct ForeignNode {
     ForeignKind kind = ForeignKind::Number;
     std::string text{};
-    std::vector<ForeignId> parts{};
-    SourceSpan span{};       // place of the node with its operands
-    SourceSpan token{};      // the operator or name
-    std::uint32_t index = 0; // of a Draw or Local
-    std::uint32_t depth = 1; // set by ForeignExpressions::add()
+    std::vector<ForeignId> parts{}; // operands, arguments or indices
+    SourceSpan span{};              // place of the node with its operands
+    SourceSpan token{};             // the operator or name
+    std::uint32_t index = 0;        // of a Draw or Local
+    std::uint32_t depth = 1;        // set by ForeignExpressions::add()
 };
 
 /// A value with a name: a `let` of a production or a `#define`.
@@ -56,10 +56,10 @@ struct ForeignLocal {
     std::string name{}; // proposed; ForeignExpressions::name_locals() makes it unique
     ForeignId value = kNoForeign;
     SourceSpan span{};
-    bool is_final = false;  // written as a `let` even if it is read only once
-    bool is_inline = false; // the value is written in place of the name
-    bool is_constant = false;
-    std::uint32_t reads = 0; // reads by other written values; set by count_reads()
+    bool is_final = false;    // written as a `let` even if it is read only once
+    bool is_inline = false;   // the value is written in place of the name
+    bool is_constant = false; // a `#define`, whose name conditions can read
+    std::uint32_t reads = 0;  // reads by other written values; set by count_reads()
 };
 
 /// Options for writing the nodes of one statement.

@@ -165,7 +165,7 @@ std::optional<KnownFormat> find_known_format(std::span<const std::string_view> l
 
 std::optional<KnownFormat> find_plain_text(std::span<const std::string_view> lines) {
     constexpr std::size_t kMinRows = 3;
-    constexpr std::ptrdiff_t kMinCommas = 2; // of a row
+    constexpr std::ptrdiff_t kMinCommas = 2; // min number of commas of a row
     const auto commas = [](std::string_view line) {
         return std::count(line.begin(), line.end(), ',');
     };

@@ -14,11 +14,11 @@ LineReader::LineReader(SourceSpan text, const LineFormat& format, const ParseCon
 
 LinePiece LineReader::piece(LinePieceKind kind, std::size_t length) {
     const auto begin = static_cast<std::uint32_t>(span_.begin + at_);
-    const LinePiece made{kind,
-                         {span_.file, begin, begin + static_cast<std::uint32_t>(length)},
-                         text_.substr(at_, length)};
+    const LinePiece next_piece{kind,
+                               {span_.file, begin, begin + static_cast<std::uint32_t>(length)},
+                               text_.substr(at_, length)};
     at_ += length;
-    return made;
+    return next_piece;
 }
 
 std::string_view LineReader::ahead() {

@@ -22,7 +22,7 @@ struct DialectWords {
 
 class SyntaxMessage {
 public:
-    /// `words` may be null.
+    /// `words`: null if the dialect has no keywords.
     SyntaxMessage(const ParseContext& context, SourceSpan place, const DialectWords* words)
         : context_(context), place_(place), words_(words) {}
 
@@ -45,7 +45,7 @@ private:
     const DialectWords* words_;
     std::string expected_; // expected tokens except the last one, with commas
     std::string last_;     // the expected token added last
-    int count_ = 0;        // of expected tokens
+    int count_ = 0;        // number of expected tokens
 };
 
 /// Reports the character at the start of `place` with a fix, if it looks like an ASCII character;

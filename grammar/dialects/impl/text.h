@@ -18,7 +18,7 @@ namespace lsys {
 [[nodiscard]] std::string lowered(std::string_view text);
 /// The shortest text that reads back as `value`.
 [[nodiscard]] std::string text_of(float value);
-/// The same without an exponent.
+/// The shortest text without an exponent that reads back as `value`.
 [[nodiscard]] std::string fixed_text(float value);
 /// `value` with at most six digits after the point, without an exponent.
 [[nodiscard]] std::string decimal_text(double value);

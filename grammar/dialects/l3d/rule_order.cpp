@@ -46,6 +46,7 @@ std::vector<Key> keys_of(const std::vector<L3dRule>& rules, const SourceMap& sou
     return keys;
 }
 
+/// The text with each `key` replaced by `value`.
 std::string replaced(const std::string& text, std::string_view key, std::string_view value) {
     std::string out;
     std::size_t at = 0;
@@ -128,6 +129,7 @@ std::vector<std::size_t> swaps_of_sort(Order order) {
     return places;
 }
 
+/// The order after the first `count` of the swaps `places`.
 Order exchanged(Order order, const std::vector<std::size_t>& places, std::size_t count) {
     for (std::size_t i = 0; i < count; ++i) {
         std::swap(order[places[i]], order[places[i] + 1]);
@@ -166,8 +168,8 @@ void report_rule_order(const std::vector<L3dRule>& rules,
     }
     // Bisection finds a swap between the two orders that changes the word.
     const std::vector<std::size_t> places = swaps_of_sort(sorted);
-    std::size_t same = 0;
-    std::size_t differs = places.size();
+    std::size_t same = 0;                // number of swaps after which the words are equal
+    std::size_t differs = places.size(); // number of swaps after which a word differs
     while (differs - same > 1) {
         const std::size_t middle = same + (differs - same) / 2;
         const Order order = exchanged(sorted, places, middle);

@@ -47,7 +47,7 @@ private:
     const ParseContext& context_;
     Translation& translation_;
     FileId file_ = kNoFile;
-    std::string_view source_;
+    std::string_view source_; // text of file_
     bool is_quiet_ = false;
     bool has_warned_half_turn_ = false;
     bool has_warned_digit_ = false;

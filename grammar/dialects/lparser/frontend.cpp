@@ -28,8 +28,8 @@ namespace {
 
 constexpr std::string_view kBlanks = " \t\r";
 
-/// A command of Lparser as modules of the profile `houdini`. In `with`, `#` stands for the
-/// parameter.
+/// A command of Lparser as modules of the profile `houdini`. `bare`: without a parameter; `with`:
+/// with a parameter, for which `#` stands.
 struct Command {
     char symbol;
     std::string_view bare;
@@ -148,7 +148,7 @@ private:
 
     /// Writes the colours of the file, or those of Lparser, if the file uses colours.
     void write_colours() {
-        std::map<std::string, bool> own;
+        std::map<std::string, bool> file_colours;
         for (const SourceSpan span : file_.colours) {
             std::vector<std::string> numbers;
             std::string_view rest = text(span);
@@ -163,7 +163,7 @@ private:
             if (!fits) {
                 context_.diagnostics.add(DiagnosticCode::ForeignSyntax, span,
                                          "a colour is an index, red, green and blue");
-            } else if (own.emplace(numbers[0], true).second) {
+            } else if (file_colours.emplace(numbers[0], true).second) {
                 std::string parts;
                 for (std::size_t i = 1; i < 4; ++i) {
                     parts += " (" + numbers[i] + "/255)";
@@ -178,7 +178,7 @@ private:
         }
         for (std::size_t i = 0; i < kColours.size() && uses_colours; ++i) {
             const std::string index = std::to_string(i + 2);
-            if (!own.contains(index)) {
+            if (!file_colours.contains(index)) {
                 out_.put("#material " + index + " colour " + std::string(kColours[i]) + ";\n",
                          *file_.axiom);
             }
@@ -380,8 +380,8 @@ private:
     std::set<char> with_parameter_;                 // symbols that can have a parameter
     std::map<char, SourceSpan> drawn_;              // rewritten commands of several modules
     std::map<std::string, SourceSpan> idle_;        // symbols that do nothing
-    bool has_warned_ = false;
-    bool has_stray_ = false; // a `(` without a symbol has been reported
+    bool has_warned_ = false;                       // the warning about `t` has been reported
+    bool has_stray_ = false;                        // a `(` without a symbol has been reported
 };
 
 } // namespace

@@ -17,9 +17,9 @@ struct LparserRule {
 };
 
 struct LparserFile {
-    std::optional<SourceSpan> recursion;
+    std::optional<SourceSpan> recursion; // number of generations
     std::optional<SourceSpan> angle;
-    std::optional<SourceSpan> thickness;
+    std::optional<SourceSpan> thickness; // percent of the length of a segment
     std::optional<SourceSpan> axiom;
     std::vector<LparserRule> rules;
     std::vector<SourceSpan> colours; // index and three parts

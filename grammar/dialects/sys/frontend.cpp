@@ -201,7 +201,8 @@ void check_count(const SysFile& file, const ParseContext& context) {
     }
 }
 
-/// Writes a rule as a production for its symbol with `parameters` parameters.
+/// Writes a rule as a production for its symbol with `parameters` parameters. `certain`: the rule
+/// needs no probability.
 void write_rule(const SysRule& rule,
                 const std::string& name,
                 std::size_t parameters,

@@ -34,7 +34,7 @@ enum class LexemeKind : std::uint8_t {
 struct Lexeme {
     LexemeKind kind{};
     std::string_view text;
-    std::uint32_t newlines_before = 0;
+    std::uint32_t newlines_before = 0; // number of line ends before the token
     bool has_blank_before = false;
     bool opens_call = false;   // for Left: the `(` of a function call
     bool opens_bounds = false; // for Left: the `{` after the value of a `#param`

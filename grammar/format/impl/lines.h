@@ -22,7 +22,8 @@ public:
     /// Appends to `out`, whose last line already has `column` columns.
     LineWriter(std::string& out, std::uint32_t column) : out_(out), column_(column) {}
 
-    /// Adds a piece, after `blanks` unless it begins a line.
+    /// Adds a piece, after `blanks` blanks unless it begins a line. `may_break`: whether the line may
+    /// be broken before the piece.
     void add(const Piece& piece, std::uint32_t blanks, bool may_break);
     /// Ends the statement.
     void finish();

@@ -12,6 +12,7 @@ namespace {
 /// Maximum number of equal symbols in a piece, as in `////`.
 constexpr std::uint32_t kMaxRepeats = 16;
 
+/// Whether the operator has no blanks around it.
 bool is_tight(const Lexeme& lexeme) {
     return lexeme.kind == LexemeKind::Operator &&
            (lexeme.text == "^" || lexeme.text == "*" || lexeme.text == "/");

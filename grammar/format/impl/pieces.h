@@ -65,8 +65,8 @@ private:
     LexemeReader reader_;
     Lexeme previous_;
     Lexeme current_;
-    std::size_t end_ = 0;
-    bool done_ = false;
+    std::size_t end_ = 0; // see offset()
+    bool done_ = false;   // the last piece has been read
     StatementShape shape_ = StatementShape::Other;
     std::uint32_t index_ = 0;        // index of current_, not counting comments
     std::uint32_t colons_ = 0;       // number of `:` so far

@@ -31,9 +31,9 @@ struct DraftText {
     Diagnostics& diagnostics;
     /// The text with comments replaced by blanks and text in back quotes replaced by letters.
     std::string masked;
-    bool is_changed = false;    // `text` differs from the file
-    bool is_incomplete = false; // a statement is left out
-    std::vector<FreeLine> lines;
+    bool is_changed = false;     // `text` differs from the file
+    bool is_incomplete = false;  // a statement is left out
+    std::vector<FreeLine> lines; // result of free_lines()
     bool has_free_lines = false; // `lines` is up to date with `text`
 
     [[nodiscard]] SourceSpan span(std::size_t begin, std::size_t end) const {

@@ -518,6 +518,8 @@ bool begins_next_local(const ParseSession& session) {
            text.substr(sign, 2) != "==";
 }
 
+/// Reports two values without an operator between them. Returns the operator or `,` that is most
+/// likely missing, or discards the statement.
 Token between_values(ParseSession& session) {
     ScanState& scan = session.scan;
     if (report_macro(session) || report_exchanged_parts(session) || report_lost_open(session) ||

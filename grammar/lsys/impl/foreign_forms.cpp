@@ -169,6 +169,7 @@ public:
     }
 
 private:
+    /// The text that is searched: comments and names in back quotes are masked.
     [[nodiscard]] std::string_view text() const { return draft_.masked; }
     [[nodiscard]] char char_at(std::size_t at) const {
         return at < draft_.masked.size() ? draft_.masked[at] : '\0';
@@ -551,6 +552,7 @@ private:
 
     // --- productions
 
+    /// Repairs the parts of a production; returns the offset from which the search continues.
     std::size_t production() {
         const std::size_t colon = find(':', body_);
         if (colon == std::string_view::npos) {
@@ -645,8 +647,8 @@ private:
         if (names.size() < 2 || names.size() != values.size()) {
             return;
         }
-        std::string plain;
-        std::string dense;
+        std::string plain; // the text that the fix offers
+        std::string dense; // the same values without blanks, which fit into their place
         for (std::size_t i = 0; i < names.size(); ++i) {
             if (!is_word(text_of(text(), names[i])) ||
                 text_of(text(), values[i]).find('=') != std::string_view::npos) {
@@ -856,7 +858,7 @@ private:
             min_begin += leading_word(text().substr(min_begin)).size();
         }
         bool is_inside = false;
-        std::size_t range = std::string_view::npos; // begin of the innermost range around
+        std::size_t range = std::string_view::npos; // begin of the innermost `{` around the `?`
         while (begin > min_begin) {
             const char c = char_at(begin - 1);
             if (c == ')' || c == '}') {
@@ -968,8 +970,8 @@ private:
 
     DraftText& draft_;
     StatementText statement_;
-    std::string_view word_;
-    std::size_t body_ = 0; // offset after `#word`
+    std::string_view word_; // word after the `#`
+    std::size_t body_ = 0;  // offset after `#word`
     Keyword keyword_ = Keyword::Label;
 };
 

@@ -46,6 +46,7 @@ namespace lsys {
 [[nodiscard]] constexpr bool takes_file_names(Keyword keyword) {
     return keyword == Keyword::Material || keyword == Keyword::Sense;
 }
+/// The keyword that `word` spells; Keyword::Label for other words.
 [[nodiscard]] Keyword find_keyword(std::string_view word);
 /// Whether `word` is the name of `keyword` in another program.
 [[nodiscard]] bool is_synonym(std::string_view word, Keyword keyword);

@@ -18,7 +18,7 @@ struct NormalizedText {
     std::unique_ptr<std::string> draft;
     /// Copy with invalid UTF-8 replaced by blanks; null or empty if the file has none.
     std::unique_ptr<std::string> valid_utf8;
-    std::unique_ptr<TextMap> map;
+    std::unique_ptr<TextMap> map; // null if no character is replaced
     ScannedText scanned;
     /// Value of the first `#set names` of the file.
     ModuleNames names = ModuleNames::Words;

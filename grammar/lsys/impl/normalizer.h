@@ -29,7 +29,7 @@ struct StrayCharacter {
 
 class Normalizer {
 public:
-    /// `diagnostics` may be null.
+    /// `diagnostics`: null if nothing is to be reported.
     Normalizer(FileId file, std::string_view text, TextMap& map, Diagnostics* diagnostics)
         : file_(file), text_(text), map_(map), diagnostics_(diagnostics) {}
 
@@ -41,9 +41,9 @@ private:
     struct Group {
         std::uint32_t begin = 0;
         std::uint32_t end = 0;
-        std::string ascii; // replaces them
-        std::string code_points;
-        std::string_view name;   // of all of them; empty if they differ
+        std::string ascii;       // text that replaces the characters
+        std::string code_points; // numbers of the characters, for the message
+        std::string_view name;   // name of all characters; empty if their names differ
         std::uint32_t count = 0; // number of characters
     };
 

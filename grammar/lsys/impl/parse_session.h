@@ -79,7 +79,8 @@ public:
     }
 
     // --- for the parser
-    /// Ends a statement: keeps it if it is `whole` and not discarded; parses an included file.
+    /// Ends a statement: keeps it if it is `whole`, that is without a syntax error, and not
+    /// discarded; parses an included file.
     void end_statement(SourceSpan span, bool whole);
     /// Continues within a statement after an error.
     void recover() {
@@ -111,15 +112,15 @@ private:
 
     /// Diagnostics of a part of a statement.
     struct PartDiagnostics {
-        std::uint32_t part_begin = 0xFFFFFFFF;
-        std::size_t next = 0; // index of the first unchecked diagnostic
-        bool has_doubtful_error = false;
+        std::uint32_t part_begin = 0xFFFFFFFF; // offset at which the part begins; initially none
+        std::size_t next = 0;                  // index of the first unchecked diagnostic
+        bool has_doubtful_error = false;       // one of the errors has no certain fix
     };
 
     Ast& ast_;
     CheckedDiagnostics checked_;
     PartDiagnostics part_diagnostics_;
-    std::size_t line_search_end_ = 0;
+    std::size_t line_search_end_ = 0; // offset up to which is_commented_out() has searched
     // First character that is not a blank on the line searched last; npos: none.
     std::size_t line_first_ = std::string_view::npos;
 };

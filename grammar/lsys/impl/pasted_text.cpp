@@ -24,6 +24,7 @@ bool is_foreign(std::string_view line) {
 
 // --- line ends
 
+/// Reports carriage returns alone after which a comment hides statements, and repairs them.
 void repair_line_ends(DraftText& draft) {
     const std::string_view text = draft.text;
     if (text.find('\n') != std::string_view::npos) {
@@ -327,9 +328,9 @@ void repair_entities(DraftText& draft) {
 /// Whether two texts differ in blanks and line ends only.
 bool are_equal_but_for_blanks(std::string_view a, std::string_view b) {
     const auto without_blanks = [](std::string_view text) {
-        std::string kept(text);
-        std::erase_if(kept, [](char c) { return kWhitespace.find(c) != std::string_view::npos; });
-        return kept;
+        std::string result(text);
+        std::erase_if(result, [](char c) { return kWhitespace.find(c) != std::string_view::npos; });
+        return result;
     };
     return without_blanks(a) == without_blanks(b);
 }
@@ -584,6 +585,7 @@ struct Meaning {
     std::string replacement; // .lsys statements; empty: drop the line
 };
 
+/// Recognises lines that are no rules: a function, the number of generations, the angle, the axiom.
 std::optional<Meaning> header_meaning(std::string_view line) {
     constexpr std::string_view kDef = "def ";
     if (line.starts_with(kDef)) {

@@ -40,20 +40,20 @@ enum class Keyword : std::uint8_t {
 };
 
 enum class Part : std::uint8_t {
-    Between,      // statements
+    Between,      // between statements
     Opening,      // after `#word`, up to the `:` or `=` or the name
     FunctionHead, // the formals of #function
     Value,        // the expression of #n, #define, #param, #function
     Declaration,  // the modules of #module
-    ObjectName,
-    ObjectValue,
-    Setting,
-    Ignored,
-    Probability, // the probability of an axiom
-    Axiom,
-    Head,
-    Condition,
-    Locals, // `let` and local values
+    ObjectName,   // the module of #object, or the first word of #include
+    ObjectValue,  // the object or file that follows
+    Setting,      // the values of #set, #curve, #contour, #material, #sense
+    Ignored,      // the modules of #ignore and #consider
+    Probability,  // the probability of an axiom
+    Axiom,        // the modules of an axiom
+    Head,         // contexts and predecessor
+    Condition,    // condition and probability of a production
+    Locals,       // `let` and local values
     Successor,
 };
 
@@ -102,7 +102,7 @@ struct ScanState {
     std::uint32_t statement_begin = 0;
     std::optional<std::uint32_t> colons; // count of `:` in the statement; empty until counted
     std::size_t first_diagnostic = 0;    // index of the statement's first diagnostic
-    std::uint32_t part_begin = 0;
+    std::uint32_t part_begin = 0;        // end of the token before the part
     std::uint32_t comment_begin = 0;
     std::uint32_t next_statement = 0; // first character after a missing `;`
     int comment_return = 0;           // start condition after the comment
@@ -110,7 +110,7 @@ struct ScanState {
     // Open brackets of the current expression. Right-associative operators (unary ones and `^`)
     // count as nesting too.
     std::vector<OpenBracket> open;
-    std::uint32_t open_braces = 0;
+    std::uint32_t open_braces = 0; // number of `{` in `open`
     std::uint32_t chain = 0; // operators `-`, `!` and `^` that wait for operands at this level
     std::uint32_t depth = 0; // open brackets and chains of all levels
 

@@ -56,6 +56,7 @@ Part part_after(Keyword keyword, char next) {
     return Part::Opening;
 }
 
+/// Resets what the scanner knows of the previous statement.
 void open_statement(ParseSession& session, Keyword keyword) {
     ScanState& scan = session.scan;
     scan.keyword = keyword;
@@ -112,6 +113,7 @@ bool lacks_first_colon(const ParseSession& session) {
                                      : is_mistyped_colon(text, next, 0);
 }
 
+/// Enters the part that follows the `#word`, before the character `next`.
 Token begin_parts(ParseSession& session, std::string_view word, char next) {
     ScanState& scan = session.scan;
     const SourceSpan span = session.token();

@@ -23,9 +23,9 @@ using Kind = Parser::symbol_kind;
 struct Unexpected {
     Parser::symbol_kind_type token;
     SourceSpan place;
-    std::span<const Parser::symbol_kind_type> expected;
-    Part part;
-    std::string_view text;
+    std::span<const Parser::symbol_kind_type> expected; // tokens allowed instead
+    Part part;                                          // part of the statement
+    std::string_view text;                              // empty for an inserted token
 
     [[nodiscard]] bool expects(Parser::symbol_kind_type kind) const {
         return std::find(expected.begin(), expected.end(), kind) != expected.end();

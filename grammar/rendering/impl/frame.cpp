@@ -177,10 +177,10 @@ std::vector<const Edit*> first_edits(const Fix& fix) {
     const auto by_place = [](const Edit* a, const Edit* b) {
         return std::pair(a->span.file, a->span.begin) < std::pair(b->span.file, b->span.begin);
     };
-    const std::size_t kept = std::min(edits.size(), kMaxPreviewEdits);
-    const auto middle = edits.begin() + static_cast<std::ptrdiff_t>(kept);
+    const std::size_t count = std::min(edits.size(), kMaxPreviewEdits);
+    const auto middle = edits.begin() + static_cast<std::ptrdiff_t>(count);
     std::partial_sort(edits.begin(), middle, edits.end(), by_place);
-    edits.resize(kept);
+    edits.resize(count);
     return edits;
 }
 

@@ -18,10 +18,11 @@ struct Palette {
     std::string_view warning;
     std::string_view note;
     std::string_view help;
-    std::string_view gutter;
-    std::string_view strong;
+    std::string_view gutter; // line numbers and the bar after them
+    std::string_view strong; // text in bold
     std::string_view reset;
 };
+/// `colour`: false for a palette of empty texts.
 [[nodiscard]] const Palette& palette(bool colour);
 [[nodiscard]] std::string_view colour_of(Severity severity, const Palette& colours);
 
