@@ -134,6 +134,7 @@ TEST_CASE("an exception of a function ends the call") {
 
 namespace {
 
+/// What answer_height() answers, and the status that it returns.
 struct Given {
     std::vector<double> numbers;
     int status = 0;

@@ -81,7 +81,7 @@ double farthest(const std::vector<TreeSegment>& from, const std::vector<TreeSegm
 }
 
 /// For each instance, the distance from its entry to its farthest point.
-std::vector<double> own_reach(const InstanceCache& cache) {
+std::vector<double> surface_reaches(const InstanceCache& cache) {
     const PartSkeletons skeletons(cache);
     std::vector<double> reach;
     for (std::uint32_t i = 0; i < cache.instances.size(); ++i) {
@@ -191,7 +191,7 @@ TEST_CASE("no tree goes beyond the bounds of its cache") {
     const float rho = GENERATE(0.3F, 0.7F);
     const Planted planted = plant(kBush, 6, rho, heroes(4));
     const InstanceCache& cache = planted.cache;
-    const TreeBounds bounds = tree_bounds(cache, own_reach(cache));
+    const TreeBounds bounds = tree_bounds(cache, surface_reaches(cache));
     const PartSkeletons skeletons(cache);
     // The largest ratio of the distance between a tree and its plant with stand-ins to the bound of
     // this distance.

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Plans a random grammar: its modules, its features and their frequencies.
+// Plans a random grammar: its modules, its features and their frequencies. generate_productions.h
+// explains bundles.
 
 #pragma once
 

@@ -19,7 +19,7 @@ namespace {
 constexpr std::uint32_t kMinClusterTrees = 8; // min trees of a cluster
 constexpr std::uint32_t kFramesKept = 32;     // frames for which unused branches stay in the pool
 constexpr int kDetailSteps = 24;              // number of bisections
-constexpr float kNearest = 0.1F;              // m: min distance
+constexpr float kNearest = 0.1F;              // m; shorter distances count as this one
 
 float pixels_of(const Frustum& frustum, const glm::vec3& place, float height) {
     return height * frustum.pixels / std::max(glm::distance(frustum.eye, place), kNearest);

@@ -14,8 +14,8 @@ namespace lsys::view {
 namespace {
 
 constexpr std::uint32_t kMaxCells = std::uint32_t{1} << 22; // max number of squares
-constexpr std::uint32_t kPaintGeneration =
-    0x5041494EU; // differs from the numbers by which placements draw
+// Generation in the counter of Philox for painted trees; no placement draws with this number.
+constexpr std::uint32_t kPaintGeneration = 0x5041494EU;
 // Number of random places that are tried per tree that still fits into the brush; max number of
 // places tried per call.
 constexpr double kTries = 4.0;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Environments of kind `map`: bilinear grey values of a picture.
+// Environments of kind `map`, computed as bilinear grey values of a picture.
 
 #pragma once
 

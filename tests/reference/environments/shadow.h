@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Environments of kind `shadow`: pyramids written voxel by voxel.
+// Environments of kind `shadow`, computed from pyramids that are stored voxel by voxel.
 
 #pragma once
 

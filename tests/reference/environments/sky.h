@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Environments of kind `sky`: rays cell by cell, and every organ for every cell.
+// Environments of kind `sky`, computed by rays cell by cell, each cell compared with every organ.
 
 #pragma once
 

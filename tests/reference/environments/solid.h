@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Environments of kind `solid`: every plane and every triangle.
+// Environments of kind `solid`, computed from every plane and every triangle.
 
 #pragma once
 
@@ -20,7 +20,7 @@ struct Solid {
 // For each place: signed distance d to the mesh, and the direction x y z to its nearest point.
 Answers solid_answers(const Solid& solid, const std::vector<Place>& places);
 
-// The direction and the distance without its sign, as an answer, of the meshes alone.
+// The answer for the meshes alone; its distance has no sign.
 std::vector<double> nearest_of_meshes(const std::vector<Surface>& meshes, const Vector& place);
 
 } // namespace lsys::reference

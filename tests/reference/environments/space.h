@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Environments of kind `space`: every marker against every place.
+// Environments of kind `space`, computed from every pair of a marker and a place.
 
 #pragma once
 

@@ -120,7 +120,7 @@ TEST_CASE("tapered pipes narrow to the width of the segment that continues them"
         REQUIRE(apply_pipe({2.0F, 0.03F, taper}, kWood, kNoLimit, plant) == std::nullopt);
         for (std::uint32_t i = 0; i < plant.segments.size(); ++i) {
             const Segment& own = steps.segments[i];
-            const Segment* next = nullptr; // the child on the axis, else the thickest, the first
+            const Segment* next = nullptr; // child on the axis, else the first of the thickest
             for (std::uint32_t k = i + 1; k < plant.segments.size(); ++k) {
                 const Segment& child = steps.segments[k];
                 if (child.parent != i) {

@@ -75,6 +75,7 @@ static_assert(sizeof(TreeRecord) == 24);
 /// a larger buffer.
 constexpr std::size_t kRoomForTrees = std::size_t{1} << 14U;
 
+/// The record of a tree. `full`: the same tree with its yaw and number.
 TreeRecord record_of(const LodTree& tree, const Tree& full) {
     const float turns = full.yaw / (2.0F * std::numbers::pi_v<float>);
     const auto yaw = static_cast<std::uint32_t>(65536.0F * (turns - std::floor(turns))) & 0xFFFFU;

@@ -62,7 +62,7 @@ struct CommandTemplates {
 struct DeviceDraws {
     GLuint branches = 0; // buffer of PoolBranch
     GLuint entries = 0;  // buffer of pairs of a key and a BranchEntry
-    GLuint commands = 0;
+    GLuint commands = 0; // buffer of DrawCommand
     std::vector<CommandRange> ranges; // as CommandTemplates::ranges
 };
 
