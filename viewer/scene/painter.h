@@ -28,7 +28,7 @@ struct Brush {
 /// A tree that was added or removed.
 struct TreeChange {
     std::uint32_t index = 0; // index for Painter::tree()
-    bool alive = false;
+    bool alive = false;      // whether the tree exists after the change
 };
 
 class Painter {

@@ -7,7 +7,7 @@
 
 namespace lsys::reference {
 
-// The keys of the statement.
+// The keys of `#sense NAME shadow` (docs/language.md, section 13.2).
 struct Shadow {
     double cell = 0.5;
     int levels = 8;

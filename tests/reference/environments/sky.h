@@ -7,7 +7,7 @@
 
 namespace lsys::reference {
 
-// The keys of the statement.
+// The keys of `#sense NAME sky` (docs/language.md, section 13.2).
 struct Sky {
     double cell = 0.5;
     double extinction = 0.5;
