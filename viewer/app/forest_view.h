@@ -182,7 +182,7 @@ private:
         SpeciesMoves moves;
         /// Counts of swaps, moments, trees and steps: equal counts mean that no tree has changed.
         std::array<std::uint64_t, 4> content{};
-        glm::dvec3 place{};                     // target of the camera
+        glm::dvec3 place{}; // target of the camera
 
         friend bool operator==(const ShownSenses&, const ShownSenses&) = default;
     };

@@ -35,9 +35,9 @@ struct TerrainPatch {
 
 /// Heights of a level in a square around the camera.
 struct HeightGrid {
-    glm::ivec2 origin{}; // first texel, in cells of the level from the origin
+    glm::ivec2 origin{};   // first texel, in cells of the level from the origin
     bool is_valid = false; // the grid has heights
-    float lowest = 0.0F; // m
+    float lowest = 0.0F;   // m
     float highest = 0.0F;
     std::vector<float> heights; // m, in rows along X
     /// Fraction of the ground that crowns hide, stored like `heights`; empty without GroundCover.

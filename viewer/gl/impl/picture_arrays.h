@@ -30,7 +30,7 @@ struct PictureArray {
     std::uint32_t height = 0;
     bool has_holes = false;       // pictures may have transparent texels
     bool has_normal_maps = false; // each layer has a normal map
-    TextureObject colours; // empty: there are only normal maps
+    TextureObject colours;        // empty: there are only normal maps
     TextureObject normal_maps;
 };
 
