@@ -357,9 +357,9 @@ void ForestLod::list_branches(const Frustum& frustum, const LodOptions& options)
         ++lists_.trees_of_level[level];
         const auto end = static_cast<std::uint32_t>(visible_branches_.size());
         const auto add_level = [&](std::uint32_t begin, std::uint32_t group) {
-            const auto last = static_cast<std::uint32_t>(visible_branches_.size());
-            visible_trees_.push_back({begin, last, first_mesh_[tree.form] + group * instances});
-            for (std::uint32_t i = begin; i < last; ++i) {
+            const auto after = static_cast<std::uint32_t>(visible_branches_.size());
+            visible_trees_.push_back({begin, after, first_mesh_[tree.form] + group * instances});
+            for (std::uint32_t i = begin; i < after; ++i) {
                 const std::uint32_t mesh = pool_.branches()[visible_branches_[i].slot()].mesh;
                 ++mesh_counts_[visible_trees_.back().first_mesh + mesh];
             }

@@ -126,12 +126,12 @@ std::vector<std::uint16_t> add_materials(const std::vector<Material>& materials,
         if (const std::optional<PictureArrays::Place> place = pictures.place_of(material)) {
             record.kind |= place->layer << kLayerShift;
         }
-        const auto same =
+        const auto equal_record =
             std::find_if(records.begin(), records.end(), [&](const MaterialRecord& other) {
                 return other.colour == record.colour && other.kind == record.kind;
             });
-        numbers.push_back(static_cast<std::uint16_t>(same - records.begin()));
-        if (same == records.end()) {
+        numbers.push_back(static_cast<std::uint16_t>(equal_record - records.begin()));
+        if (equal_record == records.end()) {
             records.push_back(record);
         }
     }
