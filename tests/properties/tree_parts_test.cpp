@@ -67,17 +67,17 @@ double distance_to(const TreeSegment& segment, const glm::dvec3& point) {
 
 /// The largest distance from an end of a segment of `from` to the nearest segment of `to`.
 double farthest(const std::vector<TreeSegment>& from, const std::vector<TreeSegment>& to) {
-    double all = 0.0;
+    double largest = 0.0;
     for (const TreeSegment& segment : from) {
         for (const glm::dvec3& point : {segment.base, segment.tip}) {
             double nearest = std::numeric_limits<double>::infinity();
             for (const TreeSegment& other : to) {
                 nearest = std::min(nearest, distance_to(other, point));
             }
-            all = std::max(all, nearest);
+            largest = std::max(largest, nearest);
         }
     }
-    return all;
+    return largest;
 }
 
 /// For each instance, the distance from its entry to its farthest point.
@@ -85,11 +85,11 @@ std::vector<double> surface_reaches(const InstanceCache& cache) {
     const PartSkeletons skeletons(cache);
     std::vector<double> reach;
     for (std::uint32_t i = 0; i < cache.instances.size(); ++i) {
-        double& all = reach.emplace_back(0.0);
+        double& largest = reach.emplace_back(0.0);
         for (const TreeSegment& segment : segments_of(skeletons.alone(i))) {
             const glm::dvec3& entry = cache.instances[i].position;
-            all = std::max(
-                {all, glm::distance(segment.base, entry), glm::distance(segment.tip, entry)});
+            largest = std::max(
+                {largest, glm::distance(segment.base, entry), glm::distance(segment.tip, entry)});
         }
     }
     return reach;
