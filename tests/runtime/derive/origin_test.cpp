@@ -151,9 +151,9 @@ TEST_CASE("the origins of a word given at the start are kept or unknown") {
         return derivation.take_word();
     };
     const Word fully_known = last(first.take_word(), true);
-    CHECK(traced(bytecode, fully_known) ==
-          Lines{"F from p, generation 1", "F from p, generation 2", "F from p, generation 3",
-                "F from p, generation 4", "A from p, generation 4"});
+    CHECK(traced(bytecode, fully_known) == Lines{"F from p, generation 1", "F from p, generation 2",
+                                                 "F from p, generation 3", "F from p, generation 4",
+                                                 "A from p, generation 4"});
 
     DeriveOptions plain;
     plain.generations = 4;
